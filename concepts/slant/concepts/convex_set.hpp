@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+//
+// Closed convex sets, described by what algorithms do with them.
+//
+// Intuition. A set is its projection. A block is tiny and of fixed dimension (an interval, a disc);
+// products of blocks model the same concept.
+//
+// Minimal definition.
+//     dimension (static) or size()     number of components
+//     project(x) → value, or project(x, y) in place (y may alias x)
+//     contains(x)                      membership, up to rounding
+//
+// Capabilities, each where it exists:
+//     slant(x)                  a slanting operator G of the projection, symmetric, 0 ⪯ G ⪯ I
+//     step_to_boundary(x, d)    sup {α ≥ 0 : x + α d ∈ Λ} for x ∈ Λ
+//     support(y)                sup {yᵀz : z ∈ Λ}
+//     state(x)                  free, sliding or fixed (face.hpp); products: of each block
+//     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
+//                               f(x) ≤ 0 with smooth convex f; interior {f < 0} nonempty
+//     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
+//
+// Laws.   P(P(x)) = P(x),   ‖P(x) − P(y)‖ ≤ ‖x − y‖,   ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
+//         contains(P(x)),   ‖P(x+h) − P(x) − G(x+h) h‖ = o(‖h‖),   support(y) = sup over Λ.
+//
+// Models. everything in slant/sets, slant::testing::archetype::convex_set.
+//
+// Kinks. The slanting operator takes the value from inside: 1 for x ≥ l, I for ‖x‖ ≤ g
+// [K (49), (50)]; any choice is admissible, this one is the same everywhere.
+#pragma once
+
+#include <slant/concepts/face.hpp>
+#include <slant/concepts/vector.hpp>
+
+namespace slant {
+
+template <class C>
+concept has_static_dimension = requires {
+  { C::dimension } -> std::convertible_to<index>;
+};
+template <class C>
+concept has_size = requires(C const& c) {
+  { c.size() } -> std::convertible_to<index>;
+};
+
+namespace detail {
+
+struct dimension_of_fn {
+  template <class C>
+  [[nodiscard]] constexpr index operator()(C const& c) const {
+    if constexpr (has_static_dimension<C>) {
+      return C::dimension;
+    } else {
+      return c.size();
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Number of components of the points of a set.
+inline constexpr detail::dimension_of_fn dimension_of{};
+
+template <class C, class V>
+concept has_project_value = requires(C const& c, V const& x) { c.project(x); };
+template <class C, class V>
+concept has_project_in_place = requires(C const& c, V const& x, V& y) { c.project(x, y); };
+template <class C, class V>
+concept has_project = has_project_value<C, V> || has_project_in_place<C, V>;
+template <class C, class V>
+concept has_contains = requires(C const& c, V const& x) {
+  { c.contains(x) } -> std::convertible_to<bool>;
+};
+
+namespace detail {
+
+struct project_fn {
+  /// y = P(x); y may alias x.
+  template <class C, class X, class Y>
+  void operator()(C const& c, X const& x, Y& y) const {
+    if constexpr (requires { c.project(x, y); }) {
+      c.project(x, y);
+    } else {
+      slant::local(y) = c.project(slant::local(x));  // a block returns its few numbers by value
+    }
+  }
+  template <class C, class X>
+  [[nodiscard]] auto operator()(C const& c, X const& x) const {
+    if constexpr (requires { c.project(x); }) {
+      return c.project(x);
+    } else {
+      auto y = slant::like(x, slant::dimension_of(c));
+      c.project(x, y);
+      return y;
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Nearest point of the set: project(c, x) by value, project(c, x, y) in place.
+inline constexpr detail::project_fn project{};
+
+template <class C, class V> concept has_slant = requires(C const& c, V const& x) { c.slant(x); };
+template <class C, class V>
+concept has_step_to_boundary = requires(C const& c, V const& x) {
+  { c.step_to_boundary(x, x) } -> std::convertible_to<scalar_t<V>>;
+};
+template <class C, class V>
+concept has_support = requires(C const& c, V const& y) {
+  { c.support(y) } -> std::convertible_to<scalar_t<V>>;
+};
+template <class C, class V>
+concept has_state = requires(C const& c, V const& x) {
+  { c.state(x) } -> std::same_as<block_state>;
+};
+template <class C, class V>
+concept has_inequality_form = requires(C const& c, V const& x) {
+  { C::inequalities } -> std::convertible_to<int>;
+  c.inequality(x);
+  c.inequality_gradient(x);
+  c.inequality_hessian(x, c.inequality(x));
+};
+
+namespace detail {
+struct visit_probe {
+  template <class Block, class Place>
+  void operator()(Block const&, Place const&) const {}
+};
+}  // namespace detail
+
+template <class C> concept has_visit = requires(C const& c) { c.visit(detail::visit_probe{}); };
+
+/// A closed convex set of points of type V; see the top of this file.
+template <class C, class V>
+concept convex_set =
+    (has_static_dimension<C> || has_size<C>)&&has_project<C, V> && has_contains<C, V>;
+
+/// A convex set whose points can be classified: one block, or a product of blocks.
+template <class C, class V>
+concept separable_set = convex_set<C, V> && (has_visit<C> || has_state<C, V>);
+
+}  // namespace slant

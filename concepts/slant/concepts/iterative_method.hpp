@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// Iterative methods, stopping rules, observers: three things that know nothing of each other.
+//
+// Intuition. A method turns a state into the next one. It knows no printing, no timing and no
+// stopping; a rule looks at a state and says whether to go on; an observer looks at it and leaves.
+//
+// Minimal definition.
+//     method    start(x0) → state,   step(state)
+//     state     x, iteration, status (running until the method itself cannot or need not go on)
+//     rule      rule(state) → status: running to go on, anything else is the reason to stop,
+//               reason(state) → std::string, asked only after it has fired
+//     observer  observer(state)
+//
+// Laws.   start gives iteration 0; step adds 1 to it, or sets a status other than running;
+//         a step from a state at rest changes nothing.
+//
+// Models. slant::cg, slant::kprgp, …; slant::at_most, …; slant::history, ….
+#pragma once
+
+#include <slant/concepts/scalar.hpp>
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// How a run stands or ended.
+enum class status : unsigned char {
+  running,          ///< more steps are possible and wanted
+  converged,        ///< the accuracy asked for, or an exact solution, is reached
+  iteration_limit,  ///< a limit on the work was reached first
+  stalled,          ///< no further progress is possible at this precision
+  unbounded,        ///< the function decreases for ever along a direction of the set
+  breakdown,        ///< a quantity left the range of the scalar, or a law was found broken
+  interrupted       ///< an observer or rule of the caller asked to stop
+};
+
+/// The status in words.
+[[nodiscard]] constexpr std::string_view to_string(status s) {
+  switch (s) {
+    case status::running:
+      return "running";
+    case status::converged:
+      return "converged";
+    case status::iteration_limit:
+      return "iteration_limit";
+    case status::stalled:
+      return "stalled";
+    case status::unbounded:
+      return "unbounded";
+    case status::breakdown:
+      return "breakdown";
+    case status::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+template <class State> concept has_iterate = requires(State const& s) { s.x; };
+template <class State>
+concept has_iteration_count = requires(State const& s) {
+  { s.iteration } -> std::convertible_to<index>;
+};
+template <class State>
+concept has_status = requires(State const& s) {
+  { s.status } -> std::convertible_to<slant::status>;
+};
+/// What every method keeps; see the top of this file.
+template <class State>
+concept iteration_state = has_iterate<State> && has_iteration_count<State> && has_status<State>;
+
+template <class M, class V> concept has_start = requires(M& m, V const& x0) { m.start(x0); };
+
+/// The state of a method started from a vector of type V.
+template <class M, class V>
+using state_t = std::remove_cvref_t<decltype(std::declval<M&>().start(std::declval<V const&>()))>;
+
+template <class M, class V> concept has_step = requires(M& m, state_t<M, V>& s) { m.step(s); };
+
+/// An iterative method for vectors of type V; see the top of this file.
+template <class M, class V>
+concept iterative_method = has_start<M, V> && has_step<M, V> && iteration_state<state_t<M, V>>;
+
+template <class R, class State>
+concept has_verdict = requires(R& r, State const& s) {
+  { r(s) } -> std::same_as<slant::status>;
+};
+template <class R, class State>
+concept has_reason = requires(R const& r, State const& s) {
+  { r.reason(s) } -> std::convertible_to<std::string>;
+};
+/// A rule that says when to stop and why.
+template <class R, class State>
+concept stopping_rule = has_verdict<R, State> && has_reason<R, State>;
+
+/// Anything that can be shown a state.
+template <class O, class State> concept observer = requires(O& o, State const& s) { o(s); };
+
+}  // namespace slant

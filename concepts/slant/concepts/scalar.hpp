@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// Scalars: the real numbers that the library computes with.
+//
+// Intuition. A scalar is a totally ordered field with a square root, up to rounding.
+//
+// Minimal definition. Regular type with + - * / and <, constructible from int, for which
+// std::numeric_limits is specialised and abs, sqrt are found by argument-dependent lookup.
+//
+// Laws (up to rounding).   a + b = b + a,   a (b + c) = a b + a c,   sqrt(a)² = |a| for a ≥ 0.
+//
+// Models. float, double, long double, boost::multiprecision::number.
+//
+// Why numeric_limits and not a tolerance argument: every threshold in the library is a multiple of
+// epsilon() times a quantity of the data, so the scalar itself must be able to say what epsilon is.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+
+namespace slant {
+
+/// Sizes and positions; the same type as Eigen::Index.
+using index = std::ptrdiff_t;
+
+template <class S>
+concept has_field_arithmetic = requires(S const a, S const b) {
+  S(a + b);
+  S(a - b);
+  S(a * b);
+  S(a / b);
+  S(-a);
+};
+
+template <class S>
+concept has_order = requires(S const a, S const b) {
+  bool(a < b);
+  bool(a <= b);
+  bool(a == b);
+};
+
+template <class S>
+concept has_square_root = requires(S const a) {
+  [](S const v) {
+    using std::abs;
+    using std::sqrt;
+    return S(sqrt(v)) + S(abs(v));
+  }(a);
+};
+
+template <class S>
+concept has_epsilon = std::numeric_limits<S>::is_specialized && requires {
+  S(std::numeric_limits<S>::epsilon());
+  S(std::numeric_limits<S>::infinity());
+};
+
+/// A real number type; see the top of this file.
+template <class S>
+concept scalar = std::regular<S> && std::constructible_from<S, int> && has_field_arithmetic<S> &&
+                 has_order<S> && has_square_root<S> && has_epsilon<S>;
+
+}  // namespace slant

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+//
+// Slanting functions: maps with a generalised Newton derivative.
+//
+// Intuition. F is slantly differentiable if operators F°(y), bounded near y, predict F from the far
+// end of each step [T Def 1.3, K Def 1]; a smooth map is the special case F° = F′. Knowing F° is
+// all that Newton's method needs.
+//
+// Minimal definition.
+//     rows(), cols()      numbers of values and of arguments
+//     value(y, f)         f = F(y), overwritten, no aliasing; or value(y, f, w) with workspace(y)
+//     slant(y)            F°(y), a linear operator rows() × cols()
+// Optional, for iterations without allocation:
+//     slant(y, G) or slant(y, G, w)   G = F°(y) into an operator that slant(y₀) made earlier
+//
+// Laws.   ‖F(y+h) − F(y) − F°(y+h) h‖ = o(‖h‖),   ‖F°‖ bounded near y.
+//
+// Models. everything in slant/slanting, slant::testing::archetype::slanting_function.
+//
+// Counterexample. √|y| sign(y): its difference quotients are unbounded at 0, no F°(0) exists.
+#pragma once
+
+#include <slant/concepts/linear_operator.hpp>
+
+namespace slant {
+
+template <class F, class V>
+concept has_plain_value = requires(F const& f, V const& y, V& v) { f.value(y, v); };
+
+template <class F, class V>
+concept has_workspace_value =
+    requires(F const& f, V const& y, V& v, workspace_t<F, V>& w) { f.value(y, v, w); };
+
+template <class F, class V>
+concept has_slant_operator = requires(F const& f, V const& y) {
+  { f.slant(y) } -> linear_operator<V>;
+};
+
+/// The type of F°(y).
+template <class F, class V>
+using slant_operator_t = decltype(std::declval<F const&>().slant(std::declval<V const&>()));
+
+template <class F, class V>
+concept has_plain_slant_update =
+    requires(F const& f, V const& y, slant_operator_t<F, V>& g) { f.slant(y, g); };
+
+template <class F, class V>
+concept has_workspace_slant_update = requires(F const& f, V const& y, slant_operator_t<F, V>& g,
+                                              workspace_t<F, V>& w) { f.slant(y, g, w); };
+
+/// F°(y) can be renewed in place.
+template <class F, class V>
+concept has_slant_update = has_plain_slant_update<F, V> || has_workspace_slant_update<F, V>;
+
+/// A slantly differentiable function on vectors of type V; see the top of this file.
+template <class F, class V>
+concept slanting_function =
+    has_rows<F> && has_cols<F> &&
+    (has_plain_value<F, V> || has_workspace_value<F, V>)&&has_slant_operator<F, V>;
+
+namespace detail {
+
+struct evaluate_fn {
+  template <class F, class X, class Y, class W>
+  void operator()(F const& f, X const& y, Y& v, W& w) const {
+    if constexpr (requires { f.value(y, v, w); }) {
+      f.value(y, v, w);
+    } else {
+      f.value(y, v);
+    }
+  }
+  template <class F, class X>
+  [[nodiscard]] auto operator()(F const& f, X const& y) const {
+    auto w = slant::workspace(f, y);
+    auto v = slant::like(y, f.rows());
+    (*this)(f, y, v, w);
+    return v;
+  }
+};
+
+struct update_slant_fn {
+  template <class F, class X, class G, class W>
+  void operator()(F const& f, X const& y, G& g, W& w) const {
+    if constexpr (requires { f.slant(y, g, w); }) {
+      f.slant(y, g, w);
+    } else if constexpr (requires { f.slant(y, g); }) {
+      f.slant(y, g);
+    } else {
+      g = f.slant(y);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// F(y): evaluate(f, y, v, w) in place, evaluate(f, y) as a new vector.
+inline constexpr detail::evaluate_fn evaluate{};
+
+/// G = F°(y), in place if the function can.
+inline constexpr detail::update_slant_fn update_slant{};
+
+}  // namespace slant

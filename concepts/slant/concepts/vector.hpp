@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors: an Eigen object plus an inner product.
+//
+// Intuition. Elementwise work is done by Eigen on `local(x)`, the part of the vector that lives
+// here; only inner products (and operators) may communicate. A vector distributed over processes
+// differs from Eigen::VectorXd in exactly two places: `local` and `inner_product`.
+//
+// Minimal definition. Nothing for Eigen column vectors. Otherwise members
+//     local()            the local part, an Eigen column vector (lvalue, const and non-const),
+//     inner_product(y)   the global inner product, the same value on every process,
+//     like(n)            a vector of the same kind with n local entries (contents arbitrary).
+//
+// Laws.   inner_product(x, y) = inner_product(y, x),   inner_product(x, x) ≥ 0,   linear in x,
+//         norm(x)² = inner_product(x, x).
+//
+// Models. Eigen::VectorXd and friends of any scalar, slant::testing::archetype::vector.
+//
+// Rejected: a concept listing axpy, scal, pointwise maps. Every method needs a few more of those,
+// each distributed vector would have to supply them all, and Eigen fuses them better.
+#pragma once
+
+#include <slant/concepts/scalar.hpp>
+
+#include <cmath>
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+template <class V> concept has_local_member = requires(V& v) { v.local(); };
+
+namespace detail {
+
+struct local_fn {
+  template <class V>
+  [[nodiscard]] constexpr decltype(auto) operator()(V&& v) const noexcept {
+    if constexpr (has_local_member<std::remove_reference_t<V>>) {
+      return v.local();
+    } else {
+      return static_cast<V&&>(v);
+    }
+  }
+  // An lvalue is returned as an lvalue: elementwise code can assign to local(y).
+  template <class V>
+  [[nodiscard]] constexpr decltype(auto) operator()(V& v) const noexcept {
+    if constexpr (has_local_member<V>) {
+      return v.local();
+    } else {
+      return (v);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// The (local part of the) vector as an Eigen object: v.local() if there is one, else v itself.
+inline constexpr detail::local_fn local{};
+
+/// The Eigen type behind a vector.
+template <class V>
+using local_t = std::remove_cvref_t<decltype(slant::local(std::declval<V&>()))>;
+
+/// The scalar of a vector.
+template <class V>
+using scalar_t = typename local_t<V>::Scalar;
+
+template <class V>
+concept has_local = requires(V& v, V const& c) {
+  { slant::local(c).size() } -> std::convertible_to<index>;
+  typename local_t<V>::Scalar;
+  slant::local(v).setZero();
+};
+
+template <class V> concept has_inner_product_member = requires(V const& x) { x.inner_product(x); };
+
+namespace detail {
+
+struct inner_product_fn {
+  template <class X, class Y>
+  [[nodiscard]] auto operator()(X const& x, Y const& y) const -> scalar_t<X> {
+    if constexpr (has_inner_product_member<X>) {
+      return x.inner_product(y);
+    } else {
+      return x.dot(y);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Global inner product xᵀy. Both vectors have the same number of entries.
+inline constexpr detail::inner_product_fn inner_product{};
+
+template <class V>
+concept has_inner_product = requires(V const& x) {
+  { slant::inner_product(x, x) } -> std::convertible_to<scalar_t<V>>;
+};
+
+namespace detail {
+
+struct norm_fn {
+  template <class X>
+  [[nodiscard]] auto operator()(X const& x) const -> scalar_t<X> {
+    using std::sqrt;
+    using S = scalar_t<X>;
+    S const square = slant::inner_product(x, x);
+    if constexpr (requires { slant::local(x).stableNorm(); } && !has_inner_product_member<X>) {
+      // The squares left the range in which they are accurate: scale first.
+      constexpr int margin = std::numeric_limits<S>::digits;
+      S const tiny = std::numeric_limits<S>::min() * S(slant::local(x).size() + 1);
+      if (!(square > tiny * pow2<S>(margin)) || !(square < std::numeric_limits<S>::max())) {
+        return slant::local(x).stableNorm();
+      }
+    }
+    return sqrt(square);
+  }
+
+ private:
+  template <class S>
+  static S pow2(int e) {
+    using std::ldexp;
+    return ldexp(S(1), e);
+  }
+};
+
+}  // namespace detail
+
+/// Euclidean norm belonging to inner_product; safe against overflow and underflow of the squares.
+inline constexpr detail::norm_fn norm{};
+
+template <class V> concept has_like_member = requires(V const& x, index n) { x.like(n); };
+
+namespace detail {
+
+struct like_fn {
+  template <class X>
+  [[nodiscard]] auto operator()(X const& x, index n) const {
+    if constexpr (has_like_member<X>) {
+      return x.like(n);
+    } else {
+      typename X::PlainObject y;
+      y.resize(n, x.cols());  // as many columns as x: several right-hand sides stay several
+      return y;
+    }
+  }
+};
+
+}  // namespace detail
+
+/// A vector of the kind of x with n (local) entries and arbitrary contents.
+inline constexpr detail::like_fn like{};
+
+template <class V> concept has_like = requires(V const& x, index n) { slant::like(x, n); };
+
+/// The owning type of a vector expression: what `like` returns.
+template <class X>
+using plain_t = decltype(slant::like(std::declval<X const&>(), index{}));
+
+/// A vector; see the top of this file.
+template <class V>
+concept vector =
+    std::copyable<V> && has_local<V> && has_inner_product<V> && has_like<V> && scalar<scalar_t<V>>;
+
+}  // namespace slant

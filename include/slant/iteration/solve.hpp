@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// The driver. It knows no mathematics: start, look, step, look, … until somebody says stop.
+#pragma once
+
+#include <slant/iteration/report.hpp>
+#include <slant/iteration/stopping.hpp>
+
+#include <string>
+#include <utility>
+
+namespace slant {
+
+namespace detail {
+
+template <class State>
+std::string own_words(State const& s) {
+  if constexpr (requires { std::string(s.reason()); }) {
+    return s.reason();
+  } else {
+    return "the method reports: " + std::string(to_string(s.status));
+  }
+}
+
+}  // namespace detail
+
+/// Runs a method from x0 until its state leaves `running` or the rule fires; every observer sees
+/// every state, the first included. Throws bad_input if the method refuses x0; never throws for
+/// numerical trouble, which is report.status.
+template <class Method, class V, class Rule, class... Observers>
+  requires iterative_method<Method, V> && stopping_rule<Rule, state_t<Method, V>> &&
+           (observer<Observers, state_t<Method, V>> && ...)
+[[nodiscard]] auto solve(Method&& method, V const& x0, Rule stop, Observers&&... observers)
+    -> report<state_t<Method, V>> {
+  auto state = method.start(x0);
+  while (true) {
+    (observers(std::as_const(state)), ...);
+    auto const verdict = stop(std::as_const(state));
+    if (verdict == status::converged) return {std::move(state), verdict, stop.reason(state)};
+    if (state.status != status::running) {
+      auto words = detail::own_words(state);
+      auto const how = state.status;
+      return {std::move(state), how, std::move(words)};
+    }
+    if (verdict != status::running) return {std::move(state), verdict, stop.reason(state)};
+    method.step(state);
+  }
+}
+
+}  // namespace slant

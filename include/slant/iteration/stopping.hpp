@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// Stopping rules and their algebra: reduced_gradient_below(1e-8) || at_most(500).
+//
+// A rule looks at a state and answers `running` or a reason to stop. `a || b` stops as soon as one
+// of them does and speaks with its voice (that of success, if both do); `a && b` stops when both do. Own rules derive from
+// slant::rule to take part in the algebra.
+//
+// Accuracy is always relative to a scale that the state brings along, so no rule knows units.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/iterative_method.hpp>
+
+#include <string>
+#include <utility>
+
+namespace slant {
+
+/// Base of everything that combines with || and &&.
+struct rule {};
+
+template <class R> concept combinable_rule = std::derived_from<std::remove_cvref_t<R>, rule>;
+
+namespace detail {
+
+template <class S>
+S checked_tolerance(S tolerance) {
+  if (!(tolerance >= S(0)) || !(tolerance < S(1))) {
+    throw bad_input("tolerance", show(tolerance), "a relative accuracy in [0, 1)");
+  }
+  return tolerance;
+}
+
+}  // namespace detail
+
+/// Stops after n steps with status iteration_limit. n ≥ 0, else bad_input.
+class at_most : public rule {
+ public:
+  explicit at_most(index n) : limit_(n) {
+    if (n < 0) throw bad_input("at_most", detail::show(n), "a number of steps >= 0");
+  }
+  status operator()(iteration_state auto const& s) const {
+    return s.iteration >= limit_ ? status::iteration_limit : status::running;
+  }
+  std::string reason(auto const&) const {
+    return "reached the limit of " + detail::show(limit_) + " steps";
+  }
+
+ private:
+  index limit_;
+};
+
+template <class State>
+concept has_work = requires(State const& s) {
+  { s.work.operator_applications } -> std::convertible_to<index>;
+};
+
+/// Stops as soon as n applications of A have been spent, with status iteration_limit.
+class at_most_applications : public rule {
+ public:
+  explicit at_most_applications(index n) : limit_(n) {
+    if (n < 0) throw bad_input("at_most_applications", detail::show(n), "a number >= 0");
+  }
+  template <has_work State>
+  status operator()(State const& s) const {
+    return s.work.operator_applications >= limit_ ? status::iteration_limit : status::running;
+  }
+  std::string reason(auto const&) const {
+    return "reached the limit of " + detail::show(limit_) + " operator applications";
+  }
+
+ private:
+  index limit_;
+};
+
+template <class State>
+concept has_residual_norm = requires(State const& s) { s.residual_norm <= s.residual_scale; };
+
+/// ‖residual‖ ≤ tolerance · scale, for methods whose state has residual_norm and residual_scale.
+template <class S>
+class residual_below : public rule {
+ public:
+  explicit residual_below(S tolerance) : tolerance_(detail::checked_tolerance(tolerance)) {}
+  template <has_residual_norm State>
+  status operator()(State const& s) const {
+    return s.residual_norm <= tolerance_ * s.residual_scale ? status::converged : status::running;
+  }
+  template <has_residual_norm State>
+  std::string reason(State const& s) const {
+    return "relative residual " + detail::show(s.residual_norm) + " / " +
+           detail::show(s.residual_scale) + " is at most " + detail::show(tolerance_);
+  }
+
+ private:
+  S tolerance_;
+};
+
+template <class State>
+concept has_reduced_gradient_norm =
+    requires(State const& s) { s.reduced_gradient_norm <= s.gradient_scale; };
+
+/// ‖r̃‖ ≤ tolerance · scale with the reduced gradient r̃ = (x − P(x − αr))/α of [K (30)], which is
+/// zero exactly at the solution [K Lemma 2]. The scale is the state's, of the size of ‖b‖.
+template <class S>
+class reduced_gradient_below : public rule {
+ public:
+  explicit reduced_gradient_below(S tolerance) : tolerance_(detail::checked_tolerance(tolerance)) {}
+  template <has_reduced_gradient_norm State>
+  status operator()(State const& s) const {
+    return s.reduced_gradient_norm <= tolerance_ * s.gradient_scale ? status::converged
+                                                                    : status::running;
+  }
+  template <has_reduced_gradient_norm State>
+  std::string reason(State const& s) const {
+    return "relative reduced gradient " + detail::show(s.reduced_gradient_norm) + " / " +
+           detail::show(s.gradient_scale) + " is at most " + detail::show(tolerance_);
+  }
+
+ private:
+  S tolerance_;
+};
+
+/// Stops when a predicate on the state holds, with the status and the sentence given.
+template <class Predicate>
+class stop_when : public rule {
+ public:
+  stop_when(Predicate p, std::string sentence, status why = status::interrupted)
+      : predicate_(std::move(p)), sentence_(std::move(sentence)), why_(why) {}
+  template <class State>
+    requires std::predicate<Predicate const&, State const&>
+  status operator()(State const& s) const {
+    return predicate_(s) ? why_ : status::running;
+  }
+  std::string reason(auto const&) const { return sentence_; }
+
+ private:
+  Predicate predicate_;
+  std::string sentence_;
+  status why_;
+};
+
+namespace detail {
+
+template <class A, class B>
+struct either_rule : rule {
+  A a;
+  B b;
+  either_rule(A first, B second) : a(std::move(first)), b(std::move(second)) {}
+  template <class State>
+    requires stopping_rule<A, State> && stopping_rule<B, State>
+  status operator()(State const& s) {
+    auto const first = a(s);
+    auto const second = b(s);  // always asked: a rule may keep a history
+    // Success in the last permitted step is success.
+    fired_first_ = first != status::running &&
+                   (first == status::converged || second != status::converged);
+    return fired_first_ ? first : second;
+  }
+  template <class State>
+  std::string reason(State const& s) const {
+    return fired_first_ ? a.reason(s) : b.reason(s);
+  }
+
+ private:
+  bool fired_first_ = false;
+};
+
+template <class A, class B>
+struct both_rule : rule {
+  A a;
+  B b;
+  both_rule(A first, B second) : a(std::move(first)), b(std::move(second)) {}
+  template <class State>
+    requires stopping_rule<A, State> && stopping_rule<B, State>
+  status operator()(State const& s) {
+    auto const first = a(s);
+    auto const second = b(s);
+    if (first == status::running || second == status::running) return status::running;
+    return first == status::converged ? second : first;  // the less happy of the two
+  }
+  template <class State>
+  std::string reason(State const& s) const {
+    return a.reason(s) + " and " + b.reason(s);
+  }
+};
+
+}  // namespace detail
+
+/// Stops when one of the two does.
+template <combinable_rule A, combinable_rule B>
+[[nodiscard]] auto operator||(A a, B b) {
+  return detail::either_rule<A, B>{std::move(a), std::move(b)};
+}
+
+/// Stops when both do.
+template <combinable_rule A, combinable_rule B>
+[[nodiscard]] auto operator&&(A a, B b) {
+  return detail::both_rule<A, B>{std::move(a), std::move(b)};
+}
+
+}  // namespace slant

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// BiCGSTAB for A x = b with any square operator [van der Vorst 1992], the solver of the
+// nonsymmetric systems in [T] and [K §3.3], with an optional right preconditioner M ≈ A⁻¹.
+//
+//     r = b − A x,  r̂ = r₀
+//     p ← r + β (p − ω v),  v = A M p,  α = ρ / r̂ᵀv,  s = r − α v,
+//     t = A M s,  ω = tᵀs / tᵀt,  x ← x + α M p + ω M s,  r ← s − ω t
+//
+// Two applications of A a step. When ρ = r̂ᵀr or r̂ᵀv vanishes relative to its factors the shadow
+// residual is renewed (r̂ = r); when that does not help either, the status is breakdown: never NaN.
+#pragma once
+
+#include <slant/iteration/report.hpp>
+#include <slant/krylov/linear_system.hpp>
+#include <slant/operators/held.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <utility>
+
+namespace slant {
+
+/// State of bicgstab.
+template <class V, class WA, class WM>
+struct bicgstab_state {
+  V x;                            ///< iterate
+  V r;                            ///< residual A x − b
+  V shadow;                       ///< r̂
+  V p, v, t;                      ///< direction, A M p, A M s
+  V preconditioned;               ///< M p or M s
+  WA a_workspace;                 ///< temporaries of A
+  WM m_workspace;                 ///< temporaries of M
+  scalar_t<V> ρ{1}, α{1}, ω{1};   ///< the recurrence's coefficients
+  bool restarted = true;          ///< p starts anew from r
+  scalar_t<V> residual_norm{0};   ///< ‖r‖
+  scalar_t<V> residual_scale{0};  ///< ‖b‖, or ‖A x₀‖ if b = 0
+  index iteration = 0;
+  slant::status status = slant::status::running;
+  slant::work work{};
+};
+
+/// BiCGSTAB: solve(bicgstab{A, b}, x0, residual_below(1e-10)), or bicgstab{A, b, M}.
+/// Requires linear_operator for A and M; laws are not asked for.
+template <class A, class V, class M = identity>
+  requires linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+           linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
+class bicgstab {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using preconditioner_type = std::remove_cvref_t<M>;
+  using scalar = scalar_t<vector_type>;
+  using state_type = bicgstab_state<vector_type, workspace_t<operator_type, vector_type>,
+                                    workspace_t<preconditioner_type, vector_type>>;
+
+  /// Throws bad_input if sizes do not match or b is not finite.
+  bicgstab(A&& a, V&& b)
+    requires std::same_as<preconditioner_type, identity>
+      : bicgstab(std::forward<A>(a), std::forward<V>(b), identity{slant::local(b).size()}) {}
+  bicgstab(A&& a, V&& b, M&& m)
+      : a_(std::forward<A>(a)), b_(std::forward<V>(b)), m_(std::forward<M>(m)) {
+    detail::check_linear_system(a_.get(), b_.get());
+    detail::check_size("rows of the preconditioner", index(m_.get().rows()),
+                       slant::local(b_.get()).size());
+  }
+
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const n = index(slant::local(b_.get()).size());
+    detail::check_size("x0", index(slant::local(x0).size()), n);
+    detail::check_finite("x0", x0);
+    auto blank = [&] { return like(x0, n); };
+    state_type s{x0,
+                 blank(),
+                 blank(),
+                 blank(),
+                 blank(),
+                 blank(),
+                 blank(),
+                 workspace(a_.get(), x0),
+                 workspace(m_.get(), x0)};
+    detail::start_residual(a_.get(), b_.get(), s);
+    return s;
+  }
+
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    auto const ε = std::numeric_limits<scalar>::epsilon();
+    if (!s.restarted) {
+      scalar const ρ = inner_product(s.shadow, s.r);
+      // ρ at rounding level says nothing about the residual: start anew instead of dividing by it.
+      using std::abs;
+      if (abs(ρ) <= ε * norm(s.shadow) * s.residual_norm) {
+        s.restarted = true;
+      } else {
+        scalar const β = (ρ / s.ρ) * (s.α / s.ω);
+        s.ρ = ρ;
+        slant::local(s.p) = slant::local(s.r) + β * (slant::local(s.p) - s.ω * slant::local(s.v));
+      }
+    }
+    if (s.restarted) restart(s);
+    image(s, s.p, s.v);
+    scalar denominator = inner_product(s.shadow, s.v);
+    if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) {
+      restart(s);
+      image(s, s.p, s.v);
+      denominator = inner_product(s.shadow, s.v);
+      if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) return break_down(s);
+    }
+    s.α = s.ρ / denominator;
+    slant::local(s.x) -= s.α * slant::local(s.preconditioned);  // M p
+    slant::local(s.r) -= s.α * slant::local(s.v);               // r is now the half-step residual s
+    s.restarted = false;
+    ++s.iteration;
+    s.residual_norm = norm(s.r);
+    if (s.residual_norm == scalar(0)) {
+      s.status = status::converged;
+      return;
+    }
+    image(s, s.r, s.t);
+    scalar const tt = inner_product(s.t, s.t);
+    if (!usable(tt, scalar(0))) return break_down(s);
+    s.ω = inner_product(s.t, s.r) / tt;
+    slant::local(s.x) -= s.ω * slant::local(s.preconditioned);  // M s
+    slant::local(s.r) -= s.ω * slant::local(s.t);
+    if (s.ω == scalar(0)) s.restarted = true;  // a skew direction: the next step starts anew
+    detail::note_residual(s);
+  }
+
+ private:
+  static bool usable(scalar value, scalar noise) {
+    using std::abs;
+    return abs(value) > noise && value - value == scalar(0);
+  }
+  static void restart(state_type& s) {
+    slant::local(s.shadow) = slant::local(s.r);
+    slant::local(s.p) = slant::local(s.r);
+    s.ρ = inner_product(s.r, s.r);
+    s.restarted = false;
+  }
+  static void break_down(state_type& s) { s.status = status::breakdown; }
+
+  /// y = A M x; M x stays in s.preconditioned for the update of the iterate.
+  void image(state_type& s, vector_type const& x, vector_type& y) const {
+    slant::apply(m_.get(), x, s.preconditioned, s.m_workspace);
+    slant::apply(a_.get(), s.preconditioned, y, s.a_workspace);
+    ++s.work.operator_applications;
+  }
+
+  held<A> a_;
+  held<V> b_;
+  held<M> m_;
+};
+
+template <class A, class V>
+bicgstab(A&&, V&&) -> bicgstab<A, V>;
+template <class A, class V, class M>
+bicgstab(A&&, V&&, M&&) -> bicgstab<A, V, M>;
+
+}  // namespace slant

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// Conjugate gradients for A x = b, A symmetric positive definite, with an optional symmetric
+// positive definite preconditioner M ≈ A⁻¹ [Hestenes, Stiefel 1952].
+//
+//     r = A x − b
+//     z = M r,  p ← z − γ p,  x ← x − α p,  r ← r − α A p
+//
+// One application of A and one of M a step.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/iterative_method.hpp>
+#include <slant/iteration/report.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
+#include <slant/krylov/linear_system.hpp>
+#include <slant/operators/held.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <utility>
+
+namespace slant {
+
+/// State of cg.
+template <class V, class WA, class WM>
+struct cg_state {
+  V x;                                 ///< iterate
+  V r;                                 ///< residual A x − b
+  V z;                                 ///< preconditioned residual M r
+  conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
+  WA a_workspace;                      ///< temporaries of A
+  WM m_workspace;                      ///< temporaries of M
+  scalar_t<V> residual_norm{0};        ///< ‖r‖
+  scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
+  index iteration = 0;
+  slant::status status = slant::status::running;
+  slant::work work{};
+};
+
+/// Conjugate gradients: solve(cg{A, b}, x0, residual_below(1e-10)), or cg{A, b, M}.
+/// Requires spd_operator for A and M. Status breakdown if pᵀAp ≤ 0 shows that A is not definite.
+template <class A, class V, class M = identity>
+  requires spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+           spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
+class cg {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using preconditioner_type = std::remove_cvref_t<M>;
+  using scalar = scalar_t<vector_type>;
+  using state_type = cg_state<vector_type, workspace_t<operator_type, vector_type>,
+                              workspace_t<preconditioner_type, vector_type>>;
+
+  /// Throws bad_input if sizes do not match or b is not finite.
+  cg(A&& a, V&& b)
+    requires std::same_as<preconditioner_type, identity>
+      : cg(std::forward<A>(a), std::forward<V>(b), identity{slant::local(b).size()}) {}
+  cg(A&& a, V&& b, M&& m) : a_(std::forward<A>(a)), b_(std::forward<V>(b)), m_(std::forward<M>(m)) {
+    detail::check_linear_system(a_.get(), b_.get());
+    detail::check_size("rows of the preconditioner", index(m_.get().rows()),
+                       slant::local(b_.get()).size());
+  }
+
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const n = index(slant::local(b_.get()).size());
+    detail::check_size("x0", index(slant::local(x0).size()), n);
+    detail::check_finite("x0", x0);
+    state_type s{x0,
+                 like(x0, n),
+                 like(x0, n),
+                 conjugate_directions<vector_type>(x0),
+                 workspace(a_.get(), x0),
+                 workspace(m_.get(), x0)};
+    detail::start_residual(a_.get(), b_.get(), s);
+    return s;
+  }
+
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    auto& d = s.directions;
+    if constexpr (std::same_as<preconditioner_type, identity>) {
+      d.advance(s.r);
+    } else {
+      slant::apply(m_.get(), s.r, s.z, s.m_workspace);
+      d.advance(s.z);
+    }
+    d.image(a_.get(), s.a_workspace);
+    ++s.work.operator_applications;
+    if (!(d.curvature > scalar(0))) {
+      s.status = status::breakdown;
+      return;
+    }
+    scalar const α = inner_product(s.r, d.p) / d.curvature;
+    slant::local(s.x) -= α * slant::local(d.p);
+    slant::local(s.r) -= α * slant::local(d.Ap);
+    detail::note_residual(s);
+    ++s.iteration;
+  }
+
+ private:
+  held<A> a_;
+  held<V> b_;
+  held<M> m_;
+};
+
+template <class A, class V>
+cg(A&&, V&&) -> cg<A, V>;
+template <class A, class V, class M>
+cg(A&&, V&&, M&&) -> cg<A, V, M>;
+
+}  // namespace slant

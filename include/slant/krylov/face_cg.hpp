@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//
+// Conjugate gradients on a face: minimise q(x) = ½ xᵀA x − bᵀx over the free components of a face,
+// the others staying as they are in x₀. This is the inner solver of the active-set methods [K
+// §3.1.2].
+//
+//     r = A x − b,  φ = r on the face and 0 elsewhere,  p ← φ − γ p,  x ← x − α p,  r ← r − α A p
+//
+// Directions vanish off the face, so A itself is applied and no restricted copy of it is built. The
+// full gradient r comes along, whose other components decide which block to release next.
+#pragma once
+
+#include <slant/iteration/report.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
+#include <slant/krylov/linear_system.hpp>
+#include <slant/operators/held.hpp>
+
+#include <utility>
+
+namespace slant {
+
+/// State of face_cg.
+template <class V, class WA>
+struct face_cg_state {
+  V x;                                 ///< iterate; equal to x₀ off the face
+  V r;                                 ///< full gradient A x − b
+  V φ;                                 ///< free gradient: r on the face, 0 elsewhere
+  conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
+  WA a_workspace;                      ///< temporaries of A
+  scalar_t<V> residual_norm{0};        ///< ‖φ‖
+  scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
+  index iteration = 0;
+  slant::status status = slant::status::running;
+  slant::work work{};
+};
+
+/// Anything that can cut a vector down to its free components: keep(x, y), y may alias x.
+template <class F, class V>
+concept face_for = requires(F const& face, V const& x, V& y) { face.keep(x, y); };
+
+/// CG on a face: solve(face_cg{A, b, face}, x0, residual_below(1e-10)).
+/// Requires psd_operator; A must be definite on the face, else the status is breakdown.
+template <class A, class V, class F>
+  requires psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+           face_for<std::remove_cvref_t<F>, std::remove_cvref_t<V>>
+class face_cg {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using scalar = scalar_t<vector_type>;
+  using state_type = face_cg_state<vector_type, workspace_t<operator_type, vector_type>>;
+
+  /// Throws bad_input if sizes do not match or b is not finite.
+  face_cg(A&& a, V&& b, F&& face)
+      : a_(std::forward<A>(a)), b_(std::forward<V>(b)), face_(std::forward<F>(face)) {
+    detail::check_linear_system(a_.get(), b_.get());
+  }
+
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const n = index(slant::local(b_.get()).size());
+    detail::check_size("x0", index(slant::local(x0).size()), n);
+    detail::check_finite("x0", x0);
+    state_type s{x0, like(x0, n), like(x0, n), conjugate_directions<vector_type>(x0),
+                 workspace(a_.get(), x0)};
+    detail::start_residual(a_.get(), b_.get(), s);
+    s.status = status::running;
+    note(s);
+    return s;
+  }
+
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    auto& d = s.directions;
+    d.advance(s.φ);
+    d.image(a_.get(), s.a_workspace);
+    ++s.work.operator_applications;
+    if (!(d.curvature > scalar(0))) {
+      s.status = status::breakdown;
+      return;
+    }
+    scalar const α = inner_product(s.r, d.p) / d.curvature;
+    slant::local(s.x) -= α * slant::local(d.p);
+    slant::local(s.r) -= α * slant::local(d.Ap);
+    note(s);
+    ++s.iteration;
+  }
+
+ private:
+  void note(state_type& s) const {
+    face_.get().keep(s.r, s.φ);
+    s.residual_norm = norm(s.φ);
+    if (s.residual_norm == scalar(0)) s.status = status::converged;
+    if (!(s.residual_norm - s.residual_norm == scalar(0))) s.status = status::breakdown;
+  }
+
+  held<A> a_;
+  held<V> b_;
+  held<F> face_;
+};
+
+template <class A, class V, class F>
+face_cg(A&&, V&&, F&&) -> face_cg<A, V, F>;
+
+}  // namespace slant

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// A safe upper bound of σ_max(A), the largest eigenvalue of a self-adjoint semidefinite operator.
+//
+// k Lanczos steps from a random vector give a Ritz value θ ≤ σ_max. Kuczyński and Woźniakowski
+// (SIAM J. Matrix Anal. Appl. 13, 1992, Theorem 4.2) bound the probability that it is much too
+// small:
+//
+//     P[ θ < (1 − ε) σ_max ]  ≤  1.648 √n exp(−√ε (2k − 1)),
+//
+// whatever the spectrum. So with √ε = log(1.648 √n / δ) / (2k − 1) the number θ / (1 − ε) is an
+// upper bound except with probability δ. Why not power iteration: its bound decays like 1/k, not
+// exponentially. Why not θ + ‖residual‖: it guarantees that *an* eigenvalue is near θ, not the
+// largest one.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/linear_operator.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace slant {
+
+/// Result of largest_eigenvalue_bound.
+template <class S>
+struct spectral_bound {
+  S upper;             ///< σ_max ≤ upper, except with the probability asked for
+  S ritz;              ///< the Ritz value, σ_max ≥ ritz
+  index applications;  ///< products spent
+};
+
+/// How hard to try.
+struct spectral_bound_options {
+  index steps = 30;                 ///< Lanczos steps at most, 2 … n; each is one product
+  double failure = 1e-10;           ///< δ, probability that the bound is not one
+  unsigned long long seed = 20161;  ///< of the start vector; the same seed gives the same bound
+
+  void validate() const {
+    if (steps < 2) throw bad_input("steps", detail::show(steps), "at least 2 Lanczos steps");
+    if (!(failure > 0 && failure < 1)) {
+      throw bad_input("failure", detail::show(failure), "a probability in (0, 1)");
+    }
+  }
+};
+
+namespace detail {
+
+/// Largest eigenvalue of the symmetric tridiagonal matrix with diagonal a and off-diagonal b.
+template <class S>
+S largest_tridiagonal_eigenvalue(std::vector<S> const& a, std::vector<S> const& b) {
+  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  auto const n = static_cast<index>(a.size());
+  column d = Eigen::Map<column const>(a.data(), n);
+  column e = Eigen::Map<column const>(b.data(), n - 1);
+  S scale = d.cwiseAbs().maxCoeff();  // the solver squares its data: keep them near 1
+  if (n > 1) scale = std::max<S>(scale, e.cwiseAbs().maxCoeff());
+  if (!(scale > S(0))) return S(0);
+  d /= scale;
+  e /= scale;
+  Eigen::SelfAdjointEigenSolver<matrix> solver;
+  solver.computeFromTridiagonal(d, e, Eigen::EigenvaluesOnly);
+  return scale * solver.eigenvalues().maxCoeff();
+}
+
+}  // namespace detail
+
+/// Upper bound of the largest eigenvalue of A, for vectors like `prototype`.
+/// Throws bad_input if A x is not finite, or if it shows that A is not semidefinite.
+template <class A, class V>
+  requires psd_operator<A, V>
+[[nodiscard]] auto largest_eigenvalue_bound(A const& a, V const& prototype,
+                                            spectral_bound_options const& options = {})
+    -> spectral_bound<scalar_t<V>> {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  options.validate();
+  auto const n = index(slant::local(prototype).size());
+  if (n == 0) return {S(0), S(0), 0};
+
+  V q = like(prototype, n), w = like(prototype, n), previous = like(prototype, n);
+  auto temporaries = workspace(a, prototype);
+  std::mt19937_64 generator(options.seed);
+  std::normal_distribution<double> gaussian;
+  for (index i = 0; i < n; ++i) slant::local(q).coeffRef(i) = S(gaussian(generator));
+  slant::local(q) /= norm(q);
+  slant::local(previous).setZero();
+
+  std::vector<S> diagonal, off_diagonal;
+  auto const ε = std::numeric_limits<S>::epsilon();
+  auto const steps = std::min(options.steps, n);
+  S scale(0);
+  bool exhausted = false;  // an invariant subspace was found: θ is exact
+  for (index k = 0; k < steps && !exhausted; ++k) {
+    slant::apply(a, q, w, temporaries);
+    S const α = inner_product(q, w);
+    if (!(S(α - α) == S(0))) {
+      throw bad_input("A", detail::show(α), "finite values of xᵀA x for finite x");
+    }
+    diagonal.push_back(α);
+    slant::local(w) -= α * slant::local(q);
+    if (k > 0) slant::local(w) -= off_diagonal.back() * slant::local(previous);
+    S const β = norm(w);
+    using std::abs;
+    scale = std::max<S>(scale, std::max<S>(abs(α), β));
+    exhausted = !(β > S(n) * ε * scale);
+    if (exhausted || k + 1 == steps) break;
+    off_diagonal.push_back(β);
+    slant::local(previous) = slant::local(q);
+    slant::local(q) = slant::local(w) / β;
+  }
+  S const θ = detail::largest_tridiagonal_eigenvalue(diagonal, off_diagonal);
+  auto const k = static_cast<index>(diagonal.size());
+  S const rounding = S(1) + S(4 * n) * ε;
+  if (θ < S(0)) throw bad_input("A", detail::show(θ), "a positive semidefinite operator");
+  if (exhausted || k == n) return {θ * rounding, θ, k};
+  double const root = std::log(1.648 * std::sqrt(double(n)) / options.failure) / double(2 * k - 1);
+  // Too few steps for a useful statement: the first Ritz values are far below; 1 − ε stays ≥ 1/4.
+  double const share = 1 - std::min(root * root, 0.75);
+  return {θ * rounding / S(share), θ, k};
+}
+
+}  // namespace slant

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+//
+// KPRGP, "KKT proportioning with reduced gradient projections" [K §3.1.2, (30)–(33), Theorem 1]:
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m
+//
+//     r(x)  = A x − b                          gradient
+//     r̃(x)  = (x − P_Λ(x − α̃ r)) / α̃           reduced gradient, zero exactly at the solution
+//     F, 𝒜  = blocks with f_i < 0, f_i = 0       free and active set
+//     φ̃, β̃  = r̃ on F, r̃ on 𝒜;   φ = r on F
+//
+//     (1°) r̃ = 0:                     stop
+//     (2°) β̃ᵀr < Γ² φ̃ᵀr:              conjugate gradient step over F; if it leaves Λ, expansion
+//                                         x ← x − α̃ φ̃ instead
+//     (3°) otherwise:                 proportioning  x ← x − α̃ β̃
+//
+// With α̃ ∈ (0, 2/σ_max) (sets symmetric enough: balls, intervals, half lines, ellipses) or
+// α̃ ∈ (0, 1/σ_max] (any set) the energy decreases R-linearly by the factor
+// 1 − α̃ σ_min / (2 + 2 max(Γ, 1/Γ)²) a step [K Theorem 1].
+//
+// Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
+#pragma once
+
+#include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/separable_qp.hpp>
+
+#include <optional>
+
+namespace slant {
+
+/// Options of kprgp.
+template <class S>
+struct kprgp_options {
+  S Γ = S(1);                    ///< proportioning: large keeps the face, small releases early; > 0
+  std::optional<S> step_length;  ///< α̃; not given: step_factor / (upper bound of σ_max)
+  S step_factor = S(1);          ///< in (0, 2); above 1 only for subsymmetric sets, see above
+  bool half_step = true;         ///< a CG step that leaves Λ is first followed up to the boundary
+  index refresh = 50;            ///< CG steps after which r = A x − b is recomputed; 0: never
+  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    if (!(Γ > S(0)) || !(Γ - Γ == S(0))) throw bad_input("Γ", detail::show(Γ), "a number > 0");
+    if (step_length && (!(*step_length > S(0)) || !(*step_length - *step_length == S(0)))) {
+      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
+    }
+    if (!(step_factor > S(0) && step_factor < S(2))) {
+      throw bad_input("step_factor", detail::show(step_factor), "a number in (0, 2)");
+    }
+    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
+    spectrum.validate();
+  }
+};
+
+/// KPRGP for a separable_qp: solve(kprgp{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
+/// Requires: psd_operator (A symmetric positive semidefinite) and separable_set with
+/// step_to_boundary. Spends one application of A a step (two for an expansion) and, only if no
+/// step_length is given, up to spectrum.steps once at the start. Statuses of its own: converged
+/// (r̃ = 0), unbounded (q decreases for ever along state.directions.p), breakdown (overflow).
+template <class QP>
+  requires psd_operator<typename std::remove_cvref_t<QP>::operator_type,
+                        typename std::remove_cvref_t<QP>::vector_type> &&
+           separable_set<typename std::remove_cvref_t<QP>::set_type,
+                         local_t<typename std::remove_cvref_t<QP>::vector_type>>
+class kprgp {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = kprgp_options<scalar>;
+  using state_type = kprgp_state<problem>;
+
+  explicit kprgp(QP&& qp) : kprgp(std::forward<QP>(qp), options{}) {}
+  /// Throws bad_input for options out of range.
+  kprgp(QP&& qp, options o) : qp_(std::forward<QP>(qp)), options_(std::move(o)) {
+    options_.validate();
+  }
+
+  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
+    detail::check_finite("x0", x0);
+    state_type s(qp, x0);
+    s.scale_of_b = norm(qp.b());
+    slant::project(qp.set(), slant::local(x0), slant::local(s.x));
+    s.step_length = step_length(s);
+    gradient(s);
+    detail::check_finite("A x0 - b", s.r);
+    restart(s);
+    return s;
+  }
+
+  /// One step (2°) or (3°).
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    if (strictly_proportional(s)) {
+      if (!conjugate_gradient_step(s)) expansion_step(s);
+    } else {
+      proportioning_step(s);
+    }
+    ++s.iteration;
+  }
+
+ private:
+  /// [K (33)]: the error on the active set is small against the one on the free set.
+  [[nodiscard]] bool strictly_proportional(state_type const& s) const {
+    return s.βr < options_.Γ * options_.Γ * s.φr;
+  }
+
+  /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
+  bool conjugate_gradient_step(state_type& s) const {
+    auto& d = s.directions;
+    s.face.keep(s.r, s.φ);
+    d.advance(s.φ);
+    d.image(qp_.get().a(), s.a_workspace);
+    ++s.work.operator_applications;
+    scalar const slope = inner_product(s.r, d.p);
+    bool const flat = !(d.curvature > flatness(s));
+    scalar const α = flat ? std::numeric_limits<scalar>::infinity() : slope / d.curvature;
+    if (!flat && try_step(s, α)) return true;
+
+    slant::local(s.trial) = -slant::local(d.p);
+    scalar const α_max = qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial));
+    if (flat && !(α_max < std::numeric_limits<scalar>::infinity())) {
+      // A slope at rounding level is the noise of a consistent right-hand side, not a way down.
+      auto const noise = scalar(qp_.get().size()) * std::numeric_limits<scalar>::epsilon();
+      bool const real = slope > noise * norm(d.p) * s.gradient_scale;
+      s.status = real ? status::unbounded : status::stalled;
+      return true;
+    }
+    if (options_.half_step || flat) {
+      slant::local(s.x) += α_max * slant::local(s.trial);
+      slant::local(s.r) -= α_max * slant::local(d.Ap);
+      split(s);
+    }
+    return false;
+  }
+
+  /// x − α p if it lies in Λ.
+  bool try_step(state_type& s, scalar α) const {
+    auto& d = s.directions;
+    slant::local(s.trial) = slant::local(s.x) - α * slant::local(d.p);
+    if (!qp_.get().set().contains(slant::local(s.trial))) return false;
+    std::swap(s.x, s.trial);
+    if (options_.refresh > 0 && ++s.since_refresh >= options_.refresh) {
+      gradient(s);
+    } else {
+      slant::local(s.r) -= α * slant::local(d.Ap);
+    }
+    split(s);
+    s.last_step = kprgp_step::conjugate_gradient;
+    return true;
+  }
+
+  /// x ← x − α̃ φ̃: may add blocks to the active set.
+  void expansion_step(state_type& s) const {
+    s.face.keep(s.projected, s.φ);
+    s.face.keep_complement(s.x, s.trial);
+    slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
+    gradient(s);
+    restart(s);
+    s.last_step = kprgp_step::expansion;
+  }
+
+  /// x ← x − α̃ β̃: may release blocks from the active set.
+  void proportioning_step(state_type& s) const {
+    s.face.keep_complement(s.projected, s.φ);
+    s.face.keep(s.x, s.trial);
+    slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
+    gradient(s);
+    restart(s);
+    s.last_step = kprgp_step::proportioning;
+  }
+
+  /// r = A x − b; one application, none at x = 0.
+  void gradient(state_type& s) const {
+    s.since_refresh = 0;
+    if (norm(s.x) == scalar(0)) {
+      slant::local(s.r) = -slant::local(qp_.get().b());
+      return;
+    }
+    slant::apply(qp_.get().a(), s.x, s.r, s.a_workspace);
+    ++s.work.operator_applications;
+    slant::local(s.r) -= slant::local(qp_.get().b());
+  }
+
+  /// A new face at x; the next direction is φ itself.
+  void restart(state_type& s) const {
+    s.face.assign(qp_.get().set(), slant::local(s.x));
+    s.directions.live = false;
+    split(s);
+  }
+
+  /// P_Λ(x − α̃ r), r̃ and its two parts' products with r.
+  void split(state_type& s) const {
+    auto x = slant::local(s.x).array();
+    auto r = slant::local(s.r).array();
+    slant::local(s.trial) = slant::local(s.x) - s.step_length * slant::local(s.r);
+    slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.projected));
+    // Where the projection does nothing r̃ = r, exactly: the quotient would lose ‖x‖ε/α̃.
+    auto projected = slant::local(s.projected).array();
+    slant::local(s.reduced) = (projected == slant::local(s.trial).array())
+                                  .select(r, (x - projected) / s.step_length)
+                                  .matrix();
+    s.reduced_gradient_norm = norm(s.reduced);
+    s.face.keep(s.reduced, s.φ);
+    s.φr = inner_product(s.φ, s.r);
+    s.face.keep_complement(s.reduced, s.φ);
+    s.βr = inner_product(s.φ, s.r);
+    note_scale(s);
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (!(s.reduced_gradient_norm - s.reduced_gradient_norm == scalar(0))) {
+      s.status = status::breakdown;
+    }
+  }
+
+  /// max(‖b‖, ‖A x‖), with ‖A x‖ of the first iterate kept if b = 0: else x → 0 would have no
+  /// scale.
+  void note_scale(state_type& s) const {
+    slant::local(s.trial) = slant::local(s.r) + slant::local(qp_.get().b());
+    scalar const image = norm(s.trial);
+    if (s.scale_of_b == scalar(0)) s.scale_of_b = image;
+    s.gradient_scale = std::max(s.scale_of_b, image);
+  }
+
+  /// Curvature below which p counts as a direction of the kernel: rounding of pᵀAp.
+  [[nodiscard]] scalar flatness(state_type const& s) const {
+    auto const ε = std::numeric_limits<scalar>::epsilon();
+    return ε * inner_product(s.directions.p, s.directions.p) / s.step_length;
+  }
+
+  [[nodiscard]] scalar step_length(state_type& s) const {
+    if (options_.step_length) return *options_.step_length;
+    auto const bound = largest_eigenvalue_bound(qp_.get().a(), s.x, options_.spectrum);
+    s.work.setup_applications += bound.applications;
+    // A = 0: any step is as good as another; one that moves x by the size of b.
+    return bound.upper > scalar(0) ? options_.step_factor / bound.upper : scalar(1);
+  }
+
+  held<QP> qp_;
+  options options_;
+};
+
+template <class QP>
+kprgp(QP&&) -> kprgp<QP>;
+template <class QP, class O>
+kprgp(QP&&, O) -> kprgp<QP>;
+
+}  // namespace slant

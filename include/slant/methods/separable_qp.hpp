@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// The problem that everything here is about [K (29)]:
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m,
+//
+// A symmetric positive semidefinite, often only an action; Λᵢ small closed convex sets.
+// Gradient r(x) = A x − b.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/operators/held.hpp>
+
+#include <utility>
+
+namespace slant {
+
+/// A quadratic program with separable convex constraints: separable_qp{A, b, set}.
+/// Lvalues are referenced, rvalues owned. A is n × n, b has n finite entries, set has dimension n;
+/// otherwise bad_input.
+template <class A, class V, class C>
+  requires vector<std::remove_cvref_t<V>> &&
+           linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+           convex_set<std::remove_cvref_t<C>, local_t<std::remove_cvref_t<V>>>
+class separable_qp {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using set_type = std::remove_cvref_t<C>;
+  using scalar = scalar_t<vector_type>;
+
+  separable_qp(A&& a, V&& b, C&& set)
+      : a_(std::forward<A>(a)), b_(std::forward<V>(b)), set_(std::forward<C>(set)) {
+    auto const n = index(slant::local(this->b()).size());
+    detail::check_size("A.rows()", index(this->a().rows()), n, "the size of b,");
+    detail::check_size("A.cols()", index(this->a().cols()), n, "the size of b,");
+    detail::check_size("dimension of the set", slant::dimension_of(this->set()), n,
+                       "the size of b,");
+    detail::check_finite("b", this->b());
+  }
+
+  /// The operator A.
+  [[nodiscard]] operator_type const& a() const { return a_.get(); }
+  /// The linear term b.
+  [[nodiscard]] vector_type const& b() const { return b_.get(); }
+  /// The feasible set Λ.
+  [[nodiscard]] set_type const& set() const { return set_.get(); }
+  /// Number of unknowns n.
+  [[nodiscard]] index size() const { return slant::local(b()).size(); }
+
+ private:
+  held<A> a_;
+  held<V> b_;
+  held<C> set_;
+};
+
+template <class A, class V, class C>
+separable_qp(A&&, V&&, C&&) -> separable_qp<A, V, C>;
+
+/// q(x) = ½ xᵀ(A x) − bᵀx = ½ xᵀ(r − b) from the gradient r = A x − b: no product is spent.
+template <class QP, class V>
+[[nodiscard]] auto energy(QP const& qp, V const& x, V const& r) {
+  using S = scalar_t<V>;
+  return S(inner_product(x, r) - inner_product(x, qp.b())) / S(2);
+}
+
+}  // namespace slant

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "toy_method.hpp"
+
+#include <slant/iteration/solve.hpp>
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+namespace {
+
+TEST_CASE("solve stops where the method comes to rest and says so") {
+  auto const r = slant::solve(toy::halving{}, 1.0, slant::at_most(100));
+  CHECK(r.status == slant::status::converged);
+  CHECK(r.converged());
+  CHECK(r.iterations() == 10);  // 2⁻¹⁰ < 1e-3 < 2⁻⁹
+  CHECK(r.x() == 0x1p-10);
+  CHECK(r.reason == "the method reports: converged");
+}
+
+TEST_CASE("solve stops when the rule fires, with the rule's words") {
+  auto const r = slant::solve(toy::halving{}, 1.0, slant::at_most(3));
+  CHECK(r.status == slant::status::iteration_limit);
+  CHECK_FALSE(r.converged());
+  CHECK(r.iterations() == 3);
+  CHECK(r.reason == "reached the limit of 3 steps");
+}
+
+TEST_CASE("no step is taken from a start that already satisfies the rule") {
+  auto const r = slant::solve(toy::halving{}, 1.0, slant::at_most(0));
+  CHECK(r.iterations() == 0);
+  CHECK(r.x() == 1.0);
+}
+
+TEST_CASE("every observer sees every state once, the first and the last included") {
+  std::vector<double> seen;
+  int calls = 0;
+  auto const r = slant::solve(
+      toy::halving{}, 8.0, slant::at_most(3), [&](toy::state const& s) { seen.push_back(s.x); },
+      [&](toy::state const&) { ++calls; });
+  CHECK(r.iterations() == 3);
+  CHECK(seen == std::vector<double>{8, 4, 2, 1});
+  CHECK(calls == 4);
+}
+
+TEST_CASE("accuracy reached in the last permitted step counts as converged") {
+  auto const r =
+      slant::solve(toy::halving{}, 1.0, slant::at_most(3) || slant::residual_below(0.125));
+  CHECK(r.iterations() == 3);
+  CHECK(r.x() == 0.125);
+  CHECK(r.converged());
+}
+
+}  // namespace
