@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// expect: satisfaction of 'has_epsilon<S>' .with S = fixed_point.
+// expect-clang: 'fixed_point' does not satisfy 'has_epsilon'
+// max-lines-gcc: 20
+// max-lines-clang: 20
+//
+// A complete scalar minus what it knows of its own precision, std::numeric_limits.
+#include <slant/concepts/scalar.hpp>
+
+struct fixed_point {
+  fixed_point() = default;
+  fixed_point(int v) : value(v) {}
+  friend fixed_point operator+(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator-(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator*(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator/(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator-(fixed_point a) { return a; }
+  friend fixed_point abs(fixed_point a) { return a; }
+  friend fixed_point sqrt(fixed_point a) { return a; }
+  friend auto operator<=>(fixed_point const&, fixed_point const&) = default;
+  int value = 0;
+};
+
+#ifdef SLANT_COMPLETE
+template <>
+struct std::numeric_limits<fixed_point> {
+  static constexpr bool is_specialized = true;
+  static fixed_point epsilon() { return 1; }
+  static fixed_point infinity() { return 1; }
+};
+#endif
+
+static_assert(slant::scalar<fixed_point>);
