@@ -5,6 +5,7 @@
 // report.
 #pragma once
 
+#include <cstddef>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -34,7 +35,24 @@ class bad_input : public std::invalid_argument {
                                   .append(": got ")
                                   .append(value)
                                   .append(", expected ")
-                                  .append(expectation)) {}
+                                  .append(expectation)),
+        name_length_(argument.size()) {}
+
+  /// The same complaint about entry i of an array of such arguments: "radius[3]: got -1, …".
+  [[nodiscard]] bad_input at(std::ptrdiff_t i) const {
+    std::string_view const text = what();
+    std::string changed(text.substr(0, name_length_));
+    changed.append("[").append(detail::show(i)).append("]");
+    std::size_t const length = changed.size();
+    changed.append(text.substr(name_length_));
+    return {changed, length};
+  }
+
+ private:
+  bad_input(std::string const& text, std::size_t name_length)
+      : std::invalid_argument(text), name_length_(name_length) {}
+
+  std::size_t name_length_;
 };
 
 }  // namespace slant

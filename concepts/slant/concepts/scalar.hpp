@@ -41,14 +41,18 @@ concept has_order = requires(S const a, S const b) {
   bool(a == b);
 };
 
+namespace detail::by_argument {
+using std::abs;
+using std::sqrt;
 template <class S>
-concept has_square_root = requires(S const a) {
-  [](S const v) {
-    using std::abs;
-    using std::sqrt;
-    return S(sqrt(v)) + S(abs(v));
-  }(a);
+concept has_abs_and_sqrt = requires(S const a) {
+  S(abs(a));
+  S(sqrt(a));
 };
+}  // namespace detail::by_argument
+
+template <class S>
+concept has_square_root = detail::by_argument::has_abs_and_sqrt<S>;
 
 template <class S>
 concept has_epsilon = std::numeric_limits<S>::is_specialized && requires {

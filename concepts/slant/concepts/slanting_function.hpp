@@ -12,6 +12,8 @@
 //     slant(y)            F°(y), a linear operator rows() × cols()
 // Optional, for iterations without allocation:
 //     slant(y, G) or slant(y, G, w)   G = F°(y) into an operator that slant(y₀) made earlier
+//     slant_after_value(y, G, w)      the same where w comes from value(y, f, w) at this very y:
+//                                     what value left in w (G(y) of a composition F∘G) is reused
 //
 // Laws.   ‖F(y+h) − F(y) − F°(y+h) h‖ = o(‖h‖),   ‖F°‖ bounded near y.
 //
@@ -48,6 +50,10 @@ template <class F, class V>
 concept has_workspace_slant_update = requires(F const& f, V const& y, slant_operator_t<F, V>& g,
                                               workspace_t<F, V>& w) { f.slant(y, g, w); };
 
+template <class F, class V>
+concept has_slant_after_value = requires(F const& f, V const& y, slant_operator_t<F, V>& g,
+                                         workspace_t<F, V>& w) { f.slant_after_value(y, g, w); };
+
 /// F°(y) can be renewed in place.
 template <class F, class V>
 concept has_slant_update = has_plain_slant_update<F, V> || has_workspace_slant_update<F, V>;
@@ -71,10 +77,17 @@ struct evaluate_fn {
   }
   template <class F, class X>
   [[nodiscard]] auto operator()(F const& f, X const& y) const {
-    auto w = slant::workspace(f, y);
     auto v = slant::like(y, f.rows());
-    (*this)(f, y, v, w);
+    into(f, y, v);
     return v;
+  }
+
+ private:
+  /// Not inlined: g++ 12 would see Eigen free v twice, were it resized here and `new` to throw.
+  template <class F, class X, class Y>
+  [[gnu::noinline]] static void into(F const& f, X const& y, Y& v) {
+    auto w = slant::workspace(f, y);
+    evaluate_fn{}(f, y, v, w);
   }
 };
 
@@ -91,6 +104,17 @@ struct update_slant_fn {
   }
 };
 
+struct update_slant_after_value_fn {
+  template <class F, class X, class G, class W>
+  void operator()(F const& f, X const& y, G& g, W& w) const {
+    if constexpr (requires { f.slant_after_value(y, g, w); }) {
+      f.slant_after_value(y, g, w);
+    } else {
+      update_slant_fn{}(f, y, g, w);
+    }
+  }
+};
+
 }  // namespace detail
 
 /// F(y): evaluate(f, y, v, w) in place, evaluate(f, y) as a new vector.
@@ -98,5 +122,9 @@ inline constexpr detail::evaluate_fn evaluate{};
 
 /// G = F°(y), in place if the function can.
 inline constexpr detail::update_slant_fn update_slant{};
+
+/// G = F°(y) right after evaluate(f, y, v, w) with the same y and w: nothing that w holds is
+/// computed again. The caller answers for "the same y"; update_slant has no such condition.
+inline constexpr detail::update_slant_after_value_fn update_slant_after_value{};
 
 }  // namespace slant

@@ -111,7 +111,7 @@ struct norm_fn {
       constexpr int margin = std::numeric_limits<S>::digits;
       S const tiny = std::numeric_limits<S>::min() * S(slant::local(x).size() + 1);
       if (!(square > tiny * pow2<S>(margin)) || !(square < std::numeric_limits<S>::max())) {
-        return slant::local(x).stableNorm();
+        return scaled_norm<S>(slant::local(x));
       }
     }
     return sqrt(square);
@@ -122,6 +122,22 @@ struct norm_fn {
   static S pow2(int e) {
     using std::ldexp;
     return ldexp(S(1), e);
+  }
+  /// Scaled by a power of two, which is exact: the same bits in all units 2^k (stableNorm rounds).
+  template <class S, class L>
+  static S scaled_norm(L const& v) {
+    using std::frexp;
+    using std::ldexp;
+    using std::sqrt;
+    if (v.size() == 0) return S(0);
+    S const largest = v.cwiseAbs().maxCoeff();
+    if (!(largest > S(0)) || !(largest <= std::numeric_limits<S>::max())) return v.stableNorm();
+    int e = 0;
+    static_cast<void>(frexp(largest, &e));
+    if (e < 3 - std::numeric_limits<S>::max_exponent) e = 3 - std::numeric_limits<S>::max_exponent;
+    S const unit = pow2<S>(-e);
+    S const square = (v * unit).dot(v * unit);
+    return ldexp(S(sqrt(square)), e);
   }
 };
 
@@ -140,10 +156,16 @@ struct like_fn {
     if constexpr (has_like_member<X>) {
       return x.like(n);
     } else {
-      typename X::PlainObject y;
-      y.resize(n, x.cols());  // as many columns as x: several right-hand sides stay several
-      return y;
+      return sized<typename X::PlainObject>(n, x.cols());  // several right-hand sides stay several
     }
+  }
+
+ private:
+  template <class P>
+  [[nodiscard]] static P sized(index n, index columns) {
+    P y;
+    y.resize(n, columns);
+    return y;
   }
 };
 

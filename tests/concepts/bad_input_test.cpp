@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include <slant/concepts/bad_input.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+TEST_CASE("bad_input: argument, value, expectation") {
+  slant::bad_input const e("radius", "-1", "a number >= 0");
+  CHECK(std::string(e.what()) == "radius: got -1, expected a number >= 0");
+  CHECK_THROWS_AS(throw e, std::invalid_argument);
+}
+
+TEST_CASE("bad_input: the same complaint about an entry of a list") {
+  slant::bad_input const e("radius", "-1", "a number >= 0");
+  CHECK(std::string(e.at(3).what()) == "radius[3]: got -1, expected a number >= 0");
+  CHECK(std::string(e.at(3).at(4).what()) == "radius[3][4]: got -1, expected a number >= 0");
+}
+
+TEST_CASE("bad_input: numbers are shown with all their digits") {
+  CHECK(slant::detail::show(0.1) == "0.10000000000000001");
+  CHECK(slant::detail::show(7) == "7");
+  CHECK(slant::detail::show(std::numeric_limits<double>::infinity()) == "inf");
+}
