@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+//
+// Owners of what CHOLMOD allocates: its state, the factors, and the vectors of a solve.
+#pragma once
+
+#if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
+
+#include <slant/concepts/scalar.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#if __has_include(<cholmod.h>)
+#include <cholmod.h>
+#else
+#include <suitesparse/cholmod.h>
+#endif
+
+#include <algorithm>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace slant::detail {
+
+/// CHOLMOD's settings, statistics and scratch memory. Silent: failures are reported by us.
+class cholmod_state {
+ public:
+  cholmod_state() {
+    cholmod_start(&common_);
+    common_.print = 0;
+    common_.error_handler = nullptr;
+  }
+  cholmod_state(cholmod_state const&) = delete;
+  cholmod_state& operator=(cholmod_state const&) = delete;
+  ~cholmod_state() { cholmod_finish(&common_); }
+
+  [[nodiscard]] cholmod_common* get() noexcept { return &common_; }
+  [[nodiscard]] int status() const noexcept { return common_.status; }
+
+ private:
+  cholmod_common common_;
+};
+
+/// A compressed symmetric Eigen matrix as CHOLMOD sees it (lower triangle); nothing is copied.
+[[nodiscard]] inline cholmod_sparse cholmod_view(Eigen::SparseMatrix<double> const& m) {
+  cholmod_sparse view{};
+  view.nrow = static_cast<std::size_t>(m.rows());
+  view.ncol = static_cast<std::size_t>(m.cols());
+  view.nzmax = static_cast<std::size_t>(m.nonZeros());
+  view.p = const_cast<int*>(m.outerIndexPtr());  // CHOLMOD does not write to its input
+  view.i = const_cast<int*>(m.innerIndexPtr());
+  view.x = const_cast<double*>(m.valuePtr());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+/// The factors of a symmetric matrix, LLᵀ or LDLᵀ; failed_column() says whether they are complete.
+class cholmod_factors {
+ public:
+  explicit cholmod_factors(cholmod_sparse& matrix) {
+    factor_ = cholmod_analyze(&matrix, state_.get());
+    if (factor_ != nullptr) cholmod_factorize(&matrix, factor_, state_.get());
+    // Being indefinite is a warning of CHOLMOD; what is negative is an error.
+    if (factor_ == nullptr || state_.status() < CHOLMOD_OK) {
+      cholmod_free_factor(&factor_, state_.get());
+      throw std::bad_alloc();
+    }
+  }
+  cholmod_factors(cholmod_factors const&) = delete;
+  cholmod_factors& operator=(cholmod_factors const&) = delete;
+  ~cholmod_factors() { cholmod_free_factor(&factor_, state_.get()); }
+
+  [[nodiscard]] cholmod_factor* get() const noexcept { return factor_; }
+  [[nodiscard]] index size() const noexcept { return static_cast<index>(factor_->n); }
+  /// The first column without a positive (supernodal) or nonzero (simplicial) pivot, else size().
+  [[nodiscard]] index failed_column() const noexcept { return static_cast<index>(factor_->minor); }
+  [[nodiscard]] index original_row(index i) const noexcept { return numbers(factor_->Perm)[i]; }
+
+  /// f(column, pivot) for all columns before the failed one.
+  template <class F>
+  void for_each_pivot(F f) const {
+    auto const visit = [&](index i, double stored) {
+      if (i < failed_column()) f(i, factor_->is_ll != 0 ? stored * stored : stored);
+    };
+    auto const* x = static_cast<double const*>(factor_->x);
+    if (factor_->is_super == 0) {
+      for (index i = 0; i < size(); ++i) visit(i, x[numbers(factor_->p)[i]]);
+    } else {
+      for_each_supernode([&](supernode const& s) {
+        for (index j = 0; j < s.columns; ++j) visit(s.first + j, s.entries[j * s.height + j]);
+      });
+    }
+  }
+
+  /// The pivot of the failed column, K_ii − Σ ℓ_ij². Supernodal factors do not store it.
+  [[nodiscard]] double failed_pivot(double diagonal_entry) const {
+    index const i = failed_column();
+    if (factor_->is_super == 0) {
+      return static_cast<double const*>(factor_->x)[numbers(factor_->p)[i]];
+    }
+    double pivot = diagonal_entry;
+    for_each_supernode([&](supernode const& s) {
+      auto const* place = std::lower_bound(s.rows, s.rows + s.height, i);
+      if (place == s.rows + s.height || *place != i) return;
+      for (index j = 0; j < s.columns && s.first + j < i; ++j) {
+        double const entry = s.entries[j * s.height + (place - s.rows)];
+        pivot -= entry * entry;
+      }
+    });
+    return pivot;
+  }
+
+ private:
+  /// Neighbouring columns that share their rows, stored as one dense matrix.
+  struct supernode {
+    index first;    ///< number of its first column
+    index columns;  ///< number of columns
+    index height;   ///< number of rows
+    int const* rows;
+    double const* entries;  ///< height × columns
+  };
+
+  static int const* numbers(void const* p) noexcept { return static_cast<int const*>(p); }
+
+  template <class F>
+  void for_each_supernode(F f) const {
+    int const* begin = numbers(factor_->super);
+    int const* rows = numbers(factor_->pi);
+    int const* entries = numbers(factor_->px);
+    for (index s = 0; s < static_cast<index>(factor_->nsuper); ++s) {
+      f(supernode{begin[s], begin[s + 1] - begin[s], rows[s + 1] - rows[s],
+                  numbers(factor_->s) + rows[s],
+                  static_cast<double const*>(factor_->x) + entries[s]});
+    }
+  }
+
+  cholmod_state state_;
+  cholmod_factor* factor_ = nullptr;
+};
+
+/// State and vectors of the solves of one thread, for a fixed number of right-hand sides.
+class cholmod_workspace {
+ public:
+  /// For solves with these factors; null for an empty matrix, with which nothing is solved.
+  cholmod_workspace(cholmod_factors const* factors, index columns)
+      : state_(std::make_unique<cholmod_state>()) {
+    if (factors == nullptr) return;
+    // The first solve lets CHOLMOD allocate all it needs; later ones reuse it.
+    right_.setZero(factors->size(), columns);
+    (void)solve(*factors);
+  }
+  cholmod_workspace(cholmod_workspace&&) noexcept = default;
+  cholmod_workspace& operator=(cholmod_workspace&&) = delete;
+  ~cholmod_workspace() {
+    if (state_ == nullptr) return;
+    for (cholmod_dense** vectors : {&solution_, &y_, &e_}) {
+      cholmod_free_dense(vectors, state_->get());
+    }
+  }
+
+  /// Where the right-hand sides belong.
+  [[nodiscard]] Eigen::MatrixXd& right_hand_side() noexcept { return right_; }
+
+  /// The solutions, valid until the next solve. Throws std::bad_alloc if memory runs out.
+  [[nodiscard]] Eigen::Map<Eigen::MatrixXd const> solve(cholmod_factors const& factors) {
+    cholmod_dense b{};
+    b.nrow = b.d = static_cast<std::size_t>(right_.rows());
+    b.ncol = static_cast<std::size_t>(right_.cols());
+    b.nzmax = b.nrow * b.ncol;
+    b.x = right_.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    // A simplicial solve works on up to four right-hand sides at a time and leaves y_ with the size
+    // of the last few; the next one would allocate it anew.
+    if (y_ != nullptr && factors.get()->is_super == 0) {
+      y_->nrow = y_->d = y_->nzmax / b.nrow;
+      y_->ncol = b.nrow;
+    }
+    if (cholmod_solve2(CHOLMOD_A, factors.get(), &b, nullptr, &solution_, nullptr, &y_, &e_,
+                       state_->get()) == 0) {
+      throw std::bad_alloc();
+    }
+    return {static_cast<double const*>(solution_->x), right_.rows(), right_.cols()};
+  }
+
+ private:
+  std::unique_ptr<cholmod_state> state_;
+  Eigen::MatrixXd right_;
+  cholmod_dense* solution_ = nullptr;
+  cholmod_dense* y_ = nullptr;
+  cholmod_dense* e_ = nullptr;
+};
+
+}  // namespace slant::detail
+
+#endif

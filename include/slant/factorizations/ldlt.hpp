@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+//
+// Sparse LDLᵀ by Eigen, for symmetric positive definite matrices: the default, needs nothing else.
+//
+//     auto Kinv = slant::inverse(slant::ldlt(K));
+//
+// What is factored is K / 2^e with the power of two that brings the largest entry to [1, 2): exact,
+// so in other units (2^k K) the factors are the same bit for bit, and no pivot overflows.
+#pragma once
+
+#include <slant/concepts/factorization.hpp>
+#include <slant/factorizations/detail/spd_checks.hpp>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace slant {
+
+/// P K Pᵀ = 2^e L D Lᵀ. Copies share the factors, which never change.
+template <class S = double>
+class ldlt {
+ public:
+  using scalar = S;
+  using matrix_type = Eigen::SparseMatrix<S>;
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+
+  /// Throws bad_input if K is not square, has an entry that is NaN or infinite, is not symmetric
+  /// (up to 1024 ε, naming the worst pair), or not definite (naming the pivot).
+  template <class M>
+  explicit ldlt(Eigen::SparseMatrixBase<M> const& k) {
+    matrix_type normalised = k.derived();
+    detail::require_symmetric_matrix("K", normalised);
+    int const exponent = detail::scale_exponent(normalised);
+    unit_ = detail::power_of_two<S>(-exponent);
+    normalised *= unit_;
+    factors_ = std::make_shared<factors const>(normalised);
+    vector_type const diagonal = normalised.diagonal();
+    for (index i = 0; i < rows(); ++i) {
+      index const row = factors_->original_row(i);
+      detail::require_positive_pivot("K", rows(), i, row, factors_->pivots()[i], diagonal[row],
+                                     exponent);
+    }
+  }
+
+  [[nodiscard]] index rows() const { return factors_->lower().rows(); }
+  /// What computes: "ldlt".
+  [[nodiscard]] std::string_view name() const noexcept { return "ldlt"; }
+  /// Entries of L below the diagonal.
+  [[nodiscard]] index nonzeros() const { return factors_->lower().nonZeros(); }
+
+  /// Room for the permuted unknowns of a solve.
+  template <class X>
+    requires std::same_as<scalar_t<X>, S>
+  [[nodiscard]] auto workspace(X const& b) const {
+    return slant::like(slant::local(b), rows());
+  }
+  /// x = K⁻¹ b for one or several right-hand sides. w is what workspace(b) made.
+  template <class X, class Y, class W>
+    requires std::same_as<scalar_t<X>, S>
+  void solve(X const& b, Y& x, W& w) const {
+    w.noalias() = factors_->permutation() * slant::local(b);
+    auto&& solution = slant::local(x);
+    int const* const place = factors_->permutation().indices().data();
+    for (index j = 0; j < w.cols(); ++j) {
+      S* const v = w.data() + j * w.rows();
+      solve_in_place(v);
+      // The unit is applied last: b and 1/D may both be near the end of the exponent range.
+      for (index i = 0; i < w.rows(); ++i) solution.coeffRef(i, j) = unit_ * v[place[i]];
+    }
+  }
+
+ private:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  /// Eigen's factors, with the parts that it gives away only as copies (D) or protects kept apart.
+  class factors : public Eigen::SimplicialLDLT<matrix_type, Eigen::Lower> {
+    using base = Eigen::SimplicialLDLT<matrix_type, Eigen::Lower>;
+
+   public:
+    explicit factors(matrix_type const& k) {
+      // The ordering of an empty matrix is more than Eigen can do.
+      if (k.rows() > 0) this->compute(k);
+    }
+    /// L without its unit diagonal, compressed by columns.
+    [[nodiscard]] matrix_type const& lower() const { return this->m_matrix; }
+    /// D. A pivot that is exactly zero ends the factorisation; what follows it is not set.
+    [[nodiscard]] vector_type const& pivots() const { return this->m_diag; }
+    [[nodiscard]] auto const& permutation() const { return this->m_P; }
+    [[nodiscard]] index original_row(index i) const { return this->m_Pinv.indices()[i]; }
+  };
+
+  /// v ← L⁻ᵀ D⁻¹ L⁻¹ v. Plain loops over the arrays: Eigen's solveInPlace looks them up anew for
+  /// each column.
+  void solve_in_place(S* v) const {
+    index const n = rows();
+    int const* const begin = factors_->lower().outerIndexPtr();
+    int const* const row = factors_->lower().innerIndexPtr();
+    S const* const entry = factors_->lower().valuePtr();
+    S const* const pivot = factors_->pivots().data();
+    for (index k = 0; k < n; ++k) {
+      S const t = v[k];
+      if (t == S(0)) continue;  // right-hand sides like Bᵀx are mostly zeros
+      for (index p = begin[k], end = begin[k + 1]; p < end; ++p) v[row[p]] -= entry[p] * t;
+    }
+    for (index k = n; k-- > 0;) {
+      S t = v[k] / pivot[k];
+      for (index p = begin[k], end = begin[k + 1]; p < end; ++p) t -= entry[p] * v[row[p]];
+      v[k] = t;
+    }
+  }
+
+  S unit_{1};
+  std::shared_ptr<factors const> factors_;
+};
+
+template <class M>
+ldlt(Eigen::SparseMatrixBase<M> const&) -> ldlt<typename M::Scalar>;
+
+}  // namespace slant

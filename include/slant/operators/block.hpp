@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+//
+// A matrix of operators:
+//
+//     auto S = slant::block(slant::block_row(K, slant::adjoint(B)),
+//                           slant::block_row(B, slant::zero(m)));
+//
+// Zero blocks are recognised by their type and cost nothing. Closure: none; that a saddle point
+// matrix is symmetric is declared by the caller: `declare<self_adjoint>(block(…))`.
+#pragma once
+
+#include <slant/operators/adjoint.hpp>
+#include <slant/operators/detail/block_part.hpp>
+
+#include <boost/hana/at.hpp>
+#include <boost/hana/tuple.hpp>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace slant {
+
+/// One row of blocks. Each A is `Operator const&` (referenced) or an operator type (owned).
+template <class... A>
+struct block_row_of {
+  static constexpr std::size_t size = sizeof...(A);
+  template <std::size_t J>
+  using block_type = std::remove_cvref_t<std::tuple_element_t<J, std::tuple<A...>>>;
+  template <class Y>
+  static constexpr bool have_columns = ((detail::is_zero_operator<std::remove_cvref_t<A>> ||
+                                         has_columns<std::remove_cvref_t<A>, plain_t<Y>>)&&...);
+
+  boost::hana::tuple<held<A>...> blocks;
+};
+
+/// One row of blocks, from left to right.
+template <operand... A>
+  requires(sizeof...(A) >= 1)
+[[nodiscard]] auto block_row(A&&... a) {
+  return block_row_of<part_t<A>...>{boost::hana::tuple<held<part_t<A>>...>(
+      held<part_t<A>>(slant::as_operator(std::forward<A>(a)))...)};
+}
+
+/// The operator with the given rows of blocks (each a block_row_of), all equally long.
+template <class... Rows>
+class block_operator {
+  static constexpr std::size_t m = sizeof...(Rows);
+  static constexpr std::size_t n = std::tuple_element_t<0, std::tuple<Rows...>>::size;
+  static_assert(((Rows::size == n) && ...), "all rows of blocks have the same number of blocks");
+
+  template <std::size_t I, std::size_t J>
+  using block_type = typename std::tuple_element_t<I, std::tuple<Rows...>>::template block_type<J>;
+
+  // The same code serves A and Aᵀ: block (I, J) of A, or the adjoint of block (J, I).
+  template <bool Adjoint>
+  static constexpr std::size_t height = Adjoint ? n : m;
+  template <bool Adjoint>
+  static constexpr std::size_t width = Adjoint ? m : n;
+  template <bool Adjoint>
+  using places = std::make_index_sequence<m * n>;  // row by row
+
+  template <bool Adjoint, std::size_t I, std::size_t J>
+  [[nodiscard]] decltype(auto) part() const {
+    if constexpr (Adjoint) {
+      return adjoint_operator<block_type<J, I> const&>(
+          held<block_type<J, I> const&>(part<false, J, I>()));
+    } else {
+      return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
+    }
+  }
+  template <bool Adjoint, std::size_t I, std::size_t J>
+  struct typed {
+    using type = block_type<I, J>;
+    static constexpr bool is_zero = detail::is_zero_operator<type>;
+  };
+  template <std::size_t I, std::size_t J>
+  struct typed<true, I, J> {
+    using type = adjoint_operator<block_type<J, I> const&>;
+    static constexpr bool is_zero = detail::is_zero_operator<block_type<J, I>>;
+  };
+
+  /// The column of the first nonzero block of a row; it overwrites, the others add. width if none.
+  template <bool Adjoint, std::size_t I>
+  static constexpr std::size_t first_block = []<std::size_t... J>(std::index_sequence<J...>) {
+    std::size_t first = 0;
+    (void)((typed<Adjoint, I, J>::is_zero ? (++first, true) : false) && ...);
+    return first;
+  }(std::make_index_sequence<width<Adjoint>>{});
+
+  template <bool Adjoint, class X>
+  static constexpr bool applicable = []<std::size_t... P>(std::index_sequence<P...>) {
+    constexpr std::size_t k = width<Adjoint>;
+    return ((typed<Adjoint, P / k, P % k>::is_zero ||
+             detail::block_part<typename typed<Adjoint, P / k, P % k>::type, X>)&&...);
+  }(places<Adjoint>{});
+  template <bool Adjoint, class X>
+  static constexpr bool accumulating = []<std::size_t... P>(std::index_sequence<P...>) {
+    constexpr std::size_t k = width<Adjoint>;
+    return ((typed<Adjoint, P / k, P % k>::is_zero ||
+             detail::accumulating_block_part<typename typed<Adjoint, P / k, P % k>::type, X>)&&...);
+  }(places<Adjoint>{});
+
+ public:
+  static constexpr law_set laws{};
+
+  /// Throws bad_input naming the block whose size does not fit its row and column.
+  explicit block_operator(Rows... rows) : rows_(std::move(rows)...) {
+    for_each_block([this]<std::size_t I, std::size_t J>() {
+      if constexpr (J == 0) row_begin_[I + 1] = row_begin_[I] + part<false, I, J>().rows();
+      if constexpr (I == 0) col_begin_[J + 1] = col_begin_[J] + part<false, I, J>().cols();
+    });
+    for_each_block([this]<std::size_t I, std::size_t J>() {
+      detail::require_size(detail::entry_text("block", index(I), index(J)), part<false, I, J>(),
+                           row_begin_[I + 1] - row_begin_[I], col_begin_[J + 1] - col_begin_[J],
+                           "the first blocks of its row and column");
+    });
+  }
+
+  [[nodiscard]] index rows() const { return row_begin_[m]; }
+  [[nodiscard]] index cols() const { return col_begin_[n]; }
+
+  template <class X>
+    requires applicable<false, X>
+  [[nodiscard]] auto workspace(X const& x) const {
+    return make_workspace<false>(x);
+  }
+  template <class X, class Y, class W>
+    requires applicable<false, X>
+  void apply(X const& x, Y& y, W& w) const {
+    run<false, false>(scalar_t<X>(1), x, y, w);
+  }
+  template <class X, class Y, class W>
+    requires accumulating<false, X>
+  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    run<false, true>(α, x, y, w);
+  }
+
+  template <class X>
+    requires applicable<true, X>
+  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+    return make_workspace<true>(x);
+  }
+  template <class X, class Y, class W>
+    requires applicable<true, X>
+  void apply_adjoint(X const& x, Y& y, W& w) const {
+    run<true, false>(scalar_t<X>(1), x, y, w);
+  }
+  template <class X, class Y, class W>
+    requires accumulating<true, X>
+  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    run<true, true>(α, x, y, w);
+  }
+
+  template <class Y>
+    requires(Rows::template have_columns<Y> && ...)
+  void columns(index first, Y& y) const {
+    y.setZero();
+    for_each_block([&]<std::size_t I, std::size_t J>() {
+      detail::part_columns(part<false, I, J>(), col_begin_[J], row_begin_[I], first, y);
+    });
+  }
+
+ private:
+  template <class F>
+  static void for_each_block(F f) {
+    [&]<std::size_t... P>(std::index_sequence<P...>) {
+      (f.template operator()<P / n, P % n>(), ...);
+    }(places<false>{});
+  }
+
+  template <bool Adjoint, class X>
+  [[nodiscard]] auto make_workspace(X const& x) const {
+    return [&]<std::size_t... P>(std::index_sequence<P...>) {
+      return std::make_tuple(
+          detail::part_workspace<P % width<Adjoint> == first_block<Adjoint, P / width<Adjoint>>>(
+              part<Adjoint, P / width<Adjoint>, P % width<Adjoint>>(), x)...);
+    }(places<Adjoint>{});
+  }
+
+  /// y = A x, or y ← y + α A x if Add; with Aᵀ for A if Adjoint.
+  template <bool Adjoint, bool Add, class S, class X, class Y, class W>
+  void run(S const& α, X const& x, Y& y, W& w) const {
+    auto const& row_begin = begins<Adjoint>();
+    auto const& col_begin = begins<!Adjoint>();
+    auto row = [&]<std::size_t I, std::size_t... J>(std::index_sequence<J...>) {
+      constexpr std::size_t first = first_block<Adjoint, I>;
+      if constexpr (!Add && first == width<Adjoint>) {
+        slant::local(y).middleRows(row_begin[I], row_begin[I + 1] - row_begin[I]).setZero();
+      }
+      (detail::apply_part < !Add &&
+           J == first > (part<Adjoint, I, J>(), α, x, col_begin[J], y, row_begin[I],
+                         std::get<I * width<Adjoint> + J>(w)),
+       ...);
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (row.template operator()<I>(std::make_index_sequence<width<Adjoint>>{}), ...);
+    }(std::make_index_sequence<height<Adjoint>>{});
+  }
+  template <bool Adjoint>
+  [[nodiscard]] auto const& begins() const noexcept {
+    if constexpr (Adjoint) {
+      return col_begin_;
+    } else {
+      return row_begin_;
+    }
+  }
+
+  boost::hana::tuple<Rows...> rows_;
+  std::array<index, m + 1> row_begin_{};
+  std::array<index, n + 1> col_begin_{};
+};
+
+/// The operator with these rows of blocks.
+template <class... A, class... Rows>
+[[nodiscard]] auto block(block_row_of<A...> first, Rows... rest) {
+  return block_operator<block_row_of<A...>, Rows...>(std::move(first), std::move(rest)...);
+}
+
+}  // namespace slant

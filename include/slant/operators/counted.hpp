@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// Counts how often an operator is applied; everything else is unchanged, laws and capabilities
+// included. What "n applications of K⁻¹" means in every report is counted here.
+#pragma once
+
+#include <slant/operators/as_operator.hpp>
+#include <slant/operators/detail/decorator.hpp>
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace slant {
+
+/// Work done through a counted operator. A call with k right-hand sides counts as k applications.
+struct application_counts {
+  index applications = 0;          ///< right-hand sides of apply and apply_add
+  index adjoint_applications = 0;  ///< right-hand sides of apply_adjoint and apply_adjoint_add
+  index calls = 0;                 ///< calls of any of the four, however many right-hand sides
+  index columns = 0;               ///< columns delivered by columns(first, Y)
+};
+
+namespace detail {
+
+class application_counter {
+ public:
+  struct nothing {};
+
+  nothing enter(application_kind kind, index columns) const noexcept {
+    auto const add = [](std::atomic<index>& count, index n) {
+      count.fetch_add(n, std::memory_order_relaxed);
+    };
+    auto& n = *counts_;
+    switch (kind) {
+      case application_kind::forward:
+        add(n.applications, columns);
+        add(n.calls, 1);
+        break;
+      case application_kind::adjoint:
+        add(n.adjoint_applications, columns);
+        add(n.calls, 1);
+        break;
+      case application_kind::columns:
+        add(n.columns, columns);
+        break;
+    }
+    return {};
+  }
+
+  [[nodiscard]] application_counts read() const noexcept {
+    auto const& n = *counts_;
+    return {n.applications.load(std::memory_order_relaxed),
+            n.adjoint_applications.load(std::memory_order_relaxed),
+            n.calls.load(std::memory_order_relaxed), n.columns.load(std::memory_order_relaxed)};
+  }
+  void reset() const noexcept {
+    for (auto* count : {&counts_->applications, &counts_->adjoint_applications, &counts_->calls,
+                        &counts_->columns}) {
+      count->store(0, std::memory_order_relaxed);
+    }
+  }
+
+ private:
+  struct counts {
+    std::atomic<index> applications{0};
+    std::atomic<index> adjoint_applications{0};
+    std::atomic<index> calls{0};
+    std::atomic<index> columns{0};
+  };
+  std::shared_ptr<counts> counts_ = std::make_shared<counts>();
+};
+
+}  // namespace detail
+
+/// The operator A, counting. Safe to apply from several threads. Copies count together, so a count
+/// can be read from the original after a method has taken a copy.
+template <class A>
+class counted_operator : public detail::decorator<A, detail::application_counter> {
+ public:
+  using detail::decorator<A, detail::application_counter>::decorator;
+
+  [[nodiscard]] application_counts counts() const noexcept { return this->probe().read(); }
+  /// counts().applications, what is asked for most.
+  [[nodiscard]] index applications() const noexcept { return counts().applications; }
+  void reset_counts() const noexcept { this->probe().reset(); }
+};
+
+/// A with its applications counted.
+template <operand A>
+[[nodiscard]] auto counted(A&& a) {
+  return counted_operator<part_t<A>>{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+}
+
+}  // namespace slant

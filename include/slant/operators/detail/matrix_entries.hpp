@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+//
+// Passes over the entries of a dense or sparse Eigen matrix: finiteness, largest entry, symmetry.
+#pragma once
+
+#include <slant/operators/detail/checks.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace slant::detail {
+
+template <class M>
+inline constexpr bool is_sparse_matrix =
+    std::is_base_of_v<Eigen::SparseMatrixBase<std::remove_cvref_t<M>>, std::remove_cvref_t<M>>;
+
+/// f(row, column, value) for each stored entry.
+template <class M, class F>
+void for_each_entry(M const& m, F f) {
+  if constexpr (is_sparse_matrix<M>) {
+    for (index k = 0; k < m.outerSize(); ++k) {
+      for (typename M::InnerIterator entry(m, k); entry; ++entry) {
+        f(static_cast<index>(entry.row()), static_cast<index>(entry.col()), entry.value());
+      }
+    }
+  } else {
+    for (index j = 0; j < m.cols(); ++j) {
+      for (index i = 0; i < m.rows(); ++i) f(i, j, m.coeff(i, j));
+    }
+  }
+}
+
+[[nodiscard]] inline std::string entry_text(std::string_view name, index i, index j) {
+  return std::string(name)
+      .append("(")
+      .append(std::to_string(i))
+      .append(", ")
+      .append(std::to_string(j))
+      .append(")");
+}
+
+/// Throws bad_input naming the first entry that is NaN or infinite.
+template <class M>
+void require_finite_entries(std::string_view name, M const& m) {
+  for_each_entry(m, [&](index i, index j, auto const& value) {
+    if (!finite_number(value)) {
+      throw bad_input(entry_text(name, i, j), show(value), "a finite number");
+    }
+  });
+}
+
+/// max |m_ij|; 0 for an empty matrix. Entries are finite.
+template <class M>
+[[nodiscard]] auto largest_entry(M const& m) {
+  using std::abs;
+  typename M::Scalar largest(0);
+  for_each_entry(m, [&](index, index, auto const& value) {
+    typename M::Scalar const size = abs(value);
+    if (size > largest) largest = size;
+  });
+  return largest;
+}
+
+/// The largest 2^e ≤ max |m_ij| as its exponent e; 0 for a zero matrix. Division by 2^e is exact,
+/// so that what is computed from m / 2^e is bit for bit the same in all units 2^k.
+template <class M>
+[[nodiscard]] int scale_exponent(M const& m) {
+  using std::frexp;
+  using S = typename M::Scalar;
+  S const largest = largest_entry(m);
+  int e = 0;
+  if (largest > S(0)) {
+    (void)frexp(largest, &e);
+    --e;
+    // 2^e and 2^-e must both be numbers; denormal matrices are scaled as far as that allows.
+    constexpr int limit = std::numeric_limits<S>::max_exponent - 2;
+    if (e < -limit) e = -limit;
+  }
+  return e;
+}
+
+/// 2^e.
+template <class S>
+[[nodiscard]] S power_of_two(int e) {
+  using std::ldexp;
+  return ldexp(S(1), e);
+}
+
+/// Throws bad_input naming the worst pair unless
+///     |m_ij − m_ji| ≤ 1024 ε √(|m_ii| |m_jj|)   for all i, j,
+/// the size of the rounding errors of an assembly from many symmetric parts. Measured by the
+/// diagonal, so it is the same in all units and under diagonal scaling of a definite matrix.
+template <class M>
+void require_symmetric_entries(std::string_view name, M const& m) {
+  using std::abs;
+  using std::sqrt;
+  using S = typename M::Scalar;
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  S const unit = power_of_two<S>(-scale_exponent(m));
+  vector_type root = m.diagonal();
+  for (index i = 0; i < root.size(); ++i) root[i] = sqrt(S(abs(root[i]) * unit));
+  S const tolerance = S(1024) * std::numeric_limits<S>::epsilon();
+  S worst(0);
+  index row = -1;
+  index col = -1;
+  auto const compare = [&](index i, index j, S const& upper, S const& lower) {
+    S const difference = abs(S(upper * unit - lower * unit));
+    S const allowed = tolerance * root[i] * root[j];
+    if (difference > allowed) {
+      S const excess = allowed > S(0) ? S(difference / allowed) : std::numeric_limits<S>::max();
+      if (excess > worst) {
+        worst = excess;
+        row = i;
+        col = j;
+      }
+    }
+  };
+  if constexpr (is_sparse_matrix<M>) {
+    // The transposed copy has the storage order of m: both are then walked side by side.
+    typename M::PlainObject const t = m.transpose();
+    for (index k = 0; k < m.outerSize(); ++k) {
+      typename M::InnerIterator a(m, k);
+      typename M::PlainObject::InnerIterator b(t, k);
+      while (a || b) {
+        bool const take_a = a && (!b || a.index() <= b.index());
+        bool const take_b = b && (!a || b.index() <= a.index());
+        index const i = take_a ? index(a.row()) : index(b.row());
+        index const j = take_a ? index(a.col()) : index(b.col());
+        compare(i, j, take_a ? S(a.value()) : S(0), take_b ? S(b.value()) : S(0));
+        if (take_a) ++a;
+        if (take_b) ++b;
+      }
+    }
+  } else {
+    for (index j = 0; j < m.cols(); ++j) {
+      for (index i = 0; i < j; ++i) compare(i, j, m.coeff(i, j), m.coeff(j, i));
+    }
+  }
+  if (row >= 0) {
+    throw bad_input(entry_text(name, row, col), show(m.coeff(row, col)),
+                    std::string("a symmetric matrix, but ")
+                        .append(entry_text(name, col, row))
+                        .append(" is ")
+                        .append(show(m.coeff(col, row))));
+  }
+}
+
+}  // namespace slant::detail

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+//
+// A diagonal matrix. Unlike other matrices its laws can be verified at no cost, and are:
+//
+//     auto D = slant::diagonal(d);                              // self-adjoint
+//     auto P = slant::diagonal<slant::positive_definite>(d);    // throws unless all d_i > 0
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/operators/detail/checks.hpp>
+#include <slant/operators/held.hpp>
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// y_i = d_i x_i. D is `Vector const&` (referenced) or a vector type (owned).
+template <class D, law_set L = slant::laws<slant::self_adjoint>>
+class diagonal_operator {
+  using vector_type = std::remove_cvref_t<D>;
+
+ public:
+  using scalar = scalar_t<vector_type>;
+  static constexpr law_set laws = L | slant::laws<slant::self_adjoint>;
+
+  explicit diagonal_operator(held<D> d) : d_(std::move(d)) {}
+
+  [[nodiscard]] index rows() const { return entries().size(); }
+  [[nodiscard]] index cols() const { return entries().size(); }
+  /// The vector d.
+  [[nodiscard]] decltype(auto) entries() const { return slant::local(d_.get()); }
+
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, scalar>
+  void apply(X const& x, Y& y) const {
+    slant::local(y).noalias() = entries().asDiagonal() * slant::local(x);
+  }
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, scalar>
+  void apply_add(scalar α, X const& x, Y& y) const {
+    slant::local(y).noalias() += (α * entries()).asDiagonal() * slant::local(x);
+  }
+  template <class Y>
+    requires std::same_as<scalar_t<Y>, scalar>
+  void diagonal(Y& d) const {
+    slant::local(d) = entries();
+  }
+  template <class Y>
+    requires std::same_as<scalar_t<Y>, scalar>
+  void columns(index first, Y& y) const {
+    slant::local(y).setZero();
+    for (index j = 0; j < slant::local(y).cols(); ++j) {
+      slant::local(y)(first + j, j) = entries()[first + j];
+    }
+  }
+  /// diag(1/d), where the laws exclude zeros.
+  [[nodiscard]] auto inverse() const
+    requires(laws.contains(law::positive_definite))
+  {
+    using plain = plain_t<local_t<vector_type>>;
+    plain reciprocal = entries().cwiseInverse();
+    return diagonal_operator<plain, slant::laws<slant::self_adjoint, slant::positive_definite>>{
+        held<plain>(std::move(reciprocal))};
+  }
+
+ private:
+  held<D> d_;
+};
+
+namespace detail {
+
+template <law_set L, class D>
+void require_diagonal_laws(D const& d) {
+  using S = typename D::Scalar;
+  for (index i = 0; i < d.size(); ++i) {
+    S const value = d[i];
+    auto const require = [&](bool holds, char const* expectation) {
+      if (!holds) throw bad_input("d", show(value), expectation).at(i);
+    };
+    require(finite_number(value), "a finite number");
+    if constexpr (L.contains(law::positive_definite)) require(value > S(0), "a number > 0");
+    if constexpr (L.contains(law::positive_semidefinite)) require(value >= S(0), "a number >= 0");
+    if constexpr (L.contains(law::projector)) require(value == S(0) || value == S(1), "0 or 1");
+    if constexpr (L.contains(law::firmly_nonexpansive)) {
+      require(value >= S(0) && value <= S(1), "a number in [0, 1]");
+    }
+  }
+}
+
+}  // namespace detail
+
+/// diag(d), referenced if d is an lvalue. Throws bad_input if an entry is not finite or breaks one
+/// of the laws.
+template <law... L, class D>
+  requires has_local<std::remove_cvref_t<D>> || has_like<std::remove_cvref_t<D>>
+[[nodiscard]] auto diagonal(D&& d) {
+  using plain = plain_t<std::remove_cvref_t<D>>;
+  using kept = std::conditional_t<std::is_same_v<plain, std::remove_cvref_t<D>>, kept_t<D>, plain>;
+  diagonal_operator<kept, slant::laws<L...>> a{held<kept>(std::forward<D>(d))};
+  detail::require_diagonal_laws<slant::laws<L...>>(a.entries());
+  return a;
+}
+
+}  // namespace slant

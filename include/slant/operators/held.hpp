@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// How compositions keep their parts: what was passed as an lvalue is referenced, what was passed as
+// an rvalue is owned (the rule of std::views). So `sum(A, scaled(2, B))` copies neither A nor B,
+// and owns the small object that scaled() made.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// How an argument of deduced type T (of a parameter T&&) is kept: `U const&` for an lvalue, the
+/// plain type for an rvalue.
+template <class T>
+using kept_t = std::conditional_t<std::is_lvalue_reference_v<T>, std::remove_reference_t<T> const&,
+                                  std::remove_cvref_t<T>>;
+
+/// One kept part. held<U const&> points to an object that must outlive it, held<U> owns a U. Both
+/// can be copied and moved if U can; access is read-only.
+template <class T>
+class held {
+  static_assert(std::is_same_v<T, std::remove_cvref_t<T>>, "use kept_t<T> for the type of a part");
+
+ public:
+  using type = T;
+
+  held(T&& value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  held(T const& value)                           // NOLINT(google-explicit-constructor)
+    requires std::is_copy_constructible_v<T>
+      : value_(value) {}
+
+  [[nodiscard]] T const& get() const noexcept { return value_; }
+
+ private:
+  T value_;
+};
+
+template <class T>
+class held<T const&> {
+ public:
+  using type = T;
+
+  held(T const& value) noexcept  // NOLINT(google-explicit-constructor)
+      : pointer_(std::addressof(value)) {}
+
+  [[nodiscard]] T const& get() const noexcept { return *pointer_; }
+
+ private:
+  T const* pointer_;
+};
+
+}  // namespace slant

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// The inverse as an operator: of a factorisation, y = K⁻¹x by a solve, or of an operator that knows
+// its own inverse. Closure: self-adjoint and definite if K is.
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/factorization.hpp>
+#include <slant/operators/detail/applicable.hpp>
+#include <slant/operators/detail/closure.hpp>
+#include <slant/operators/held.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// y = K⁻¹ x. F, a factorisation of K, is `Factorization const&` (referenced) or owned.
+template <class F>
+class inverse_operator {
+  using part = std::remove_cvref_t<F>;
+
+  template <class X, class Y>
+  static constexpr bool solves = requires(part const& f, X const& x, Y& y) { f.solve(x, y); } ||
+                                 requires(part const& f, X const& x, Y& y,
+                                          workspace_t<part, plain_t<X>>& w) { f.solve(x, y, w); };
+
+ public:
+  static constexpr law_set laws = detail::inverse_laws(laws_of<F>);
+
+  explicit inverse_operator(held<F> f) : f_(std::move(f)) {}
+
+  [[nodiscard]] index rows() const { return f_.get().rows(); }
+  [[nodiscard]] index cols() const { return f_.get().rows(); }
+  /// The factorisation itself.
+  [[nodiscard]] part const& factors() const noexcept { return f_.get(); }
+
+  template <class X>
+    requires factorization<part, plain_t<X>>
+  [[nodiscard]] auto workspace(X const& x) const {
+    return slant::workspace(f_.get(), x);
+  }
+  template <class X, class Y, class W>
+    requires solves<X, Y>
+  void apply(X const& x, Y& y, W& w) const {
+    if constexpr (requires { f_.get().solve(x, y, w); }) {
+      f_.get().solve(x, y, w);
+    } else {
+      f_.get().solve(x, y);
+    }
+  }
+  template <class X, class Y, class W>
+    requires factorization<part, plain_t<X>> &&
+             requires(part const& f, X const& x, Y& y) { f.solve_adjoint(x, y); }
+  void apply_adjoint(X const& x, Y& y, W&) const {
+    f_.get().solve_adjoint(x, y);
+  }
+  /// Solves with unit vectors, where the factorisation takes several right-hand sides.
+  template <class Y>
+    requires factorization<part, plain_t<Y>>
+  void columns(index first, Y& y) const {
+    slant::apply(*this, detail::unit_columns(y, rows(), first), y);
+  }
+
+ private:
+  held<F> f_;
+};
+
+namespace detail {
+
+/// A factorisation has solve, which operators do not have, and need not have cols.
+template <class F> concept factorization_like = has_rows<F> && !has_cols<F>;
+
+}  // namespace detail
+
+/// The inverse of a factored matrix.
+template <class F>
+  requires detail::factorization_like<std::remove_cvref_t<F>>
+[[nodiscard]] auto inverse(F&& factors) {
+  return inverse_operator<kept_t<F>>{held<kept_t<F>>(std::forward<F>(factors))};
+}
+
+/// The inverse of an operator that knows it.
+template <class A>
+  requires(detail::knows_its_inverse<std::remove_cvref_t<A>> &&
+           !detail::factorization_like<std::remove_cvref_t<A>>)
+[[nodiscard]] auto inverse(A&& a) {
+  return a.inverse();
+}
+
+}  // namespace slant

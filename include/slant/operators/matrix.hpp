@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+//
+// A sparse or dense Eigen matrix as an operator.
+//
+//     auto A = slant::matrix(M);                                          // promises nothing
+//     auto K = slant::matrix<slant::self_adjoint, slant::positive_definite>(M);
+//     auto S = slant::matrix<slant::self_adjoint>(M, slant::check_symmetry);
+//
+// Laws are asserted by the caller: definiteness costs a factorisation to verify. Symmetry is
+// verified only on request, in one pass over the entries.
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/operators/detail/checks.hpp>
+#include <slant/operators/detail/matrix_entries.hpp>
+#include <slant/operators/held.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// An Eigen matrix or matrix expression, dense or sparse.
+template <class M>
+concept eigen_matrix =
+    std::is_base_of_v<Eigen::EigenBase<std::remove_cvref_t<M>>, std::remove_cvref_t<M>> &&
+    requires(std::remove_cvref_t<M> const& m) { typename std::remove_cvref_t<M>::PlainObject; };
+
+/// y = M x. M is `Matrix const&` (referenced) or a matrix type (owned); L are the asserted laws.
+template <class M, law_set L = law_set{}>
+class matrix_operator {
+ public:
+  using matrix_type = std::remove_cvref_t<M>;
+  using scalar = typename matrix_type::Scalar;
+  static constexpr law_set laws = L;
+
+  explicit matrix_operator(held<M> m) : m_(std::move(m)) {}
+
+  [[nodiscard]] index rows() const { return m_.get().rows(); }
+  [[nodiscard]] index cols() const { return m_.get().cols(); }
+  /// The matrix itself.
+  [[nodiscard]] matrix_type const& get() const noexcept { return m_.get(); }
+
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, scalar>
+  void apply(X const& x, Y& y) const {
+    slant::local(y).noalias() = m_.get() * slant::local(x);
+  }
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, scalar>
+  void apply_add(scalar α, X const& x, Y& y) const {
+    multiply_add(m_.get(), α, slant::local(x), slant::local(y));
+  }
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, scalar>
+  void apply_adjoint(X const& x, Y& y) const {
+    slant::local(y).noalias() = m_.get().transpose() * slant::local(x);
+  }
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, scalar>
+  void apply_adjoint_add(scalar α, X const& x, Y& y) const {
+    multiply_add(m_.get().transpose(), α, slant::local(x), slant::local(y));
+  }
+
+  /// d = diag(M) of a square matrix.
+  template <class D>
+    requires std::same_as<scalar_t<D>, scalar>
+  void diagonal(D& d) const {
+    slant::local(d) = m_.get().diagonal();
+  }
+  template <class Y>
+    requires std::same_as<scalar_t<Y>, scalar>
+  void columns(index first, Y& y) const {
+    slant::local(y) = m_.get().middleCols(first, slant::local(y).cols());
+  }
+
+ private:
+  template <class T, class X, class Y>
+  static void multiply_add(T const& m, scalar α, X const& x, Y&& y) {
+    if constexpr (std::is_base_of_v<Eigen::SparseMatrixBase<T>, T>) {
+      // Eigen's kernel takes α; `y += α * (m * x)` would scale every entry of m, and
+      // `y += m * (α * x)` allocates for row-major m.
+      Eigen::internal::sparse_time_dense_product(m, x, y, α);
+    } else {
+      y.noalias() += α * (m * x);
+    }
+  }
+
+  held<M> m_;
+};
+
+namespace detail {
+
+/// How a matrix is kept: stored matrices (also Map and Ref) like any part, expressions evaluated.
+template <class M>
+inline constexpr bool is_stored_matrix = [] {
+  using T = std::remove_cvref_t<M>;
+  if constexpr (std::is_base_of_v<Eigen::SparseMatrixBase<T>, T>) {
+    return std::is_base_of_v<Eigen::SparseCompressedBase<T>, T>;
+  } else {
+    return (Eigen::internal::traits<T>::Flags & Eigen::DirectAccessBit) != 0;
+  }
+}();
+
+template <class M>
+using kept_matrix_t = std::conditional_t<std::is_lvalue_reference_v<M> && is_stored_matrix<M>,
+                                         kept_t<M>, typename std::remove_cvref_t<M>::PlainObject>;
+
+}  // namespace detail
+
+struct check_symmetry_t {};
+/// Asks matrix() to verify that its argument is symmetric up to rounding.
+inline constexpr check_symmetry_t check_symmetry{};
+
+/// The operator y = M x with the asserted laws. Throws bad_input if an entry is NaN or infinite,
+/// or if laws are asserted that only square matrices have.
+template <law... L, class M>
+  requires eigen_matrix<M>
+[[nodiscard]] auto matrix(M&& m) {
+  matrix_operator<detail::kept_matrix_t<M>, slant::laws<L...>> a{
+      held<detail::kept_matrix_t<M>>(std::forward<M>(m))};
+  if constexpr (sizeof...(L) > 0) detail::require_square("M", a);
+  detail::require_finite_entries("M", a.get());
+  return a;
+}
+
+/// As above, and throws bad_input naming the worst pair if M is not symmetric up to rounding.
+template <law... L, class M>
+  requires eigen_matrix<M>
+[[nodiscard]] auto matrix(M&& m, check_symmetry_t) {
+  auto a = slant::matrix<L...>(std::forward<M>(m));
+  detail::require_square("M", a);
+  detail::require_symmetric_entries("M", a.get());
+  return a;
+}
+
+}  // namespace slant

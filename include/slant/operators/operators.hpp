@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// All operators.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/operators/adjoint.hpp>
+#include <slant/operators/any_operator.hpp>
+#include <slant/operators/as_operator.hpp>
+#include <slant/operators/block.hpp>
+#include <slant/operators/block_diagonal.hpp>
+#include <slant/operators/congruence.hpp>
+#include <slant/operators/counted.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/difference.hpp>
+#include <slant/operators/held.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/operators/inverse.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
+#include <slant/operators/restriction.hpp>
+#include <slant/operators/scaled.hpp>
+#include <slant/operators/schur_complement.hpp>
+#include <slant/operators/sum.hpp>
+#include <slant/operators/timed.hpp>
+#include <slant/operators/zero.hpp>
+// IWYU pragma: end_exports

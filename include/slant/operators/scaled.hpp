@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+//
+// A multiple of an operator. Closure: self-adjoint if A is. The sign of c is a value and laws
+// belong to types, so definiteness survives only for `positive(c)`, which checks c > 0:
+//
+//     auto S = slant::scaled(-2.0, A);                  // self-adjoint if A is
+//     auto P = slant::scaled(slant::positive(2.0), A);  // also definite if A is
+#pragma once
+
+#include <slant/operators/as_operator.hpp>
+#include <slant/operators/detail/applicable.hpp>
+#include <slant/operators/detail/closure.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// A number known to be positive.
+template <class S>
+struct positive_factor {
+  S value;
+};
+
+/// Marks c as positive. Throws bad_input unless 0 < c < ∞.
+template <class S>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] positive_factor<S> positive(S c) {
+  if (!(c > S(0)) || !detail::finite_number(c)) {
+    throw bad_input("c", detail::show(c), "a finite number > 0");
+  }
+  return {c};
+}
+
+/// y = c A x. A is `Operator const&` (referenced) or an operator type (owned).
+template <class S, class A, bool Positive>
+class scaled_operator {
+  using part = std::remove_cvref_t<A>;
+
+ public:
+  static constexpr law_set laws = detail::scaled_laws(laws_of<A>, Positive);
+
+  /// c is finite, and > 0 if Positive; slant::scaled checks it.
+  scaled_operator(S c, held<A> a) : c_(std::move(c)), a_(std::move(a)) {}
+
+  [[nodiscard]] index rows() const { return a_.get().rows(); }
+  [[nodiscard]] index cols() const { return a_.get().cols(); }
+  [[nodiscard]] S const& factor() const noexcept { return c_; }
+
+  template <class X>
+    requires linear_operator<part, plain_t<X>>
+  [[nodiscard]] auto workspace(X const& x) const {
+    return slant::workspace(a_.get(), x);
+  }
+  template <class X, class Y, class W>
+    requires detail::applies<part, X, Y>
+  void apply(X const& x, Y& y, W& w) const {
+    slant::apply(a_.get(), x, y, w);
+    slant::local(y) *= factor_as<X>();
+  }
+  template <class X, class Y, class W>
+    requires detail::accumulates<part, X, Y>
+  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    slant::apply_add(a_.get(), scalar_t<X>(α * factor_as<X>()), x, y, w);
+  }
+
+  template <class X>
+    requires has_adjoint<part, plain_t<X>>
+  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+    return slant::adjoint_workspace(a_.get(), x);
+  }
+  template <class X, class Y, class W>
+    requires detail::applies_adjoint<part, X, Y>
+  void apply_adjoint(X const& x, Y& y, W& w) const {
+    slant::apply_adjoint(a_.get(), x, y, w);
+    slant::local(y) *= factor_as<X>();
+  }
+  template <class X, class Y, class W>
+    requires detail::accumulates_adjoint<part, X, Y>
+  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    slant::apply_adjoint_add(a_.get(), scalar_t<X>(α * factor_as<X>()), x, y, w);
+  }
+
+  template <class D>
+    requires has_diagonal<part, D>
+  void diagonal(D& d) const {
+    a_.get().diagonal(d);
+    slant::local(d) *= factor_as<D>();
+  }
+  template <class Y>
+    requires has_columns<part, Y>
+  void columns(index first, Y& y) const {
+    a_.get().columns(first, y);
+    slant::local(y) *= factor_as<Y>();
+  }
+  [[nodiscard]] auto inverse() const
+    requires(Positive && detail::knows_its_inverse<part>)
+  {
+    using inverse_part = std::remove_cvref_t<decltype(a_.get().inverse())>;
+    using factor_type = std::conditional_t<std::is_integral_v<S>, double, S>;
+    return scaled_operator<factor_type, inverse_part, true>{factor_type(1) / factor_type(c_),
+                                                            held<inverse_part>(a_.get().inverse())};
+  }
+
+ private:
+  template <class X>
+  [[nodiscard]] scalar_t<X> factor_as() const {
+    return static_cast<scalar_t<X>>(c_);
+  }
+
+  S c_;
+  held<A> a_;
+};
+
+/// c A for a positive factor: keeps definiteness.
+template <class S, operand A>
+[[nodiscard]] auto scaled(positive_factor<S> c, A&& a) {
+  return scaled_operator<S, part_t<A>, true>{
+      c.value, held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+}
+
+/// c A. Throws bad_input if c is NaN or infinite.
+template <class S, operand A>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] auto scaled(S c, A&& a) {
+  if (!detail::finite_number(c)) throw bad_input("c", detail::show(c), "a finite number");
+  return scaled_operator<S, part_t<A>, false>{
+      c, held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+}
+
+}  // namespace slant

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+//
+// What a law check found: which law, and the numbers that show it.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::testing {
+
+/// A law found broken.
+struct breach {
+  std::string law;
+  std::string evidence;
+};
+
+/// The first breach of each law; one is enough to find the mistake.
+class breach_log {
+ public:
+  void operator()(std::string const& law, std::string evidence) {
+    bool const known =
+        std::any_of(found_.begin(), found_.end(), [&](breach const& b) { return b.law == law; });
+    if (!known) found_.push_back({law, std::move(evidence)});
+  }
+  [[nodiscard]] std::vector<breach> const& found() const { return found_; }
+
+ private:
+  std::vector<breach> found_;
+};
+
+}  // namespace slant::testing

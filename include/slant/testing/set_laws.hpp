@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// The laws of convex sets as a check for doctest suites:
+//
+//     TEST_CASE("my set keeps its word") { slant::testing::check_set_laws(my_set{…}); }
+//
+// What is sampled is described in set_breaches.hpp.
+#pragma once
+
+#include <slant/testing/set_breaches.hpp>
+
+#include <doctest/doctest.h>
+
+namespace slant::testing {
+
+/// One doctest CHECK, with each broken law and the numbers that show it. Arguments as for
+/// set_breaches: the set, a vector of the kind it takes if that is no Eigen vector, options.
+template <class C, class... Rest>
+void check_set_laws(C const& set, Rest const&... rest) {
+  std::string text;
+  for (auto const& broken : set_breaches(set, rest...)) {
+    text += broken.law + " (" + broken.evidence + ")\n";
+  }
+  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+}
+
+}  // namespace slant::testing

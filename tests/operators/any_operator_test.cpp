@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/any_operator.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/operators/product.hpp>
+#include <slant/operators/sum.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using any = slant::any_operator<VectorXd>;
+using any_spd =
+    slant::any_operator<VectorXd, slant::laws<slant::self_adjoint, slant::positive_definite>>;
+
+TEST_CASE("operators of different types in one container") {
+  MatrixXd const m = test::random_dense(3, 3, 1);
+  std::vector<any> operators;
+  operators.emplace_back(m);
+  operators.emplace_back(slant::identity(3));
+  operators.emplace_back(slant::product(m, m));
+  operators.push_back(operators[2]);  // shares
+  CHECK(test::matches(operators[0], m));
+  CHECK(test::matches(operators[1], MatrixXd(MatrixXd::Identity(3, 3))));
+  CHECK(test::matches(operators[2], MatrixXd(m * m)));
+  CHECK(test::matches(operators[3], MatrixXd(m * m)));
+  for (auto const& a : operators) slant::testing::check_operator_laws(a);
+  CHECK(test::matches(slant::sum(operators[0], operators[1], operators[2]),
+                      MatrixXd(m + MatrixXd::Identity(3, 3) + m * m)));
+}
+
+TEST_CASE("laws are part of the type and must be declared by what is put in") {
+  MatrixXd const m = test::random_spd(3, 2);
+  using definite = decltype(slant::matrix<slant::self_adjoint, slant::positive_definite>(m));
+  using symmetric = decltype(slant::matrix<slant::self_adjoint>(m));
+  static_assert(slant::spd_operator<any_spd, VectorXd>);
+  static_assert(!slant::self_adjoint_operator<any, VectorXd>);
+  static_assert(std::is_constructible_v<any_spd, definite>);
+  static_assert(!std::is_constructible_v<any_spd, symmetric>);
+  static_assert(std::is_constructible_v<any, any_spd>);
+  static_assert(!std::is_constructible_v<any_spd, any>);
+  static_assert(!std::is_constructible_v<any, slant::testing::archetype::linear_operator>);
+  any_spd const a = slant::matrix<slant::self_adjoint, slant::positive_definite>(m);
+  slant::testing::check_operator_laws(a);
+}
+
+TEST_CASE("lvalues are referenced, rvalues owned") {
+  VectorXd d = VectorXd::Ones(2);
+  auto const diagonal = slant::diagonal(d);
+  any const a = diagonal;
+  d[1] = 7;
+  VectorXd y(2);
+  slant::apply(a, VectorXd(VectorXd::Ones(2)), y);
+  CHECK(y[1] == 7);
+}
+
+TEST_CASE("on archetype vectors") {
+  namespace archetype = slant::testing::archetype;
+  slant::any_operator<archetype::vector> const a =
+      archetype::linear_operator(test::random_dense(3, 3, 3));
+  slant::testing::check_operator_laws(a, archetype::vector(VectorXd()));
+}

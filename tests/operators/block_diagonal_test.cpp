@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/block_diagonal.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+namespace archetype = slant::testing::archetype;
+
+TEST_CASE("a block diagonal matrix") {
+  MatrixXd const m = test::random_dense(3, 3, 1);
+  auto const s = test::random_sparse(4, 4, 2);
+  auto const a = slant::block_diagonal(m, slant::zero(2), s);
+  MatrixXd expected = MatrixXd::Zero(9, 9);
+  expected.topLeftCorner(3, 3) = m;
+  expected.bottomRightCorner(4, 4) = s;
+  CHECK(test::matches(a, expected));
+  static_assert(slant::has_accumulate<decltype(a), VectorXd>);
+  static_assert(slant::has_adjoint_accumulate<decltype(a), VectorXd>);
+  static_assert(slant::has_diagonal<decltype(a), VectorXd>);
+  static_assert(slant::has_columns<decltype(a), MatrixXd>);
+  static_assert(!slant::has_inverse<decltype(a), VectorXd>);
+  slant::testing::check_operator_laws(a);
+  slant::testing::check_operator_laws(
+      slant::block_diagonal(test::random_dense(2, 3, 3), test::random_dense(3, 1, 4)));
+}
+
+TEST_CASE("closure: what all blocks promise") {
+  using namespace slant;
+  MatrixXd const m = test::random_spd(3, 5);
+  auto const definite = matrix<self_adjoint, positive_definite>(m);
+  auto const p = slant::diagonal<projector>(VectorXd(VectorXd::Unit(3, 1)));
+  auto const a = block_diagonal(definite, identity(2));
+  static_assert(laws_of<decltype(a)> == laws<law::self_adjoint, law::positive_definite>);
+  testing::check_operator_laws(a);
+  auto const b = block_diagonal(p, identity(2), zero(2));
+  static_assert(laws_of<decltype(b)> == laws<law::self_adjoint, law::projector>);
+  testing::check_operator_laws(b);
+  static_assert(laws_of<decltype(block_diagonal(matrix(m), identity(2)))> == law_set{});
+}
+
+TEST_CASE("the inverse is block diagonal") {
+  auto const d = slant::diagonal<slant::positive_definite>(VectorXd(VectorXd::LinSpaced(3, 1, 4)));
+  auto const a = slant::block_diagonal(d, slant::identity(2));
+  static_assert(slant::has_inverse<decltype(a), VectorXd>);
+  slant::testing::check_operator_laws(a);
+}
+
+TEST_CASE("parts that know only their own vector type work on copies") {
+  archetype::linear_operator const part(test::random_dense(3, 3, 6));
+  auto const a = slant::block_diagonal(part, slant::identity(2), part);
+  archetype::vector const x(test::random_column(8, 7));
+  static_assert(slant::linear_operator<decltype(a), archetype::vector>);
+  static_assert(!slant::has_adjoint<decltype(a), archetype::vector>);
+  static_assert(!slant::has_accumulate<decltype(a), archetype::vector>);
+  slant::testing::check_operator_laws(a, x);
+}

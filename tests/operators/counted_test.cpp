@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/counted.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/sum.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+TEST_CASE("applications are counted by right-hand sides") {
+  MatrixXd const m = test::random_dense(3, 4, 1);
+  auto const a = slant::counted(m);
+  VectorXd const x = test::random_column(4, 2);
+  VectorXd y(3);
+  VectorXd z(4);
+  auto w = slant::workspace(a, x);
+  slant::apply(a, x, y, w);
+  slant::apply_add(a, 2.0, x, y, w);
+  CHECK(a.counts().applications == 2);
+  CHECK(a.counts().calls == 2);
+  CHECK((y - 3 * m * x).norm() < 1e-14);
+
+  slant::apply_adjoint(a, y, z);
+  CHECK(a.counts().adjoint_applications == 1);
+  CHECK(a.counts().calls == 3);
+
+  MatrixXd const many = MatrixXd::Ones(4, 5);
+  MatrixXd images(3, 5);
+  slant::apply(a, many, images);
+  CHECK(a.counts().applications == 7);
+  CHECK(a.counts().calls == 4);
+
+  MatrixXd columns(3, 2);
+  a.columns(1, columns);
+  CHECK(a.counts().columns == 2);
+  CHECK(columns == m.middleCols(1, 2));
+  CHECK(a.counts().applications == 7);
+
+  a.reset_counts();
+  CHECK(a.counts().applications + a.counts().adjoint_applications + a.counts().calls +
+            a.counts().columns ==
+        0);
+}
+
+TEST_CASE("laws and capabilities are those of the operator inside") {
+  using namespace slant;
+  auto const d = slant::diagonal<positive_definite>(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
+  auto const a = counted(d);
+  static_assert(laws_of<decltype(a)> == laws_of<decltype(d)>);
+  static_assert(has_diagonal<decltype(a), VectorXd> && has_inverse<decltype(a), VectorXd>);
+  static_assert(has_columns<decltype(a), MatrixXd> && has_accumulate<decltype(a), VectorXd>);
+  testing::check_operator_laws(a);
+
+  namespace archetype = slant::testing::archetype;
+  auto const bare = counted(archetype::linear_operator(test::random_dense(3, 3, 3)));
+  static_assert(!has_adjoint<decltype(bare), archetype::vector>);
+  static_assert(!has_accumulate<decltype(bare), archetype::vector>);
+  static_assert(!linear_operator<decltype(bare), VectorXd>);
+  testing::check_operator_laws(bare, archetype::vector(VectorXd()));
+}
+
+TEST_CASE("copies count together") {
+  auto const a = slant::counted(MatrixXd(MatrixXd::Identity(2, 2)));
+  auto const copy = a;
+  auto const s = slant::sum(copy, a);
+  VectorXd y(2);
+  slant::apply(s, VectorXd(VectorXd::Ones(2)), y);
+  CHECK(a.counts().applications == 2);
+  CHECK(copy.counts().applications == 2);
+}
+
+TEST_CASE("no application is lost between threads") {
+  auto const a = slant::counted(MatrixXd(MatrixXd::Identity(2, 2)));
+  VectorXd const x = VectorXd::Ones(2);
+  std::vector<VectorXd> results(2, x);
+  auto const work = [&](VectorXd& y) {
+    for (int k = 0; k < 1000; ++k) slant::apply(a, x, y);
+  };
+  std::thread other(work, std::ref(results[0]));
+  work(results[1]);
+  other.join();
+  CHECK(a.applications() == 2000);
+}

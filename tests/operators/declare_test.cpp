@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/declare.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/product.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+TEST_CASE("a product of commuting matrices is declared to be what it is") {
+  using namespace slant;
+  MatrixXd const m = test::random_spd(4, 1);
+  auto const p = product(m, m);
+  auto const a = declare<self_adjoint, positive_definite>(p);
+  static_assert(!self_adjoint_operator<decltype(p), VectorXd>);
+  static_assert(spd_operator<decltype(a), VectorXd>);
+  static_assert(has_accumulate<decltype(a), VectorXd>);
+  static_assert(has_columns<decltype(a), MatrixXd>);
+  CHECK(&a.get() == &p);
+  CHECK(test::matches(a, MatrixXd(m * m)));
+  testing::check_operator_laws(a);
+}
+
+TEST_CASE("laws of the operator are kept, with what follows from both") {
+  using namespace slant;
+  auto const d = slant::diagonal<projector>(VectorXd(VectorXd::Unit(3, 1)));
+  auto const p = declare<projector>(matrix<self_adjoint>(MatrixXd(MatrixXd::Identity(3, 3))));
+  static_assert(laws_of<decltype(p)> == laws_of<decltype(d)>);
+  static_assert(declares_firmly_nonexpansive<decltype(p)>);
+  testing::check_operator_laws(p);
+}
+
+TEST_CASE("a false declaration is found by the law check") {
+  MatrixXd const m = test::random_dense(4, 4, 2);
+  CHECK(!slant::testing::operator_breaches(slant::declare<slant::self_adjoint>(m)).empty());
+}
+
+TEST_CASE("only square operators have laws") {
+  CHECK(test::message<slant::bad_input>([] {
+          (void)slant::declare<slant::self_adjoint>(MatrixXd(MatrixXd::Ones(2, 3)));
+        }) == "A: got 2 x 3, expected a square operator");
+}

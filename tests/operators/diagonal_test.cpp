@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/diagonal.hpp>
+
+#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::VectorXd;
+
+TEST_CASE("a diagonal matrix") {
+  VectorXd d = VectorXd::LinSpaced(6, -2, 3);
+  auto const a = slant::diagonal(d);
+  CHECK(test::matches(a, Eigen::MatrixXd(d.asDiagonal()), 0));
+  static_assert(slant::self_adjoint_operator<decltype(a), VectorXd>);
+  static_assert(!slant::has_inverse<decltype(a), VectorXd>);
+  slant::testing::check_operator_laws(a);
+  d[0] = 17;  // referenced
+  CHECK(a.entries()[0] == 17);
+}
+
+TEST_CASE("temporaries are owned, expressions evaluated") {
+  VectorXd const d = VectorXd::LinSpaced(4, 1, 4);
+  CHECK(test::matches(slant::diagonal(VectorXd(d)), Eigen::MatrixXd(d.asDiagonal()), 0));
+  CHECK(test::matches(slant::diagonal(2 * d), Eigen::MatrixXd((2 * d).asDiagonal()), 0));
+  auto const expression = d.cwiseInverse();
+  CHECK(test::matches(slant::diagonal(expression), Eigen::MatrixXd(expression.asDiagonal()), 0));
+}
+
+TEST_CASE("definite ones have an inverse") {
+  auto const a = slant::diagonal<slant::positive_definite>(VectorXd(VectorXd::LinSpaced(4, 1, 4)));
+  static_assert(slant::spd_operator<decltype(a), VectorXd>);
+  static_assert(slant::has_inverse<decltype(a), VectorXd>);
+  static_assert(slant::spd_operator<decltype(a.inverse()), VectorXd>);
+  slant::testing::check_operator_laws(a);
+}
+
+TEST_CASE("laws are verified") {
+  using namespace slant;
+  VectorXd d = VectorXd::Ones(3);
+  auto const reason = [&](auto make) { return test::message<bad_input>([&] { make(d); }); };
+  auto const any = [](auto const& v) { (void)slant::diagonal(v); };
+  auto const definite = [](auto const& v) { (void)slant::diagonal<positive_definite>(v); };
+  auto const semidefinite = [](auto const& v) { (void)slant::diagonal<positive_semidefinite>(v); };
+  auto const projection = [](auto const& v) { (void)slant::diagonal<projector>(v); };
+  auto const firm = [](auto const& v) { (void)slant::diagonal<firmly_nonexpansive>(v); };
+
+  for (double const allowed : {0.0, 1.0}) {
+    d[1] = allowed;
+    semidefinite(d);
+    projection(d);
+    firm(d);
+  }
+  d[1] = 0;
+  CHECK(reason(definite) == "d[1]: got 0, expected a number > 0");
+  d[1] = -2;
+  any(d);
+  CHECK(reason(semidefinite) == "d[1]: got -2, expected a number >= 0");
+  d[1] = 0.5;
+  firm(d);
+  CHECK(reason(projection) == "d[1]: got 0.5, expected 0 or 1");
+  d[1] = 1.5;
+  CHECK(reason(firm) == "d[1]: got 1.5, expected a number in [0, 1]");
+  d[1] = std::numeric_limits<double>::infinity();
+  CHECK(reason(any) == "d[1]: got inf, expected a finite number");
+  d[1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(reason(any) == "d[1]: got nan, expected a finite number");
+}
+
+TEST_CASE("entries may be any kind of vector") {
+  slant::testing::archetype::vector const d(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
+  slant::testing::check_operator_laws(slant::diagonal(d), d);
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/matrix.hpp>
+
+#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using row_major_sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using row_major_dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+TEST_CASE_TEMPLATE("every storage is the same operator", M, MatrixXd, row_major_dense,
+                   Eigen::SparseMatrix<double>, row_major_sparse) {
+  Eigen::SparseMatrix<double> const s = test::random_sparse(5, 8, 1);
+  M const m(s);
+  auto const a = slant::matrix(m);
+  CHECK(test::matches(a, MatrixXd(s)));
+  slant::testing::check_operator_laws(a);
+
+  M const square(test::random_sparse(6, 6, 2));
+  auto const b = slant::matrix(square);
+  slant::testing::check_operator_laws(b);  // the diagonal, too
+  VectorXd d(6);
+  b.diagonal(d);
+  CHECK(d == MatrixXd(square).diagonal());
+}
+
+TEST_CASE("stored matrices are referenced, temporaries owned, expressions evaluated") {
+  MatrixXd m = test::random_dense(3, 3, 3);
+  auto const reference = slant::matrix(m);
+  CHECK(&reference.get() == &m);
+  static_assert(std::is_same_v<decltype(reference), slant::matrix_operator<MatrixXd const&> const>);
+
+  double const* const data = m.data();
+  auto const owner = slant::matrix(std::move(m));
+  CHECK(owner.get().data() == data);
+  static_assert(std::is_same_v<decltype(owner), slant::matrix_operator<MatrixXd> const>);
+
+  auto const expression = owner.get() + owner.get();
+  auto const value = slant::matrix(expression);
+  static_assert(std::is_same_v<decltype(value), slant::matrix_operator<MatrixXd> const>);
+  CHECK(test::matches(value, MatrixXd(2 * owner.get())));
+
+  Eigen::Map<MatrixXd const> const map(data, 3, 3);
+  CHECK(slant::matrix(map).get().data() == data);
+
+  Eigen::SparseMatrix<double> const s = test::random_sparse(4, 4, 4);
+  CHECK(test::matches(slant::matrix(s + s), MatrixXd(2 * s)));
+  CHECK(test::matches(slant::matrix(s.transpose()), MatrixXd(s.transpose())));
+}
+
+TEST_CASE("an uncompressed sparse matrix") {
+  Eigen::SparseMatrix<double> s(4, 4);
+  s.reserve(Eigen::VectorXi::Constant(4, 3));
+  s.insert(2, 1) = 5;
+  s.insert(0, 3) = -1;
+  REQUIRE(!s.isCompressed());
+  auto const a = slant::matrix(s);
+  CHECK(test::matches(a, MatrixXd(s)));
+  slant::testing::check_operator_laws(a);
+}
+
+TEST_CASE("laws are asserted") {
+  using namespace slant;
+  MatrixXd const k = test::random_spd(4, 5);
+  auto const a = matrix<self_adjoint, positive_definite>(k);
+  static_assert(spd_operator<decltype(a), VectorXd>);
+  static_assert(!self_adjoint_operator<decltype(matrix(k)), VectorXd>);
+  testing::check_operator_laws(a);
+  auto const b = matrix<self_adjoint>(k, check_symmetry);
+  static_assert(self_adjoint_operator<decltype(b), VectorXd>);
+  CHECK(test::message<bad_input>([] {
+          (void)matrix<self_adjoint>(MatrixXd(MatrixXd::Ones(2, 3)));
+        }) == "M: got 2 x 3, expected a square operator");
+}
+
+TEST_CASE("symmetry is checked on request, relative to the scale of the entries") {
+  using slant::bad_input;
+  for (double const scale : {1.0, 1e-150, 1e150}) {
+    MatrixXd m = scale * MatrixXd(test::random_spd(5, 6));
+    MatrixXd const symmetric = (m + m.transpose()) / 2;
+    m = symmetric;
+    m(1, 3) *= 1 + 4 * std::numeric_limits<double>::epsilon();
+    CHECK_NOTHROW((void)slant::matrix(m, slant::check_symmetry));
+    m(1, 3) += 1e-9 * scale;
+    m(0, 2) += 2e-9 * scale;
+    for (bool const sparse : {false, true}) {
+      auto const text = test::message<bad_input>([&] {
+        if (sparse) {
+          (void)slant::matrix(Eigen::SparseMatrix<double>(m.sparseView()), slant::check_symmetry);
+        } else {
+          (void)slant::matrix(m, slant::check_symmetry);
+        }
+      });
+      // the worst pair
+      CHECK((text.rfind("M(0, 2): got ", 0) == 0 || text.rfind("M(2, 0): got ", 0) == 0));
+      CHECK(text.find("expected a symmetric matrix, but M(") != std::string::npos);
+    }
+  }
+  Eigen::SparseMatrix<double> one_sided(3, 3);
+  one_sided.insert(0, 0) = one_sided.insert(1, 1) = one_sided.insert(2, 2) = 1;
+  one_sided.insert(2, 0) = 0.5;
+  CHECK(test::message<bad_input>([&] { (void)slant::matrix(one_sided, slant::check_symmetry); }) ==
+        "M(2, 0): got 0.5, expected a symmetric matrix, but M(0, 2) is 0");
+}
+
+TEST_CASE("entries that are no numbers are named") {
+  MatrixXd m = MatrixXd::Identity(3, 3);
+  m(2, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(test::message<slant::bad_input>([&] { (void)slant::matrix(m); }) ==
+        "M(2, 1): got nan, expected a finite number");
+  Eigen::SparseMatrix<double> s(3, 3);
+  s.insert(0, 2) = -std::numeric_limits<double>::infinity();
+  CHECK(test::message<slant::bad_input>([&] { (void)slant::matrix(s); }) ==
+        "M(0, 2): got -inf, expected a finite number");
+}
+
+TEST_CASE("only vectors of the same scalar, of any kind") {
+  using A = slant::matrix_operator<MatrixXd>;
+  static_assert(slant::linear_operator<A, VectorXd>);
+  static_assert(slant::linear_operator<A, slant::testing::archetype::vector>);
+  static_assert(slant::applies_to_many<A, MatrixXd>);
+  static_assert(!slant::linear_operator<A, Eigen::VectorXf>);
+  static_assert(!slant::has_columns<A, Eigen::MatrixXf>);
+  MatrixXd const m = test::random_dense(3, 3, 7);
+  slant::testing::check_operator_laws(slant::matrix(m),
+                                      slant::testing::archetype::vector(VectorXd()));
+}

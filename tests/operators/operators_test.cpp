@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+//
+// All operators together: every scalar, lifetimes of nested compositions, and no allocation.
+#include <slant/operators/operators.hpp>
+
+#include <slant/factorizations/ldlt.hpp>
+
+#include <doctest/doctest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <vector>
+
+#include "operators/dense_oracle.hpp"
+#include "support/allocation_guard.hpp"
+
+namespace {
+
+using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                                     boost::multiprecision::et_off>;
+
+/// A composition made from temporaries that are long gone when it is applied.
+template <class S>
+auto composition(Eigen::SparseMatrix<S> const& b, test::dense<S> const& k) {
+  auto dual = slant::congruence(b, slant::inverse(slant::ldlt<S>(k.sparseView())));
+  auto shift = slant::scaled(slant::positive(S(2)), slant::identity(b.rows()));
+  auto d = slant::diagonal(test::column<S>::LinSpaced(b.rows(), S(0), S(1)));
+  return slant::block(
+      slant::block_row(slant::sum(std::move(dual), std::move(shift), std::move(d)),
+                       slant::product(b, slant::adjoint(b))),
+      slant::block_row(slant::zero(b.rows()), slant::restricted(k, std::vector<int>{2, 0, 4})));
+}
+
+template <class S>
+test::dense<S> composition_dense(test::dense<S> const& b, test::dense<S> const& k,
+                                 test::dense<S> const& k_inverse) {
+  auto const m = b.rows();
+  test::dense<S> a = test::dense<S>::Zero(2 * m, 2 * m);
+  a.topLeftCorner(m, m) = b * k_inverse * b.transpose();
+  a.topLeftCorner(m, m).diagonal() +=
+      test::column<S>::Constant(m, S(2)) + test::column<S>::LinSpaced(m, S(0), S(1));
+  a.topRightCorner(m, m) = b * b.transpose();
+  int const components[] = {2, 0, 4};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) a(m + i, m + j) = k(components[i], components[j]);
+  }
+  return a;
+}
+
+/// K⁻¹ by Gauss–Jordan elimination, for any scalar.
+template <class S>
+test::dense<S> inverse_of(test::dense<S> k) {
+  auto const n = k.rows();
+  test::dense<S> inverse = test::dense<S>::Identity(n, n);
+  for (slant::index p = 0; p < n; ++p) {
+    S const pivot = k(p, p);
+    k.row(p) /= pivot;
+    inverse.row(p) /= pivot;
+    for (slant::index i = 0; i < n; ++i) {
+      if (i == p) continue;
+      S const factor = k(i, p);
+      k.row(i) -= factor * k.row(p);
+      inverse.row(i) -= factor * inverse.row(p);
+    }
+  }
+  return inverse;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("other scalars", S, float, multiprecision) {
+  test::dense<S> const k = test::random_spd<S>(5, 1);
+  Eigen::SparseMatrix<S> const b = test::random_sparse<S>(3, 5, 2);
+  auto const a = composition<S>(b, k);
+  CHECK(test::matches(a, composition_dense<S>(b, k, inverse_of<S>(k)), 1000));
+}
+
+TEST_CASE("no allocation once the workspace exists") {
+  test::dense<double> const k = test::random_spd(5, 1);
+  Eigen::SparseMatrix<double> const b = test::random_sparse(3, 5, 2);
+  auto const a = composition<double>(b, k);
+  Eigen::VectorXd x = test::random_column(6, 3);
+  Eigen::VectorXd y(6);
+  auto w = slant::workspace(a, x);
+  slant::testing::allocation_guard guard;
+  for (int k_th = 0; k_th < 3; ++k_th) {
+    slant::apply(a, x, y, w);
+    x += 0.1 * y;
+  }
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense matrices") {
+  Eigen::MatrixXd const m = test::random_dense(40, 40, 4);
+  auto const b = test::random_sparse(20, 40, 5);
+  auto const a = slant::sum(slant::product(b, m), slant::scaled(2.0, slant::product(b, m, m)),
+                            slant::difference(b, slant::product(b, slant::adjoint(m))));
+  Eigen::VectorXd const x = test::random_column(40, 6);
+  Eigen::VectorXd const z = test::random_column(20, 7);
+  Eigen::VectorXd y(20);
+  Eigen::VectorXd u(40);
+  Eigen::MatrixXd const several = test::random_dense(40, 3, 8);
+  Eigen::MatrixXd images(20, 3);
+  auto w = slant::workspace(a, x);
+  auto w_adjoint = slant::adjoint_workspace(a, z);
+  auto w_several = slant::workspace(a, several);
+  slant::testing::allocation_guard guard;
+  slant::apply(a, x, y, w);
+  slant::apply_adjoint(a, z, u, w_adjoint);
+  slant::apply(a, several, images, w_several);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  Eigen::MatrixXd const expected = b * m + 2 * b * m * m + b - b * m.transpose();
+  CHECK((y - expected * x).norm() < 1e-12);
+  CHECK((u - expected.transpose() * z).norm() < 1e-12);
+  CHECK((images - expected * several).norm() < 1e-12);
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/restriction.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "operators/dense_oracle.hpp"
+#include "support/allocation_guard.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+namespace archetype = slant::testing::archetype;
+
+namespace {
+
+MatrixXd rows_of_identity(std::vector<int> const& components, int n) {
+  MatrixXd r = MatrixXd::Zero(static_cast<int>(components.size()), n);
+  for (std::size_t i = 0; i < components.size(); ++i) r(static_cast<int>(i), components[i]) = 1;
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("restriction gathers, its adjoint scatters") {
+  std::vector<int> const components{4, 0, 3};
+  slant::restriction const r(6, components);
+  CHECK(test::matches(r, rows_of_identity(components, 6), 0));
+  slant::testing::check_operator_laws(r);
+  slant::testing::check_operator_laws(r, archetype::vector(VectorXd()));
+  CHECK(slant::restriction(3, {}).rows() == 0);
+}
+
+TEST_CASE("a restricted operator is R A Rᵀ") {
+  MatrixXd const m = test::random_dense(6, 6, 1);
+  std::vector<int> const components{5, 1, 2, 3};
+  MatrixXd const r = rows_of_identity(components, 6);
+  auto const a = slant::restricted(m, components);
+  CHECK(test::matches(a, MatrixXd(r * m * r.transpose())));
+  static_assert(slant::has_diagonal<decltype(a), VectorXd>);
+  static_assert(slant::has_columns<decltype(a), MatrixXd>);
+  static_assert(slant::has_adjoint_accumulate<decltype(a), VectorXd>);
+  slant::testing::check_operator_laws(a);
+}
+
+TEST_CASE("closure") {
+  using namespace slant;
+  MatrixXd const m = test::random_spd(5, 2);
+  std::vector<int> const components{0, 4};
+  auto const a = restricted(matrix<self_adjoint, positive_definite>(m), components);
+  static_assert(spd_operator<decltype(a), VectorXd>);
+  testing::check_operator_laws(a);
+  static_assert(laws_of<decltype(restricted(matrix(m), components))> == law_set{});
+  // A projector does not stay one, but it stays between 0 and I.
+  MatrixXd const half = MatrixXd::Constant(2, 2, 0.5);
+  auto const p = restricted(matrix<self_adjoint, projector>(half), std::vector<int>{0});
+  static_assert(laws_of<decltype(p)> == laws<law::self_adjoint, law::firmly_nonexpansive>);
+  testing::check_operator_laws(p);
+}
+
+TEST_CASE("other components without allocation") {
+  MatrixXd const m = test::random_dense(6, 6, 3);
+  std::vector<int> const few{1};
+  std::vector<int> const all{5, 4, 3, 2, 1, 0};
+  auto a = slant::restricted(m, few);
+  VectorXd const x = test::random_column(6, 4);
+  VectorXd y(6);
+  auto w = slant::workspace(a, VectorXd(1));
+
+  slant::testing::allocation_guard guard;
+  a.assign(all);
+  a.apply(x, y, w);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(a.rows() == 6);
+  CHECK((y - (m * x.reverse()).reverse()).norm() < 1e-14);
+}
+
+TEST_CASE("archetypes") {
+  archetype::linear_operator const part(test::random_dense(4, 4, 5));
+  auto const a = slant::restricted(part, std::vector<int>{2, 0});
+  static_assert(slant::linear_operator<decltype(a), archetype::vector>);
+  static_assert(!slant::has_adjoint<decltype(a), archetype::vector>);
+  slant::testing::check_operator_laws(a, archetype::vector(VectorXd()));
+}
+
+TEST_CASE("components must be different and exist; a refused list changes nothing") {
+  using slant::bad_input;
+  auto const reason = [](std::vector<int> const& components) {
+    return test::message<bad_input>([&] { slant::restriction r(4, components); });
+  };
+  CHECK(reason({1, 4}) ==
+        "components[1]: got 4, expected a component of the vector (>= 0 and less than its size)");
+  CHECK(reason({-1}) ==
+        "components[0]: got -1, expected a component of the vector (>= 0 and less than its size)");
+  CHECK(reason({2, 0, 2}) == "components[2]: got 2, expected different components");
+  CHECK(test::message<bad_input>([] {
+          (void)slant::restricted(MatrixXd(MatrixXd::Ones(2, 3)), std::vector<int>{0});
+        }) == "A: got 2 x 3, expected a square operator");
+
+  slant::restriction r(4, {1, 3});
+  CHECK_THROWS_AS(r.assign(std::vector<int>{0, 2, 0}), bad_input);
+  CHECK(r.components() == std::vector<slant::index>{1, 3});
+  CHECK_NOTHROW(r.assign(std::vector<int>{0, 2}));  // no mark was left behind
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/scaled.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+TEST_CASE("a multiple is the multiple of the matrix") {
+  MatrixXd const m = test::random_dense(4, 4, 1);
+  auto const a = slant::scaled(-1.5, m);
+  CHECK(test::matches(a, MatrixXd(-1.5 * m)));
+  CHECK(a.factor() == -1.5);
+  static_assert(slant::has_accumulate<decltype(a), VectorXd>);
+  static_assert(slant::has_adjoint_accumulate<decltype(a), VectorXd>);
+  static_assert(slant::has_diagonal<decltype(a), VectorXd>);
+  static_assert(slant::has_columns<decltype(a), MatrixXd>);
+  slant::testing::check_operator_laws(a);
+  CHECK(test::matches(slant::scaled(2, slant::identity(3)), MatrixXd(2 * MatrixXd::Identity(3, 3)),
+                      0));
+  CHECK(test::matches(slant::scaled(0.5, Eigen::MatrixXf(m.cast<float>())),
+                      Eigen::MatrixXf(m.cast<float>() / 2)));
+}
+
+TEST_CASE("closure: definiteness only for a factor known to be positive") {
+  using namespace slant;
+  MatrixXd const m = test::random_spd(3, 2);
+  auto const definite = matrix<self_adjoint, positive_definite>(m);
+  static_assert(laws_of<decltype(scaled(2.0, definite))> == laws<law::self_adjoint>);
+  auto const p = scaled(positive(2.0), definite);
+  static_assert(spd_operator<decltype(p), VectorXd>);
+  testing::check_operator_laws(p);
+  testing::check_operator_laws(scaled(-2.0, definite));
+  // 2 I is no projector.
+  static_assert(laws_of<decltype(scaled(positive(2), identity(3)))> ==
+                laws<law::self_adjoint, law::positive_definite>);
+  static_assert(laws_of<decltype(scaled(positive(2.0), matrix(m)))> == law_set{});
+}
+
+TEST_CASE("the inverse, where the part knows its own") {
+  auto const p = slant::scaled(slant::positive(4), slant::diagonal<slant::positive_definite>(
+                                                       VectorXd(VectorXd::LinSpaced(3, 1, 2))));
+  static_assert(slant::has_inverse<decltype(p), VectorXd>);
+  static_assert(slant::spd_operator<decltype(p.inverse()), VectorXd>);
+  slant::testing::check_operator_laws(p);
+  static_assert(!slant::has_inverse<decltype(slant::scaled(4.0, slant::identity(3))), VectorXd>);
+}
+
+TEST_CASE("the archetype has nothing more when scaled") {
+  slant::testing::archetype::linear_operator const a(test::random_dense(4, 4, 3));
+  auto const s = slant::scaled(3.0, a);
+  slant::testing::archetype::vector const x(test::random_column(4, 4));
+  static_assert(!slant::has_accumulate<decltype(s), slant::testing::archetype::vector>);
+  static_assert(!slant::has_adjoint<decltype(s), slant::testing::archetype::vector>);
+  slant::testing::check_operator_laws(s, x);
+}
+
+TEST_CASE("the factor must be a number, and positive if that is claimed") {
+  using slant::bad_input;
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  double const infinity = std::numeric_limits<double>::infinity();
+  CHECK(test::message<bad_input>([&] { (void)slant::scaled(nan, slant::identity(1)); }) ==
+        "c: got nan, expected a finite number");
+  CHECK(test::message<bad_input>([&] { (void)slant::scaled(infinity, slant::identity(1)); }) ==
+        "c: got inf, expected a finite number");
+  CHECK(test::message<bad_input>([] { (void)slant::positive(0.0); }) ==
+        "c: got 0, expected a finite number > 0");
+  CHECK(test::message<bad_input>([] { (void)slant::positive(-1); }) ==
+        "c: got -1, expected a finite number > 0");
+  CHECK(test::message<bad_input>([&] { (void)slant::positive(nan); }) ==
+        "c: got nan, expected a finite number > 0");
+  CHECK(test::message<bad_input>([&] { (void)slant::positive(infinity); }) ==
+        "c: got inf, expected a finite number > 0");
+}

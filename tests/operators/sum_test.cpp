@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/sum.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include "operators/dense_oracle.hpp"
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+namespace archetype = slant::testing::archetype;
+
+TEST_CASE("a sum is the sum of the matrices") {
+  auto const s = test::random_sparse(4, 4, 1);
+  MatrixXd const m = test::random_dense(4, 4, 2);
+  auto const a = slant::sum(s, m, slant::identity(4));
+  CHECK(test::matches(a, MatrixXd(MatrixXd(s) + m + MatrixXd::Identity(4, 4))));
+  static_assert(slant::has_accumulate<decltype(a), VectorXd>);
+  static_assert(slant::has_adjoint_accumulate<decltype(a), VectorXd>);
+  static_assert(slant::has_diagonal<decltype(a), VectorXd>);
+  static_assert(slant::has_columns<decltype(a), MatrixXd>);
+  static_assert(slant::applies_to_many<decltype(a), MatrixXd>);
+  slant::testing::check_operator_laws(a);
+  slant::testing::check_operator_laws(
+      slant::sum(test::random_sparse(3, 5, 3), test::random_dense(3, 5, 4)));
+}
+
+TEST_CASE("closure") {
+  using namespace slant;
+  MatrixXd const m = test::random_spd(3, 5);
+  auto const plain = matrix(m);
+  auto const symmetric = matrix<self_adjoint>(m);
+  auto const semidefinite = matrix<self_adjoint, positive_semidefinite>(m);
+  auto const definite = matrix<self_adjoint, positive_definite>(m);
+  constexpr auto of = [](auto const& a) { return laws_of<decltype(a)>; };
+
+  static_assert(laws_of<decltype(sum(definite, plain))> == law_set{});
+  static_assert(laws_of<decltype(sum(definite, symmetric))> == laws<law::self_adjoint>);
+  static_assert(laws_of<decltype(sum(semidefinite, semidefinite))> ==
+                laws<law::self_adjoint, law::positive_semidefinite>);
+  static_assert(laws_of<decltype(sum(semidefinite, definite))> ==
+                laws<law::self_adjoint, law::positive_definite>);
+  static_assert(laws_of<decltype(sum(semidefinite, definite, symmetric))> ==
+                laws<law::self_adjoint>);
+  // I is a projector and firmly nonexpansive, 2 I is neither.
+  CHECK(of(sum(identity(3), identity(3))) == laws<law::self_adjoint, law::positive_definite>);
+  testing::check_operator_laws(sum(definite, semidefinite));
+}
+
+TEST_CASE("terms without apply_add work through a temporary, and the sum has no apply_add") {
+  MatrixXd const m = test::random_dense(4, 4, 6);
+  archetype::linear_operator const a(m);
+  auto const s = slant::sum(a, a, slant::identity(4));
+  archetype::vector const x(test::random_column(4, 7));
+  archetype::vector y(VectorXd::Zero(4));
+  slant::apply(s, x, y);
+  CHECK((y.local() - (2 * m * x.local() + x.local())).norm() < 1e-14);
+  static_assert(!slant::has_accumulate<decltype(s), archetype::vector>);
+  static_assert(!slant::has_adjoint<decltype(s), archetype::vector>);
+  static_assert(!slant::has_diagonal<decltype(s), archetype::vector>);
+  static_assert(!slant::linear_operator<decltype(s), VectorXd>);
+  slant::testing::check_operator_laws(s, x);
+
+  archetype::operator_with_adjoint const b(m);
+  auto const t = slant::sum(b, b);
+  static_assert(slant::has_adjoint<decltype(t), archetype::vector>);
+  static_assert(!slant::has_adjoint_accumulate<decltype(t), archetype::vector>);
+  slant::testing::check_operator_laws(t, x);
+}
+
+TEST_CASE("lvalues are referenced, rvalues owned") {
+  VectorXd d = VectorXd::Ones(2);
+  auto const diagonal = slant::diagonal(d);
+  auto const make = [&] { return slant::sum(diagonal, slant::identity(2)); };
+  auto const s = make();  // owns the identity, refers to the diagonal
+  d[0] = 5;
+  CHECK(test::matches(s, MatrixXd(VectorXd(VectorXd::Ones(2) + d).asDiagonal()), 0));
+  auto const copy = s;
+  auto const moved = make();
+  CHECK(test::matches(copy, test::spelt_out(moved), 0));
+}
+
+TEST_CASE("expressions may be applied to and segments written") {
+  MatrixXd const m = test::random_dense(3, 3, 8);
+  auto const a = slant::sum(m, slant::identity(3));
+  VectorXd const x = test::random_column(6, 9);
+  VectorXd y = VectorXd::Zero(6);
+  auto w = slant::workspace(a, VectorXd(3));
+  auto target = y.tail(3);
+  slant::apply(a, x.head(3) - x.tail(3), target, w);
+  CHECK((y.tail(3) - (m * (x.head(3) - x.tail(3)) + x.head(3) - x.tail(3))).norm() < 1e-14);
+  CHECK(y.head(3).isZero(0));
+}
+
+TEST_CASE("sizes must agree") {
+  CHECK(test::message<slant::bad_input>([] {
+          (void)slant::sum(slant::identity(3), MatrixXd(MatrixXd::Ones(3, 3)), slant::identity(4));
+        }) == "A3: got 4 x 4, expected 3 x 3 (the size of A1)");
+}
