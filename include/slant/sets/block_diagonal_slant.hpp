@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// The slanting operator of a projection onto a product: one small symmetric matrix per block, and
+// nothing at all for blocks without a constraint.
+#pragma once
+
+#include <slant/concepts/laws.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/sets/place.hpp>
+
+#include <Eigen/Core>
+
+namespace slant {
+
+/// diag(G₁, …, G_m) with symmetric N × N blocks 0 ⪯ G_i ⪯ I in the places that Layout says. With
+/// Identity all blocks are I: nothing is stored or computed. Half lines and intervals (N = 1) store
+/// one number per block, 0 or 1.
+template <class S, int N, class Layout = consecutive, bool Identity = false>
+class block_diagonal_slant {
+ public:
+  using scalar = S;
+  using matrix_type = Eigen::Matrix<S, N, N>;
+  static constexpr auto laws =
+      Identity ? slant::laws<slant::self_adjoint, slant::positive_definite, slant::projector>
+               : slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+
+  /// m blocks, to be assigned; allocates.
+  explicit block_diagonal_slant(index m)
+      : count_(m), entries_(index{N}, Identity ? index{0} : N * m) {}
+
+  [[nodiscard]] index rows() const { return N * count_; }
+  [[nodiscard]] index cols() const { return N * count_; }
+  [[nodiscard]] index block_count() const { return count_; }
+
+  /// G_i, an N × N matrix.
+  [[nodiscard]] auto block(index i) const {
+    if constexpr (Identity) {
+      static_cast<void>(i);
+      return matrix_type::Identity();
+    } else {
+      return entries_.template middleCols<N>(N * i);
+    }
+  }
+
+  /// G_i = g, symmetric with 0 ⪯ g ⪯ I.
+  template <class G>
+  void assign(index i, G const& g)
+    requires(!Identity)
+  {
+    entries_.template middleCols<N>(N * i) = g;
+  }
+
+  /// f(G_i, place) for every block.
+  template <class F>
+  void visit(F&& f) const {
+    for (index i = 0; i < count_; ++i) f(block(i), at(i));
+  }
+
+  /// y = G x; several columns at once are fine.
+  template <class X, class Y>
+  void apply(X const& x, Y& y) const {
+    combine(slant::local(x), slant::local(y), [](auto const&, auto const& gx) { return gx; });
+  }
+
+  /// y ← y + α G x.
+  template <class X, class Y>
+  void apply_add(S const& α, X const& x, Y& y) const {
+    combine(slant::local(x), slant::local(y),
+            [&α](auto const& yi, auto const& gx) { return S(yi + α * gx); });
+  }
+
+  /// d = diag(G).
+  template <class V>
+  void diagonal(V& d) const {
+    auto& entries = slant::local(d);
+    visit([&](auto const& g, auto const& p) {
+      for (index j = 0; j < N; ++j) entries.coeffRef(p.component(j)) = g.coeff(j, j);
+    });
+  }
+
+ private:
+  [[nodiscard]] auto at(index i) const { return block_place<N, Layout>(i, count_); }
+
+  /// y_j = result(y_j, (G x)_j) for every component j of every column.
+  template <class X, class Y, class Result>
+  void combine(X const& x, Y& y, Result const& result) const {
+    for (index k = 0; k < index(x.cols()); ++k) {
+      for (index i = 0; i < count_; ++i) {
+        auto const p = at(i);
+        for (index j = 0; j < N; ++j) {
+          auto& target = y.coeffRef(p.component(j), k);
+          if constexpr (Identity) {
+            target = result(target, x.coeff(p.component(j), k));
+          } else {
+            S sum = entries_.coeff(j, N * i) * x.coeff(p.component(0), k);
+            for (index l = 1; l < N; ++l) {
+              sum += entries_.coeff(j, N * i + l) * x.coeff(p.component(l), k);
+            }
+            target = result(target, sum);
+          }
+        }
+      }
+    }
+  }
+
+  index count_;
+  Eigen::Matrix<S, N, Eigen::Dynamic> entries_;
+};
+
+}  // namespace slant

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// The products that contact problems are made of, by name.
+#pragma once
+
+#include <slant/sets/ball.hpp>
+#include <slant/sets/free_space.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/sets/symmetric_interval.hpp>
+
+#include <concepts>
+
+namespace slant {
+
+namespace detail {
+
+/// The scalar of a list of numbers: entries of an Eigen or a standard vector.
+template <class L>
+using list_scalar_t = std::remove_cvref_t<decltype(parameter_at(std::declval<L const&>(), 0))>;
+
+}  // namespace detail
+
+/// x_i >= 0, i < m: normal contact forces.
+template <scalar S = double>
+[[nodiscard]] auto half_lines(std::integral auto m) {
+  return power(half_line<S>{}, m);
+}
+
+/// x_i >= l_i. @throws bad_input "l[3]: …".
+template <detail::parameter_list L>
+[[nodiscard]] auto half_lines(L const& l) {
+  return power(half_line<detail::list_scalar_t<L>>{}, l);
+}
+
+/// l_i <= x_i <= u_i. @throws bad_input "l[3]: …".
+template <detail::parameter_list L, detail::parameter_list U>
+[[nodiscard]] auto intervals(L const& l, U const& u) {
+  return power(interval<detail::list_scalar_t<L>>{}, l, u);
+}
+
+/// |x_i| <= g_i: friction bounds in the plane. @throws bad_input "radius[3]: …".
+template <detail::parameter_list G>
+[[nodiscard]] auto intervals(G const& g) {
+  return power(symmetric_interval<detail::list_scalar_t<G>>{}, g);
+}
+
+/// Discs of radii g_i: friction bounds in space. Consecutive pairs by default; discs<planar>(g) has
+/// the pairs (x_i, x_{m+i}) of [T], [K]. @throws bad_input "radius[3]: …".
+template <class Layout = consecutive, detail::parameter_list G>
+[[nodiscard]] auto discs(G const& g) {
+  return power<Layout>(ball<2, detail::list_scalar_t<G>>{}, g);
+}
+
+/// n components without any constraint. They cost one copy in a projection and nothing elsewhere.
+template <scalar S = double>
+[[nodiscard]] auto free_components(std::integral auto n) {
+  return power(free_space<1, S>{}, n);
+}
+
+}  // namespace slant

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// One-sided bounds on a number, shared by half_line, interval and the flat cases of other sets.
+#pragma once
+
+#include <slant/sets/detail/scaling.hpp>
+
+#include <cmath>
+
+namespace slant::detail {
+
+/// x within a few ulp of the bound. A bound 0 is met exactly or not at all, an infinite one never.
+template <class S>
+[[nodiscard]] bool at_bound(S const& x, S const& bound) {
+  using std::abs;
+  return is_finite(bound) && S(abs(x - bound)) <= rounding_band<S>() * S(abs(bound));
+}
+
+template <class S>
+[[nodiscard]] bool at_least(S const& x, S const& l) {
+  return x >= l || at_bound(x, l);
+}
+
+template <class S>
+[[nodiscard]] bool at_most(S const& x, S const& u) {
+  return x <= u || at_bound(x, u);
+}
+
+/// sup{α >= 0 : l <= x + α d <= u} for x between the bounds; x beyond a bound counts as being on
+/// it.
+template <class S>
+[[nodiscard]] S step_to_bounds(S const& x, S const& d, S const& l, S const& u) {
+  if (any_nan(x, d)) return not_a_number<S>();
+  if (d == S(0)) return infinity<S>();
+  S const bound = d < S(0) ? l : u;
+  if (!is_finite(bound)) return infinity<S>();
+  if (d < S(0) ? x <= bound : x >= bound) return S(0);
+  S const gap = bound - x;
+  // Half of everything when the gap between two finite numbers is too large to be one.
+  return is_finite(gap) ? S(gap / d) : S((bound / S(2) - x / S(2)) / (d / S(2)));
+}
+
+/// y z with the convention 0 · ∞ = 0 of support functions; NaN for y = NaN, also if z = 0.
+template <class S>
+[[nodiscard]] S support_product(S const& y, S const& z) {
+  if (any_nan(y)) return y;
+  return y == S(0) || z == S(0) ? S(0) : S(y * z);
+}
+
+}  // namespace slant::detail

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// Longest step inside a second-order cone.
+#pragma once
+
+#include <slant/sets/detail/cone_projection.hpp>
+#include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/exit_root.hpp>
+#include <slant/sets/detail/scaled_norm.hpp>
+#include <slant/sets/detail/scaling.hpp>
+
+#include <Eigen/Core>
+
+namespace slant::detail {
+
+/// (μ n, t) in units of 2^exponent, the entries of order one at most; 0 keeps exponent 0.
+template <class S, int N>
+struct cone_coordinates {
+  double_word<S> axis;
+  Eigen::Matrix<S, N - 1, 1> t;
+  int exponent = 0;
+
+  cone_coordinates(S const& μ, Eigen::Matrix<S, N, 1> const& x) : t(x.template tail<N - 1>()) {
+    int const k = binary_exponent(μ);
+    bool const has_axis = x(0) != S(0) && μ != S(0);
+    bool const has_t = !(t.array() == S(0)).all();
+    int const n_exponent = binary_exponent<S>(x(0)) + k;
+    int const t_exponent = binary_exponent(t);
+    exponent = has_axis && (!has_t || n_exponent > t_exponent) ? n_exponent : t_exponent;
+    axis = double_word<S>(times_power_of_two(μ, -k)) *
+           double_word<S>(times_power_of_two<S>(x(0), k - exponent));
+    t = times_power_of_two<S, N - 1>(t, -exponent);
+  }
+};
+
+/// sup{α >= 0 : x + α d in the cone} for x in the cone and d not in it.
+///
+/// The quadric ‖x_t + α d_t‖² = μ²(x_n + α d_n)² also holds the mirror cone, so the step ends at
+/// x_n + α d_n = 0 at the latest. That bound decides when the ray runs down a generator, where all
+/// coefficients of the quadratic vanish.
+template <class S, int N>
+[[nodiscard]] S cone_step(S const& μ, Eigen::Matrix<S, N, 1> const& x,
+                          Eigen::Matrix<S, N, 1> const& d) {
+  S const to_apex = d(0) < S(0) ? S(-(x(0) < S(0) ? S(0) : x(0)) / d(0)) : infinity<S>();
+  cone_coordinates<S, N> const u(μ, x), v(μ, d);
+  auto const A = precise_dot<S>(v.t, v.t) - v.axis * v.axis;
+  auto const B = precise_dot<S>(u.t, v.t) - u.axis * v.axis;
+  auto const C = u.axis * u.axis - precise_dot<S>(u.t, u.t);
+  S const to_quadric = times_power_of_two<S>(exit_root<S>(A, B, C), u.exponent - v.exponent);
+  return to_apex < to_quadric ? to_apex : to_quadric;
+}
+
+}  // namespace slant::detail

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// The face of a point: which blocks of it are free, sliding or fixed, and which components that
+// leaves to move.
+#pragma once
+
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/face.hpp>
+#include <slant/sets/blocks.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace slant {
+
+/// The partition of the blocks of a set at a point. Free components are those of the free blocks.
+/// S is the scalar of the vectors that keep() works on. Reassigning for the same set does not
+/// allocate.
+template <scalar S = double>
+class face {
+ public:
+  /// The face of nothing.
+  face() = default;
+
+  /// The face of the point x of a set (a block or any product of blocks).
+  template <class C, class X>
+  face(C const& set, X const& x) {
+    assign(set, x);
+  }
+
+  /// Becomes the face of x ∈ set; true if anything changed.
+  template <class C, class X>
+  bool assign(C const& set, X const& x) {
+    return assign_by(set, [&](auto const& block, auto const& p) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      if constexpr (whole_space<block_type>) {
+        return block_state::free;
+      } else if constexpr (has_visit<C> || has_static_dimension<C>) {
+        static_assert(has_state<block_type, point_t<block_type>>,
+                      "a block of this set has no state(x), so its points have no face");
+        return block.state(detail::argument_of(block, p, slant::local(x)));
+      } else {
+        static_assert(has_state<C, X>, "this set has no state(x), so its points have no face");
+        return block.state(x);  // a set with one block and vectors of its own kind
+      }
+    });
+  }
+
+  /// Becomes what state_of(block, place) → block_state says of each block; true if anything
+  /// changed. For methods that classify by a rule of their own.
+  template <class C, class F>
+  bool assign_by(C const& set, F&& state_of) {
+    bool changed = reshape(slant::block_count(set), slant::dimension_of(set));
+    counts_ = {};
+    slant::visit_blocks(set, [&](auto const& block, auto const& p) {
+      block_state const s = state_of(block, p);
+      auto& old = states_[static_cast<std::size_t>(p.index())];
+      changed = changed || old != s;
+      old = s;
+      ++counts_[static_cast<std::size_t>(s)];
+      S const flag = s == block_state::free ? S(1) : S(0);
+      for (index j = 0; j < p.size(); ++j) {
+        S& entry = mask_.coeffRef(p.component(j));
+        changed = changed || !(entry == flag);
+        entry = flag;
+      }
+    });
+    if (changed) list_components();
+    return changed;
+  }
+
+  /// Number of blocks.
+  [[nodiscard]] index size() const { return static_cast<index>(states_.size()); }
+  /// Number of components of the vectors.
+  [[nodiscard]] index dimension() const { return mask_.size(); }
+  /// Number of blocks in a state.
+  [[nodiscard]] index count(block_state s) const { return counts_[static_cast<std::size_t>(s)]; }
+  [[nodiscard]] index free_count() const { return count(block_state::free); }
+  [[nodiscard]] index sliding_count() const { return count(block_state::sliding); }
+  [[nodiscard]] index fixed_count() const { return count(block_state::fixed); }
+
+  /// State of block i in the order of visit.
+  [[nodiscard]] block_state state(index i) const { return states_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::vector<block_state> const& states() const { return states_; }
+  /// Free components, ascending.
+  [[nodiscard]] std::vector<index> const& components() const { return components_; }
+
+  /// y = x on the free components and 0 elsewhere; y may be x.
+  template <class X, class Y>
+  void keep(X const& x, Y& y) const {
+    select(slant::local(x), slant::local(y),
+           [](S const& m, S const& v) { return m == S(0) ? S(0) : v; });
+  }
+
+  /// y = x except on the free components and 0 there; y may be x.
+  template <class X, class Y>
+  void keep_complement(X const& x, Y& y) const {
+    select(slant::local(x), slant::local(y),
+           [](S const& m, S const& v) { return m == S(0) ? v : S(0); });
+  }
+
+  /// The same partition of the same components.
+  friend bool operator==(face const& a, face const& b) {
+    return a.states_ == b.states_ && a.components_ == b.components_;
+  }
+
+ private:
+  /// Room for so many blocks and components; true if that is new.
+  bool reshape(index blocks, index components) {
+    if (blocks == size() && components == dimension()) return false;
+    states_.assign(static_cast<std::size_t>(blocks), block_state::free);
+    mask_.setOnes(components);
+    components_.reserve(static_cast<std::size_t>(components));
+    return true;
+  }
+
+  void list_components() {
+    components_.clear();
+    for (index i = 0; i < mask_.size(); ++i) {
+      if (!(mask_.coeff(i) == S(0))) components_.push_back(i);
+    }
+  }
+
+  // A selection, not a product with the mask: 0 · ∞ would be NaN.
+  template <class X, class Y, class Choose>
+  void select(X const& x, Y& y, Choose const& choose) const {
+    eigen_assert(x.size() == dimension() && y.size() == dimension());
+    y = mask_.binaryExpr(x, choose);
+  }
+
+  std::vector<block_state> states_;
+  std::array<index, 3> counts_{};
+  Eigen::Matrix<S, Eigen::Dynamic, 1> mask_;
+  std::vector<index> components_;
+};
+
+/// The face of the point x of a set.
+template <class C, class X>
+[[nodiscard]] auto face_of(C const& set, X const& x) {
+  return face<scalar_t<X>>(set, x);
+}
+
+}  // namespace slant

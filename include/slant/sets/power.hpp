@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// Powers: m blocks of one shape, each with parameters of its own. power(ball<2>{}, radii) are the
+// friction discs of m nodes.
+#pragma once
+
+#include <slant/concepts/convex_set.hpp>
+#include <slant/sets/block_diagonal_slant.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/detail/block_list.hpp>
+#include <slant/sets/place.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// Λ₁ × … × Λ_m, all of the type Block with n components. Made by `power`. Every member costs what
+/// a loop over the blocks written by hand costs; none allocates except slant(x).
+template <class Block, class Layout, class Blocks>
+class power_product {
+  static constexpr int n = Block::dimension;
+  using vector_type = Eigen::Matrix<set_scalar_t<Block>, n, 1>;
+
+ public:
+  using scalar = set_scalar_t<Block>;
+  using block_type = Block;
+  using layout = Layout;
+
+  explicit power_product(Blocks blocks) : blocks_(std::move(blocks)) {}
+
+  /// Number of components, m n.
+  [[nodiscard]] index size() const { return blocks_.size() * n; }
+  /// Number of innermost blocks: m, or more if Block is itself a product.
+  [[nodiscard]] index block_count() const {
+    return blocks_.size() == 0 ? 0 : blocks_.size() * slant::block_count(blocks_[0]);
+  }
+  /// Factor i of the power, 0 <= i < m.
+  [[nodiscard]] Block const& block(index i) const { return blocks_[i]; }
+
+  /// New parameters for all blocks (lists of length m, or one value for all); does not allocate.
+  /// @throws bad_input naming parameter and block; the set is then unchanged.
+  template <class... Params>
+  void update(Params const&... params)
+    requires detail::takes_parameters<Block, Params...> &&
+             requires(Blocks& b) { b.update(params...); }
+  {
+    blocks_.update(params...);
+  }
+
+  /// y = P(x); y may be x.
+  template <class X, class Y>
+  void project(X const& x, Y&& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    eigen_assert(from.size() == size() && to.size() == size());
+    if constexpr (!whole_space<Block>) {
+      project_blocks(from, to);
+    } else if (!detail::same_memory(from, to)) {
+      to.head(size()) = from;
+    }
+  }
+
+  /// x ∈ Λ, up to rounding.
+  template <class X>
+  [[nodiscard]] bool contains(X const& x) const {
+    auto const& entries = slant::local(x);
+    if (entries.size() != size()) return false;
+    if constexpr (whole_space<Block>) {
+      return !entries.hasNaN();
+    } else {
+      for (index i = 0; i < blocks_.size(); ++i) {
+        if (!blocks_[i].contains(at(i).value(entries))) return false;
+      }
+      return true;
+    }
+  }
+
+  /// sup{α >= 0 : x + α d ∈ Λ} for x ∈ Λ. Looks no further once a step below `enough` is found, and
+  /// returns that: enough to know that a step of length `enough` would leave Λ.
+  template <class X, class D, class S = scalar_t<X>>
+  [[nodiscard]] S step_to_boundary(X const& x, D const& d,
+                                   std::type_identity_t<S> const& enough = S(0)) const
+    requires has_step_to_boundary<Block, vector_type>
+  {
+    detail::smallest_step<S> smallest(enough);
+    if constexpr (!whole_space<Block>) {
+      for (index i = 0; i < blocks_.size(); ++i) {
+        auto const p = at(i);
+        if (smallest(detail::step_of(blocks_[i], p.value(x), p.value(d), enough))) break;
+      }
+    }
+    return smallest.value();
+  }
+
+  /// sup{yᵀz : z ∈ Λ}, ∞ allowed.
+  template <class Y>
+  [[nodiscard]] scalar_t<Y> support(Y const& y) const
+    requires has_support<Block, vector_type>
+  {
+    scalar_t<Y> sum(0);
+    for (index i = 0; i < blocks_.size(); ++i) sum += blocks_[i].support(at(i).value(y));
+    return sum;
+  }
+
+  /// The slanting operator of the projection at x: block diagonal, symmetric, 0 ⪯ G ⪯ I.
+  template <class X>
+  [[nodiscard]] auto slant(X const& x) const
+    requires has_slant<Block, vector_type>
+  {
+    block_diagonal_slant<scalar_t<X>, n, Layout, whole_space<Block>> g(blocks_.size());
+    slant(x, g);
+    return g;
+  }
+
+  /// The same into an operator that slant(x) made earlier; does not allocate.
+  template <class X>
+  void slant(X const& x, block_diagonal_slant<scalar_t<X>, n, Layout, whole_space<Block>>& g) const
+    requires has_slant<Block, vector_type>
+  {
+    eigen_assert(g.block_count() == blocks_.size());
+    if constexpr (!whole_space<Block>) {
+      for (index i = 0; i < blocks_.size(); ++i) g.assign(i, blocks_[i].slant(at(i).value(x)));
+    }
+  }
+
+  /// f(block, place) for every innermost block.
+  template <class F>
+  void visit(F&& f) const {
+    for (index i = 0; i < blocks_.size(); ++i) {
+      if constexpr (has_visit<Block>) {
+        auto const outer = at(i);
+        blocks_[i].visit([&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+      } else {
+        f(blocks_[i], at(i));
+      }
+    }
+  }
+
+ private:
+  /// Where factor i is, numbered by innermost blocks.
+  [[nodiscard]] auto at(index i) const {
+    return block_place<n, Layout>(i, blocks_.size(), slant::block_count(blocks_[i]));
+  }
+
+  template <class X, class Y>
+  void project_blocks(X const& from, Y& to) const {
+    index const m = blocks_.size();
+    auto const blocks = blocks_.view();
+    // Where `from` and `to` share memory they are the same: iterations are independent. Not knowing
+    // that, a compiler vectorises for separate arrays only.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
+    for (index i = 0; i < m; ++i) detail::project_part(blocks[i], at(i), from, to);
+  }
+
+  Blocks blocks_;
+};
+
+/// Λ₁ × … × Λ_m of one shape, in the layout `consecutive` (default) or `planar`:
+///     power(block, m)              m copies of a block: power(free_space<1>{}, m)
+///     power(shape, parameters…)    one block shape.with(parameters[i]…) per entry of the lists
+///                                  (Eigen or standard vectors of one length; a single number
+///                                  stands for all blocks): power<planar>(ball<2>{}, radii),
+///                                  power(interval<>{}, 0.0, upper)
+/// @throws bad_input naming parameter and block, "radius[3]: got -1, expected a number >= 0".
+template <class Layout = consecutive, set_block Block, class... Params>
+  requires detail::power_parameters<Block, Params...>
+[[nodiscard]] auto power(Block const& shape, Params const&... params) {
+  if constexpr (detail::is_count<Params...>) {
+    return power_product<Block, Layout, detail::identical_blocks<Block>>(
+        detail::identical_blocks<Block>(shape, static_cast<index>(params)...));
+  } else {
+    return power_product<Block, Layout, detail::listed_blocks<Block>>(
+        detail::listed_blocks<Block>(shape, params...));
+  }
+}
+
+}  // namespace slant

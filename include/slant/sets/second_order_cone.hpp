@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// The second-order cone { (x_n, x_t) : ‖x_t‖ <= μ x_n }: normal pressure and Coulomb friction
+// together.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/face.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/sets/detail/cone_projection.hpp>
+#include <slant/sets/detail/cone_step.hpp>
+#include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/scaled_norm.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <limits>
+
+namespace slant {
+
+/// { x ∈ R^N : ‖x_t‖ <= μ x_n }, x_n = x₀ the axis, x_t = (x₁, …); μ >= 0 is finite.
+///
+/// μ = 0 is the ray along the axis. Every component of the projection is within 4 ulp at any scale
+/// and for any μ (components below the smallest normal number excepted); see
+/// detail/cone_projection.hpp. "On the mantle" means | ‖x_t‖ − μ x_n | <= 8 ε μ x_n, ε the machine
+/// epsilon. The apex is 0 only: a cone has no length with which "nearly 0" could be measured. NaN
+/// in, NaN out; so does an infinite component.
+template <int N, scalar S = double>
+  requires(N >= 2)
+class second_order_cone {
+ public:
+  using scalar = S;
+  static constexpr int dimension = N;
+  static constexpr int inequalities = 2;
+  using vector_type = Eigen::Matrix<S, N, 1>;
+  using matrix_type = Eigen::Matrix<S, N, N>;
+
+  second_order_cone() = default;
+
+  /// @throws bad_input if mu is NaN, negative or infinite.
+  explicit second_order_cone(S const& mu) : mu_(mu) {
+    if (!(mu >= S(0) && detail::is_finite(mu))) {
+      throw bad_input("mu", detail::show(mu), "a finite number >= 0");
+    }
+  }
+
+  [[nodiscard]] second_order_cone with(S const& mu) const { return second_order_cone(mu); }
+  [[nodiscard]] S const& mu() const { return mu_; }
+
+  /// Nearest point of the set.
+  [[nodiscard]] vector_type project(auto const& x) const {
+    vector_type v = x;
+    auto const foot = detail::nearest_on_cone<S, N>(mu_, v);
+    switch (foot.region) {
+      case detail::cone_region::inside:
+        break;
+      case detail::cone_region::apex:
+        v.setZero();
+        break;
+      case detail::cone_region::undefined:
+        v.setConstant(detail::not_a_number<S>());
+        break;
+      case detail::cone_region::mantle:
+        scale(v, foot.factor, foot.exponent);
+        v(0) = foot.normal;
+        break;
+    }
+    return v;
+  }
+
+  /// Membership up to the band.
+  [[nodiscard]] bool contains(auto const& x) const {
+    return ratio_at_most(x, S(1) + detail::rounding_band<S>());
+  }
+
+  /// For x in the set: fixed at the apex, sliding on the mantle (for μ = 0 on the ray), else free.
+  [[nodiscard]] block_state state(auto const& x) const {
+    vector_type const v = x;
+    if (!(v(0) > S(0))) return block_state::fixed;
+    bool const inside = mu_ > S(0) && ratio_at_most(v, S(1) - detail::rounding_band<S>());
+    return inside ? block_state::free : block_state::sliding;
+  }
+
+  /// Slanting operator of the projection at x.
+  ///
+  ///     ‖x_t‖ <= μ x_n        I                                (mantle and apex included)
+  ///     x_n + μ‖x_t‖ <= 0     0                                (the polar cone, apex excluded)
+  ///     otherwise             w wᵀ + θ (0 ⊕ (I − e eᵀ)),       e = x_t/‖x_t‖,
+  ///
+  /// where w = (1, μe)/√(1 + μ²) is the generator through p and θ = μ p_n/‖x_t‖ ∈ [0, 1]:
+  /// differentiate p = w wᵀx with de = (I − eeᵀ) dx_t/‖x_t‖. For μ = 0, where there is no interior,
+  /// the derivative e₀e₀ᵀ of the projection to the ray stands for I.
+  [[nodiscard]] matrix_type slant(auto const& x) const {
+    using std::sqrt;
+    vector_type const v = x;
+    auto const foot = detail::nearest_on_cone<S, N>(mu_, v);
+    matrix_type G = matrix_type::Zero();
+    if (foot.region == detail::cone_region::undefined) G.setConstant(detail::not_a_number<S>());
+    if (foot.region == detail::cone_region::inside) {
+      if (mu_ > S(0)) G.setIdentity();
+      G(0, 0) = S(1);
+    }
+    if (foot.region != detail::cone_region::mantle) return G;
+    bool const steep = mu_ > S(1);
+    S const q = steep ? S(S(1) / mu_) : mu_;
+    S const larger = S(1) / sqrt(S(1) + q * q), smaller = q * larger;
+    Eigen::Matrix<S, N - 1, 1> e = v.template tail<N - 1>();
+    auto const ρ = detail::scaled_norm<S, N - 1>(e);
+    e = detail::times_power_of_two<S, N - 1>(e, -ρ.exponent) / ρ.value;
+    S const θ = detail::times_power_of_two<S>(foot.factor, foot.exponent);
+    vector_type w;
+    w(0) = steep ? smaller : larger;
+    w.template tail<N - 1>() = (steep ? larger : smaller) * e;
+    G.noalias() = w * w.transpose();
+    for (int i = 0; i < N - 1; ++i) {
+      for (int j = 0; j < N - 1; ++j) {
+        if (j == i) continue;
+        G(i + 1, i + 1) += θ * (e(j) * e(j));  // 1 − eᵢ² without cancellation
+        G(i + 1, j + 1) -= θ * (e(i) * e(j));
+      }
+    }
+    return G;
+  }
+
+  /// sup{α >= 0 : x + α d in the set} for x in the set; x outside by rounding counts as on the
+  /// mantle, and so does d: a direction of the cone up to the band has no end.
+  [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
+    vector_type const v = x, w = d;
+    if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
+    if (contains(w)) return detail::infinity<S>();
+    return detail::cone_step<S, N>(mu_, v, w);
+  }
+
+  /// 0 for y in the polar cone y_n + μ‖y_t‖ <= 0 (up to 8 ε |y_n|), otherwise ∞.
+  [[nodiscard]] S support(auto const& y) const {
+    vector_type v = y;
+    if (v.hasNaN()) return detail::not_a_number<S>();
+    if (v(0) > S(0)) return detail::infinity<S>();
+    S const depth = -v(0) * (S(1) + detail::rounding_band<S>());
+    auto const ρ = detail::scaled_norm<S, N - 1>(v.template tail<N - 1>());
+    int const k = detail::binary_exponent(mu_);
+    S const μρ = detail::times_power_of_two<S>(detail::times_power_of_two<S>(mu_, -k) * ρ.value,
+                                               k + ρ.exponent);
+    return μρ <= depth ? S(0) : detail::infinity<S>();
+  }
+
+  /// f(x) = (‖x_t‖² − μ²x_n², −x_n) <= 0; the first accurate also near the mantle.
+  [[nodiscard]] Eigen::Matrix<S, 2, 1> inequality(auto const& x) const {
+    using word = detail::double_word<S>;
+    vector_type const v = x;
+    Eigen::Matrix<S, N - 1, 1> const t = v.template tail<N - 1>();
+    auto const bound = detail::exact_product<S>(mu_, v(0));
+    auto const squares = detail::precise_dot<S>(t, t);
+    return {(squares - bound * word(bound)).hi, S(-v(0))};
+  }
+
+  /// Column i is the gradient of fᵢ.
+  [[nodiscard]] Eigen::Matrix<S, N, 2> inequality_gradient(auto const& x) const {
+    Eigen::Matrix<S, N, 2> gradient = Eigen::Matrix<S, N, 2>::Zero();
+    gradient.col(0) = S(2) * x;
+    gradient(0, 0) = S(-2) * mu_ * (mu_ * vector_type(x)(0));
+    gradient(0, 1) = S(-1);
+    return gradient;
+  }
+
+  /// ν₁ ∇²f₁ = 2 ν₁ diag(−μ², 1, …, 1); f₂ is linear.
+  [[nodiscard]] matrix_type inequality_hessian(auto const&, auto const& multipliers) const {
+    matrix_type hessian = S(2) * multipliers(0) * matrix_type::Identity();
+    hessian(0, 0) *= -mu_ * mu_;
+    return hessian;
+  }
+
+ private:
+  /// v · factor · 2^exponent, factor in [1/2, 1), also where factor · 2^exponent underflows.
+  static void scale(vector_type& v, S const& factor, int exponent) {
+    S const product = detail::times_power_of_two<S>(factor, exponent);
+    if (product >= (std::numeric_limits<S>::min)()) {
+      v *= product;
+    } else {
+      v = detail::times_power_of_two<S, N>(factor * v, exponent);
+    }
+  }
+
+  /// ‖x_t‖ <= factor · μ x_n and x_n >= 0, with one unit of the smallest numbers allowed for every
+  /// component: there rounding is no longer relative.
+  [[nodiscard]] bool ratio_at_most(vector_type const& v, S const& factor) const {
+    if (!(v(0) >= S(0))) return false;
+    auto const ρ = detail::scaled_norm<S, N - 1>(v.template tail<N - 1>());
+    int const k = detail::binary_exponent(mu_);
+    S const unit = std::numeric_limits<S>::denorm_min();
+    S const bound = factor * detail::times_power_of_two<S>(mu_, -k) *
+                    detail::times_power_of_two<S>(v(0) + unit, k - ρ.exponent);
+    return ρ.value <= bound + detail::times_power_of_two<S>(S(N) * unit, -ρ.exponent);
+  }
+
+  S mu_{1};
+};
+
+}  // namespace slant

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// All convex sets.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/sets/ball.hpp>
+#include <slant/sets/block_product.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/ellipse.hpp>
+#include <slant/sets/face.hpp>
+#include <slant/sets/free_space.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
+#include <slant/sets/place.hpp>
+#include <slant/sets/point.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/sets/projection_slant.hpp>
+#include <slant/sets/rotated.hpp>
+#include <slant/sets/scaled.hpp>
+#include <slant/sets/second_order_cone.hpp>
+#include <slant/sets/shifted.hpp>
+#include <slant/sets/symmetric_interval.hpp>
+// IWYU pragma: end_exports

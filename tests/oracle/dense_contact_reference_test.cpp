@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <fem/steel_brick.hpp>
+#include <oracle/dense_contact_reference.hpp>
+
+namespace {
+
+auto solve_brick(int k, fem::brick_load load) {
+  auto scene = fem::make_steel_brick({.k = k, .load = load});
+  auto reference = oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
+  return std::pair(std::move(scene), std::move(reference));
+}
+
+}  // namespace
+
+TEST_CASE("the reference of the brick satisfies the contact conditions and is optimal by duality") {
+  auto const check = [](int k, fem::brick_load load) {
+    CAPTURE(k);
+    CAPTURE(fem::name_of(load));
+    auto const [scene, reference] = solve_brick(k, load);
+    CHECK(reference.violations.largest() < 1e-15);
+    CHECK(reference.proof.infeasibility < 1e-18);
+    CHECK(reference.energy_error < 1e-9);
+    CHECK(reference.report.residual < 1e-17);
+  };
+  for (int const k : {1, 2})
+    for (fem::brick_load const load : fem::brick_loads) check(k, load);
+  check(3, fem::brick_load::lift);
+}
+
+TEST_CASE("loads do what their names say") {
+  int const nodes = 18;
+  auto const [press_scene, press] = solve_brick(2, fem::brick_load::press);
+  auto const [pull_scene, pull] = solve_brick(2, fem::brick_load::pull);
+  auto const [lift_scene, lift] = solve_brick(2, fem::brick_load::lift);
+  auto const open = [](auto const& r) {
+    return oracle::count_active(r.dual, r.report.x).intervals;
+  };
+  auto const slide = [](auto const& r) { return oracle::count_active(r.dual, r.report.x).circles; };
+  CHECK(open(press) == 0);
+  CHECK(open(pull) == 0);
+  CHECK(open(lift) >= nodes / 3);
+  CHECK(open(lift) <= 2 * nodes / 3);
+  CHECK(slide(lift) >= nodes / 2);
+  CHECK(slide(pull) > slide(press));
+}
+
+TEST_CASE("a perturbed displacement violates the conditions") {
+  auto const [scene, reference] = solve_brick(1, fem::brick_load::lift);
+  oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};
+  oracle::real_vector const u = reference.u.cast<oracle::real>();
+  oracle::real_vector const λ = reference.report.x;
+  CHECK(oracle::check_contact(data, u, λ).largest() < 1e-14);
+  oracle::real_vector moved = u;
+  moved[0] += 1e-3L * u.cwiseAbs().maxCoeff();
+  CHECK(oracle::check_contact(data, moved, λ).equilibrium > 1e-6);
+  oracle::real_vector adhesive = λ;
+  adhesive[0] = -1e-3L * λ.cwiseAbs().maxCoeff();
+  CHECK(oracle::check_contact(data, u, adhesive).adhesion == doctest::Approx(1e-3));
+  CHECK(oracle::energy_error(scene.K, 1.001 * reference.u, reference.u) == doctest::Approx(1e-3));
+}
+
+TEST_CASE("without friction and in the plane the reference works too") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  Eigen::SparseMatrix<double> const no_rows(0, scene.K.cols());
+  Eigen::VectorXd const none(0);
+  oracle::contact_data const frictionless{scene.K, scene.N, no_rows, scene.f, scene.d, none};
+  auto const reference = oracle::solve_contact(frictionless);
+  CHECK(reference.violations.largest() < 1e-15);
+  CHECK(reference.proof.energy_error < 1e-9);
+  CHECK(reference.tangential.size() == 0);
+
+  fem::box_on_foundation<2> plate{.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}),
+                                  .material = fem::lame_plane_stress(2e5, 0.3),
+                                  .fixed = {0, false},
+                                  .contact = {1, false}};
+  plate.loads.push_back({{1, true}, {0, -1}});
+  plate.loads.push_back({{0, true}, {0.5, 0.8}});
+  plate.slip_bound = 0.3;
+  auto const plane = fem::make_contact_scene(plate);
+  auto const flat = oracle::solve_contact({plane.K, plane.N, plane.T, plane.f, plane.d, plane.g});
+  CHECK(flat.violations.largest() < 1e-15);
+  CHECK(flat.proof.energy_error < 1e-9);
+}

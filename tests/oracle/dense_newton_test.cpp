@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <oracle/certificate.hpp>
+#include <oracle/dense_newton.hpp>
+#include <random>
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Example 1 of [K]: tridiag(−1, 4, −1) and six discs on the pairs (i, i + 6).
+oracle::dense_qp tridiagonal_example() {
+  oracle::dense_qp qp{Eigen::MatrixXd::Zero(12, 12), {}};
+  for (Eigen::Index i = 0; i < 12; ++i) {
+    qp.A(i, i) = 4;
+    if (i > 0) qp.A(i, i - 1) = qp.A(i - 1, i) = -1;
+  }
+  Eigen::VectorXd y(12);
+  y << 2, 1, .5, 0, 0, 11, 1e-5, -1, std::sqrt(2.0), -.1, 4.1e-4, 143;
+  qp.b = (qp.A * y).cast<oracle::real>();
+  double const radii[] = {2, 1, .5, 2, 1e-3, 154};
+  for (Eigen::Index i = 0; i < 6; ++i) qp.circles.push_back({i, i + 6, radii[i]});
+  return qp;
+}
+
+oracle::dense_qp random_qp(unsigned seed, double radius) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  auto const draw = [&] { return normal(random); };
+  constexpr Eigen::Index n = 14;
+  Eigen::MatrixXd const M = Eigen::MatrixXd::NullaryExpr(n, n + 1, draw);
+  oracle::dense_qp qp{M * M.transpose(), {}};
+  qp.b = (10 * Eigen::VectorXd::NullaryExpr(n, draw)).cast<oracle::real>();
+  for (Eigen::Index i = 0; i < 3; ++i) qp.intervals.push_back({i, -0.1});
+  qp.intervals.push_back({3, -0.2, 0.3});
+  qp.intervals.push_back({4, -infinity, 0.1});
+  for (Eigen::Index i = 5; i < 11; i += 2) qp.circles.push_back({i, i + 1, radius});
+  return qp;  // 11, 12 and 13 are free
+}
+
+}  // namespace
+
+TEST_CASE("the tridiagonal example has the printed active set {2, 3, 5}") {
+  auto const qp = tridiagonal_example();
+  auto const report = oracle::solve_dense(qp);
+  auto const counts = oracle::count_active(qp, report.x);
+  CHECK(counts.circles == 3);
+  for (std::size_t i = 0; i < 6; ++i) {
+    auto const& c = qp.circles[i];
+    auto const length = std::hypot(report.x[c.first], report.x[c.second]);
+    bool const printed_active = i == 1 || i == 2 || i == 4;
+    CHECK((length >= c.radius * (1 - 1e-15L)) == printed_active);
+  }
+  CHECK(oracle::certify(qp, report.x).energy_error < 1e-9);
+}
+
+TEST_CASE("random problems with bounds, intervals, circles and free unknowns are solved") {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    auto const qp = random_qp(seed, seed % 4 == 0 ? 0.0 : 0.4);
+    auto const report = oracle::solve_dense(qp);
+    auto const proof = oracle::certify(qp, report.x);
+    CHECK(report.residual < 1e-17);
+    CHECK(proof.infeasibility < 1e-18);
+    CHECK(proof.energy_error < 1e-8);
+  }
+}
+
+TEST_CASE("without active constraints the solution is that of the linear system") {
+  auto qp = random_qp(3, infinity);
+  qp.intervals.clear();
+  auto const report = oracle::solve_dense(qp);
+  Eigen::VectorXd const x = qp.A.ldlt().solve(qp.b.cast<double>());
+  CHECK((report.x.cast<double>() - x).norm() < 1e-9 * x.norm());
+  CHECK(qp.gradient(report.x).cwiseAbs().maxCoeff() < 1e-15L * qp.b.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("zero data give the zero solution") {
+  auto qp = random_qp(1, 1);
+  qp.b.setZero();
+  CHECK(oracle::solve_dense(qp).x.isZero(0));
+}
+
+TEST_CASE("the Jacobian is the derivative of the natural residual") {
+  auto const qp = random_qp(5, 0.4);
+  Eigen::VectorXd const ρ = qp.steps();
+  oracle::real_vector const x = oracle::real_vector::LinSpaced(qp.size(), -1, 1);
+  oracle::real_vector const direction = oracle::real_vector::LinSpaced(qp.size(), 2, -0.5L);
+  oracle::real_vector const z = x - ρ.cast<oracle::real>().cwiseProduct(qp.gradient(x));
+  Eigen::MatrixXd const J = ρ.asDiagonal() * oracle::scaled_jacobian(qp, z, ρ);
+  oracle::real const h = 1e-7L;
+  oracle::real_vector const quotient =
+      (qp.natural_residual(x + h * direction, ρ) - qp.natural_residual(x - h * direction, ρ)) /
+      (2 * h);
+  Eigen::VectorXd const predicted = J * direction.cast<double>();
+  CHECK((quotient.cast<double>() - predicted).norm() < 1e-9 * predicted.norm());
+}
+
+TEST_CASE("NaN data do not yield a solution") {
+  auto qp = random_qp(2, 1);
+  qp.b[4] = std::nanl("");
+  CHECK_THROWS_AS((void)oracle::solve_dense(qp), std::runtime_error);
+  qp.b[4] = 1;
+  qp.A(3, 3) = infinity;
+  CHECK_THROWS_AS((void)oracle::solve_dense(qp), std::runtime_error);
+}

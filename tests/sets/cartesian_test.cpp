@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/ball.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/free_space.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes/vector.hpp>
+
+#include "counting_disc.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <vector>
+
+using namespace products;
+using slant::cartesian;
+using slant::power;
+
+namespace {
+
+/// The vectors below 1, of any length. No capability, no static dimension.
+struct bounded_above {
+  slant::index n;
+  slant::index size() const { return n; }
+  void project(auto const& x, auto& y) const { y = x.cwiseMin(1.0); }
+  bool contains(auto const& x) const { return (x.array() <= 1.0).all(); }
+};
+
+}  // namespace
+
+TEST_CASE("cartesian: parts follow one another") {
+  vec<> const g = Eigen::Vector3d(1, 2, 0);
+  auto const set = cartesian(power(slant::half_line<>{}, 3), power(slant::ball<2>{}, g));
+  CHECK(set.size() == 9);
+  CHECK(set.block_count() == 6);
+  vec<> const x = (vec<>(9) << -1, 2, -3, 3, 4, 3, 4, 3, 4).finished();
+  vec<> const expected = (vec<>(9) << 0, 2, 0, 0.6, 0.8, 1.2, 1.6, 0, 0).finished();
+  vec<> y = vec<>::Constant(9, std::numeric_limits<double>::quiet_NaN());
+  slant::testing::allocation_guard const guard;
+  set.project(x, y);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK((y - expected).norm() <= 1e-15);
+  vec<> z = x;
+  set.project(z, z);
+  CHECK(z == y);
+  CHECK(set.contains(y));
+  CHECK(!set.contains(x));
+  CHECK(!set.contains(vec<>(x.head(8))));
+}
+
+TEST_CASE("cartesian: visit reaches the innermost blocks, numbered through") {
+  vec<> const g = Eigen::Vector2d(1, 2);
+  auto const node = cartesian(slant::half_line<>{}, slant::ball<2>{3.0});
+  auto const set = cartesian(power(slant::free_space<1>{}, 2), power(node, 2),
+                             power<slant::planar>(slant::ball<2>{}, g), slant::ball<2>{5.0});
+  CHECK(set.size() == 2 + 6 + 4 + 2);
+  CHECK(set.block_count() == 2 + 4 + 2 + 1);
+  std::vector<std::vector<slant::index>> places;
+  std::vector<double> radii;
+  set.visit([&](auto const& block, auto const& p) {
+    CHECK(p.index() == slant::index(places.size()));
+    places.emplace_back();
+    for (slant::index j = 0; j < p.size(); ++j) places.back().push_back(p.component(j));
+    if constexpr (requires { block.radius(); }) radii.push_back(block.radius());
+  });
+  CHECK(places == std::vector<std::vector<slant::index>>{
+                      {0}, {1}, {2}, {3, 4}, {5}, {6, 7}, {8, 10}, {9, 11}, {12, 13}});
+  CHECK(radii == std::vector<double>{3, 3, 1, 2, 5});
+}
+
+TEST_CASE("cartesian: offsets are constants as far as the types tell") {
+  auto const set = cartesian(slant::ball<2>{}, slant::half_line<>{}, power(slant::half_line<>{}, 4),
+                             slant::ball<3>{});
+  using set_type = std::remove_cvref_t<decltype(set)>;
+  static_assert(set_type::static_offset<0>() == 0);
+  static_assert(set_type::static_offset<1>() == 2);
+  static_assert(set_type::static_offset<2>() == 3);
+  static_assert(set_type::static_offset<3>() == -1);
+  CHECK(set.offset<3>() == 7);
+  CHECK(set.offset<4>() == 10);
+  static_assert(set_type::part_count == 4);
+  static_assert(!slant::has_static_dimension<set_type>);
+}
+
+TEST_CASE("cartesian: capabilities are those of the parts") {
+  vec<> const g = Eigen::Vector3d(1, 2, 0.5);
+  auto const normal = power(slant::half_line<>{}, 3);
+  auto const friction = power(slant::ball<2>{}, g);
+  auto const set = cartesian(normal, friction);
+  vec<> const z = numbers(9, 1);
+  vec<> const d = numbers(9, 2);
+  vec<> const x = slant::project(set, z);
+  vec<> const xn = x.head(3);
+  vec<> const xt = x.tail(6);
+  vec<> const dn = d.head(3);
+  vec<> const dt = d.tail(6);
+  CHECK(set.step_to_boundary(x, d) ==
+        std::min(normal.step_to_boundary(xn, dn), friction.step_to_boundary(xt, dt)));
+  vec<> const y = -d.cwiseAbs();
+  CHECK(set.support(y) == friction.support(vec<>(y.tail(6))));
+  CHECK(set.support(vec<>(-y)) == std::numeric_limits<double>::infinity());
+
+  auto operator_g = set.slant(x);
+  vec<> gd = vec<>::Constant(9, std::numeric_limits<double>::quiet_NaN());
+  slant::testing::allocation_guard const guard;
+  set.slant(z, operator_g);
+  operator_g.apply(d, gd);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  vec<> expected_n(3);
+  vec<> expected_t(6);
+  normal.slant(vec<>(z.head(3))).apply(dn, expected_n);
+  friction.slant(vec<>(z.tail(6))).apply(dt, expected_t);
+  CHECK(gd.head(3) == expected_n);
+  CHECK(gd.tail(6) == expected_t);
+}
+
+TEST_CASE("cartesian: early exit of the step skips later parts") {
+  auto const set =
+      cartesian(power(slant::half_line<>{}, 2), power(counting_disc{}, vec<>(vec<>::Ones(3))));
+  vec<> const x = vec<>::Zero(8);
+  vec<> d = vec<>::Ones(8);
+  d[1] = -1;
+  counting_disc::questions = 0;
+  CHECK(set.step_to_boundary(x, d) == 0.0);
+  CHECK(counting_disc::questions == 0);
+}
+
+TEST_CASE("cartesian: products passed as lvalues are referenced, rvalues and blocks are owned") {
+  auto friction = power(slant::ball<2>{}, vec<>(vec<>::Ones(2)));
+  auto const set = cartesian(friction, power(slant::half_line<>{}, 1));
+  friction.update(vec<>(vec<>::Constant(2, 3.0)));
+  CHECK(&set.part<0>() == &friction);
+  CHECK(set.part<0>().block(1).radius() == 3.0);
+  auto const owned = [] {
+    auto const block = slant::half_line<>{2.0};
+    return cartesian(block, power(slant::ball<2>{4.0}, 1));
+  }();
+  CHECK(owned.part<0>().lower() == 2.0);
+  CHECK(owned.part<1>().block(0).radius() == 4.0);
+}
+
+TEST_CASE("cartesian: a part may be any convex set") {
+  auto const set = cartesian(bounded_above{2}, slant::half_line<>{});
+  vec<> const x = Eigen::Vector3d(2, 0, -1);
+  CHECK(slant::project(set, x) == Eigen::Vector3d(1, 0, 0));
+  CHECK(!set.contains(x));
+  static_assert(!slant::has_slant<decltype(set), vec<>>);
+  static_assert(!slant::has_step_to_boundary<decltype(set), vec<>>);
+  static_assert(!slant::has_support<decltype(set), vec<>>);
+}
+
+TEST_CASE_TEMPLATE("cartesian: other scalars", S, float, long double) {
+  auto const set = cartesian(power(slant::half_line<S>{}, 1), slant::ball<2, S>{});
+  vec<S> const x = Eigen::Matrix<S, 3, 1>(S(-1), S(3), S(4));
+  vec<S> const y = slant::project(set, x);
+  CHECK(y[0] == S(0));
+  CHECK(std::abs(y[1] - S(3) / S(5)) <= std::numeric_limits<S>::epsilon());
+  CHECK(std::abs(y[2] - S(4) / S(5)) <= std::numeric_limits<S>::epsilon());
+  static_assert(std::is_same_v<decltype(set.step_to_boundary(y, x)), S>);
+}
+
+TEST_CASE("cartesian: vectors that are no Eigen vectors") {
+  auto const set = cartesian(power(slant::half_line<>{}, 2), power(slant::ball<2>{}, 2));
+  vec<> const x = numbers(6, 3);
+  slant::testing::archetype::vector v(x);
+  slant::project(set, v, v);
+  CHECK(v.local() == slant::project(set, x));
+  CHECK(set.contains(v));
+  auto operator_g = set.slant(v);
+  set.slant(v, operator_g);
+  slant::testing::archetype::vector w(x);
+  operator_g.apply(v, w);
+  vec<> expected(6);
+  operator_g.apply(v.local(), expected);
+  CHECK(w.local() == expected);
+  static_assert(slant::separable_set<decltype(set), slant::testing::archetype::vector>);
+}

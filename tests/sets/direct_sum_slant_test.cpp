@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <slant/concepts/capabilities.hpp>
+#include <slant/sets/block_diagonal_slant.hpp>
+#include <slant/sets/direct_sum_slant.hpp>
+
+#include "counting_disc.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace products;
+using bounds = slant::block_diagonal_slant<double, 1>;
+using identity = slant::block_diagonal_slant<double, 1, slant::consecutive, true>;
+
+namespace {
+
+bounds zero_one() {
+  bounds g(2);
+  g.assign(0, Eigen::Matrix<double, 1, 1>(0.0));
+  g.assign(1, Eigen::Matrix<double, 1, 1>(1.0));
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("direct_sum_slant: each part works on its own components") {
+  slant::direct_sum_slant<bounds, identity> g(zero_one(), identity(1));
+  CHECK(g.rows() == 3);
+  CHECK(g.cols() == 3);
+  vec<> const x = Eigen::Vector3d(5, 6, 7);
+  vec<> y = vec<>::Constant(3, std::numeric_limits<double>::quiet_NaN());
+  g.apply(x, y);
+  CHECK(y == Eigen::Vector3d(0, 6, 7));
+  g.apply_add(-1.0, x, y);
+  CHECK(y == Eigen::Vector3d(0, 0, 0));
+  g.diagonal(y);
+  CHECK(y == Eigen::Vector3d(0, 1, 1));
+  g.part<0>().assign(0, Eigen::Matrix<double, 1, 1>(1.0));
+  g.apply(x, y);
+  CHECK(y == x);
+  Eigen::MatrixXd const many = Eigen::MatrixXd::Constant(3, 2, 2.0);
+  Eigen::MatrixXd product(3, 2);
+  g.apply(many, product);
+  CHECK(product == many);
+}
+
+TEST_CASE("direct_sum_slant: keeps the laws that all parts have") {
+  using mixed = slant::direct_sum_slant<bounds, identity>;
+  static_assert(slant::psd_operator<mixed, vec<>>);
+  static_assert(slant::declares_firmly_nonexpansive<mixed>);
+  static_assert(!slant::spd_operator<mixed, vec<>>);
+  static_assert(!slant::declares_projector<mixed>);
+  using free = slant::direct_sum_slant<identity, identity>;
+  static_assert(slant::spd_operator<free, vec<>>);
+  static_assert(slant::declares_projector<free>);
+}

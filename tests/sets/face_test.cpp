@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/face.hpp>
+#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes/vector.hpp>
+
+#include "counting_disc.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace products;
+using slant::block_state;
+using slant::face_of;
+
+namespace {
+
+using indices = std::vector<slant::index>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("face: a product of half lines and discs") {
+  vec<> const g = Eigen::Vector3d(1, 5, 0);
+  auto const set = slant::cartesian(slant::half_lines(3), slant::discs(g));
+  vec<> x(9);
+  x << 1, 0, 2, 0.6, 0.8, 3, 3, 0, 0;
+  auto face = face_of(set, x);
+  CHECK(face.size() == 6);
+  CHECK(face.dimension() == 9);
+  CHECK(face.states() == std::vector{block_state::free, block_state::fixed, block_state::free,
+                                     block_state::sliding, block_state::free, block_state::fixed});
+  CHECK(face.free_count() == 3);
+  CHECK(face.sliding_count() == 1);
+  CHECK(face.fixed_count() == 2);
+  CHECK(face.components() == indices{0, 2, 5, 6});
+
+  vec<> const z = numbers(9, 1);
+  vec<> kept = vec<>::Constant(9, std::numeric_limits<double>::quiet_NaN());
+  vec<> rest = kept;
+  face.keep(z, kept);
+  face.keep_complement(z, rest);
+  for (int i : {0, 2, 5, 6}) CHECK(kept[i] == z[i]);
+  for (int i : {1, 3, 4, 7, 8}) CHECK(kept[i] == 0.0);
+  CHECK(kept + rest == z);
+  vec<> in_place = z;
+  face.keep(in_place, in_place);
+  CHECK(in_place == kept);
+}
+
+TEST_CASE("face: what is not kept is 0 even if it was not finite") {
+  auto const set = slant::half_lines(2);
+  vec<> const x = Eigen::Vector2d(0, 1);
+  auto const face = face_of(set, x);
+  vec<> y = Eigen::Vector2d(infinity, infinity);
+  face.keep(y, y);
+  CHECK(y == Eigen::Vector2d(0, infinity));
+  y = Eigen::Vector2d(2, std::numeric_limits<double>::quiet_NaN());
+  face.keep(y, y);
+  CHECK(std::isnan(y[1]));
+}
+
+TEST_CASE("face: assigning again reports changes, keeps everything in step, does not allocate") {
+  vec<> const g = vec<>::Ones(10);
+  auto const set = slant::cartesian(slant::half_lines(10), slant::discs<slant::planar>(g));
+  vec<> const inner = vec<>::Constant(30, 0.5);
+  vec<> corner = inner;
+  corner[3] = 0;
+  vec<> rim = inner;
+  rim[14] = 1;  // disc 4: components 14 and 24
+  rim[24] = 0;
+  slant::face<> face;
+  CHECK(face.size() == 0);
+  CHECK(face.assign(set, inner));
+  slant::testing::allocation_guard const guard;
+  bool const same = face.assign(set, inner);
+  bool const moved = face.assign(set, corner);
+  bool const back = face.assign(set, inner);
+  bool const slid = face.assign(set, rim);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(!same);
+  CHECK(moved);
+  CHECK(back);
+  CHECK(slid);
+  CHECK(face.state(14) == block_state::sliding);
+  CHECK(face.components().size() == 28);
+  CHECK(face == face_of(set, rim));
+  CHECK(!(face == face_of(set, inner)));
+}
+
+TEST_CASE("face: a set of the same size with another layout is another set") {
+  vec<> const g = vec<>::Ones(2);
+  vec<> const x = Eigen::Vector4d(1, 0, 0, 0);
+  auto face = face_of(slant::discs(g), x);
+  CHECK(face.components() == indices{2, 3});
+  CHECK(face.assign(slant::discs<slant::planar>(g), x));
+  CHECK(face.components() == indices{1, 3});
+  CHECK(face.assign(slant::half_lines(4), x));
+  CHECK(face.components() == indices{0});
+  CHECK(face.size() == 4);
+}
+
+TEST_CASE("face: a single block, and a point whose state differs only between sliding and fixed") {
+  auto const moving = face_of(slant::ball<2>{1.0}, Eigen::Vector2d(1, 0));
+  CHECK(moving.size() == 1);
+  CHECK(moving.sliding_count() == 1);
+  auto face = moving;
+  CHECK(face.assign(slant::ball<2>{0.0}, Eigen::Vector2d(0, 0)));
+  CHECK(face.fixed_count() == 1);
+  CHECK(face.components().empty());
+  CHECK(!(face == moving));
+}
+
+TEST_CASE("face: a rule of one's own") {
+  auto const set = slant::discs(vec<>(vec<>::Ones(3)));
+  slant::face<> face;
+  face.assign_by(set, [](auto const&, auto const& p) {
+    return p.index() == 1 ? block_state::free : block_state::fixed;
+  });
+  CHECK(face.components() == indices{2, 3});
+}
+
+TEST_CASE("face: the archetypes of a set and a vector") {
+  slant::testing::archetype::separable_set const set(3);
+  slant::testing::archetype::vector x(vec<>(Eigen::Vector3d(1, 2, 3)));
+  auto const face = face_of(set, x);
+  CHECK(face.size() == 1);
+  CHECK(face.components() == indices{0, 1, 2});
+  slant::testing::archetype::vector y = x;
+  face.keep_complement(x, y);
+  CHECK(y.local() == Eigen::Vector3d(0, 0, 0));
+}
+
+TEST_CASE("face: free components ask nobody, frictionless products never ask a disc") {
+  counting_disc::questions = 0;
+  auto const set = slant::cartesian(slant::half_lines(2), slant::free_components(3),
+                                    slant::power(counting_disc{}, vec<>(vec<>::Ones(0))));
+  vec<> const x = numbers(5, 2);
+  vec<> const y = slant::project(set, x);
+  CHECK(set.contains(y));
+  static_cast<void>(set.step_to_boundary(y, x));
+  static_cast<void>(set.slant(x));
+  auto const face = face_of(set, y);
+  CHECK(face.free_count() >= 3);
+  CHECK(counting_disc::questions == 0);
+}
+
+TEST_CASE_TEMPLATE("face: other scalars", S, float, long double) {
+  auto const set = slant::half_lines<S>(2);
+  vec<S> const x = Eigen::Matrix<S, 2, 1>(S(0), S(1));
+  auto const face = face_of(set, x);
+  static_assert(std::is_same_v<decltype(face), slant::face<S> const>);
+  vec<S> y = x;
+  face.keep_complement(Eigen::Matrix<S, 2, 1>(S(3), S(4)).eval(), y);
+  CHECK(y[0] == S(3));
+  CHECK(y[1] == S(0));
+}

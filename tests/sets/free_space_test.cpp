@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/free_space.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("free space: everything is inside", S, float, double, long double) {
+  slant::free_space<3, S> const space;
+  Eigen::Matrix<S, 3, 1> const x(S(1), S(-2), S(0.5)), d(S(0), S(1), S(0));
+  CHECK(space.project(x) == x);
+  CHECK(space.with().project(x + x) == x + x);
+  CHECK(space.contains(x));
+  CHECK(space.state(x) == slant::block_state::free);
+  CHECK(space.slant(x) == Eigen::Matrix<S, 3, 3>::Identity());
+  CHECK(space.step_to_boundary(x, d) == std::numeric_limits<S>::infinity());
+  CHECK(space.support(x) == std::numeric_limits<S>::infinity());
+  CHECK(space.support(S(0) * x) == S(0));
+}
+
+TEST_CASE("free space: no inequality, an empty one for those who loop over them") {
+  slant::free_space<2> const space;
+  static_assert(slant::free_space<2>::inequalities == 0);
+  Eigen::Vector2d const x(1, 2);
+  CHECK(space.inequality(x).size() == 0);
+  CHECK(space.inequality_gradient(x).rows() == 2);
+  CHECK(space.inequality_gradient(x).cols() == 0);
+  CHECK(space.inequality_hessian(x, Eigen::Matrix<double, 0, 1>{}) == Eigen::Matrix2d::Zero());
+}
+
+TEST_CASE("free space: NaN stays NaN") {
+  slant::free_space<2> const space;
+  Eigen::Vector2d const bad(1, quiet_nan), good(1, inf);
+  CHECK(space.project(bad).hasNaN());
+  CHECK(space.slant(bad).hasNaN());
+  CHECK(std::isnan(space.step_to_boundary(bad, good)));
+  CHECK(std::isnan(space.step_to_boundary(good, bad)));
+  CHECK(std::isnan(space.support(bad)));
+  CHECK_FALSE(space.contains(bad));
+}

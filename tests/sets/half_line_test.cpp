@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/half_line.hpp>
+
+#include "oracle/hard_points.hpp"
+#include "oracle/naive_projections.hpp"
+#include "oracle/set_checks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <vector>
+
+namespace {
+
+template <class S>
+using vec = Eigen::Matrix<S, 1, 1>;
+
+template <class S>
+vec<S> at(S const& value) {
+  return vec<S>::Constant(value);
+}
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("half line: known answers", S, float, double, long double, oracle::float_50) {
+  slant::half_line<S> const positive;
+  CHECK(positive.lower() == S(0));
+  CHECK(positive.project(at(S(-2)))(0) == S(0));
+  CHECK(positive.project(at(S(3)))(0) == S(3));
+  auto const shifted = positive.with(S(-1.5));
+  CHECK(shifted.project(at(S(-2)))(0) == S(-1.5));
+  CHECK(shifted.step_to_boundary(at(S(0.5)), at(S(-4))) == S(0.5));
+  CHECK(shifted.step_to_boundary(at(S(0.5)), at(S(4))) == std::numeric_limits<S>::infinity());
+  CHECK(shifted.step_to_boundary(at(S(0.5)), at(S(0))) == std::numeric_limits<S>::infinity());
+  CHECK(shifted.support(at(S(-2))) == S(3));
+  CHECK(shifted.support(at(S(0))) == S(0));
+  CHECK(shifted.support(at(S(2))) == std::numeric_limits<S>::infinity());
+  CHECK(shifted.inequality(at(S(2)))(0) == S(-3.5));
+}
+
+TEST_CASE("half line: the projection is exact at 20000 points of all sizes") {
+  oracle::number_source<double> source(11);
+  for (int i = 0; i < 20000; ++i) {
+    double const l = i % 3 == 0 ? 0.0 : source.any_size();
+    slant::half_line<double> const set(l);
+    vec<double> const x = at(i % 2 == 0 ? source.any_size() : source.nudged(l));
+    auto const p = set.project(x);
+    auto const exact = naive::project_box<oracle::float_50, 1>(
+        oracle::widen<oracle::float_50>(x), oracle::float_50(l), oracle::float_50(inf));
+    CHECK(oracle::ulp_distance<double>(p(0), exact(0)) == 0.0);
+    CHECK(set.contains(p));
+    CHECK(set.project(p)(0) == p(0));
+  }
+}
+
+TEST_CASE("half line: membership and state know a band of a few ulp, none at 0") {
+  slant::half_line<double> const set(3.0);
+  double const ε = std::numeric_limits<double>::epsilon();
+  CHECK(set.contains(at(3.0 * (1 - 4 * ε))));
+  CHECK_FALSE(set.contains(at(3.0 * (1 - 40 * ε))));
+  CHECK(set.state(at(3.0)) == slant::block_state::fixed);
+  CHECK(set.state(at(3.0 * (1 + 4 * ε))) == slant::block_state::fixed);
+  CHECK(set.state(at(3.0 * (1 + 40 * ε))) == slant::block_state::free);
+  slant::half_line<double> const positive;
+  CHECK(positive.contains(at(-0.0)));
+  CHECK_FALSE(positive.contains(at(-1e-300)));
+  CHECK(positive.state(at(0.0)) == slant::block_state::fixed);
+  CHECK(positive.state(at(1e-300)) == slant::block_state::free);
+}
+
+TEST_CASE("half line: slanting function [K (49)]") {
+  slant::half_line<double> const set(2.0);
+  CHECK(set.slant(at(2.0))(0, 0) == 1.0);
+  CHECK(set.slant(at(1.0))(0, 0) == 0.0);
+  auto const naive_project = [](auto const& x) {
+    return naive::project_box<oracle::float_50, 1>(x, oracle::float_50(2), oracle::float_50(inf));
+  };
+  for (double x : {-5.0, 1.9, 2.1, 7.0}) oracle::check_slant(set, at(x), naive_project, 1e-3, 1);
+}
+
+TEST_CASE("half line: inequality derivatives and variational inequality") {
+  slant::half_line<oracle::float_50> const wide(oracle::float_50(2));
+  oracle::check_inequality_derivatives(wide, vec<oracle::float_50>::Constant(3),
+                                       oracle::float_50(1e-3));
+  slant::half_line<double> const set(2.0);
+  std::vector<vec<double>> const points{at(2.0), at(2.5), at(1e10)};
+  for (double x : {-1e10, -1.0, 2.0, 3.0}) oracle::check_variational_inequality(set, at(x), points);
+}
+
+TEST_CASE("half line: steps start on the bound where rounding left them below") {
+  slant::half_line<double> const set(3.0);
+  double const below = std::nextafter(3.0, 0.0);
+  CHECK(set.step_to_boundary(at(below), at(-1.0)) == 0.0);
+  CHECK(set.step_to_boundary(at(below), at(1.0)) == inf);
+  CHECK(slant::half_line<double>(-1e308).step_to_boundary(at(1.5e308), at(-1e308)) ==
+        doctest::Approx(2.5));
+  CHECK(slant::half_line<double>(-inf).step_to_boundary(at(1.0), at(-1.0)) == inf);
+}
+
+TEST_CASE("half line: infinite bound and NaN") {
+  slant::half_line<double> const line(-inf);
+  CHECK(line.project(at(-1e308))(0) == -1e308);
+  CHECK(line.contains(at(-1e308)));
+  CHECK(line.state(at(-1e308)) == slant::block_state::free);
+  CHECK(line.support(at(-1.0)) == inf);
+  CHECK(line.support(at(0.0)) == 0.0);
+  slant::half_line<double> const set;
+  CHECK(std::isnan(set.project(at(quiet_nan))(0)));
+  CHECK(std::isnan(set.slant(at(quiet_nan))(0, 0)));
+  CHECK(std::isnan(set.step_to_boundary(at(quiet_nan), at(1.0))));
+  CHECK(std::isnan(set.step_to_boundary(at(1.0), at(quiet_nan))));
+  CHECK(std::isnan(set.support(at(quiet_nan))));
+  CHECK(std::isnan(set.inequality(at(quiet_nan))(0)));
+  CHECK_FALSE(set.contains(at(quiet_nan)));
+}
+
+TEST_CASE("half line: bad input is named") {
+  using slant::bad_input;
+  auto const text =
+      oracle::complaint<bad_input>([] { return slant::half_line<double>(quiet_nan); });
+  CHECK(text == "l: got nan, expected a number less than infinity");
+  CHECK(oracle::complaint<bad_input>([] { return slant::half_line<double>().with(inf); }) ==
+        "l: got inf, expected a number less than infinity");
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/interval.hpp>
+
+#include "oracle/hard_points.hpp"
+#include "oracle/naive_projections.hpp"
+#include "oracle/set_checks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <vector>
+
+namespace {
+
+template <class S>
+using vec = Eigen::Matrix<S, 1, 1>;
+
+template <class S>
+vec<S> at(S const& value) {
+  return vec<S>::Constant(value);
+}
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("interval: known answers", S, float, double, long double, oracle::float_50) {
+  slant::interval<S> const unit;
+  CHECK(unit.lower() == S(-1));
+  CHECK(unit.upper() == S(1));
+  auto const set = unit.with(S(-2), S(6));
+  CHECK(set.project(at(S(-3)))(0) == S(-2));
+  CHECK(set.project(at(S(0.5)))(0) == S(0.5));
+  CHECK(set.project(at(S(9)))(0) == S(6));
+  CHECK(set.step_to_boundary(at(S(2)), at(S(-8))) == S(0.5));
+  CHECK(set.step_to_boundary(at(S(2)), at(S(2))) == S(2));
+  CHECK(set.step_to_boundary(at(S(2)), at(S(0))) == std::numeric_limits<S>::infinity());
+  CHECK(set.support(at(S(3))) == S(18));
+  CHECK(set.support(at(S(-3))) == S(6));
+  CHECK(set.inequality(at(S(1)))(0) == S(-3));
+  CHECK(set.inequality(at(S(1)))(1) == S(-5));
+}
+
+TEST_CASE("interval: the projection is exact at 20000 points of all sizes") {
+  oracle::number_source<double> source(12);
+  for (int i = 0; i < 20000; ++i) {
+    double l = source.any_size(), u = i % 5 == 0 ? source.nudged(l) : source.any_size();
+    if (l > u) std::swap(l, u);
+    slant::interval<double> const set(l, u);
+    double const x = i % 3 == 0 ? source.any_size() : source.nudged(i % 3 == 1 ? l : u);
+    auto const p = set.project(at(x));
+    auto const exact = naive::project_box<oracle::float_50, 1>(
+        vec<oracle::float_50>::Constant(oracle::float_50(x)), oracle::float_50(l),
+        oracle::float_50(u));
+    CHECK(oracle::ulp_distance<double>(p(0), exact(0)) == 0.0);
+    CHECK(set.contains(p));
+    CHECK(set.project(p)(0) == p(0));
+  }
+}
+
+TEST_CASE("interval: membership and state know a band of a few ulp of the bound") {
+  slant::interval<double> const set(0.0, 3.0);
+  double const ε = std::numeric_limits<double>::epsilon();
+  CHECK(set.contains(at(3.0 * (1 + 4 * ε))));
+  CHECK_FALSE(set.contains(at(3.0 * (1 + 40 * ε))));
+  CHECK(set.state(at(3.0 * (1 - 4 * ε))) == slant::block_state::fixed);
+  CHECK(set.state(at(3.0 * (1 - 40 * ε))) == slant::block_state::free);
+  CHECK(set.state(at(0.0)) == slant::block_state::fixed);
+  CHECK(set.state(at(1e-300)) == slant::block_state::free);
+  CHECK_FALSE(set.contains(at(-1e-300)));
+  slant::interval<double> const single(2.0, 2.0);
+  CHECK(single.state(at(2.0)) == slant::block_state::fixed);
+  CHECK(single.project(at(7.0))(0) == 2.0);
+}
+
+TEST_CASE("interval: slanting function") {
+  slant::interval<double> const set(-2.0, 5.0);
+  CHECK(set.slant(at(-2.0))(0, 0) == 1.0);
+  CHECK(set.slant(at(5.0))(0, 0) == 1.0);
+  CHECK(slant::interval<double>(1.0, 1.0).slant(at(1.0))(0, 0) == 0.0);
+  auto const naive_project = [](auto const& x) {
+    return naive::project_box<oracle::float_50, 1>(x, oracle::float_50(-2), oracle::float_50(5));
+  };
+  for (double x : {-5.0, -1.9, 4.9, 7.0}) oracle::check_slant(set, at(x), naive_project, 1e-3, 1);
+}
+
+TEST_CASE("interval: inequality derivatives and variational inequality") {
+  slant::interval<oracle::float_50> const wide(oracle::float_50(2), oracle::float_50(4));
+  oracle::check_inequality_derivatives(wide, vec<oracle::float_50>::Constant(3),
+                                       oracle::float_50(1e-3));
+  slant::interval<double> const set(2.0, 4.0);
+  std::vector<vec<double>> const points{at(2.0), at(2.5), at(4.0)};
+  for (double x : {-1e10, -1.0, 2.0, 3.0, 5.0, 1e200}) {
+    oracle::check_variational_inequality(set, at(x), points);
+  }
+}
+
+TEST_CASE("interval: steps at, beyond and far from the bounds") {
+  slant::interval<double> const set(1.0, 3.0);
+  double const above = std::nextafter(3.0, 4.0);
+  CHECK(set.step_to_boundary(at(above), at(1.0)) == 0.0);
+  CHECK(set.step_to_boundary(at(above), at(-1.0)) == doctest::Approx(2.0));
+  CHECK(set.step_to_boundary(at(1.0), at(-1e-300)) == 0.0);
+  slant::interval<double> const huge(-1.5e308, 1.5e308);
+  CHECK(huge.step_to_boundary(at(-1e308), at(1e308)) == doctest::Approx(2.5));
+}
+
+TEST_CASE("interval: infinite ends and NaN") {
+  slant::interval<double> const line(-inf, inf);
+  CHECK(line.project(at(-1e308))(0) == -1e308);
+  CHECK(line.state(at(1e308)) == slant::block_state::free);
+  CHECK(line.slant(at(1e308))(0, 0) == 1.0);
+  CHECK(line.step_to_boundary(at(0.0), at(1.0)) == inf);
+  CHECK(line.support(at(1.0)) == inf);
+  CHECK(line.support(at(-1.0)) == inf);
+  CHECK(line.support(at(0.0)) == 0.0);
+  slant::interval<double> const set;
+  CHECK(std::isnan(set.project(at(quiet_nan))(0)));
+  CHECK(std::isnan(set.slant(at(quiet_nan))(0, 0)));
+  CHECK(std::isnan(set.step_to_boundary(at(quiet_nan), at(1.0))));
+  CHECK(std::isnan(set.step_to_boundary(at(0.5), at(quiet_nan))));
+  CHECK(std::isnan(set.support(at(quiet_nan))));
+  CHECK(std::isnan(set.with(0.0, 0.0).support(at(quiet_nan))));
+  CHECK_FALSE(set.contains(at(quiet_nan)));
+}
+
+TEST_CASE("interval: bad input is named") {
+  using slant::bad_input;
+  auto const made = [](double l, double u) {
+    return oracle::complaint<bad_input>([=] { return slant::interval<double>().with(l, u); });
+  };
+  CHECK(made(2.0, 1.0) == "l: got 2, expected a number <= u = 1");
+  CHECK(made(quiet_nan, 1.0) == "l: got nan, expected a number less than infinity");
+  CHECK(made(inf, inf) == "l: got inf, expected a number less than infinity");
+  CHECK(made(0.0, quiet_nan) == "u: got nan, expected a number greater than -infinity");
+  CHECK(made(-inf, -inf) == "u: got -inf, expected a number greater than -infinity");
+  CHECK(made(-inf, inf).empty());
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/ball.hpp>
+#include <slant/sets/free_space.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/testing/archetypes/vector.hpp>
+
+#include "counting_disc.hpp"
+#include "oracle/precise.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace products;
+using slant::consecutive;
+using slant::planar;
+using slant::power;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The radial projection, written by hand. Pairs are (first(i), second(i)).
+template <class S, class First, class Second>
+vec<S> naive_discs(vec<S> x, vec<S> const& g, First first, Second second) {
+  using std::sqrt;
+  for (Eigen::Index i = 0; i < g.size(); ++i) {
+    S& a = x[first(i)];
+    S& b = x[second(i)];
+    S const length = S(sqrt(S(a * a + b * b)));
+    if (length > g[i]) {
+      a *= g[i] / length;
+      b *= g[i] / length;
+    }
+  }
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("power: discs agree with a loop, in both layouts and in place", S, float, double,
+                   long double, oracle::float_50) {
+  Eigen::Index const m = 37;
+  vec<S> const g = numbers<S>(m, 1).cwiseAbs();
+  vec<S> const x = numbers<S>(2 * m, 2);
+  auto const pairs = power(slant::ball<2, S>{}, g);
+  auto const planes = power<planar>(slant::ball<2, S>{}, g);
+  CHECK(pairs.size() == 2 * m);
+  CHECK(pairs.block_count() == m);
+  S const tolerance = S(16) * std::numeric_limits<S>::epsilon();
+  auto const check = [&](auto const& set, vec<S> const& expected) {
+    vec<S> y = vec<S>::Constant(2 * m, std::numeric_limits<S>::quiet_NaN());
+    set.project(x, y);
+    CHECK((y - expected).cwiseAbs().maxCoeff() <= tolerance);
+    vec<S> z = x;
+    set.project(z, z);
+    CHECK(z == y);
+    CHECK(slant::project(set, x) == y);
+    CHECK(set.contains(y));
+    CHECK(!set.contains(x));
+  };
+  check(pairs, naive_discs<S>(
+                   x, g, [](auto i) { return 2 * i; }, [](auto i) { return 2 * i + 1; }));
+  check(planes, naive_discs<S>(
+                    x, g, [](auto i) { return i; }, [m](auto i) { return i + m; }));
+}
+
+TEST_CASE("power: every capability is that of the blocks") {
+  vec<> const g = Eigen::Vector4d(1, 0.5, 0, infinity);
+  vec<> const z = numbers(8, 3);
+  vec<> const d = numbers(8, 4);
+  auto const check = [&](auto const& set) {
+    vec<> const x = slant::project(set, z);
+    double step = infinity;
+    double support = 0;
+    set.visit([&](slant::ball<2> const& b, auto const& p) {
+      CHECK(b.radius() == g[p.index()]);
+      step = std::min(step, b.step_to_boundary(p.value(x), p.value(d)));
+      if (p.index() < 3) support += b.support(p.value(d));
+      CHECK(p.in(x) == b.project(p.in(z)));
+    });
+    CHECK(set.step_to_boundary(x, d) == step);
+    CHECK(set.support(d) == infinity);
+    auto const finite = power<typename std::remove_cvref_t<decltype(set)>::layout>(slant::ball<2>{},
+                                                                                   g.cwiseMin(1e9));
+    vec<> y = d;
+    finite.visit([&](auto const&, auto const& p) {
+      if (p.index() == 3) p.in(y).setZero();
+    });
+    CHECK(finite.support(y) == doctest::Approx(support));
+  };
+  check(power(slant::ball<2>{}, g));
+  check(power<planar>(slant::ball<2>{}, g));
+}
+
+TEST_CASE("power: the slanting operator is block diagonal and can be renewed without allocation") {
+  vec<> const g = numbers(5, 5).cwiseAbs();
+  vec<> const x = numbers(10, 6);
+  vec<> const y = numbers(10, 7);
+  auto const check = [&](auto const& set) {
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(10, 10);
+    set.visit([&](auto const& b, auto const& p) {
+      Eigen::Matrix2d const block = b.slant(p.value(x));
+      for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) expected(p.component(i), p.component(j)) = block(i, j);
+      }
+    });
+    auto operator_g = set.slant(y);
+    slant::testing::allocation_guard const guard;
+    set.slant(x, operator_g);
+    auto const allocations = guard.count();
+    CHECK(allocations == 0);
+    for (int j = 0; j < 10; ++j) {
+      vec<> column = vec<>::Constant(10, std::numeric_limits<double>::quiet_NaN());
+      operator_g.apply(vec<>::Unit(10, j), column);
+      CHECK(column == expected.col(j));
+    }
+  };
+  check(power(slant::ball<2>{}, g));
+  check(power<planar>(slant::ball<2>{}, g));
+}
+
+TEST_CASE("power: the step stops early, and then still tells that a step would leave the set") {
+  vec<> const g = vec<>::Ones(100);
+  auto const set = power(counting_disc{}, g);
+  vec<> const x = vec<>::Zero(200);
+  vec<> d = vec<>::Constant(200, 1e-3);
+  d[2] = 100;  // the second disc is left at about 0.01
+  counting_disc::questions = 0;
+  double const full = set.step_to_boundary(x, d);
+  CHECK(full == doctest::Approx(0.01));
+  CHECK(counting_disc::questions == 100);
+  counting_disc::questions = 0;
+  CHECK(set.step_to_boundary(x, d, 1.0) < 1.0);
+  CHECK(counting_disc::questions == 2);
+  counting_disc::questions = 0;
+  CHECK(set.step_to_boundary(x, d, 0.001) == full);
+  CHECK(counting_disc::questions == 100);
+  vec<> y = x;
+  y[0] = 1;
+  d[0] = 1;
+  counting_disc::questions = 0;
+  CHECK(set.step_to_boundary(y, d) == 0.0);
+  CHECK(counting_disc::questions == 1);
+  y[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(set.step_to_boundary(y, d)));
+  y[0] = 0;
+  d[198] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(set.step_to_boundary(y, d)));
+}
+
+TEST_CASE("power: no member allocates, slant(x) excepted") {
+  vec<> const g = numbers(20, 8).cwiseAbs();
+  auto const set = power<planar>(slant::ball<2>{}, g);
+  vec<> const x = numbers(40, 9);
+  vec<> y = x;
+  slant::testing::allocation_guard const guard;
+  set.project(x, y);
+  set.project(y, y);
+  bool const inside = set.contains(y);
+  double const step = set.step_to_boundary(y, x);
+  double const support = set.support(x);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(inside);
+  CHECK(step >= 0);
+  CHECK(support > 0);
+}
+
+TEST_CASE("power: free components are neither looked at nor stored") {
+  auto const set = power(slant::free_space<1>{}, 3);
+  static_assert(sizeof(set) <= 2 * sizeof(slant::index));
+  vec<> const nan = vec<>::Constant(3, std::numeric_limits<double>::quiet_NaN());
+  vec<> const x = Eigen::Vector3d(1, -2, 3);
+  CHECK(slant::project(set, x) == x);
+  CHECK(set.contains(x));
+  CHECK(!set.contains(nan));
+  CHECK(set.step_to_boundary(x, x) == infinity);
+  CHECK(set.support(vec<>(vec<>::Zero(3))) == 0.0);
+  CHECK(set.support(x) == infinity);
+  auto const g = set.slant(x);
+  vec<> y = nan;
+  g.apply(x, y);
+  CHECK(y == x);
+}
+
+TEST_CASE("power: sizes that do not match are not members") {
+  auto const set = power(slant::half_line<>{}, 3);
+  CHECK(set.contains(vec<>(vec<>::Ones(3))));
+  CHECK(!set.contains(vec<>(vec<>::Ones(2))));
+}
+
+TEST_CASE("power: expressions and vectors that are no Eigen vectors") {
+  vec<> const g = numbers(4, 10).cwiseAbs();
+  vec<> const x = numbers(8, 11);
+  vec<> const h = numbers(8, 12);
+  auto const set = power(slant::ball<2>{}, g);
+  vec<> y(8);
+  set.project(x - h, y);
+  CHECK(y == slant::project(set, vec<>(x - h)));
+  CHECK(set.contains(0.5 * y));
+  slant::testing::archetype::vector v(x);
+  slant::project(set, v, v);
+  CHECK(v.local() == slant::project(set, x));
+  CHECK(slant::project(set, slant::testing::archetype::vector(x)).local() == v.local());
+  CHECK(set.contains(v));
+  CHECK(set.step_to_boundary(v, v) == set.step_to_boundary(v.local(), v.local()));
+  static_assert(slant::convex_set<decltype(set), slant::testing::archetype::vector>);
+  static_assert(slant::separable_set<decltype(set), slant::testing::archetype::vector>);
+}

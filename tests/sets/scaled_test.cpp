@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include <slant/operators/scaled.hpp>  // the other `scaled`: the two must live side by side
+#include <slant/sets/ball.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/scaled.hpp>
+#include <slant/sets/second_order_cone.hpp>
+
+#include "counting_disc.hpp"
+#include "oracle/precise.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace products;
+using Eigen::Vector2d;
+using slant::scaled;
+
+TEST_CASE_TEMPLATE("scaled: a disc of c times the radius", S, float, double, long double,
+                   oracle::float_50) {
+  using vector = Eigen::Matrix<S, 2, 1>;
+  auto const set = scaled(S(3), slant::ball<2, S>{S(2)});
+  slant::ball<2, S> const twin{S(6)};
+  S const tolerance = S(32) * std::numeric_limits<S>::epsilon();
+  for (auto const& x : {vector(S(9), S(12)), vector(S(1), S(2)), vector(S(-70), S(1) / S(70))}) {
+    CHECK((set.project(x) - twin.project(x)).norm() <= tolerance);
+    CHECK(set.contains(x) == twin.contains(x));
+    CHECK((set.slant(x) - twin.slant(x)).norm() <= tolerance);
+    CHECK(S(set.support(x) - twin.support(x)) <= tolerance * x.norm());
+    CHECK(S(set.support(x) - twin.support(x)) >= -tolerance * x.norm());
+    CHECK(set.contains(set.project(x)));
+    CHECK(set.state(set.project(x)) == twin.state(twin.project(x)));
+  }
+  S const step = set.step_to_boundary(vector(S(1), S(0)), vector(S(2), S(0)));
+  CHECK(S(step - S(5) / S(2)) <= tolerance);
+  CHECK(S(step - S(5) / S(2)) >= -tolerance);
+}
+
+TEST_CASE("scaled: f(x/c) and its derivatives") {
+  auto const set = scaled(4.0, slant::ball<2>{0.5});
+  Vector2d const x(1, 3);
+  CHECK(set.inequality(x)(0) == (1.0 + 9.0) / 16 - 0.25);
+  CHECK(set.inequality_gradient(x) == Vector2d(2.0 / 16, 6.0 / 16));
+  CHECK(set.inequality_hessian(x, Eigen::Matrix<double, 1, 1>(3.0)) ==
+        6.0 / 16 * Eigen::Matrix2d::Identity());
+}
+
+TEST_CASE("scaled: a cone is its own multiple") {
+  slant::second_order_cone<3> const cone{0.5};
+  auto const set = scaled(7.0, cone);
+  Eigen::Vector3d const x(1, 2, 2);
+  CHECK((set.project(x) - cone.project(x)).norm() <= 1e-15);
+  CHECK(set.support(Eigen::Vector3d(-1, 0.1, 0)) == 0.0);
+  CHECK(set.support(Eigen::Vector3d(1, 0.1, 0)) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("scaled: products in place, without allocation") {
+  vec<> const g = numbers(5, 1).cwiseAbs();
+  auto const discs = slant::discs(g);
+  auto const set = scaled(2.0, discs);
+  auto const twin = slant::discs(vec<>(2 * g));
+  vec<> const x = numbers(10, 2) * 3;
+  vec<> y = x;
+  slant::testing::allocation_guard const guard;
+  set.project(y, y);
+  bool const inside = set.contains(y);
+  double const step = set.step_to_boundary(y, x);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(inside);
+  CHECK((y - slant::project(twin, x)).norm() <= 1e-14);
+  CHECK(step == doctest::Approx(twin.step_to_boundary(y, x)));
+  CHECK(set.support(x) == doctest::Approx(twin.support(x)));
+}
+
+TEST_CASE("scaled: operators and sets") {
+  Eigen::VectorXd const x = Vector2d(1, 2);
+  auto const operator_a = scaled(3.0, Eigen::MatrixXd(Eigen::Matrix2d::Identity()));
+  Eigen::VectorXd y(2);
+  slant::apply(operator_a, x, y);
+  CHECK(y == 3 * x);
+  CHECK(scaled(3, slant::half_line<>{2.0}).project(Eigen::Matrix<double, 1, 1>(0.0))(0) == 6.0);
+}
+
+TEST_CASE("scaled: bad factors are named") {
+  CHECK_THROWS_WITH_AS(static_cast<void>(scaled(0.0, slant::ball<2>{})),
+                       "c: got 0, expected a finite number > 0", slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(scaled(-2.0, slant::ball<2>{})), slant::bad_input);
+  CHECK_THROWS_AS(
+      static_cast<void>(scaled(std::numeric_limits<double>::infinity(), slant::ball<2>{})),
+      slant::bad_input);
+  CHECK_THROWS_AS(
+      static_cast<void>(scaled(std::numeric_limits<double>::quiet_NaN(), slant::half_lines(3))),
+      slant::bad_input);
+}

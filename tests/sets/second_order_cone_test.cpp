@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include <slant/sets/second_order_cone.hpp>
+
+#include "oracle/projection_errors.hpp"
+#include "oracle/set_checks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using oracle::float_50;
+using slant::block_state;
+using cone = slant::second_order_cone<3>;
+using vec3 = Eigen::Vector3d;
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double ε = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("cone: known answers", S, float, double, long double, float_50) {
+  using vec = Eigen::Matrix<S, 3, 1>;
+  slant::second_order_cone<3, S> const unit;
+  CHECK(unit.mu() == S(1));
+  auto const set = unit.with(S(2));
+  vec const zero(S(0), S(0), S(0));
+  CHECK(set.project(vec(S(3), S(4), S(4))) == vec(S(3), S(4), S(4)));
+  CHECK(set.project(vec(S(-20), S(6), S(8))) == zero);
+  CHECK(set.project(vec(S(-21), S(6), S(8))) == zero);
+  // n + μρ = 25, 1 + μ² = 10, μ p_n/ρ = 3/4.
+  CHECK(set.with(S(3)).project(vec(S(-5), S(6), S(8))) == vec(S(2.5), S(4.5), S(6)));
+  CHECK(set.support(vec(S(-20), S(6), S(8))) == S(0));
+  CHECK(set.support(vec(S(-19), S(6), S(8))) == std::numeric_limits<S>::infinity());
+  CHECK(set.inequality(vec(S(1), S(2), S(1)))(0) == S(1));
+  CHECK(set.inequality(vec(S(1), S(2), S(1)))(1) == S(-1));
+  CHECK(set.step_to_boundary(vec(S(1), S(0), S(0)), vec(S(0), S(0), S(4))) == S(0.5));
+  CHECK(set.step_to_boundary(vec(S(1), S(0), S(0)), vec(S(-2), S(0), S(0))) == S(0.5));
+  CHECK(set.step_to_boundary(vec(S(1), S(0), S(0)), vec(S(1), S(0), S(2))) ==
+        std::numeric_limits<S>::infinity());
+}
+
+TEST_CASE("cone: 20000 random and adversarial points within 2 ulp of the 50-digit projection") {
+  auto const check = [](auto const& errors) {
+    CAPTURE(errors.worst.first);
+    CAPTURE(errors.worst.x);
+    CHECK(errors.ulp <= 2);
+    CHECK(errors.outside == 0);
+  };
+  check(oracle::cone_errors<double, float_50, 2>(2000, 1));
+  check(oracle::cone_errors<double, float_50, 3>(20000, 2));
+  check(oracle::cone_errors<double, float_50, 10>(500, 3));
+  check(oracle::cone_errors<float, float_50, 3>(2000, 4));
+  check(oracle::cone_errors<long double, float_50, 3>(2000, 5));
+}
+
+TEST_CASE("cone: a power of two in the units changes nothing but the units") {
+  oracle::number_source<double> source(7);
+  for (int i = 0; i < 200; ++i) {
+    vec3 const x = source.of_size(-2, 2) * source.direction<3>();
+    cone const set(source.positive_of_size(-2, 2));
+    vec3 const p = set.project(x);
+    for (double s : {0x1p-900, 0x1p-500, 0x1p+3, 0x1p+500, 0x1p+900}) {
+      CHECK(set.project(s * x) == s * p);
+      CHECK(set.slant(s * x) == set.slant(x));
+    }
+  }
+}
+
+TEST_CASE("cone: variational inequality, and the residual is in the polar cone [Moreau]") {
+  oracle::number_source<double> source(8);
+  for (int i = 0; i < 40; ++i) {
+    double const μ = source.positive_of_size(-2, 2);
+    cone const set(μ);
+    vec3 const x = source.of_size(-3, 3) * source.direction<3>();
+    std::vector<vec3> points{vec3(0, 0, 0), vec3(1, 0, 0)};
+    for (double θ = 0; θ < 6.3; θ += 0.5) {
+      for (double n : {1e-3, 1.0, 1e3}) {
+        points.push_back(set.project(vec3(n, μ * n * std::cos(θ), μ * n * std::sin(θ))));
+      }
+    }
+    oracle::check_variational_inequality(set, x, points);
+    vec3 const p = set.project(x), r = x - p;
+    CHECK(std::abs(p.dot(r)) <= 8 * ε * x.norm() * p.norm());
+    CHECK(r(0) + μ * r.tail<2>().norm() <= 8 * ε * (1 + μ) * x.norm());
+  }
+}
+
+TEST_CASE("cone: state and membership") {
+  cone const set(2.0);
+  vec3 const on_mantle(5, 6, 8);
+  CHECK(set.state(on_mantle) == block_state::sliding);
+  CHECK(set.state(vec3(5 * (1 + 4 * ε), 6, 8)) == block_state::sliding);
+  CHECK(set.state(vec3(5 * (1 + 40 * ε), 6, 8)) == block_state::free);
+  CHECK(set.contains(vec3(5 * (1 - 4 * ε), 6, 8)));
+  CHECK_FALSE(set.contains(vec3(5 * (1 - 40 * ε), 6, 8)));
+  CHECK_FALSE(set.contains(vec3(-5, 6, 8)));
+  CHECK_FALSE(set.contains(vec3(-1e-300, 0, 0)));
+  CHECK(set.contains(vec3(0, 0, 0)));
+  CHECK(set.state(vec3(0, 0, 0)) == block_state::fixed);
+  CHECK(set.state(vec3(1e-300, 0, 0)) == block_state::free);
+  CHECK(set.state(1e-300 * on_mantle) == block_state::sliding);
+}
+
+TEST_CASE("cone: μ = 0 is the ray, and a huge μ nearly the half space") {
+  cone const ray(0.0), wide(1e200);
+  vec3 const zero(0, 0, 0);
+  CHECK(ray.project(vec3(2, 3, 4)) == vec3(2, 0, 0));
+  CHECK(ray.project(vec3(-2, 3, 4)) == zero);
+  CHECK(ray.project(vec3(-2, 0, 0)) == zero);
+  CHECK(ray.state(vec3(2, 0, 0)) == block_state::sliding);
+  CHECK(ray.state(zero) == block_state::fixed);
+  CHECK(ray.slant(vec3(2, 3, 4)) == vec3(1, 0, 0).asDiagonal().toDenseMatrix());
+  CHECK(ray.slant(vec3(2, 0, 0)) == vec3(1, 0, 0).asDiagonal().toDenseMatrix());
+  CHECK(ray.slant(vec3(-2, 3, 4)) == Eigen::Matrix3d::Zero());
+  CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(-1, 0, 0)) == 2.0);
+  CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(-1, 1, 0)) == 0.0);
+  CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(1, 0, 0)) == inf);
+  CHECK(wide.project(vec3(1, 3, 4)) == vec3(1, 3, 4));
+  CHECK(wide.project(vec3(-1, 3e100, 4e100)).tail<2>() == vec3(0, 3e100, 4e100).tail<2>());
+  CHECK(wide.project(vec3(-1, 0, 0)) == zero);
+}
+
+TEST_CASE("cone: slanting function in its three regions and on the kinks") {
+  oracle::number_source<double> source(9);
+  for (int i = 0; i < 90; ++i) {
+    double const μ = source.positive_of_size(-1, 1);
+    vec3 x = source.direction<3>();
+    double const ρ = x.tail<2>().norm();
+    // Away from the kinks n = ρ/μ and n = −μρ by at least a tenth of their distance.
+    double const between = source.uniform(0.1, 0.9);
+    x(0) = i % 3 == 0   ? ρ / μ * (1.1 + source.uniform(0, 3))
+           : i % 3 == 1 ? -μ * ρ * (1.1 + source.uniform(0, 3))
+                        : between * ρ / μ - (1 - between) * μ * ρ;
+    auto const naive_project = [&](auto const& z) {
+      return naive::project_cone<float_50, 3>(z, float_50(μ));
+    };
+    oracle::check_slant(cone(μ), x, naive_project, 1e-15, 8);
+  }
+  cone const set(2.0);
+  CHECK(set.slant(vec3(5, 6, 8)) == Eigen::Matrix3d::Identity());
+  CHECK(set.slant(vec3(0, 0, 0)) == Eigen::Matrix3d::Identity());
+  CHECK(set.slant(vec3(-20, 6, 8)) == Eigen::Matrix3d::Zero());
+  // μ = 1, n = 0: w = (1, e)/√2, θ = 1/2.
+  Eigen::Matrix3d expected;
+  expected << 0.5, 0.5, 0, 0.5, 0.5, 0, 0, 0, 0.5;
+  CHECK((cone(1.0).slant(vec3(0, 1, 0)) - expected).norm() <= 4 * ε);
+}
+
+TEST_CASE("cone: steps agree with bisection in 50 digits at all scales") {
+  using real = float_50;
+  using wide = Eigen::Matrix<real, 3, 1>;
+  oracle::number_source<double> source(10);
+  double worst = 0;
+  for (int i = 0; i < 150; ++i) {
+    double const μ = source.positive_of_size(-3, 3), n = source.positive_of_size(-130, 130);
+    vec3 x(n, 0, 0);
+    double const depth = i % 3 == 0   ? 4 * ε
+                         : i % 3 == 1 ? source.positive_of_size(-14, 0) / 2
+                                      : 0.7;
+    x.tail<2>() = (1 - depth) * μ * n * source.direction<2>();
+    vec3 const d = source.of_size(-3, 3) * source.direction<3>();
+    real const M(μ);
+    auto const member = [&](wide const& z) {
+      return z(0) >= 0 && z(1) * z(1) + z(2) * z(2) <= M * M * z(0) * z(0);
+    };
+    real const unit(n);
+    wide const wide_x = oracle::widen<real>(x), wide_d = oracle::widen<real>(d) * unit;
+    if (!member(wide_x)) continue;
+    cone const set(μ);
+    double const α = set.step_to_boundary(x, d);
+    if (member(oracle::widen<real>(d))) {
+      CHECK(α == inf);
+      continue;
+    }
+    real const exact = naive::exit_step<real>(member, wide_x, wide_d, real(1e40)) * unit;
+    worst = std::max(worst, oracle::ulp_distance<double>(α, exact));
+  }
+  CHECK(worst <= 4);
+}
+
+TEST_CASE("cone: steps along generators, through the apex and from outside by rounding") {
+  cone const set(2.0);
+  vec3 const x(5, 6, 8), zero(0, 0, 0);
+  CHECK(set.step_to_boundary(x, -x) == 1.0);
+  CHECK(set.step_to_boundary(x, x) == inf);
+  CHECK(set.step_to_boundary(x, zero) == inf);
+  CHECK(set.step_to_boundary(zero, x) == inf);
+  CHECK(set.step_to_boundary(zero, -x) == 0.0);
+  CHECK(set.step_to_boundary(zero, vec3(1, 3, 0)) == 0.0);
+  vec3 const outside(5 * (1 - 4 * ε), 6, 8);
+  CHECK(set.step_to_boundary(outside, vec3(0, 6, 8)) == 0.0);
+  CHECK(set.step_to_boundary(outside, vec3(-1, 0, 0)) == 0.0);
+  CHECK(set.step_to_boundary(outside, -outside) == doctest::Approx(1.0));
+  CHECK(set.step_to_boundary(outside, vec3(0, -6, -8)) == doctest::Approx(2.0));
+  oracle::number_source<double> source(11);
+  for (int i = 0; i < 2000; ++i) {
+    double const μ = source.positive_of_size(-3, 3);
+    cone const random(μ);
+    vec3 const p = random.project(source.of_size(-100, 100) * source.direction<3>());
+    vec3 const d = source.any_size() * source.direction<3>();
+    double const α = random.step_to_boundary(p, d);
+    CHECK(α >= 0);
+    if (α < inf) CHECK((p + α * d)(0) >= -16 * ε * p(0));
+  }
+}
+
+TEST_CASE("cone: inequality and its derivatives") {
+  using wide = Eigen::Matrix<float_50, 3, 1>;
+  oracle::check_inequality_derivatives(slant::second_order_cone<3, float_50>(float_50(0.75)),
+                                       wide(float_50(2), float_50(-0.25), float_50(3)),
+                                       float_50(1e-10));
+  vec3 const x(1.25, 0.6 * (1 + 3 * ε), 0.8);
+  float_50 const n = float_50(x(0)) * float_50(0.8);
+  float_50 const exact = float_50(x(1)) * float_50(x(1)) + float_50(x(2)) * float_50(x(2)) - n * n;
+  CHECK(oracle::ulp_distance<double>(cone(0.8).inequality(x)(0), exact) <= 1);
+}
+
+TEST_CASE("cone: NaN stays NaN") {
+  for (double μ : {0.0, 1.0, 1e200}) {
+    cone const set(μ);
+    for (vec3 const& bad : {vec3(quiet_nan, 1, 0), vec3(1, quiet_nan, 0), vec3(-1, 0, quiet_nan)}) {
+      CHECK(set.project(bad).array().isNaN().all());
+      CHECK(set.slant(bad).array().isNaN().all());
+      CHECK_FALSE(set.contains(bad));
+      CHECK(std::isnan(set.step_to_boundary(bad, vec3(-1, 0, 0))));
+      CHECK(std::isnan(set.step_to_boundary(vec3(1, 0, 0), bad)));
+      CHECK(std::isnan(set.support(bad)));
+    }
+  }
+  CHECK(cone(1.0).project(vec3(inf, 1, 0)).hasNaN());
+}
+
+TEST_CASE("cone: bad input is named") {
+  using slant::bad_input;
+  auto const made = [](double μ) {
+    return oracle::complaint<bad_input>([=] { return cone().with(μ); });
+  };
+  CHECK(made(-1) == "mu: got -1, expected a finite number >= 0");
+  CHECK(made(inf) == "mu: got inf, expected a finite number >= 0");
+  CHECK(made(quiet_nan) == "mu: got nan, expected a finite number >= 0");
+  CHECK(made(0).empty());
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+//
+// The law checks must find operators that lie: one liar per law, and honest operators that pass.
+#include <slant/testing/operator_laws.hpp>
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/QR>
+
+#include <string>
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+namespace archetype = slant::testing::archetype;
+
+/// Whether a breach of a law whose name begins like this is found.
+template <class A>
+bool finds(A const& a, std::string const& law) {
+  for (auto const& broken : slant::testing::operator_breaches(a)) {
+    if (broken.law.rfind(law, 0) == 0) return true;
+  }
+  return false;
+}
+
+MatrixXd random_matrix(Eigen::Index n) {
+  std::srand(7);
+  return MatrixXd::Random(n, n);
+}
+MatrixXd orthogonal(Eigen::Index n) {
+  return Eigen::HouseholderQR<MatrixXd>(random_matrix(n)).householderQ();
+}
+/// Symmetric with these eigenvalues.
+MatrixXd with_eigenvalues(VectorXd const& λ) {
+  MatrixXd const q = orthogonal(λ.size());
+  MatrixXd const m = q * λ.asDiagonal() * q.transpose();
+  return (m + m.transpose()) / 2;
+}
+
+/// Applies a matrix; the liars below add one wrong member each.
+struct honest {
+  MatrixXd m;
+  [[nodiscard]] Eigen::Index rows() const { return m.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return m.cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = m * x; }
+};
+
+struct affine : honest {
+  void apply(VectorXd const& x, VectorXd& y) const { y = (m * x).array() + 1e-6; }
+};
+struct accumulating : honest {
+  void apply(VectorXd const& x, VectorXd& y) const { y += m * x; }
+};
+struct partly_written : honest {
+  void apply(VectorXd const& x, VectorXd& y) const {
+    y.tail(rows() - 1) = (m * x).tail(rows() - 1);
+  }
+};
+struct not_a_number : honest {
+  void apply(VectorXd const& x, VectorXd& y) const { y = std::sqrt(-1.0) * x; }
+};
+struct wrong_size : honest {
+  void apply(VectorXd const& x, VectorXd& y) const { y = x.head(cols() - 1); }
+};
+struct remembering : honest {
+  struct memory {
+    double last = 0;
+  };
+  [[nodiscard]] memory workspace(VectorXd const&) const { return {}; }
+  void apply(VectorXd const& x, VectorXd& y, memory& w) const {
+    y = m * x + w.last * VectorXd::Ones(rows());
+    w.last = 1e-3;
+  }
+};
+struct wrong_adjoint : honest {
+  void apply_adjoint(VectorXd const& x, VectorXd& y) const { y = m * x; }
+};
+struct wrong_accumulation : honest {
+  void apply_add(double, VectorXd const& x, VectorXd& y) const { y += m * x; }
+};
+struct wrong_adjoint_accumulation : honest {
+  void apply_adjoint(VectorXd const& x, VectorXd& y) const { y = m.transpose() * x; }
+  void apply_adjoint_add(double α, VectorXd const& x, VectorXd& y) const {
+    y = α * (m.transpose() * x);
+  }
+};
+struct wrong_diagonal : honest {
+  void diagonal(VectorXd& d) const {
+    d = m.diagonal();
+    d[3] *= 1 + 1e-9;
+  }
+};
+struct wrong_columns : honest {
+  void columns(slant::index first, MatrixXd& y) const {
+    y = m.middleRows(first, y.cols()).transpose();
+  }
+};
+struct wrong_inverse : honest {
+  [[nodiscard]] honest inverse() const { return {m.transpose()}; }
+};
+struct wrong_for_many {
+  MatrixXd m;
+  [[nodiscard]] Eigen::Index rows() const { return m.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return m.cols(); }
+  void apply(auto const& x, auto& y) const {
+    y = m * x;
+    if (y.cols() > 1) y.col(1) = y.col(0);
+  }
+};
+
+template <slant::law... L>
+struct declaring : honest {
+  static constexpr auto laws = slant::laws<L...>;
+};
+
+}  // namespace
+
+TEST_CASE("honest operators pass") {
+  slant::testing::check_operator_laws(honest{random_matrix(7)});
+  slant::testing::check_operator_laws(slant::matrix(MatrixXd(MatrixXd::Random(4, 9))));
+  slant::testing::check_operator_laws(slant::identity(5));
+  slant::testing::check_operator_laws(slant::diagonal(VectorXd(VectorXd::LinSpaced(6, -1, 2))));
+  slant::testing::check_operator_laws(declaring<slant::self_adjoint, slant::positive_definite>{
+      {with_eigenvalues(VectorXd::LinSpaced(40, 1e-9, 1))}});
+  slant::testing::check_operator_laws(archetype::spd_operator(MatrixXd::Identity(6, 6)),
+                                      archetype::vector(VectorXd()));
+  slant::testing::check_operator_laws(slant::identity(0));
+}
+
+TEST_CASE("units do not matter") {
+  for (double const scale : {1e-150, 1e150}) {
+    MatrixXd const m = scale * with_eigenvalues(VectorXd::LinSpaced(20, 0.1, 1));
+    slant::testing::check_operator_laws(
+        declaring<slant::self_adjoint, slant::positive_definite>{{m}});
+    CHECK(finds(declaring<slant::self_adjoint>{{scale * random_matrix(5)}}, "self_adjoint"));
+    CHECK(finds(declaring<slant::positive_definite>{{-m}}, "positive_definite"));
+  }
+}
+
+TEST_CASE("liars about apply are found") {
+  MatrixXd const m = random_matrix(6);
+  CHECK(finds(affine{{m}}, "linearity"));
+  CHECK(finds(accumulating{{m}}, "overwriting"));
+  CHECK(finds(partly_written{{m}}, "overwriting"));
+  CHECK(finds(not_a_number{{m}}, "apply"));
+  CHECK(finds(wrong_size{{m}}, "apply"));
+  CHECK(finds(remembering{{m}}, "repeatability"));
+}
+
+TEST_CASE("liars about capabilities are found") {
+  MatrixXd const m = random_matrix(6);
+  CHECK(finds(wrong_adjoint{{m}}, "adjoint"));
+  CHECK(finds(wrong_accumulation{{m}}, "apply_add"));
+  CHECK(finds(wrong_adjoint_accumulation{{m}}, "apply_adjoint_add"));
+  CHECK(finds(wrong_diagonal{{m}}, "diagonal"));
+  CHECK(finds(wrong_columns{{m}}, "columns"));
+  CHECK(finds(wrong_inverse{{m}}, "inverse"));
+  CHECK(finds(wrong_for_many{m}, "A [x1 x2 x3]"));
+}
+
+TEST_CASE("liars about laws are found") {
+  using namespace slant;
+  CHECK(finds(declaring<self_adjoint>{{random_matrix(6)}}, "self_adjoint"));
+  CHECK(finds(declaring<self_adjoint>{{MatrixXd::Ones(2, 3)}}, "laws"));
+
+  SUBCASE("one slightly negative eigenvalue among a hundred") {
+    VectorXd λ = VectorXd::LinSpaced(100, 0.5, 1);
+    λ[0] = -1e-6;
+    CHECK(finds(declaring<self_adjoint, positive_semidefinite>{{with_eigenvalues(λ)}},
+                "positive_semidefinite"));
+    CHECK(finds(declaring<self_adjoint, positive_definite>{{with_eigenvalues(λ)}},
+                "positive_definite"));
+    λ[0] = 0;  // semidefinite, not definite
+    CHECK(
+        !finds(declaring<self_adjoint, positive_semidefinite>{{with_eigenvalues(λ)}}, "positive"));
+    CHECK(finds(declaring<self_adjoint, positive_definite>{{with_eigenvalues(λ)}},
+                "positive_definite"));
+  }
+  SUBCASE("an indefinite symmetric part") {
+    MatrixXd m = MatrixXd::Identity(8, 8);
+    m(0, 7) = 5;
+    CHECK(finds(declaring<positive_definite>{{m}}, "positive_definite"));
+    m(0, 7) = 1;
+    CHECK(!finds(declaring<positive_definite>{{m}}, "positive_definite"));
+  }
+  SUBCASE("projectors and firm nonexpansiveness") {
+    VectorXd λ = VectorXd::Zero(30);
+    λ.head(7).setOnes();
+    CHECK(!finds(declaring<self_adjoint, projector>{{with_eigenvalues(λ)}}, "projector"));
+    CHECK(!finds(declaring<self_adjoint, projector>{{with_eigenvalues(λ)}}, "firmly"));
+    λ[11] = 1e-7;
+    CHECK(finds(declaring<self_adjoint, projector>{{with_eigenvalues(λ)}}, "projector"));
+    λ = VectorXd::LinSpaced(100, 0, 1);
+    CHECK(!finds(declaring<self_adjoint, firmly_nonexpansive>{{with_eigenvalues(λ)}}, "firmly"));
+    λ[99] = 1 + 1e-9;
+    CHECK(finds(declaring<self_adjoint, firmly_nonexpansive>{{with_eigenvalues(λ)}}, "firmly"));
+  }
+}
