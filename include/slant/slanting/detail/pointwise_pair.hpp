@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+//
+// Slanting functions of the form v_i = κ(F(y)_i, G(y)_i) with a function κ of two numbers. With the
+// slopes p_i, q_i of κ in its two arguments
+//
+//     F̃°(y) = diag(p) F°(y) + diag(q) G°(y).
+//
+// The maximum, the minimum and the Fischer–Burmeister function are three choices of κ.
+#pragma once
+
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/product.hpp>
+#include <slant/operators/sum.hpp>
+#include <slant/slanting/detail/assembled_operator.hpp>
+#include <slant/slanting/detail/checks.hpp>
+#include <slant/slanting/slanting_base.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant::detail {
+
+/// diag(p) A + diag(q) B.
+struct weighted_sum_rule {
+  template <class P, class A>
+  using term = product_operator<diagonal_operator<P const&>, A const&>;
+
+  template <class P, class Q, class A, class B>
+  [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
+    return sum_operator<term<P, A>, term<Q, B>>(weighted(p, a), weighted(q, b));
+  }
+
+ private:
+  template <class P, class A>
+  [[nodiscard]] static term<P, A> weighted(P const& p, A const& a) {
+    return term<P, A>(diagonal_operator<P const&>(held<P const&>(p)), a);
+  }
+};
+
+/// `f` and `g` hold F(y) and G(y).
+template <class First, class Second, class Vector>
+struct pointwise_pair_workspace {
+  First first;
+  Second second;
+  Vector f;
+  Vector g;
+};
+
+/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}.
+template <class Kernel, class F, class G>
+class pointwise_pair : public slanting_base {
+  using left_type = std::remove_cvref_t<F>;
+  using right_type = std::remove_cvref_t<G>;
+
+  template <class V>
+  static constexpr bool usable =
+      slanting_function<left_type, V> && slanting_function<right_type, V>;
+
+ public:
+  /// @throws bad_input if the numbers of values or of arguments differ.
+  pointwise_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
+    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
+    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
+  }
+
+  [[nodiscard]] index rows() const { return left().rows(); }
+  [[nodiscard]] index cols() const { return left().cols(); }
+  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
+  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
+
+  template <class Y>
+  [[nodiscard]] auto workspace(Y const& y) const {
+    using first = decltype(slant::workspace(left(), y));
+    using second = decltype(slant::workspace(right(), y));
+    return pointwise_pair_workspace<first, second, plain_t<Y>>{
+        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
+        slant::like(y, rows())};
+  }
+  template <class Y, class V, class W>
+    requires usable<plain_t<Y>>
+  void value(Y const& y, V& v, W& w) const {
+    evaluate_parts(y, w);
+    slant::local(v) = slant::local(w.f).binaryExpr(
+        slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
+  }
+  template <class Y>
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant(Y const& y) const {
+    auto w = workspace(y);
+    evaluate_parts(y, w);
+    assembled_operator s(weighted_sum_rule{}, slant::like(y, rows()), slant::like(y, rows()),
+                         left().slant(y), right().slant(y));
+    set_slopes(s, w);
+    return s;
+  }
+  template <class Y, class S, class W>
+  void slant(Y const& y, S& s, W& w) const {
+    evaluate_parts(y, w);
+    slant_after_value(y, s, w);
+  }
+  template <class Y, class S, class W>
+  void slant_after_value(Y const& y, S& s, W& w) const {
+    set_slopes(s, w);
+    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
+    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
+  }
+
+ private:
+  template <class Y, class W>
+  void evaluate_parts(Y const& y, W& w) const {
+    slant::evaluate(left(), y, w.f, w.first);
+    slant::evaluate(right(), y, w.g, w.second);
+  }
+  template <class S, class W>
+  void set_slopes(S& s, W const& w) const {
+    auto& p = slant::local(s.template part<0>());
+    auto& q = slant::local(s.template part<1>());
+    for (index i = 0; i < rows(); ++i) {
+      auto const [at_f, at_g] = Kernel::slopes(slant::local(w.f)[i], slant::local(w.g)[i]);
+      p[i] = at_f;
+      q[i] = at_g;
+    }
+  }
+
+  held<F> f_;
+  held<G> g_;
+};
+
+}  // namespace slant::detail

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// What the sum and the difference of two slanting functions share.
+#pragma once
+
+#include <slant/slanting/detail/assembled_operator.hpp>
+#include <slant/slanting/detail/checks.hpp>
+#include <slant/slanting/slanting_base.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant::detail {
+
+/// Temporaries of a function of two functions; `other` holds the values of the second.
+template <class First, class Second, class Vector>
+struct two_terms_workspace {
+  First first;
+  Second second;
+  Vector other;
+};
+
+/// F(y) ± G(y). Rule::combine(v, other) joins the values, rule(F°, G°) the slanting operators.
+template <class Rule, class F, class G>
+class two_terms : public slanting_base {
+  using left_type = std::remove_cvref_t<F>;
+  using right_type = std::remove_cvref_t<G>;
+
+  template <class V>
+  static constexpr bool usable =
+      slanting_function<left_type, V> && slanting_function<right_type, V>;
+
+ public:
+  /// @throws bad_input if the numbers of values or of arguments differ.
+  two_terms(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
+    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
+    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
+  }
+
+  [[nodiscard]] index rows() const { return left().rows(); }
+  [[nodiscard]] index cols() const { return left().cols(); }
+  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
+  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
+
+  template <class Y>
+  [[nodiscard]] auto workspace(Y const& y) const {
+    using first = decltype(slant::workspace(left(), y));
+    using second = decltype(slant::workspace(right(), y));
+    return two_terms_workspace<first, second, plain_t<Y>>{
+        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows())};
+  }
+  template <class Y, class V, class W>
+    requires usable<plain_t<Y>>
+  void value(Y const& y, V& v, W& w) const {
+    slant::evaluate(left(), y, v, w.first);
+    slant::evaluate(right(), y, w.other, w.second);
+    Rule::combine(slant::local(v), slant::local(w.other));
+  }
+  template <class Y>
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant(Y const& y) const {
+    return assembled_operator(Rule{}, left().slant(y), right().slant(y));
+  }
+  template <class Y, class S, class W>
+  void slant(Y const& y, S& s, W& w) const {
+    slant::update_slant(left(), y, s.template part<0>(), w.first);
+    slant::update_slant(right(), y, s.template part<1>(), w.second);
+  }
+  template <class Y, class S, class W>
+  void slant_after_value(Y const& y, S& s, W& w) const {
+    slant::update_slant_after_value(left(), y, s.template part<0>(), w.first);
+    slant::update_slant_after_value(right(), y, s.template part<1>(), w.second);
+  }
+
+ private:
+  held<F> f_;
+  held<G> g_;
+};
+
+}  // namespace slant::detail

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//
+// Componentwise maxima: max(0, y) and max(F(y), G(y)).
+//
+// Kinks. max(0,·)° = 1 for y >= 0, else 0 [K (49)]. Everything else follows from
+// max(F, G) = G + max(0, F − G): where F(y)_i = G(y)_i the row is that of F°.
+#pragma once
+
+#include <slant/slanting/composition.hpp>
+#include <slant/slanting/detail/pointwise_pair.hpp>
+
+#include <string>
+#include <utility>
+
+namespace slant {
+
+namespace detail {
+
+struct max_kernel {
+  /// The larger one; NaN if either is.
+  template <class S>
+  [[nodiscard]] static S value(S const& a, S const& b) {
+    if (a >= b) return a;
+    return a < b ? b : S(a + b);
+  }
+  template <class S>
+  [[nodiscard]] static std::pair<S, S> slopes(S const& a, S const& b) {
+    if (a >= b) return {S(1), S(0)};
+    return a < b ? std::pair<S, S>(S(0), S(1)) : std::pair<S, S>(S(a + b), S(a + b));
+  }
+};
+
+/// The diagonal projector diag(p), p a vector of zeros and ones.
+struct indicator_rule {
+  template <class P>
+  using made = diagonal_operator<P const&, slant::laws<slant::self_adjoint, slant::projector>>;
+
+  template <class P>
+  [[nodiscard]] made<P> operator()(P const& p) const {
+    return made<P>(held<P const&>(p));
+  }
+};
+
+}  // namespace detail
+
+/// F(y) = max(0, y) componentwise on n unknowns; F°(y) is a diagonal projector [K (49)].
+/// It is the projection onto y >= 0; with other bounds use projection(set).
+class positive_part_map : public slanting_base {
+ public:
+  /// @throws bad_input if n < 0.
+  explicit positive_part_map(index n) : n_(n) {
+    if (n < 0) throw bad_input("n", std::to_string(n), "a size >= 0");
+  }
+
+  [[nodiscard]] index rows() const noexcept { return n_; }
+  [[nodiscard]] index cols() const noexcept { return n_; }
+
+  template <has_local Y, class V>
+  void value(Y const& y, V& v) const {
+    using S = scalar_t<Y>;
+    slant::local(v) =
+        slant::local(y).unaryExpr([](S const& a) { return detail::max_kernel::value(a, S(0)); });
+  }
+  template <has_local Y>
+  [[nodiscard]] auto slant(Y const& y) const {
+    detail::assembled_operator g(detail::indicator_rule{}, slant::like(y, n_));
+    slant(y, g);
+    return g;
+  }
+  template <has_local Y, class G>
+  void slant(Y const& y, G& g) const {
+    using S = scalar_t<Y>;
+    slant::local(g.template part<0>()) = slant::local(y).unaryExpr(
+        [](S const& a) { return detail::max_kernel::slopes(a, S(0)).first; });
+  }
+
+ private:
+  index n_;
+};
+
+/// max(F(y), G(y)) componentwise. F and G are `Function const&` or function types (owned).
+template <class F, class G>
+using max_map = detail::pointwise_pair<detail::max_kernel, F, G>;
+
+/// y ↦ max(0, y) on n unknowns.
+[[nodiscard]] inline positive_part_map positive_part(index n) {
+  return positive_part_map(n);
+}
+
+/// y ↦ max(0, F(y)) componentwise. An lvalue is referenced.
+template <has_sizes F>
+[[nodiscard]] auto positive_part(F&& f) {
+  auto const n = f.rows();
+  return slant::compose(positive_part_map(n), std::forward<F>(f));
+}
+
+/// y ↦ max(F(y), G(y)) componentwise. Lvalues are referenced.
+/// @throws bad_input if the sizes differ.
+template <has_sizes F, has_sizes G>
+[[nodiscard]] auto max(F&& f, G&& g) {
+  return max_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
+}
+
+}  // namespace slant

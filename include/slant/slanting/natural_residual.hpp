@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// The natural residual of the separable quadratic program min ½xᵀA x − bᵀx over x ∈ Λ [K (29)],
+//
+//     F(x) = x − P_Λ(x − ρ (A x − b)),        F(x) = 0 exactly at the solution, for every ρ > 0.
+//
+// Nothing is derived here: value, slanting operator I − P°(I − ρA), laws, renewal in place and
+// `symmetrizable` all follow from the composition.
+#pragma once
+
+#include <slant/operators/detail/checks.hpp>
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/arithmetic.hpp>
+#include <slant/slanting/detail/checks.hpp>
+#include <slant/slanting/identity.hpp>
+#include <slant/slanting/projection.hpp>
+
+#include <utility>
+
+namespace slant {
+
+/// x ↦ x − P_Λ(x − ρ (A x − b)). A and the set are referenced if they are lvalues, b is copied.
+/// ρ is in units of 1/A; 1/mean(diag A) is a good choice.
+/// @throws bad_input if sizes differ, b has entries that are not finite, or not 0 < ρ < ∞.
+template <operand A, class B, class Set, class S>
+[[nodiscard]] auto natural_residual(A&& a, B const& b, Set&& set, S const& ρ) {
+  index const n = slant::dimension_of(set);
+  detail::require_size("A", a, n, n, "the dimension of the set");
+  detail::require_offset("b", b, n);
+  if (!(ρ > S(0) && detail::is_number(ρ))) {
+    throw bad_input("rho", detail::show(ρ), "a finite number > 0");
+  }
+  auto c = slant::like(b, n);
+  slant::local(c) = -slant::local(b);
+  auto gradient = slant::affine(std::forward<A>(a), std::move(c));
+  return identity_map(n) - slant::projection(std::forward<Set>(set)) *
+                               (identity_map(n) - slant::positive(ρ) * std::move(gradient));
+}
+
+}  // namespace slant

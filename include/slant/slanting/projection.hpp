@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// The projection onto a convex set as a slanting function: P(y) and P°(y) = set.slant(y), which is
+// symmetric with 0 ⪯ P° ⪯ I for every convex set, so the laws come with it.
+#pragma once
+
+#include <slant/concepts/convex_set.hpp>
+#include <slant/sets/projection_slant.hpp>
+#include <slant/slanting/detail/derivative.hpp>
+#include <slant/slanting/slanting_base.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// F(y) = P(y). C is `Set const&` (referenced) or a set type (owned).
+template <class C>
+class projection_map : public slanting_base {
+  using set_type = std::remove_cvref_t<C>;
+  static constexpr law_set projection_laws =
+      slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+
+  /// Blocks work on Eigen vectors, products on all vectors.
+  template <class Y>
+  [[nodiscard]] static decltype(auto) argument(Y const& y) {
+    if constexpr (has_static_dimension<set_type>) {
+      return slant::local(y);
+    } else {
+      return (y);
+    }
+  }
+  template <class Y>
+  using set_slant_t = decltype(slant::projection_slant(
+      std::declval<set_type const&>(), projection_map::argument(std::declval<Y const&>())));
+
+ public:
+  explicit projection_map(held<C> set) : set_(std::move(set)) {}
+
+  [[nodiscard]] index rows() const { return slant::dimension_of(set()); }
+  [[nodiscard]] index cols() const { return slant::dimension_of(set()); }
+  [[nodiscard]] set_type const& set() const noexcept { return set_.get(); }
+
+  template <class Y, class V>
+    requires has_project<set_type, local_t<Y>> || has_project<set_type, Y>
+  void value(Y const& y, V& v) const {
+    slant::project(set(), y, v);
+  }
+  template <class Y>
+    requires has_slant<set_type, local_t<Y>> || has_slant<set_type, Y>
+  [[nodiscard]] auto slant(Y const& y) const {
+    return detail::derivative_operator<projection_laws>(
+        slant::projection_slant(set(), argument(y)));
+  }
+  template <class Y, class G>
+    requires std::same_as<G, set_slant_t<Y>>
+  void slant(Y const& y, G& g) const {
+    slant::projection_slant(set(), argument(y), g);
+  }
+
+ private:
+  held<C> set_;
+};
+
+/// y ↦ P(y), the nearest point of the set. An lvalue is referenced.
+template <class C>
+  requires has_static_dimension<std::remove_cvref_t<C>> || has_size<std::remove_cvref_t<C>>
+[[nodiscard]] auto projection(C&& set) {
+  return projection_map<kept_t<C>>(std::forward<C>(set));
+}
+
+}  // namespace slant

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// All slanting functions.
+#pragma once
+
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/arithmetic.hpp>
+#include <slant/slanting/composition.hpp>
+#include <slant/slanting/difference.hpp>
+#include <slant/slanting/fischer_burmeister.hpp>
+#include <slant/slanting/identity.hpp>
+#include <slant/slanting/max.hpp>
+#include <slant/slanting/min.hpp>
+#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
+#include <slant/slanting/scaled.hpp>
+#include <slant/slanting/selection.hpp>
+#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/smooth.hpp>
+#include <slant/slanting/stack.hpp>
+#include <slant/slanting/sum.hpp>
+#include <slant/slanting/symmetrizable.hpp>
+#include <slant/slanting/symmetrized.hpp>

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// The symmetric form of a generalised Newton system (I − G (I − ρA)) dx = −F; derivation in
+// symmetrizable.hpp:
+//
+//     H s = G (ρA − I) F,     H = G (I − G) + ρ G A G,     dx = G s − F.
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/slanting/symmetrizable.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+namespace detail {
+
+/// `first` and `second` are vectors, `slant` and `matrix` workspaces of G and A.
+template <class Vector, class Slant, class Matrix>
+struct symmetrized_workspace {
+  Vector first;
+  Vector second;
+  Slant slant_part;
+  Matrix matrix_part;
+};
+
+}  // namespace detail
+
+/// y = H x = G (x − G x + ρ A G x). M is `Operator const&` (referenced) or an operator type. Refers
+/// to M as it is at each application, so it needs no renewal of its own.
+template <class M>
+class symmetrized_operator {
+  using part = std::remove_cvref_t<M>;
+  using g_type =
+      std::remove_cvref_t<decltype(slant::slant_of_projection(std::declval<part const&>()))>;
+  using a_type = std::remove_cvref_t<decltype(slant::hessian(std::declval<part const&>()))>;
+
+ public:
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+
+  explicit symmetrized_operator(held<M> m) : m_(std::move(m)) {}
+
+  [[nodiscard]] index rows() const { return m_.get().rows(); }
+  [[nodiscard]] index cols() const { return m_.get().cols(); }
+
+  template <class X>
+    requires linear_operator<g_type, plain_t<X>> && linear_operator<a_type, plain_t<X>>
+  [[nodiscard]] auto workspace(X const& x) const {
+    auto slant_part = slant::workspace(g(), x);
+    auto matrix_part = slant::workspace(a(), x);
+    return detail::symmetrized_workspace<plain_t<X>, decltype(slant_part), decltype(matrix_part)>{
+        slant::like(x, rows()), slant::like(x, rows()), std::move(slant_part),
+        std::move(matrix_part)};
+  }
+  /// One product by A, two by G.
+  template <class X, class Y, class W>
+    requires linear_operator<g_type, plain_t<X>> && linear_operator<a_type, plain_t<X>>
+  void apply(X const& x, Y& y, W& w) const {
+    slant::apply(g(), x, w.first, w.slant_part);
+    slant::apply(a(), w.first, w.second, w.matrix_part);
+    slant::local(w.first) =
+        slant::local(x) - slant::local(w.first) + ρ<X>() * slant::local(w.second);
+    slant::apply(g(), w.first, y, w.slant_part);
+  }
+
+  /// b = G (ρA − I) F, the right-hand side that belongs to the residual F. b must not alias F.
+  template <class F, class B, class W>
+  void right_hand_side(F const& residual, B& b, W& w) const {
+    slant::apply(a(), residual, w.first, w.matrix_part);
+    slant::local(w.first) = ρ<F>() * slant::local(w.first) - slant::local(residual);
+    slant::apply(g(), w.first, b, w.slant_part);
+  }
+  /// dx = G s − F, the Newton step of a solution s of H s = b.
+  template <class F, class S, class D, class W>
+  void step(F const& residual, S const& s, D& dx, W& w) const {
+    slant::apply(g(), s, dx, w.slant_part);
+    slant::local(dx) -= slant::local(residual);
+  }
+
+ private:
+  [[nodiscard]] g_type const& g() const { return slant::slant_of_projection(m_.get()); }
+  [[nodiscard]] a_type const& a() const { return slant::hessian(m_.get()); }
+  template <class X>
+  [[nodiscard]] scalar_t<X> ρ() const {
+    return static_cast<scalar_t<X>>(slant::step_length(m_.get()));
+  }
+
+  held<M> m_;
+};
+
+/// H of the operator M = I − G (I − ρA); an lvalue is referenced.
+template <class M>
+  requires symmetrizable<M>
+[[nodiscard]] auto symmetrized(M&& m) {
+  return symmetrized_operator<kept_t<M>>(std::forward<M>(m));
+}
+
+}  // namespace slant

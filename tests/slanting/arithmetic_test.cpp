@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/operators/matrix.hpp>
+#include <slant/slanting/arithmetic.hpp>
+#include <slant/slanting/identity.hpp>
+#include <slant/slanting/max.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <type_traits>
+
+using Eigen::VectorXd;
+
+namespace client {
+
+/// A client's function opts in by its base.
+struct doubling : slant::slanting_base {
+  [[nodiscard]] slant::index rows() const { return 3; }
+  [[nodiscard]] slant::index cols() const { return 3; }
+  void value(VectorXd const& y, VectorXd& f) const { f = 2 * y; }
+  [[nodiscard]] auto slant(VectorXd const&) const {
+    return slant::matrix(Eigen::MatrixXd(2 * Eigen::MatrixXd::Identity(3, 3)));
+  }
+};
+
+}  // namespace client
+
+TEST_CASE("formulas say what they say on paper") {
+  VectorXd const y{{1.0, -2.0, 4.0}};
+  slant::identity_map const id(3);
+  auto const p = slant::positive_part(3);
+  Eigen::MatrixXd const a = slanting_support::random_matrix(3, 3, 1);
+  auto const at_y = [&](auto const& f) { return slant::evaluate(f, y); };
+  VectorXd const plus{{1.0, 0.0, 4.0}};
+
+  CHECK(at_y(id + p) == y + plus);
+  CHECK(at_y(id - p) == y - plus);
+  CHECK(at_y(-p) == -plus);
+  CHECK(at_y(3.0 * p) == 3 * plus);
+  CHECK(at_y(2 * p) == 2 * plus);
+  CHECK(at_y(slant::positive(0.5) * p) == plus / 2);
+  CHECK(at_y(p * (-id)) == VectorXd{{0.0, 2.0, 0.0}});  // composition
+  CHECK((at_y(a * p) - a * plus).norm() <= 1e-15);
+  CHECK((at_y(p * a) - VectorXd((a * y).cwiseMax(0))).norm() <= 1e-15);
+  CHECK((at_y(slant::matrix(a) * p) - a * plus).norm() <= 1e-15);
+  CHECK(at_y(id - 2 * p + client::doubling{}) == 3 * y - 2 * plus);
+}
+
+TEST_CASE("temporaries are owned, variables referenced") {
+  auto const f = [] { return slant::identity_map(3) - 2.0 * slant::positive_part(3); }();
+  VectorXd const y{{1.0, -2.0, 4.0}};
+  CHECK(slant::evaluate(f, y) == VectorXd{{-1.0, -2.0, -4.0}});
+  auto const p = slant::positive_part(3);
+  auto const g = p + p;
+  CHECK(&g.left() == &p);
+}
+
+TEST_CASE("operators of slant and Eigen matrices keep their own arithmetic") {
+  Eigen::MatrixXd const a = Eigen::MatrixXd::Identity(2, 2);
+  static_assert(!slant::slanting_map<Eigen::MatrixXd>);
+  CHECK((a * a).isIdentity());
+  CHECK((2.0 * a - a).isIdentity());
+}

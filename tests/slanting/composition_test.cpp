@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/operators/counted.hpp>
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/composition.hpp>
+#include <slant/slanting/max.hpp>
+#include <slant/slanting/smooth.hpp>
+#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/slanting_laws.hpp>
+
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+using Eigen::VectorXd;
+using slanting_support::dense;
+using slanting_support::dense_slant;
+using slanting_support::random_matrix;
+using slanting_support::random_vector;
+
+TEST_CASE("the chain rule, with different sizes") {
+  Eigen::MatrixXd const a = random_matrix(2, 3, 1);
+  VectorXd const c = random_vector(2, 2);
+  auto const squares = slant::smooth(
+      2, 2, [](auto const& y, auto& f) { f = y.cwiseAbs2(); },
+      [](auto const& y) { return Eigen::MatrixXd((2 * y).asDiagonal()); });
+  auto const f = slant::compose(squares, slant::affine(a, c));
+  CHECK(f.rows() == 2);
+  CHECK(f.cols() == 3);
+  VectorXd const y = random_vector(3, 3);
+  VectorXd const inner = a * y + c;
+  CHECK((slant::evaluate(f, y) - inner.cwiseAbs2()).norm() <= 1e-15);
+  Eigen::MatrixXd const expected = (2 * inner).asDiagonal() * a;
+  CHECK((dense_slant(f, y) - expected).norm() <= 1e-15);
+  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(3)));
+}
+
+TEST_CASE("a slant after a value evaluates nothing again, at any depth") {
+  Eigen::MatrixXd const m = random_matrix(4, 4, 1);
+  auto const a = slant::counted(m);
+  auto const b = slant::counted(m);
+  auto const inner = slant::compose(slant::positive_part(4), slant::affine(a, random_vector(4, 2)));
+  auto const f = slant::compose(slant::positive_part(4), slant::compose(slant::linear(b), inner));
+  VectorXd const y = random_vector(4, 3);
+  VectorXd v(4);
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(y);
+  auto const applications = [&] {
+    auto const n = a.counts().applications * 100 + b.counts().applications;
+    a.reset_counts();
+    b.reset_counts();
+    return n;
+  };
+  applications();
+  slant::evaluate(f, y, v, w);
+  CHECK(applications() == 101);  // each once
+  slant::update_slant_after_value(f, y, g, w);
+  CHECK(applications() == 0);
+  slant::update_slant(f, y, g, w);
+  CHECK(applications() == 101);
+  CHECK(dense(g, y) == dense_slant(f, y));
+}
+
+TEST_CASE("value and renewal allocate nothing") {
+  Eigen::MatrixXd const m = random_matrix(30, 30, 1);
+  auto const inner =
+      slant::compose(slant::positive_part(30), slant::affine(m, random_vector(30, 2)));
+  auto const f = slant::compose(slant::positive_part(30), slant::compose(slant::linear(m), inner));
+  VectorXd const y = random_vector(30, 3);
+  VectorXd v(30);
+  VectorXd x(30);
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(VectorXd::Zero(30).eval());
+  auto gw = slant::workspace(g, y);
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, y, v, w);
+  slant::update_slant(f, y, g, w);
+  slant::update_slant_after_value(f, y, g, w);
+  slant::apply(g, y, x, gw);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+TEST_CASE("parts of which nothing is known but the concept") {
+  namespace archetype = slant::testing::archetype;
+  archetype::slanting_function const f(2);
+  auto const g = slant::compose(f, f);
+  VectorXd const y{{1.0, -2.0}};
+  CHECK(slant::evaluate(g, archetype::vector(y)).local() == VectorXd{{2.25, 1.5}});
+  slant::testing::check_slanting_laws(g, archetype::vector(y),
+                                      archetype::vector(VectorXd::Zero(2)));
+}
+
+TEST_CASE("float and long double") {
+  auto const squares = slant::smooth(
+      2, 2, [](auto const& y, auto& f) { f = y.cwiseAbs2(); },
+      [](auto const& y) {
+        return y.asDiagonal() *
+               Eigen::Matrix<typename std::remove_cvref_t<decltype(y)>::Scalar, 2, 2>::Identity() *
+               2;
+      });
+  auto const f = slant::compose(squares, squares);
+  CHECK(slant::evaluate(f, Eigen::Vector2f(1, 3)) == Eigen::Vector2f(1, 81));
+  using vector = Eigen::Matrix<long double, 2, 1>;
+  CHECK(slant::evaluate(f, vector(1, 3)) == vector(1, 81));
+}
+
+TEST_CASE("bad input") {
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(slant::compose(slant::positive_part(3), slant::positive_part(2))),
+      "g.rows(): got 2, expected 3 (f.cols())", slant::bad_input);
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/identity.hpp>
+#include <slant/slanting/max.hpp>
+#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/slanting_laws.hpp>
+
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <type_traits>
+
+using Eigen::VectorXd;
+using slanting_support::dense;
+using slanting_support::dense_slant;
+
+TEST_CASE("max(0, y): slope 1 at the kink, a projector") {
+  auto const f = slant::positive_part(4);
+  VectorXd const y{{1.0, -2.0, 0.0, -0.0}};
+  CHECK(slant::evaluate(f, y) == VectorXd{{1.0, 0.0, 0.0, 0.0}});
+  Eigen::MatrixXd const expected = Eigen::Vector4d(1, 0, 1, 1).asDiagonal();
+  CHECK(dense_slant(f, y) == expected);
+  using slope = slant::slant_operator_t<std::remove_cvref_t<decltype(f)>, VectorXd>;
+  static_assert(slant::declares_self_adjoint<slope>);
+  static_assert(slant::declares_projector<slope>);
+  static_assert(slant::declares_firmly_nonexpansive<slope>);
+  static_assert(!slant::declares_positive_definite<slope>);
+  slant::testing::check_slanting_laws(f, y, slant::testing::archetype::vector(y));
+}
+
+TEST_CASE("max(0, F)") {
+  Eigen::MatrixXd const a{{1.0, 2.0}, {3.0, -1.0}};
+  auto const f = slant::positive_part(slant::linear(a));
+  VectorXd const y{{1.0, 4.0}};
+  CHECK(slant::evaluate(f, y) == VectorXd{{9.0, 0.0}});
+  CHECK(dense_slant(f, y) == Eigen::MatrixXd{{1.0, 2.0}, {0.0, 0.0}});
+  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(2)));
+}
+
+TEST_CASE("max(F, G): the row of F at a tie") {
+  Eigen::MatrixXd const a{{2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 2.0}};
+  auto const f = slant::max(slant::linear(a), slant::identity_map(3));
+  VectorXd const y{{1.0, -2.0, 0.0}};
+  CHECK(slant::evaluate(f, y) == VectorXd{{2.0, -2.0, 0.0}});
+  Eigen::MatrixXd const expected = Eigen::Vector3d(2, 1, 2).asDiagonal();
+  CHECK(dense_slant(f, y) == expected);
+  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(3)));
+}
+
+TEST_CASE("NaN in, NaN out") {
+  double const nan = std::nan("");
+  auto const f = slant::max(slant::identity_map(2), slant::positive_part(2));
+  VectorXd const y{{nan, 1.0}};
+  CHECK(std::isnan(slant::evaluate(f, y)[0]));
+  CHECK(slant::evaluate(f, y)[1] == 1);
+  CHECK(std::isnan(slant::evaluate(slant::positive_part(2), y)[0]));
+  CHECK(std::isnan(dense_slant(f, y)(0, 0)));
+  CHECK(std::isnan(dense_slant(slant::positive_part(2), y)(0, 0)));
+  using kernel = slant::detail::max_kernel;
+  CHECK(std::isnan(kernel::value(1.0, nan)));
+  CHECK(kernel::value(HUGE_VAL, 1.0) == HUGE_VAL);
+  CHECK(kernel::value(-HUGE_VAL, 1.0) == 1.0);
+}
+
+TEST_CASE("value and renewal allocate nothing") {
+  auto const f = slant::max(slant::positive_part(20), slant::identity_map(20));
+  VectorXd const y = slanting_support::random_vector(20, 1);
+  VectorXd v(20);
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(VectorXd::Zero(20).eval());
+  auto gw = slant::workspace(g, y);
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, y, v, w);
+  slant::update_slant(f, y, g, w);
+  slant::update_slant_after_value(f, y, g, w);
+  slant::apply(g, y, v, gw);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(dense(g, y) == dense_slant(f, y));
+}
+
+TEST_CASE("parts of which nothing is known but the concept") {
+  namespace archetype = slant::testing::archetype;
+  archetype::slanting_function const f(2);
+  auto const g = slant::max(f, slant::identity_map(2));
+  slant::testing::check_slanting_laws(g, archetype::vector(VectorXd{{1.0, -2.0}}),
+                                      archetype::vector(VectorXd::Zero(2)));
+}
+
+TEST_CASE("multiprecision") {
+  using wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                             boost::multiprecision::et_off>;
+  using vector = Eigen::Matrix<wide, Eigen::Dynamic, 1>;
+  auto const f = slant::max(slant::positive_part(2), slant::identity_map(2));
+  vector y(2);
+  y << wide(1) / 3, wide(-2);
+  CHECK(slant::evaluate(f, y)[0] == wide(1) / 3);
+  CHECK(slant::evaluate(f, y)[1] == 0);
+  slant::testing::check_slanting_laws(f, y);
+}
+
+TEST_CASE("bad input") {
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::positive_part(-1)),
+                       "n: got -1, expected a size >= 0", slant::bad_input);
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(slant::max(slant::positive_part(3), slant::positive_part(2))),
+      "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
+}

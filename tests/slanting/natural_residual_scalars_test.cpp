@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// The natural residual with other scalars than double; apart from the rest for the compiler's sake.
+#include "slanting_support.hpp"
+
+#include <slant/sets/ball.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/slanting/natural_residual.hpp>
+
+#include <doctest/doctest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <Eigen/Core>
+#include <limits>
+
+TEST_CASE_TEMPLATE("float, long double, multiprecision", S, float, long double,
+                   boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                                 boost::multiprecision::et_off>) {
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  matrix const m = slanting_support::random_spd(4, 1).cast<S>();
+  vector const b = vector::Constant(4, S(10));
+  auto const set = slant::power(slant::ball<2, S>{}, vector(vector::Ones(2)));
+  auto const f = slant::natural_residual(m, b, set, S(1) / S(8));
+  vector x = vector::Zero(4);
+  for (int k = 0; k < 12; ++k) {
+    x -= slanting_support::solve(slanting_support::dense_slant(f, x), slant::evaluate(f, x));
+  }
+  CHECK(slant::evaluate(f, x).norm() <= S(16) * std::numeric_limits<S>::epsilon());
+}

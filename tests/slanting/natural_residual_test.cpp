@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/operators/counted.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/ball.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/slanting/natural_residual.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/slanting_laws.hpp>
+
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slanting_support::dense;
+using slanting_support::dense_slant;
+
+namespace {
+
+/// Two bounds x >= 0 and two discs.
+auto contact_set() {
+  return slant::cartesian(slant::power(slant::half_line<>{}, 2),
+                          slant::power(slant::ball<2>{}, VectorXd{{1.0, 5.0}}));
+}
+
+auto definite(MatrixXd const& m) {
+  return slant::matrix<slant::self_adjoint, slant::positive_definite>(m);
+}
+
+}  // namespace
+
+TEST_CASE("value and slanting operator, derived by hand") {
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  VectorXd const b = 20 * slanting_support::random_vector(6, 2);
+  VectorXd const x = slanting_support::random_vector(6, 3);
+  double const ρ = 0.125;
+  auto const a = definite(m);
+  auto const set = contact_set();
+  auto const f = slant::natural_residual(a, b, set, ρ);
+
+  VectorXd const z = x - ρ * (m * x - b);
+  VectorXd projected = z;
+  MatrixXd g = MatrixXd::Zero(6, 6);
+  for (int i = 0; i < 2; ++i) {
+    projected[i] = std::max(0.0, z[i]);
+    g(i, i) = z[i] >= 0 ? 1 : 0;
+  }
+  for (int k = 0; k < 2; ++k) {
+    double const radius = k == 0 ? 1 : 5;
+    Eigen::Vector2d const part = z.segment<2>(2 + 2 * k);
+    double const size = part.norm();
+    if (size <= radius) {
+      g.block<2, 2>(2 + 2 * k, 2 + 2 * k).setIdentity();
+    } else {
+      Eigen::Vector2d const t(-part[1] / size, part[0] / size);  // the tangent
+      projected.segment<2>(2 + 2 * k) *= radius / size;
+      g.block<2, 2>(2 + 2 * k, 2 + 2 * k) = radius / size * t * t.transpose();
+    }
+  }
+  REQUIRE(z.segment<2>(2).norm() > 1);  // one disc slides, one sticks, one bound is active
+  REQUIRE(z.segment<2>(4).norm() < 5);
+  REQUIRE(z.head<2>().minCoeff() < 0);
+  MatrixXd const id = MatrixXd::Identity(6, 6);
+  CHECK((slant::evaluate(f, x) - (x - projected)).cwiseAbs().maxCoeff() <= 4e-16 * z.norm());
+  MatrixXd const expected = id - g * (id - ρ * m);
+  CHECK((dense_slant(f, x) - expected).cwiseAbs().maxCoeff() <= 4e-16);
+  slant::testing::check_slanting_laws(f, x);
+}
+
+TEST_CASE("it is the composition that stands on paper") {
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  VectorXd const b = slanting_support::random_vector(6, 2);
+  VectorXd const x = slanting_support::random_vector(6, 3);
+  auto const a = definite(m);
+  auto const set = contact_set();
+  auto const f = slant::natural_residual(a, b, set, 0.1);
+  slant::identity_map const id(6);
+  auto const formula = slant::identity_map{6} -
+                       slant::projection(set) *
+                           (slant::identity_map{6} - slant::positive(0.1) * slant::affine(a, -b));
+  static_assert(std::is_same_v<decltype(f), decltype(formula)>);
+  CHECK(slant::evaluate(f, x) == slant::evaluate(formula, x));
+}
+
+TEST_CASE("Newton's method solves the quadratic program to the last digits") {
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  VectorXd const b = 20 * slanting_support::random_vector(6, 2);
+  auto const a = definite(m);
+  auto const set = contact_set();
+  auto const f = slant::natural_residual(a, b, set, 6 / m.trace());
+  VectorXd x = VectorXd::Zero(6);
+  int steps = 0;
+  while (slant::evaluate(f, x).norm() > 1e-14 * x.norm() && steps < 30) {
+    x -= slanting_support::solve(dense_slant(f, x), slant::evaluate(f, x));
+    ++steps;
+  }
+  CHECK(steps <= 10);
+  CHECK(set.contains(x));
+  VectorXd const r = m * x - b;
+  for (int i = 0; i < 2; ++i) {
+    CHECK(x[i] >= 0);
+    CHECK(r[i] >= -1e-12);
+    CHECK(std::abs(x[i] * r[i]) <= 1e-12);
+  }
+  for (int k = 0; k < 2; ++k) {  // r = −μ x with μ >= 0 on the circle, 0 inside
+    double const radius = k == 0 ? 1 : 5;
+    Eigen::Vector2d const part = x.segment<2>(2 + 2 * k);
+    Eigen::Vector2d const force = r.segment<2>(2 + 2 * k);
+    CHECK(std::abs(part[0] * force[1] - part[1] * force[0]) <= 1e-12 * radius);
+    CHECK(part.dot(force) <= 1e-12);
+    CHECK(std::abs((radius - part.norm()) * force.norm()) <= 1e-12);
+  }
+}
+
+TEST_CASE("one product by A for the value, none for the slant after it, no allocation") {
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  VectorXd const b = slanting_support::random_vector(6, 2);
+  auto const a = slant::counted(definite(m));
+  auto const f = slant::natural_residual(a, b, contact_set(), 0.1);
+  VectorXd const x = slanting_support::random_vector(6, 3);
+  VectorXd v(6);
+  VectorXd gx(6);
+  auto w = slant::workspace(f, x);
+  auto g = f.slant(VectorXd::Zero(6).eval());
+  auto gw = slant::workspace(g, x);
+  a.reset_counts();
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, x, v, w);
+  auto const for_value = a.counts().applications;
+  slant::update_slant_after_value(f, x, g, w);
+  auto const for_both = a.counts().applications;
+  slant::apply(g, v, gx, gw);
+  auto const for_product = a.counts().applications - for_both;
+  auto const allocations = guard.count();
+  CHECK(for_value == 1);
+  CHECK(for_both == 1);
+  CHECK(for_product == 1);
+  CHECK(allocations == 0);
+  CHECK(dense(g, x) == dense_slant(f, x));
+}
+
+TEST_CASE("archetype operator and vector") {
+  namespace archetype = slant::testing::archetype;
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  archetype::spd_operator const a(m);
+  archetype::vector const b(slanting_support::random_vector(6, 2));
+  auto const f = slant::natural_residual(a, b, contact_set(), 0.1);
+  archetype::vector const x(slanting_support::random_vector(6, 3));
+  auto const same = slant::natural_residual(m, b.local(), contact_set(), 0.1);
+  CHECK((slant::evaluate(f, x).local() - slant::evaluate(same, x.local())).norm() <= 1e-15);
+  slant::testing::check_slanting_laws(f, x);
+}
+
+TEST_CASE("bad input is named") {
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  VectorXd b = slanting_support::random_vector(6, 2);
+  auto const set = contact_set();
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m.topRows(5), b, set, 1.0)),
+                       "A: got 5 x 6, expected 6 x 6 (the dimension of the set)", slant::bad_input);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b.head(5), set, 1.0)),
+                       "b.size(): got 5, expected 6 (the number of rows of the operator)",
+                       slant::bad_input);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b, set, 0.0)),
+                       "rho: got 0, expected a finite number > 0", slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(slant::natural_residual(m, b, set, std::nan(""))),
+                  slant::bad_input);
+  b[4] = std::nan("");
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b, set, 1.0)),
+                       "b[4]: got nan, expected a finite number", slant::bad_input);
+}

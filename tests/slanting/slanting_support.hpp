@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of slanting functions share: F°(y) as a dense matrix, and reproducible data.
+#pragma once
+
+#include <slant/concepts/slanting_function.hpp>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace slanting_support {
+
+/// The operator as a matrix, column by column; y shows the kind of vector.
+template <class G, class V>
+[[nodiscard]] auto dense(G const& g, V const& y) {
+  using S = slant::scalar_t<V>;
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> m(g.rows(), g.cols());
+  auto x = slant::like(y, g.cols());
+  auto gx = slant::like(y, g.rows());
+  for (slant::index j = 0; j < g.cols(); ++j) {
+    slant::local(x).setZero();
+    slant::local(x)[j] = S(1);
+    slant::apply(g, x, gx);
+    m.col(j) = slant::local(gx);
+  }
+  return m;
+}
+
+/// F°(y) as a matrix.
+template <class F, class V>
+[[nodiscard]] auto dense_slant(F const& f, V const& y) {
+  return dense(f.slant(y), y);
+}
+
+/// n numbers in [−1, 1].
+[[nodiscard]] inline Eigen::VectorXd random_vector(slant::index n, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  return Eigen::VectorXd::NullaryExpr(n, [&] { return number(engine); });
+}
+
+[[nodiscard]] inline Eigen::MatrixXd random_matrix(slant::index m, slant::index n, unsigned seed) {
+  return random_vector(m * n, seed).reshaped(m, n);
+}
+
+/// A well-conditioned symmetric positive definite matrix.
+[[nodiscard]] inline Eigen::MatrixXd random_spd(slant::index n, unsigned seed) {
+  Eigen::MatrixXd const b = random_matrix(n, n, seed);
+  return b * b.transpose() + Eigen::MatrixXd::Identity(n, n);
+}
+
+/// A⁻¹ b by Gaussian elimination with row pivoting. Eigen's decompositions take seconds to compile
+/// for each scalar.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> solve(
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> a, Eigen::Matrix<S, Eigen::Dynamic, 1> b) {
+  using std::abs;
+  auto const n = a.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      if (abs(a(i, k)) > abs(a(pivot, k))) pivot = i;
+    }
+    for (Eigen::Index j = k; j < n; ++j) std::swap(a(k, j), a(pivot, j));
+    std::swap(b[k], b[pivot]);
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      S const factor = a(i, k) / a(k, k);
+      for (Eigen::Index j = k; j < n; ++j) a(i, j) -= factor * a(k, j);
+      b[i] -= factor * b[k];
+    }
+  }
+  for (Eigen::Index k = n; k-- > 0;) {
+    for (Eigen::Index j = k + 1; j < n; ++j) b[k] -= a(k, j) * b[j];
+    b[k] /= a(k, k);
+  }
+  return b;
+}
+
+}  // namespace slanting_support

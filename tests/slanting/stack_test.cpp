@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/operators/counted.hpp>
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/arithmetic.hpp>
+#include <slant/slanting/max.hpp>
+#include <slant/slanting/stack.hpp>
+#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/slanting_laws.hpp>
+
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+
+using Eigen::VectorXd;
+using slanting_support::dense;
+using slanting_support::dense_slant;
+using slanting_support::random_matrix;
+using slanting_support::random_vector;
+
+TEST_CASE("functions of the same argument, one above the other") {
+  Eigen::MatrixXd const a = random_matrix(2, 3, 1);
+  auto const f = slant::stack(slant::linear(a), slant::positive_part(3), -slant::positive_part(3));
+  CHECK(f.rows() == 8);
+  CHECK(f.cols() == 3);
+  VectorXd const y{{1.0, -2.0, 0.0}};
+  VectorXd expected(8);
+  expected << a * y, 1, 0, 0, -1, 0, 0;
+  CHECK((slant::evaluate(f, y) - expected).norm() <= 1e-15);
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(8, 3);
+  slope.topRows(2) = a;
+  slope(2, 0) = slope(4, 2) = 1;
+  slope(5, 0) = slope(7, 2) = -1;
+  CHECK(dense_slant(f, y) == slope);
+  slant::testing::check_slanting_laws(f, y, random_vector(3, 2));
+}
+
+TEST_CASE("the adjoint of its slanting operator, with overwriting") {
+  Eigen::MatrixXd const a = random_matrix(2, 3, 1);
+  auto const f = slant::stack(slant::linear(a), slant::positive_part(3));
+  VectorXd const y{{1.0, -2.0, 0.0}};
+  auto const g = f.slant(y);
+  VectorXd const x = random_vector(5, 3);
+  VectorXd result = VectorXd::Constant(3, std::nan(""));
+  slant::apply_adjoint(g, x, result);
+  CHECK((result - dense(g, y).transpose() * x).norm() <= 1e-15);
+}
+
+TEST_CASE("a slant after a value evaluates nothing again; nothing allocates") {
+  Eigen::MatrixXd const m = random_matrix(4, 4, 1);
+  auto const a = slant::counted(m);
+  auto const inner = slant::positive_part(slant::affine(a, random_vector(4, 2)));
+  auto const f = slant::stack(slant::positive_part(4), slant::positive_part(4) * inner);
+  VectorXd const y = random_vector(4, 3);
+  VectorXd v(8);
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(VectorXd::Zero(4).eval());
+  auto gw = slant::workspace(g, y);
+  a.reset_counts();
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, y, v, w);
+  slant::update_slant_after_value(f, y, g, w);
+  auto const applications = a.counts().applications;
+  slant::update_slant(f, y, g, w);
+  slant::apply(g, y, v, gw);
+  auto const allocations = guard.count();
+  CHECK(applications == 1);
+  CHECK(allocations == 0);
+  CHECK(dense(g, y) == dense_slant(f, y));
+}
+
+TEST_CASE("archetypes") {
+  namespace archetype = slant::testing::archetype;
+  archetype::slanting_function const f(2);
+  auto const g = slant::stack(f, f);
+  VectorXd const y{{1.0, -2.0}};
+  CHECK(slant::evaluate(g, archetype::vector(y)).local() == VectorXd{{1.5, 1.0, 1.5, 1.0}});
+  slant::testing::check_slanting_laws(g, archetype::vector(y));
+  CHECK(&g.part<1>() == &f);
+}
+
+TEST_CASE("bad input") {
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(slant::stack(slant::positive_part(3), slant::positive_part(2))),
+      "f2.cols(): got 2, expected 3 (f1.cols())", slant::bad_input);
+}

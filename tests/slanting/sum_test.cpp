@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/operators/matrix.hpp>
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/max.hpp>
+#include <slant/slanting/sum.hpp>
+#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/slanting_laws.hpp>
+
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <type_traits>
+#include <utility>
+
+using Eigen::VectorXd;
+using slanting_support::dense_slant;
+
+TEST_CASE("values and slanting operators add") {
+  Eigen::MatrixXd const a = slanting_support::random_matrix(3, 3, 1);
+  VectorXd const y{{1.0, -2.0, 0.0}};
+  auto const f = slant::add(slant::affine(a, VectorXd::Ones(3)), slant::positive_part(3));
+  VectorXd const expected = a * y + VectorXd{{2.0, 1.0, 1.0}};
+  CHECK((slant::evaluate(f, y) - expected).norm() <= 1e-15);
+  Eigen::MatrixXd const slope = a + Eigen::MatrixXd(Eigen::Vector3d(1, 0, 1).asDiagonal());
+  CHECK((dense_slant(f, y) - slope).norm() <= 1e-16);
+  slant::testing::check_slanting_laws(f, y);
+}
+
+TEST_CASE("laws of the sum follow from those of the parts") {
+  Eigen::MatrixXd const m = slanting_support::random_spd(3, 1);
+  auto const definite =
+      slant::linear(slant::matrix<slant::self_adjoint, slant::positive_definite>(m));
+  auto const any = slant::linear(slant::matrix(m));
+  auto const projector = slant::positive_part(3);
+  VectorXd const y = VectorXd::Zero(3);
+  auto const g = slant::add(definite, projector);
+  auto const h = slant::add(any, projector);
+  static_assert(
+      slant::spd_operator<slant::slant_operator_t<std::remove_cvref_t<decltype(g)>, VectorXd>,
+                          VectorXd>);
+  static_assert(!slant::declares_self_adjoint<
+                slant::slant_operator_t<std::remove_cvref_t<decltype(h)>, VectorXd>>);
+  CHECK(&g.left() == &definite);  // referenced
+}
+
+TEST_CASE("parts of which nothing is known but the concept") {
+  namespace archetype = slant::testing::archetype;
+  archetype::slanting_function const f(2);
+  auto const twice = slant::add(f, f);
+  VectorXd const y{{1.0, -2.0}};
+  CHECK(slant::evaluate(twice, archetype::vector(y)).local() == VectorXd{{3.0, 2.0}});
+  slant::testing::check_slanting_laws(twice, archetype::vector(y));
+}
+
+TEST_CASE("value and renewal allocate nothing") {
+  auto const f = slant::add(slant::positive_part(50), slant::positive_part(50));
+  VectorXd const y = slanting_support::random_vector(50, 1);
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(VectorXd::Zero(50).eval());
+  VectorXd v(50);
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, y, v, w);
+  slant::update_slant(f, y, g, w);
+  slant::update_slant_after_value(f, y, g, w);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(slanting_support::dense(g, y) == dense_slant(f, y));
+}
+
+TEST_CASE("bad input") {
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(slant::add(slant::positive_part(3), slant::positive_part(2))),
+      "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
+}
