@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+//
+// Writes meshes with data for ParaView: VTK's XML format for unstructured grids (VTU).
+//
+//   vtu_grid grid(nodes);                                  // D × n, one column per point
+//   grid.add_cells(vtu_cell::tetrahedron, cells);          // 4 × c, one column per cell
+//   grid.add_point_vectors("displacement", u);             // 2 × n or 3 × n
+//   grid.add_cell_scalars("pressure", p);                  // c
+//   grid.write("brick.vtu");
+//
+// Needs pugixml (CMake component vtu).
+#pragma once
+
+#include <Eigen/Core>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <pugixml.hpp>
+#include <slant/io/atomic_file.hpp>
+#include <slant/io/vtu_array.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace slant {
+
+/// Cell shapes, with VTK's numbers for them.
+enum class vtu_cell : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
+
+[[nodiscard]] constexpr index node_count(vtu_cell cell) {
+  switch (cell) {
+    case vtu_cell::vertex:
+      return 1;
+    case vtu_cell::line:
+      return 2;
+    case vtu_cell::triangle:
+      return 3;
+    case vtu_cell::tetrahedron:
+      return 4;
+  }
+  return 0;
+}
+
+/// An unstructured grid with named data on its points and cells. Everything is checked when it is
+/// added: sizes, node numbers, names, and that numbers are finite; each failure is a bad_input.
+class vtu_grid {
+ public:
+  /// points: 2 × n or 3 × n, one column per point; a missing third coordinate is 0.
+  template <class Points>
+  explicit vtu_grid(Eigen::MatrixBase<Points> const& points,
+                    vtu_encoding encoding = vtu_encoding::base64)
+      : points_(points.cols()),
+        coordinates_(detail::vtu_vectors("points", points, points.cols(), encoding)),
+        encoding_(encoding) {}
+
+  /// Adds cells of one shape: node numbers from 0, one column per cell. May be called again for
+  /// other shapes.
+  template <class Cells>
+    requires std::integral<typename Cells::Scalar>
+  void add_cells(vtu_cell shape, Eigen::MatrixBase<Cells> const& cells) {
+    if (cells.rows() != node_count(shape))
+      throw bad_input("cells", detail::show(cells.rows()) + " nodes per cell",
+                      detail::show(node_count(shape)) + " for this shape");
+    for (index cell = 0; cell < cells.cols(); ++cell)
+      for (index i = 0; i < cells.rows(); ++i)
+        if (std::cmp_less(cells(i, cell), 0) || std::cmp_greater_equal(cells(i, cell), points_))
+          throw bad_input(
+              "cells", "node " + detail::show(+cells(i, cell)) + " in cell " + detail::show(cell),
+              "node numbers from 0 to " + detail::show(points_ - 1));
+    for (index cell = 0; cell < cells.cols(); ++cell) {
+      for (index i = 0; i < cells.rows(); ++i)
+        connectivity_.push_back(static_cast<std::int64_t>(cells(i, cell)));
+      offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
+      types_.push_back(static_cast<std::uint8_t>(shape));
+    }
+  }
+
+  /// One number per point: floating point, or integers such as states.
+  template <class Values>
+  void add_point_scalars(std::string_view name, Eigen::MatrixBase<Values> const& values) {
+    add(point_data_, name, detail::vtu_scalars(name, values, points_, encoding_));
+  }
+
+  /// One vector per point: 2 × n or 3 × n; a missing third component is 0.
+  template <class Values>
+  void add_point_vectors(std::string_view name, Eigen::MatrixBase<Values> const& values) {
+    add(point_data_, name, detail::vtu_vectors(name, values, points_, encoding_));
+  }
+
+  /// One number per cell added so far.
+  template <class Values>
+  void add_cell_scalars(std::string_view name, Eigen::MatrixBase<Values> const& values) {
+    add(cell_data_, name, detail::vtu_scalars(name, values, cell_count(), encoding_));
+  }
+
+  /// One vector per cell added so far.
+  template <class Values>
+  void add_cell_vectors(std::string_view name, Eigen::MatrixBase<Values> const& values) {
+    add(cell_data_, name, detail::vtu_vectors(name, values, cell_count(), encoding_));
+  }
+
+  /// Appends the document. Throws bad_input if cells were added after data on cells.
+  void write(atomic_file& file) const {
+    for (auto const& array : cell_data_)
+      if (array.count != cell_count())
+        throw bad_input(array.name, detail::show(array.count) + " values",
+                        detail::show(cell_count()) + ", one per cell");
+    struct : pugi::xml_writer {
+      void write(void const* data, std::size_t size) override {
+        text.append(static_cast<char const*>(data), size);
+      }
+      std::string text{};
+    } out;
+    document().save(out, " ");
+    file.write(out.text);
+  }
+
+  /// The same as a file of its own, which appears complete or not at all.
+  void write(std::filesystem::path const& path) const {
+    atomic_file file(path);
+    write(file);
+    file.commit();
+  }
+
+ private:
+  using arrays = std::vector<detail::vtu_array>;
+
+  [[nodiscard]] index cell_count() const { return static_cast<index>(types_.size()); }
+
+  static void add(arrays& data, std::string_view name, detail::vtu_array array) {
+    for (auto const& other : data)
+      if (other.name == name)
+        throw bad_input("name", detail::quoted(name) + " again", "a new name");
+    data.push_back(std::move(array));
+  }
+
+  [[nodiscard]] pugi::xml_document document() const {
+    pugi::xml_document document;
+    auto declaration = document.append_child(pugi::node_declaration);
+    declaration.append_attribute("version") = "1.0";
+    auto root = document.append_child("VTKFile");
+    root.append_attribute("type") = "UnstructuredGrid";
+    root.append_attribute("version") = "1.0";
+    root.append_attribute("byte_order") =
+        std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+    root.append_attribute("header_type") = "UInt64";
+    auto piece = root.append_child("UnstructuredGrid").append_child("Piece");
+    piece.append_attribute("NumberOfPoints") = static_cast<long long>(points_);
+    piece.append_attribute("NumberOfCells") = static_cast<long long>(cell_count());
+
+    append(piece.append_child("PointData"), point_data_);
+    append(piece.append_child("CellData"), cell_data_);
+    append(piece.append_child("Points"), {coordinates_});
+    append(piece.append_child("Cells"),
+           {detail::vtu_numbers("connectivity", connectivity_, 1, encoding_),
+            detail::vtu_numbers("offsets", offsets_, 1, encoding_),
+            detail::vtu_numbers("types", types_, 1, encoding_)});
+    return document;
+  }
+
+  static void append(pugi::xml_node parent, arrays const& data) {
+    for (auto const& array : data) {
+      auto node = parent.append_child("DataArray");
+      node.append_attribute("type") = array.type;
+      node.append_attribute("Name") = array.name.c_str();
+      node.append_attribute("NumberOfComponents") = array.components;
+      node.append_attribute("format") = array.format;
+      node.append_child(pugi::node_pcdata).set_value(array.text.c_str());
+    }
+  }
+
+  index points_;
+  detail::vtu_array coordinates_;
+  vtu_encoding encoding_;
+  std::vector<std::int64_t> connectivity_{};
+  std::vector<std::int64_t> offsets_{};
+  std::vector<std::uint8_t> types_{};
+  arrays point_data_{};
+  arrays cell_data_{};
+};
+
+}  // namespace slant

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors as text.
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <slant/io/text_vector.hpp>
+#include <string>
+#include <string_view>
+
+#include "io_support.hpp"
+
+namespace {
+
+using io_test::refusal;
+using io_test::temporary_folder;
+using slant::parse_text_vector;
+using slant::text_vector_options;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The refusal of a text, without the name of the file.
+std::string refused(std::string_view text, text_vector_options const& options = {}) {
+  std::string const message = refusal([&] { (void)parse_text_vector(text, "f.txt", options); });
+  return message.starts_with("f.txt:") ? message.substr(6) : message;
+}
+
+}  // namespace
+
+TEST_CASE("text vector: what is read") {
+  CHECK(parse_text_vector("1\n-2.5\n+3e2\n", "f.txt") == Eigen::Vector3d(1, -2.5, 300));
+  CHECK(parse_text_vector("# load\r\n 1 \r\n#\n\t2\r\n\r\n\r\n# end\n", "f.txt") ==
+        Eigen::Vector2d(1, 2));
+  CHECK(parse_text_vector("\n\n", "f.txt").size() == 0);
+  CHECK(parse_text_vector("7\n", "f.txt", {.size = 1})[0] == 7);
+  CHECK(parse_text_vector<float>("0.1\n", "f.txt")[0] == 0.1f);
+}
+
+TEST_CASE("text vector: infinity only where it is asked for") {
+  auto const g = parse_text_vector("inf\n+Inf\n-INF\nInfinity\n1\n", "g.txt",
+                                   {.size = 5, .allow_infinity = true});
+  CHECK(g[0] == infinity);
+  CHECK(g[1] == infinity);
+  CHECK(g[2] == -infinity);
+  CHECK(g[3] == infinity);
+  CHECK(g[4] == 1);
+  CHECK(refused("1\ninf\n") == "2: got 'inf', expected a finite number");
+  CHECK(refused("1\n-Infinity\n") == "2: got '-Infinity', expected a finite number");
+  text_vector_options const allowed{.allow_infinity = true};
+  CHECK(refused("infin\n", allowed) == "1: got 'infin', expected a number or inf");
+  CHECK(refused("nan\n", allowed) == "1: got 'nan', expected a number or inf");
+  CHECK(refused("1e999\n", allowed) ==
+        "1: got '1e999', expected a number within the range of the scalar type");
+  CHECK(refused("+-inf\n", allowed) == "1: got '+-inf', expected a number or inf");
+}
+
+TEST_CASE("text vector: what is refused") {
+  CHECK(refused("1\nnan\n") == "2: got 'nan', expected a finite number");
+  CHECK(refused("1\n1e999\n") ==
+        "2: got '1e999', expected a number within the range of the scalar type");
+  CHECK(refused("1\n2 3\n") == "2: got '3', expected one number per line");
+  CHECK(refused("1,2\n") == "1: got '1,2', expected a finite number");
+  CHECK(refused("1;\n") == "1: got '1;', expected a finite number");
+  CHECK(refused("1 # one\n") == "1: got '#', expected one number per line");
+  CHECK(refused("one\n") == "1: got 'one', expected a finite number");
+  CHECK(refused("1\n\n2\n") ==
+        "3: got '2' after the blank line 2, expected blank lines only at the end");
+  CHECK(refused("1\n2.5") ==
+        "2: got '2.5' and the end of the file, expected a line feed at the end of the last line "
+        "(truncated file?)");
+  CHECK(refused("1\n2\n3\n", {.size = 4}) ==
+        "4: got the end of the file after 3 numbers, expected 4 numbers");
+  CHECK(refused("1\n2\n3\n", {.size = 2}) == "3: got number 3, expected 2 numbers");
+  CHECK(refused("\n", {.size = 1}) ==
+        "2: got the end of the file after 0 numbers, expected 1 numbers");
+  CHECK(refused("\xff\xfe"
+                "1\n") == "1: got '\\xff\\xfe1', expected a finite number");
+  CHECK(refused(std::string(5000, '1') + "\n") ==
+        "1: got '" + std::string(40, '1') + "...', expected a line of at most 1024 characters");
+}
+
+TEST_CASE("text vector: every prefix is refused when the size is known") {
+  std::string_view const file = "# three\n1.25\n-31\n4.5e7\n";
+  REQUIRE(parse_text_vector(file, "f.txt", {.size = 3}) == Eigen::Vector3d(1.25, -31, 4.5e7));
+  for (std::size_t length = 0; length < file.size(); ++length)
+    CHECK(refused(file.substr(0, length), {.size = 3}) != "accepted");
+}
+
+TEST_CASE("text vector: files") {
+  temporary_folder const folder;
+  CHECK(refusal([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
+        (folder / "f.txt").string() + ": got no such file, expected a readable text file");
+  io_test::put(folder / "f.txt", "1\nx\n");
+  CHECK(refusal([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
+        (folder / "f.txt").string() + ":2: got 'x', expected a finite number");
+}
+
+TEST_CASE("text vector: the same bits come back") {
+  temporary_folder const folder;
+  std::mt19937_64 random(7);
+  Eigen::VectorXd x(5000);
+  for (double& value : x) do
+      value = std::bit_cast<double>(std::uint64_t{random()});
+    while (!std::isfinite(value));
+  x[0] = -0.0;
+  x[1] = std::numeric_limits<double>::denorm_min();
+  x[2] = std::numeric_limits<double>::max();
+  slant::write_text_vector(folder / "x.txt", x);
+  Eigen::VectorXd const y = slant::read_text_vector(folder / "x.txt", {.size = 5000});
+  bool same = true;
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    same = same && std::bit_cast<std::uint64_t>(x[i]) == std::bit_cast<std::uint64_t>(y[i]);
+  CHECK(same);
+
+  Eigen::Matrix<long double, 2, 1> const wide(1 / 3.0L, -2e-4000L);
+  slant::write_text_vector(folder / "w.txt", wide);
+  CHECK(slant::read_text_vector<long double>(folder / "w.txt") == wide);
+
+  slant::write_text_vector(folder / "e.txt", Eigen::VectorXd());
+  CHECK(io_test::get(folder / "e.txt").empty());
+
+  Eigen::Vector2d const open(infinity, -infinity);
+  slant::write_text_vector(folder / "g.txt", open, {.allow_infinity = true});
+  CHECK(io_test::get(folder / "g.txt") == "inf\n-inf\n");
+  CHECK(slant::read_text_vector(folder / "g.txt", {.allow_infinity = true}) == open);
+}
+
+TEST_CASE("text vector: what is not written, and that nothing is left of it") {
+  temporary_folder const folder;
+  std::string const name = (folder / "x.txt").string();
+  Eigen::Vector2d const nan(1, std::numeric_limits<double>::quiet_NaN());
+  CHECK(refusal([&] {
+          slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true});
+        }) == name + ": got nan in component 1, expected finite numbers");
+  Eigen::Vector2d const inf(infinity, 1);
+  CHECK(refusal([&] { slant::write_text_vector(folder / "x.txt", inf); }) ==
+        name + ": got inf in component 0, expected finite numbers");
+  CHECK(folder.entries() == 0);
+}
