@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fem/contact_field.hpp>
+#include <fem/steel_brick.hpp>
+#include <oracle/dense_contact_reference.hpp>
+
+TEST_CASE("the field of a solution has its stresses and states") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const solution =
+      oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
+  auto const field =
+      fem::make_contact_field(scene, solution.u, solution.normal, solution.tangential);
+  auto const counts = oracle::count_active(solution.dual, solution.report.x);
+  CHECK(field.count(fem::contact_state::open) == counts.intervals);
+  CHECK(std::count(field.at_slip_bound.begin(), field.at_slip_bound.end(), true) == counts.circles);
+  CHECK(field.count(fem::contact_state::open) + field.count(fem::contact_state::stick) +
+            field.count(fem::contact_state::slip) ==
+        18);
+  for (Eigen::Index i = 0; i < field.size(); ++i) {
+    auto const at = static_cast<std::size_t>(i);
+    CHECK(field.slip_bound[i] == doctest::Approx(0.6));
+    CHECK(field.normal[i] >= 0);
+    CHECK((field.normal[i] == 0) == (field.state[at] == fem::contact_state::open));
+    bool const largest = field.friction.col(i).norm() > 0.6 * (1 - 1e-12);
+    CHECK(largest == field.at_slip_bound[at]);
+  }
+
+  // The contact forces and the load are in equilibrium with the reaction at the fixed end; the
+  // vertical sum of stresses times areas is the sum of the multipliers.
+  CHECK(field.normal.dot(scene.contact_weights) == doctest::Approx(solution.normal.sum()));
+  // Friction acts against the traction that drags the brick to the right.
+  CHECK(field.friction.row(0).dot(scene.contact_weights) < 0);
+}
+
+TEST_CASE("the states do not depend on units") {
+  auto const one = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
+  auto const other = fem::make_steel_brick(
+      {.k = 1, .load = fem::brick_load::lift, .E = 2.119e5 * 0x1p-40, .load_factor = 0x1p30});
+  auto const states = [](auto const& scene) {
+    auto const s = oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
+    return fem::make_contact_field(scene, s.u, s.normal, s.tangential).state;
+  };
+  CHECK((states(one) == states(other)));
+}
+
+TEST_CASE("sizes are checked") {
+  auto const scene = fem::make_steel_brick({.k = 1});
+  Eigen::VectorXd const u = Eigen::VectorXd::Zero(36);
+  Eigen::VectorXd const normal = Eigen::VectorXd::Zero(6);
+  Eigen::VectorXd const tangential = Eigen::VectorXd::Zero(12);
+  CHECK_NOTHROW((void)fem::make_contact_field(scene, u, normal, tangential));
+  CHECK_THROWS_WITH_AS((void)fem::make_contact_field(scene, normal, normal, tangential),
+                       "u: got 6, expected one entry per unknown of the scene",
+                       std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::make_contact_field(scene, u, u, tangential), std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::make_contact_field(scene, u, normal, normal), std::invalid_argument);
+}

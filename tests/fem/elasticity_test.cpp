@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <fem/brick_mesh.hpp>
+#include <fem/elasticity.hpp>
+#include <fem/surface.hpp>
+
+namespace {
+
+template <int D>
+fem::unknown_map all_unknown(fem::simplex_mesh<D> const& mesh) {
+  return fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
+}
+
+// Nodal values of x ↦ G x + c.
+template <int D>
+Eigen::VectorXd affine(fem::simplex_mesh<D> const& mesh, Eigen::Matrix<double, D, D> const& G,
+                       Eigen::Matrix<double, D, 1> const& c) {
+  Eigen::Matrix<double, D, Eigen::Dynamic> const values = (G * mesh.nodes).colwise() + c;
+  return Eigen::Map<Eigen::VectorXd const>(values.data(), values.size());
+}
+
+fem::lame_parameters const steel = fem::lame(2.119e5, 0.277);
+
+}  // namespace
+
+TEST_CASE("the stiffness is symmetric bit for bit and positive semidefinite") {
+  auto const mesh = fem::make_brick_mesh(1, {2.9, 1.1, 0.7});
+  Eigen::MatrixXd const K(fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel));
+  bool const symmetric = K == K.transpose();
+  CHECK(symmetric);
+  // As many zero pivots in LDLᵀ as there are rigid motions, and the others are positive.
+  Eigen::VectorXd pivots = K.ldlt().vectorD();
+  std::sort(pivots.begin(), pivots.end());
+  double const largest = pivots[pivots.size() - 1];
+  CHECK(pivots.head(6).cwiseAbs().maxCoeff() < 1e-14 * largest);
+  CHECK(pivots[6] > 1e-3 * largest);
+}
+
+TEST_CASE("rigid motions cost no energy") {
+  auto const mesh = fem::make_brick_mesh(2);
+  auto const K = fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel);
+  double const size = K.toDense().cwiseAbs().rowwise().sum().maxCoeff();
+  for (int i = 0; i < 3; ++i) {
+    Eigen::VectorXd const translation =
+        affine<3>(mesh, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Unit(i));
+    Eigen::Matrix3d skew = Eigen::Matrix3d::Zero();
+    skew(i, (i + 1) % 3) = 1;
+    skew((i + 1) % 3, i) = -1;
+    Eigen::VectorXd const rotation = affine<3>(mesh, skew, Eigen::Vector3d::Zero());
+    CHECK((K * translation).cwiseAbs().maxCoeff() < 1e-14 * size);
+    CHECK((K * rotation).cwiseAbs().maxCoeff() < 1e-14 * size * rotation.cwiseAbs().maxCoeff());
+  }
+  auto const plate = fem::make_box_mesh<2>({4, 3}, {1, 1});
+  auto const flat = fem::stiffness<2>(plate, all_unknown<2>(plate), steel);
+  Eigen::Matrix2d turn;
+  turn << 0, -1, 1, 0;
+  CHECK((flat * affine<2>(plate, turn, {1, 2})).cwiseAbs().maxCoeff() < 1e-13 * steel.lambda);
+}
+
+// Patch test: for an affine displacement the discrete equilibrium is exact, that is, K u is the
+// consistent load of the constant stress σ on the six sides, and zero inside.
+TEST_CASE("constant strains are exact in space") {
+  auto const mesh = fem::make_brick_mesh(2, {2, 1.5, 0.8});
+  auto const unknowns = all_unknown<3>(mesh);
+  auto const K = fem::stiffness<3>(mesh, unknowns, steel);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
+      G(i, j) = 1e-3;
+      Eigen::Matrix3d const ε = (G + G.transpose()) / 2;
+      Eigen::Matrix3d const σ =
+          steel.lambda * ε.trace() * Eigen::Matrix3d::Identity() + 2 * steel.mu * ε;
+      Eigen::VectorXd const u = affine<3>(mesh, G, {0.1, -0.2, 0.3});
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns.count);
+      for (int axis = 0; axis < 3; ++axis) {
+        fem::add_traction<3>(mesh, unknowns, {axis, true}, σ.col(axis), load);
+        fem::add_traction<3>(mesh, unknowns, {axis, false}, -σ.col(axis), load);
+      }
+      CHECK((K * u - load).cwiseAbs().maxCoeff() < 1e-11 * load.cwiseAbs().maxCoeff());
+      double const energy = 2 * 1.5 * 0.8 * σ.cwiseProduct(ε).sum() / 2;
+      CHECK(u.dot(K * u) / 2 == doctest::Approx(energy).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("a plate in plane stress stretches and narrows as Hooke's law says") {
+  double const E = 7e4;
+  double const ν = 0.3;
+  auto const mesh = fem::make_box_mesh<2>({3, 4}, {2, 1});
+  auto const unknowns = all_unknown<2>(mesh);
+  auto const K = fem::stiffness<2>(mesh, unknowns, fem::lame_plane_stress(E, ν));
+  Eigen::Matrix2d const ε = Eigen::Vector2d(1 / E, -ν / E).asDiagonal();
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns.count);
+  fem::add_traction<2>(mesh, unknowns, {0, true}, {1, 0}, load);
+  fem::add_traction<2>(mesh, unknowns, {0, false}, {-1, 0}, load);
+  Eigen::VectorXd const u = affine<2>(mesh, ε, Eigen::Vector2d::Zero());
+  CHECK((K * u - load).cwiseAbs().maxCoeff() < 1e-12 * load.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("fixing one side makes the stiffness positive definite") {
+  auto const mesh = fem::make_brick_mesh(2);
+  auto const unknowns = fem::number_unknowns(
+      mesh, [&](Eigen::Index node) { return mesh.on(fem::brick_side::left, node); });
+  CHECK(unknowns.count == 3 * 6 * 3 * 3);
+  Eigen::MatrixXd const K(fem::stiffness<3>(mesh, unknowns, steel));
+  CHECK(K.llt().info() == Eigen::Success);
+
+  // Elimination leaves out rows and columns and changes nothing else.
+  Eigen::MatrixXd const full(fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel));
+  bool same = true;
+  for (Eigen::Index a = 0; a < mesh.node_count(); ++a)
+    for (Eigen::Index b = 0; b < mesh.node_count(); ++b)
+      if (!unknowns.is_fixed(a) && !unknowns.is_fixed(b))
+        same = same && K.block<3, 3>(unknowns.first[a], unknowns.first[b]) ==
+                           full.block<3, 3>(3 * a, 3 * b);
+  CHECK(same);
+}
+
+TEST_CASE("displacements return to their nodes") {
+  auto const mesh = fem::make_box_mesh<2>({2, 1}, {1, 1});
+  auto const unknowns = fem::number_unknowns(mesh, [&](Eigen::Index node) {
+    return mesh.on({0, false}, node);
+  });
+  Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(unknowns.count, 1, 8);
+  auto const nodal = fem::nodal_displacement<2>(unknowns, u);
+  CHECK(nodal.leftCols<2>().isZero(0));  // the last axis runs fastest: nodes 0 and 1 are at x = 0
+  CHECK(nodal.col(2) == Eigen::Vector2d(1, 2));
+  CHECK(nodal.col(5) == Eigen::Vector2d(7, 8));
+}
+
+TEST_CASE("material constants") {
+  CHECK(steel.mu == doctest::Approx(2.119e5 / 2.554));
+  CHECK(steel.lambda == doctest::Approx(2.119e5 * 0.277 / (1.277 * 0.446)));
+  CHECK_THROWS_AS((void)fem::lame(-1, 0.3), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::lame(1, 0.5),
+                       "nu: got 0.5, expected a Poisson ratio in (-1, 1/2)", std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::lame(std::nan(""), 0.3), std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::lame(1, std::nan("")), std::invalid_argument);
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fem/elasticity_3d.hpp>
+#include <functional>
+
+TEST_CASE("numbers of unknowns and contact nodes are the published ones") {
+  auto const scene = fem::make_steel_brick({.k = 4, .load = fem::brick_load::pull});
+  CHECK(scene.K.rows() == 3 * 3 * 4 * 5 * 5);
+  CHECK(scene.f.size() == scene.K.rows());
+  CHECK(scene.contact_count() == 3 * 4 * 5);
+  CHECK(scene.N.rows() == scene.contact_count());
+  CHECK(scene.T.rows() == 2 * scene.contact_count());
+
+  // [K Table 3] prints n_u/m with three multipliers per contact node.
+  struct printed_size {
+    int k;
+    int unknowns;
+    int multipliers;
+  };
+  for (auto const [k, unknowns, multipliers] :
+       {printed_size{4, 900, 180}, printed_size{6, 2646, 378}, printed_size{8, 5832, 648},
+        printed_size{16, 41616, 2448}}) {
+    auto const mesh = fem::make_brick_mesh(k);
+    auto const is_fixed = [&](Eigen::Index node) { return mesh.on(fem::brick_side::left, node); };
+    CHECK(fem::number_unknowns(mesh, is_fixed).count == unknowns);
+    auto const bottom = mesh.nodes_on(fem::brick_side::bottom);
+    CHECK(3 * std::count_if(bottom.begin(), bottom.end(), std::not_fn(is_fixed)) == multipliers);
+  }
+}
+
+TEST_CASE("N and T pick the displacements of the contact nodes") {
+  auto const scene = fem::make_steel_brick({.k = 2});
+  Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(scene.K.rows(), -1, 1);
+  auto const nodal = scene.displacement(u);
+  Eigen::VectorXd const normal = scene.N * u;
+  Eigen::VectorXd const tangential = scene.T * u;
+  for (Eigen::Index i = 0; i < scene.contact_count(); ++i) {
+    int const node = scene.contact_nodes[static_cast<std::size_t>(i)];
+    CHECK(scene.mesh.nodes(2, node) == 0);
+    CHECK(scene.mesh.nodes(0, node) > 0);
+    CHECK(normal[i] == -nodal(2, node));  // (0, 0, −1) points out of the brick
+    CHECK(tangential[2 * i] == nodal(0, node));
+    CHECK(tangential[2 * i + 1] == nodal(1, node));
+    CHECK(scene.contact_patches[static_cast<std::size_t>(i)].centre ==
+          scene.mesh.nodes.col(node).head<2>());
+  }
+  CHECK(scene.contact_side.lower == Eigen::Vector2d(0, 0));
+  CHECK(scene.contact_side.upper == Eigen::Vector2d(3, 1));
+  CHECK(scene.d.isZero(0));
+}
+
+TEST_CASE("slip bounds add up to g times the area of the contact nodes") {
+  for (int const k : {1, 3}) {
+    double const area = 3 - 0.5 / k;  // the fixed nodes own half a cell
+    auto const press = fem::make_steel_brick({.k = k, .load = fem::brick_load::press});
+    auto const lift = fem::make_steel_brick({.k = k, .load = fem::brick_load::lift});
+    CHECK(press.contact_weights.sum() == doctest::Approx(area).epsilon(1e-14));
+    CHECK(press.g.sum() == doctest::Approx(0.3 * area).epsilon(1e-14));
+    CHECK(lift.g.sum() == doctest::Approx(0.6 * area).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("the three loads") {
+  auto const total = [](fem::brick_load load) {
+    auto const scene = fem::make_steel_brick({.k = 2, .load = load});
+    return Eigen::Vector3d(scene.displacement(scene.f).rowwise().sum());
+  };
+  double const top = 3 - 0.25;  // without the share of the fixed nodes
+  CHECK((total(fem::brick_load::press) - Eigen::Vector3d(0, 0, -top)).norm() < 1e-13);
+  CHECK((total(fem::brick_load::pull) - Eigen::Vector3d(0.5, 0, 0.3 - top)).norm() < 1e-13);
+  CHECK((total(fem::brick_load::lift) - Eigen::Vector3d(0.3, 0.2, 1.2 - top)).norm() < 1e-13);
+  for (fem::brick_load const load : fem::brick_loads)
+    CHECK(fem::brick_load_named(fem::name_of(load)) == load);
+  CHECK_FALSE(fem::brick_load_named("twist").has_value());
+}
+
+TEST_CASE("units: the load factor scales load and slip bound, E scales the stiffness") {
+  auto const one = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
+  auto const other = fem::make_steel_brick(
+      {.k = 1, .load = fem::brick_load::lift, .E = 4 * 2.119e5, .load_factor = 0.5});
+  CHECK(other.f == 0.5 * one.f);
+  CHECK(other.g == 0.5 * one.g);
+  CHECK((other.K - 4 * one.K).norm() == 0);
+}
+
+TEST_CASE("a contact scene in the plane") {
+  fem::box_on_foundation<2> plate{.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}),
+                                  .material = fem::lame_plane_stress(2e5, 0.3),
+                                  .fixed = {0, false},
+                                  .contact = {1, false},
+                                  .slip_bound = 0.5,
+                                  .gap = 0.01};
+  auto const scene = fem::make_contact_scene(plate);
+  CHECK(scene.contact_count() == 6);
+  CHECK(scene.T.rows() == 6);
+  CHECK(scene.g.sum() == doctest::Approx(0.5 * (3 - 0.25)));
+  CHECK(scene.d == Eigen::VectorXd::Constant(6, 0.01));
+  Eigen::VectorXd const down = Eigen::VectorXd::LinSpaced(scene.K.rows(), 0, 1);
+  CHECK((scene.N * down)[0] == -scene.displacement(down)(1, scene.contact_nodes[0]));
+}
+
+TEST_CASE("impossible scenes are refused by name") {
+  CHECK_THROWS_AS((void)fem::make_steel_brick({.k = -1}), std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::make_steel_brick({.nu = 0.5}), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::make_steel_brick({.load_factor = 0}),
+                       "load_factor: got 0, expected a positive finite number",
+                       std::invalid_argument);
+  fem::box_on_foundation<2> plate{.mesh = fem::make_box_mesh<2>({1, 1}, {1, 1}),
+                                  .material = fem::lame(1, 0),
+                                  .fixed = {0, false},
+                                  .contact = {1, false}};
+  plate.slip_bound = -1;
+  CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
+  plate.slip_bound = 0;
+  plate.gap = std::nan("");
+  CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
+  plate.gap = 0;
+  plate.contact = plate.fixed;
+  CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
+}

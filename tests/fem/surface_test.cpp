@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <fem/brick_mesh.hpp>
+#include <fem/surface.hpp>
+
+namespace {
+
+fem::unknown_map all_unknown(fem::simplex_mesh<3> const& mesh) {
+  return fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
+}
+
+}  // namespace
+
+TEST_CASE("a traction adds up to traction times area, about the right point") {
+  Eigen::Vector3d const size(2.5, 0.75, 1.25);
+  auto const mesh = fem::make_brick_mesh(2, size);
+  Eigen::Vector3d const traction(0.3, 0.2, 1.2);
+  for (int axis = 0; axis < 3; ++axis)
+    for (bool const upper : {false, true}) {
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.node_count());
+      fem::add_traction<3>(mesh, all_unknown(mesh), {axis, upper}, traction, f);
+      auto const forces = f.reshaped(3, mesh.node_count());
+      double const area = size.prod() / size[axis];
+      CHECK((forces.rowwise().sum() - area * traction).norm() < 1e-14);
+      // First moments of the force component along x, about the origin.
+      Eigen::Vector3d centre = size / 2;
+      centre[axis] = upper ? size[axis] : 0;
+      Eigen::Vector3d const moment = mesh.nodes * forces.row(0).transpose();
+      CHECK((moment - area * traction[0] * centre).norm() < 1e-14);
+      for (Eigen::Index node = 0; node < mesh.node_count(); ++node)
+        if (!mesh.on({axis, upper}, node)) CHECK(forces.col(node).isZero(0));
+    }
+}
+
+TEST_CASE("fixed nodes take no load") {
+  auto const mesh = fem::make_brick_mesh(1);
+  auto const unknowns = fem::number_unknowns(
+      mesh, [&](Eigen::Index node) { return mesh.on(fem::brick_side::left, node); });
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(unknowns.count);
+  fem::add_traction<3>(mesh, unknowns, fem::brick_side::top, {0, 0, -1}, f);
+  CHECK(f.sum() == doctest::Approx(-2.5));  // the nodes at x = 0 would have taken half a cell
+}
+
+TEST_CASE("loads accumulate") {
+  auto const mesh = fem::make_brick_mesh(1);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.node_count());
+  fem::add_traction<3>(mesh, all_unknown(mesh), fem::brick_side::top, {0, 0, -1}, f);
+  fem::add_traction<3>(mesh, all_unknown(mesh), fem::brick_side::top, {0, 0, -2}, f);
+  CHECK(f.sum() == doctest::Approx(-9));
+}
+
+TEST_CASE("trapezoidal weights sum to the area and patches tile the side") {
+  auto const mesh = fem::make_brick_mesh(2, {2.5, 0.75, 1.25});
+  for (fem::box_side const side :
+       {fem::brick_side::bottom, fem::brick_side::right, fem::brick_side::front}) {
+    double sum = 0;
+    for (int const node : mesh.nodes_on(side)) {
+      auto const patch = fem::patch_of<3>(mesh, side, node);
+      sum += patch.measure();
+      CHECK((patch.lower.array() <= patch.centre.array()).all());
+      CHECK((patch.centre.array() <= patch.upper.array()).all());
+    }
+    CHECK(sum == doctest::Approx(mesh.size.prod() / mesh.size[side.axis]).epsilon(1e-14));
+  }
+  // 6 x 2 cells of 2.5/6 x 0.75/2 on the bottom: full, half and quarter weights.
+  double const cell = 2.5 / 6 * 0.75 / 2;
+  auto const weight = [&](std::size_t i) {
+    int const node = mesh.nodes_on(fem::brick_side::bottom)[i];
+    return fem::patch_of<3>(mesh, fem::brick_side::bottom, node).measure();
+  };
+  CHECK(weight(0) == doctest::Approx(cell / 4));
+  CHECK(weight(1) == doctest::Approx(cell / 2));
+  CHECK(weight(4) == doctest::Approx(cell));
+}
