@@ -41,7 +41,7 @@ struct bicgstab_state {
 
 /// BiCGSTAB: solve(bicgstab{A, b}, x0, residual_below(1e-10)), or bicgstab{A, b, M}.
 /// Requires linear_operator for A and M; laws are not asked for.
-template <class A, class V, class M = identity>
+template <class A, class V, class M = identity_operator>
   requires linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
 class bicgstab {
@@ -54,11 +54,11 @@ class bicgstab {
                                     workspace_t<preconditioner_type, vector_type>>;
 
   /// Throws bad_input if sizes do not match or b is not finite.
-  bicgstab(A&& a, V&& b)
-    requires std::same_as<preconditioner_type, identity>
-      : bicgstab(std::forward<A>(a), std::forward<V>(b), identity{slant::local(b).size()}) {}
-  bicgstab(A&& a, V&& b, M&& m)
-      : a_(std::forward<A>(a)), b_(std::forward<V>(b)), m_(std::forward<M>(m)) {
+  bicgstab(held<A> a, held<V> b)
+    requires std::same_as<preconditioner_type, identity_operator>
+      : bicgstab(a, b, identity_operator(slant::local(b.get()).size())) {}
+  bicgstab(held<A> a, held<V> b, held<M> m)
+      : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
     detail::check_linear_system(a_.get(), b_.get());
     detail::check_size("rows of the preconditioner", index(m_.get().rows()),
                        slant::local(b_.get()).size());
@@ -152,8 +152,8 @@ class bicgstab {
 };
 
 template <class A, class V>
-bicgstab(A&&, V&&) -> bicgstab<A, V>;
+bicgstab(A&&, V&&) -> bicgstab<kept_t<A>, kept_t<V>>;
 template <class A, class V, class M>
-bicgstab(A&&, V&&, M&&) -> bicgstab<A, V, M>;
+bicgstab(A&&, V&&, M&&) -> bicgstab<kept_t<A>, kept_t<V>, kept_t<M>>;
 
 }  // namespace slant

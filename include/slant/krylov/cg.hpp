@@ -39,7 +39,7 @@ struct cg_state {
 
 /// Conjugate gradients: solve(cg{A, b}, x0, residual_below(1e-10)), or cg{A, b, M}.
 /// Requires spd_operator for A and M. Status breakdown if pᵀAp ≤ 0 shows that A is not definite.
-template <class A, class V, class M = identity>
+template <class A, class V, class M = identity_operator>
   requires spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
 class cg {
@@ -52,10 +52,11 @@ class cg {
                               workspace_t<preconditioner_type, vector_type>>;
 
   /// Throws bad_input if sizes do not match or b is not finite.
-  cg(A&& a, V&& b)
-    requires std::same_as<preconditioner_type, identity>
-      : cg(std::forward<A>(a), std::forward<V>(b), identity{slant::local(b).size()}) {}
-  cg(A&& a, V&& b, M&& m) : a_(std::forward<A>(a)), b_(std::forward<V>(b)), m_(std::forward<M>(m)) {
+  cg(held<A> a, held<V> b)
+    requires std::same_as<preconditioner_type, identity_operator>
+      : cg(a, b, identity_operator(slant::local(b.get()).size())) {}
+  cg(held<A> a, held<V> b, held<M> m)
+      : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
     detail::check_linear_system(a_.get(), b_.get());
     detail::check_size("rows of the preconditioner", index(m_.get().rows()),
                        slant::local(b_.get()).size());
@@ -78,7 +79,7 @@ class cg {
   void step(state_type& s) const {
     if (s.status != status::running) return;
     auto& d = s.directions;
-    if constexpr (std::same_as<preconditioner_type, identity>) {
+    if constexpr (std::same_as<preconditioner_type, identity_operator>) {
       d.advance(s.r);
     } else {
       slant::apply(m_.get(), s.r, s.z, s.m_workspace);
@@ -104,8 +105,8 @@ class cg {
 };
 
 template <class A, class V>
-cg(A&&, V&&) -> cg<A, V>;
+cg(A&&, V&&) -> cg<kept_t<A>, kept_t<V>>;
 template <class A, class V, class M>
-cg(A&&, V&&, M&&) -> cg<A, V, M>;
+cg(A&&, V&&, M&&) -> cg<kept_t<A>, kept_t<V>, kept_t<M>>;
 
 }  // namespace slant

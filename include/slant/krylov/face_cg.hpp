@@ -51,8 +51,8 @@ class face_cg {
   using state_type = face_cg_state<vector_type, workspace_t<operator_type, vector_type>>;
 
   /// Throws bad_input if sizes do not match or b is not finite.
-  face_cg(A&& a, V&& b, F&& face)
-      : a_(std::forward<A>(a)), b_(std::forward<V>(b)), face_(std::forward<F>(face)) {
+  face_cg(held<A> a, held<V> b, held<F> face)
+      : a_(std::move(a)), b_(std::move(b)), face_(std::move(face)) {
     detail::check_linear_system(a_.get(), b_.get());
   }
 
@@ -99,6 +99,6 @@ class face_cg {
 };
 
 template <class A, class V, class F>
-face_cg(A&&, V&&, F&&) -> face_cg<A, V, F>;
+face_cg(A&&, V&&, F&&) -> face_cg<kept_t<A>, kept_t<V>, kept_t<F>>;
 
 }  // namespace slant

@@ -71,9 +71,9 @@ class kprgp {
   using options = kprgp_options<scalar>;
   using state_type = kprgp_state<problem>;
 
-  explicit kprgp(QP&& qp) : kprgp(std::forward<QP>(qp), options{}) {}
+  explicit kprgp(held<QP> qp) : kprgp(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  kprgp(QP&& qp, options o) : qp_(std::forward<QP>(qp)), options_(std::move(o)) {
+  kprgp(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
     options_.validate();
   }
 
@@ -244,8 +244,8 @@ class kprgp {
 };
 
 template <class QP>
-kprgp(QP&&) -> kprgp<QP>;
+kprgp(QP&&) -> kprgp<kept_t<QP>>;
 template <class QP, class O>
-kprgp(QP&&, O) -> kprgp<QP>;
+kprgp(QP&&, O) -> kprgp<kept_t<QP>>;
 
 }  // namespace slant

@@ -31,8 +31,8 @@ class separable_qp {
   using set_type = std::remove_cvref_t<C>;
   using scalar = scalar_t<vector_type>;
 
-  separable_qp(A&& a, V&& b, C&& set)
-      : a_(std::forward<A>(a)), b_(std::forward<V>(b)), set_(std::forward<C>(set)) {
+  separable_qp(held<A> a, held<V> b, held<C> set)
+      : a_(std::move(a)), b_(std::move(b)), set_(std::move(set)) {
     auto const n = index(slant::local(this->b()).size());
     detail::check_size("A.rows()", index(this->a().rows()), n, "the size of b,");
     detail::check_size("A.cols()", index(this->a().cols()), n, "the size of b,");
@@ -57,7 +57,7 @@ class separable_qp {
 };
 
 template <class A, class V, class C>
-separable_qp(A&&, V&&, C&&) -> separable_qp<A, V, C>;
+separable_qp(A&&, V&&, C&&) -> separable_qp<kept_t<A>, kept_t<V>, kept_t<C>>;
 
 /// q(x) = ½ xᵀ(A x) − bᵀx = ½ xᵀ(r − b) from the gradient r = A x − b: no product is spent.
 template <class QP, class V>

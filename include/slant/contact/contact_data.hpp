@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// The data of a contact scene besides its stiffness matrix.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <string>
+
+namespace slant::contact {
+
+/// Contact data of a body (or several) with n_u displacement unknowns and m contact nodes.
+template <class S = double>
+struct data {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  sparse_type N;  ///< m × n_u, normal displacement of each contact node
+  sparse_type T;  ///< m × n_u (2D) or 2m × n_u (3D, rows 2i and 2i+1 of node i), or 0 × n_u
+  vector_type f;  ///< n_u, load
+  vector_type d;  ///< m, gap in normal direction; +infinity: the node never meets the obstacle
+  vector_type g;  ///< m, slip bound (a force) per node; +infinity: it sticks; empty: no friction
+
+  /// Number of contact nodes m.
+  [[nodiscard]] index nodes() const { return N.rows(); }
+  /// Tangential directions per node: 0, 1 or 2.
+  [[nodiscard]] index tangents() const { return nodes() == 0 ? 0 : T.rows() / nodes(); }
+
+  /// Throws bad_input naming the argument, its value and what was expected.
+  void validate() const {
+    using slant::detail::check_size;
+    if (N.rows() < 1) throw bad_input("N", slant::detail::show(N.rows()), "at least one row");
+    check_size("columns of N", N.cols(), f.size(), "the size of f,");
+    check_size("d", d.size(), nodes(), "one gap per row of N,");
+    slant::detail::check_finite("f", f);
+    check_entries("N", N);
+    check_entries("T", T);
+    for (index i = 0; i < d.size(); ++i) {
+      if (!(d(i) > -std::numeric_limits<S>::infinity())) {
+        throw bad_input(named("d", i), slant::detail::show(d(i)), "a number or +inf");
+      }
+    }
+    if (T.rows() == 0) {
+      check_size("g", g.size(), 0, "no slip bounds without T,");
+      return;
+    }
+    check_size("columns of T", T.cols(), f.size(), "the size of f,");
+    if (T.rows() != nodes() && T.rows() != 2 * nodes()) {
+      throw bad_input("rows of T", slant::detail::show(T.rows()),
+                      slant::detail::show(nodes()) + " (2D) or " +
+                          slant::detail::show(2 * nodes()) + " (3D)");
+    }
+    check_size("g", g.size(), nodes(), "one slip bound per row of N,");
+    for (index i = 0; i < g.size(); ++i) {
+      if (!(g(i) >= S(0))) {
+        throw bad_input(named("g", i), slant::detail::show(g(i)), "a number >= 0 or +inf");
+      }
+    }
+  }
+
+ private:
+  static std::string named(char const* what, index i) {
+    return std::string(what) + "[" + slant::detail::show(i) + "]";
+  }
+  static void check_entries(char const* what, sparse_type const& m) {
+    for (index j = 0; j < m.outerSize(); ++j) {
+      for (typename sparse_type::InnerIterator e(m, j); e; ++e) {
+        if (!(e.value() - e.value() == S(0))) {
+          throw bad_input(std::string(what) + "(" + slant::detail::show(e.row()) + ", " +
+                              slant::detail::show(e.col()) + ")",
+                          slant::detail::show(e.value()), "a finite number");
+        }
+      }
+    }
+  }
+};
+
+}  // namespace slant::contact

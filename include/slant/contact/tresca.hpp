@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact with Tresca friction: from displacements to multipliers and back
+// [K (14)–(21)], [T (4.2)–(4.4)].
+//
+//     primal   min ½ uᵀKu − fᵀu + Σ gᵢ‖(T u)ᵢ‖   s.t.  N u ≤ d
+//
+//     dual     min ½ λᵀAλ − bᵀλ   over   λ_ν ≥ 0,  ‖λ_t,i‖ ≤ gᵢ,       λ = (λ_ν, λ_t)
+//              A = B K⁻¹ Bᵀ,   b = B K⁻¹ f − c,   B = [N; T],   c = (d, 0)
+//
+//     back     u = K⁻¹ (f − Bᵀλ)
+//
+// The set is a matter of types: a frictionless scene has half lines and nothing else, so no disc is
+// compiled into its solver; two-dimensional bodies have intervals, three-dimensional ones discs.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/factorization.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/congruence.hpp>
+#include <slant/operators/inverse.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+namespace slant::contact {
+
+/// Friction laws as types: which set the tangential multipliers live in.
+struct frictionless {};   ///< no tangential multipliers
+struct friction_line {};  ///< one tangent per node (2D bodies): |λ_t,i| ≤ gᵢ
+struct friction_disc {};  ///< two tangents per node (3D bodies): ‖λ_t,i‖ ≤ gᵢ
+
+namespace detail {
+
+template <class S>
+auto feasible_set(frictionless, data<S> const& c) {
+  return half_lines<S>(c.nodes());
+}
+template <class S>
+auto feasible_set(friction_line, data<S> const& c) {
+  return cartesian(half_lines<S>(c.nodes()), intervals(c.g));
+}
+template <class S>
+auto feasible_set(friction_disc, data<S> const& c) {
+  return cartesian(half_lines<S>(c.nodes()), discs(c.g));
+}
+
+}  // namespace detail
+
+/// The dual problem of a contact scene. Holds B, b and the set; refers to the factorisation.
+/// Not movable: its operators refer to one another.
+///
+///     slant::contact::dual problem(slant::contact::friction_disc{}, slant::factorize(K), data);
+///     auto r = slant::solve(slant::kprgp{problem.qp()}, problem.zero(), …);
+///     auto u = problem.displacement(r.x());
+template <class Friction, class Factorization, class S>
+  requires factorization<std::remove_cvref_t<Factorization>,
+                         Eigen::Matrix<S, Eigen::Dynamic, 1>>
+class dual {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  /// One solve with K, for b. Throws bad_input if the data do not fit (see contact::data::validate).
+  dual(Friction friction, held<Factorization> factor, data<S> const& c)
+      : factor_(std::move(factor)),
+        f_(validated(friction, c, factor_.get().rows()).f),
+        B_(stacked(c)),
+        set_(detail::feasible_set(friction, c)),
+        free_displacement_(f_.size()),
+        b_(B_.rows()) {
+    auto const Kinv = inverse(factor_.get());
+    slant::apply(Kinv, f_, free_displacement_);
+    b_.noalias() = B_ * free_displacement_;
+    close_infinite_gaps(c);
+  }
+  dual(dual const&) = delete;
+  dual& operator=(dual const&) = delete;
+
+  /// A = B K⁻¹ Bᵀ, never formed.
+  [[nodiscard]] auto a() const { return congruence(B_, inverse(factor_.get())); }
+  /// The dual problem; refers to this object.
+  [[nodiscard]] auto qp() const { return separable_qp{a(), b_, set_}; }
+  /// The linear term b = B K⁻¹ f − c.
+  [[nodiscard]] vector_type const& b() const { return b_; }
+  /// The feasible set Λ.
+  [[nodiscard]] auto const& set() const { return set_; }
+  /// B = [N; T].
+  [[nodiscard]] sparse_type const& constraints() const { return B_; }
+  /// λ = 0, the start that costs nothing.
+  [[nodiscard]] vector_type zero() const { return vector_type::Zero(b_.size()); }
+
+  /// u = K⁻¹ (f − Bᵀλ): one solve, performed only when asked for.
+  [[nodiscard]] vector_type displacement(vector_type const& λ) const {
+    slant::detail::check_size("lambda", λ.size(), b_.size());
+    vector_type load = f_;
+    load.noalias() -= B_.transpose() * λ;
+    vector_type u(load.size());
+    slant::apply(inverse(factor_.get()), load, u);
+    return u;
+  }
+
+ private:
+  static data<S> const& validated(Friction, data<S> const& c, index unknowns) {
+    c.validate();
+    slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
+    constexpr index tangents = std::is_same_v<Friction, frictionless>    ? 0
+                               : std::is_same_v<Friction, friction_line> ? 1
+                                                                         : 2;
+    slant::detail::check_size("tangents per contact node", c.tangents(), tangents,
+                              "for this friction law,");
+    return c;
+  }
+
+  static sparse_type stacked(data<S> const& c) {
+    std::vector<Eigen::Triplet<S>> entries;
+    entries.reserve(static_cast<std::size_t>(c.N.nonZeros() + c.T.nonZeros()));
+    auto append = [&](sparse_type const& m, index first_row, auto wanted) {
+      for (index j = 0; j < m.outerSize(); ++j) {
+        for (typename sparse_type::InnerIterator e(m, j); e; ++e) {
+          if (wanted(e.row())) {
+            entries.emplace_back(static_cast<int>(first_row + e.row()), static_cast<int>(j),
+                                 e.value());
+          }
+        }
+      }
+    };
+    // A node that never meets its obstacle (infinite gap) presses on nothing: its row is empty.
+    append(c.N, 0, [&](index i) { return std::isfinite(double(c.d(i))); });
+    append(c.T, c.nodes(), [](index) { return true; });
+    sparse_type b(c.N.rows() + c.T.rows(), c.f.size());
+    b.setFromTriplets(entries.begin(), entries.end());
+    return b;
+  }
+
+  /// b −= c; a node with an infinite gap gets any negative load, which keeps its multiplier at 0.
+  void close_infinite_gaps(data<S> const& c) {
+    S const size = b_.size() > 0 ? b_.cwiseAbs().maxCoeff() : S(0);
+    for (index i = 0; i < c.nodes(); ++i) {
+      using std::isfinite;
+      b_(i) -= isfinite(c.d(i)) ? c.d(i) : (size > S(0) ? size : S(1));
+    }
+  }
+
+  held<Factorization> factor_;
+  vector_type f_;
+  sparse_type B_;
+  decltype(detail::feasible_set(Friction{}, std::declval<data<S> const&>())) set_;
+  vector_type free_displacement_;  // K⁻¹ f
+  vector_type b_;
+};
+
+template <class Friction, class Factorization, class S>
+dual(Friction, Factorization&&, data<S> const&) -> dual<Friction, kept_t<Factorization>, S>;
+
+}  // namespace slant::contact

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "spd_matrices.hpp"
+
+#include <slant/iteration/solve.hpp>
+#include <slant/krylov/bicgstab.hpp>
+#include <slant/operators/counted.hpp>
+#include <slant/operators/diagonal.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd nonsymmetric(Eigen::Index n, double skewness) {
+  MatrixXd m = test::with_spectrum(test::log_spaced(n, 20));
+  std::mt19937 generator(7);
+  std::normal_distribution<double> gaussian;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      double const s = skewness * gaussian(generator) / double(n);
+      m(i, j) += s;
+      m(j, i) -= s;
+    }
+  }
+  return m;
+}
+
+TEST_CASE("bicgstab agrees with a dense solve on nonsymmetric systems") {
+  for (double skewness : {0.0, 0.5, 2.0}) {
+    auto const M = nonsymmetric(40, skewness);
+    VectorXd const b = test::random_vector(40);
+    VectorXd const exact = M.fullPivLu().solve(b);
+    auto const A = slant::matrix(M);
+    auto const r = slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(40)),
+                                slant::residual_below(1e-12) || slant::at_most(400));
+    REQUIRE(r.converged());
+    CHECK((r.x() - exact).norm() <= 1e-9 * exact.norm());
+    CHECK((M * r.x() - b).norm() <= 1e-11 * b.norm());
+  }
+}
+
+TEST_CASE("work is counted: two applications a full step") {
+  auto const M = nonsymmetric(40, 1.0);
+  auto const inner = slant::matrix(M);
+  auto const A = slant::counted(inner);
+  VectorXd const b = test::random_vector(40);
+  auto const r =
+      slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(40)), slant::at_most(6));
+  CHECK(r.state.work.operator_applications == 12);
+  CHECK(A.applications() == 12);
+}
+
+TEST_CASE("a right preconditioner changes the work, not the solution") {
+  auto M = nonsymmetric(40, 0.5);
+  VectorXd scale(40);
+  for (int i = 0; i < 40; ++i) scale(i) = std::pow(10.0, (i % 5) - 2);
+  M = (scale.asDiagonal() * M).eval();
+  VectorXd const b = test::random_vector(40);
+  auto const A = slant::matrix(M);
+  VectorXd const weights = M.diagonal().cwiseInverse();
+  auto const D = slant::diagonal(weights);
+  auto const r = slant::solve(slant::bicgstab{A, b, D}, VectorXd(VectorXd::Zero(40)),
+                              slant::residual_below(1e-11) || slant::at_most(200));
+  REQUIRE(r.converged());
+  VectorXd const exact = M.fullPivLu().solve(b);
+  CHECK((r.x() - exact).norm() <= 1e-7 * exact.norm());
+}
+
+TEST_CASE("breakdown is a status and leaves finite numbers") {
+  MatrixXd skew(2, 2);
+  skew << 0, 1, -1, 0;  // r̂ᵀA r = 0 for r̂ = r: the method cannot start
+  auto const A = slant::matrix(skew);
+  VectorXd const b = VectorXd::Ones(2);
+  auto const r = slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(2)),
+                              slant::residual_below(1e-10) || slant::at_most(20));
+  CHECK(r.status == slant::status::breakdown);
+  CHECK(r.x().allFinite());
+
+  MatrixXd const zero = MatrixXd::Zero(3, 3);
+  auto const Z = slant::matrix(zero);
+  VectorXd const c = VectorXd::Ones(3);
+  auto const s = slant::solve(slant::bicgstab{Z, c}, VectorXd(VectorXd::Zero(3)),
+                              slant::residual_below(1e-10) || slant::at_most(20));
+  CHECK(s.status == slant::status::breakdown);
+  CHECK(s.x().allFinite());
+}
+
+TEST_CASE("a shadow residual that becomes orthogonal is renewed") {
+  // Permutation-like matrices make ρ = r̂ᵀr vanish within a few steps.
+  MatrixXd M = MatrixXd::Zero(4, 4);
+  M << 1, 2, 0, 0,  //
+      0, 1, 2, 0,   //
+      0, 0, 1, 2,   //
+      2, 0, 0, 1;
+  VectorXd b(4);
+  b << 1, 0, 0, 0;
+  auto const A = slant::matrix(M);
+  auto const r = slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(4)),
+                              slant::residual_below(1e-10) || slant::at_most(200));
+  REQUIRE(r.converged());
+  CHECK((M * r.x() - b).norm() <= 1e-9);
+}
+
+TEST_CASE("scales do not matter: powers of two give the same bits") {
+  auto const M = nonsymmetric(20, 1.0);
+  VectorXd const b = test::random_vector(20);
+  auto const A = slant::matrix(M);
+  auto const stop = slant::residual_below(1e-10) || slant::at_most(200);
+  VectorXd const zero = VectorXd::Zero(20);
+  auto const r = slant::solve(slant::bicgstab{A, b}, zero, stop);
+  MatrixXd const M2 = std::ldexp(1.0, 300) * M;
+  VectorXd const b2 = std::ldexp(1.0, -200) * b;
+  auto const A2 = slant::matrix(M2);
+  auto const r2 = slant::solve(slant::bicgstab{A2, b2}, zero, stop);
+  CHECK(r2.iterations() == r.iterations());
+  CHECK(VectorXd(std::ldexp(1.0, 500) * r2.x()) == r.x());
+}
+
+}  // namespace

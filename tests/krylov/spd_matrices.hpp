@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// Symmetric matrices with a prescribed spectrum, and a dense solve as the oracle.
+#pragma once
+
+#include <slant/operators/matrix.hpp>
+
+#include <Eigen/Dense>
+
+#include <random>
+
+namespace test {
+
+template <class S>
+using dense = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+template <class S>
+using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+/// Q diag(eigenvalues) Qᵀ with a random orthogonal Q, symmetric to the last bit.
+inline Eigen::MatrixXd with_spectrum(Eigen::VectorXd const& eigenvalues, unsigned seed = 1) {
+  auto const n = eigenvalues.size();
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> gaussian;
+  Eigen::MatrixXd g(n, n);
+  for (auto& e : g.reshaped()) e = gaussian(generator);
+  Eigen::MatrixXd const q = Eigen::HouseholderQR<Eigen::MatrixXd>(g).householderQ();
+  Eigen::MatrixXd const a = q * eigenvalues.asDiagonal() * q.transpose();
+  return (a + a.transpose()) / 2;
+}
+
+/// n numbers from 1/κ to 1, equally spaced in their logarithms.
+inline Eigen::VectorXd log_spaced(Eigen::Index n, double κ) {
+  return (Eigen::ArrayXd::LinSpaced(n, -std::log(κ), 0)).exp().matrix();
+}
+
+inline Eigen::VectorXd random_vector(Eigen::Index n, unsigned seed = 2) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> gaussian;
+  Eigen::VectorXd v(n);
+  for (auto& e : v) e = gaussian(generator);
+  return v;
+}
+
+/// The matrix as an operator that promises to be symmetric positive definite.
+template <class M>
+auto spd(M const& m) {
+  return slant::matrix<slant::self_adjoint, slant::positive_definite>(m);
+}
+
+}  // namespace test
