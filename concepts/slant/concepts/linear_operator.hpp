@@ -83,6 +83,13 @@ struct apply_fn {
   /// Without a workspace: one is made and thrown away. For set-up and tests, not for loops.
   template <class A, class X, class Y>
   void operator()(A const& a, X const& x, Y& y) const {
+    with_own_workspace(a, x, y);
+  }
+
+ private:
+  // Inlined into a loop, g++ 12 warns of a use after free: Eigen's resize is not exception safe.
+  template <class A, class X, class Y>
+  [[gnu::noinline]] void with_own_workspace(A const& a, X const& x, Y& y) const {
     auto w = slant::workspace(a, x);
     (*this)(a, x, y, w);
   }

@@ -51,8 +51,7 @@ concept has_abs_and_sqrt = requires(S const a) {
 };
 }  // namespace detail::by_argument
 
-template <class S>
-concept has_square_root = detail::by_argument::has_abs_and_sqrt<S>;
+template <class S> concept has_square_root = detail::by_argument::has_abs_and_sqrt<S>;
 
 template <class S>
 concept has_epsilon = std::numeric_limits<S>::is_specialized && requires {

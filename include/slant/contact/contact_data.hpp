@@ -48,9 +48,9 @@ struct data {
     }
     check_size("columns of T", T.cols(), f.size(), "the size of f,");
     if (T.rows() != nodes() && T.rows() != 2 * nodes()) {
-      throw bad_input("rows of T", slant::detail::show(T.rows()),
-                      slant::detail::show(nodes()) + " (2D) or " +
-                          slant::detail::show(2 * nodes()) + " (3D)");
+      throw bad_input(
+          "rows of T", slant::detail::show(T.rows()),
+          slant::detail::show(nodes()) + " (2D) or " + slant::detail::show(2 * nodes()) + " (3D)");
     }
     check_size("g", g.size(), nodes(), "one slip bound per row of N,");
     for (index i = 0; i < g.size(); ++i) {

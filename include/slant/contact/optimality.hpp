@@ -69,8 +69,8 @@ template <class S, class Matrix, class V>
     vector_type const τ = λt.segment(k * i, k);
     vector_type const z = τ + ρ * slip.segment(k * i, k);
     S const size = z.stableNorm();
-    friction.segment(k * i, k) = size > c.g(i) ? vector_type(τ - (c.g(i) / size) * z)
-                                               : vector_type(τ - z);
+    friction.segment(k * i, k) =
+        size > c.g(i) ? vector_type(τ - (c.g(i) / size) * z) : vector_type(τ - z);
     o.cone = std::max<S>(o.cone, (τ.stableNorm() - c.g(i)) / force);
   }
   o.friction = friction.stableNorm() / force;

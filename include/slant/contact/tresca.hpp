@@ -55,14 +55,14 @@ auto feasible_set(friction_disc, data<S> const& c) {
 ///     auto r = slant::solve(slant::kprgp{problem.qp()}, problem.zero(), …);
 ///     auto u = problem.displacement(r.x());
 template <class Friction, class Factorization, class S>
-  requires factorization<std::remove_cvref_t<Factorization>,
-                         Eigen::Matrix<S, Eigen::Dynamic, 1>>
+  requires factorization<std::remove_cvref_t<Factorization>, Eigen::Matrix<S, Eigen::Dynamic, 1>>
 class dual {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  /// One solve with K, for b. Throws bad_input if the data do not fit (see contact::data::validate).
+  /// One solve with K, for b. Throws bad_input if the data do not fit (see
+  /// contact::data::validate).
   dual(Friction friction, held<Factorization> factor, data<S> const& c)
       : factor_(std::move(factor)),
         f_(validated(friction, c, factor_.get().rows()).f),

@@ -32,17 +32,18 @@ template <class Method, class V, class Rule, class... Observers>
            (observer<Observers, state_t<Method, V>> && ...)
 [[nodiscard]] auto solve(Method&& method, V const& x0, Rule stop, Observers&&... observers)
     -> report<state_t<Method, V>> {
-  auto state = method.start(x0);
+  using state_type = state_t<Method, V>;
+  state_type state = method.start(x0);
+  auto const end = [&state](status how, std::string why) {
+    return report<state_type>{std::move(state), how, std::move(why)};
+  };
   while (true) {
     (observers(std::as_const(state)), ...);
-    auto const verdict = stop(std::as_const(state));
-    if (verdict == status::converged) return {std::move(state), verdict, stop.reason(state)};
-    if (state.status != status::running) {
-      auto words = detail::own_words(state);
-      auto const how = state.status;
-      return {std::move(state), how, std::move(words)};
-    }
-    if (verdict != status::running) return {std::move(state), verdict, stop.reason(state)};
+    status const verdict = stop(std::as_const(state));
+    // Success first: whoever else wants to stop in the step that succeeds has nothing to add.
+    if (verdict == status::converged) return end(verdict, stop.reason(state));
+    if (state.status != status::running) return end(state.status, detail::own_words(state));
+    if (verdict != status::running) return end(verdict, stop.reason(state));
     method.step(state);
   }
 }

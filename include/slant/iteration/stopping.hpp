@@ -3,8 +3,8 @@
 // Stopping rules and their algebra: reduced_gradient_below(1e-8) || at_most(500).
 //
 // A rule looks at a state and answers `running` or a reason to stop. `a || b` stops as soon as one
-// of them does and speaks with its voice (that of success, if both do); `a && b` stops when both do. Own rules derive from
-// slant::rule to take part in the algebra.
+// of them does and speaks with its voice (that of success, if both do); `a && b` stops when both
+// do. Own rules derive from slant::rule to take part in the algebra.
 //
 // Accuracy is always relative to a scale that the state brings along, so no rule knows units.
 #pragma once
@@ -153,8 +153,8 @@ struct either_rule : rule {
     auto const first = a(s);
     auto const second = b(s);  // always asked: a rule may keep a history
     // Success in the last permitted step is success.
-    fired_first_ = first != status::running &&
-                   (first == status::converged || second != status::converged);
+    fired_first_ =
+        first != status::running && (first == status::converged || second != status::converged);
     return fired_first_ ? first : second;
   }
   template <class State>

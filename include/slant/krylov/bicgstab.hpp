@@ -57,8 +57,7 @@ class bicgstab {
   bicgstab(held<A> a, held<V> b)
     requires std::same_as<preconditioner_type, identity_operator>
       : bicgstab(a, b, identity_operator(slant::local(b.get()).size())) {}
-  bicgstab(held<A> a, held<V> b, held<M> m)
-      : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
+  bicgstab(held<A> a, held<V> b, held<M> m) : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
     detail::check_linear_system(a_.get(), b_.get());
     detail::check_size("rows of the preconditioner", index(m_.get().rows()),
                        slant::local(b_.get()).size());

@@ -55,8 +55,7 @@ class cg {
   cg(held<A> a, held<V> b)
     requires std::same_as<preconditioner_type, identity_operator>
       : cg(a, b, identity_operator(slant::local(b.get()).size())) {}
-  cg(held<A> a, held<V> b, held<M> m)
-      : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
+  cg(held<A> a, held<V> b, held<M> m) : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
     detail::check_linear_system(a_.get(), b_.get());
     detail::check_size("rows of the preconditioner", index(m_.get().rows()),
                        slant::local(b_.get()).size());

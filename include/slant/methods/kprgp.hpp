@@ -14,8 +14,9 @@
 //                                         x ← x − α̃ φ̃ instead
 //     (3°) otherwise:                 proportioning  x ← x − α̃ β̃
 //
-// With α̃ ∈ (0, 2/σ_max) (sets symmetric enough: balls, intervals, half lines, ellipses) or
-// α̃ ∈ (0, 1/σ_max] (any set) the energy decreases R-linearly by the factor
+// Every gradient step is a projected gradient step on some of the blocks: with d its change of x,
+// q falls by at least (1/α̃ − σ_max/2) ‖d‖², so α̃ ∈ (0, 2/σ_max) decreases q whatever the sets are.
+// For blocks as symmetric as balls, intervals and half lines q falls R-linearly by the factor
 // 1 − α̃ σ_min / (2 + 2 max(Γ, 1/Γ)²) a step [K Theorem 1].
 //
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
@@ -32,11 +33,12 @@ namespace slant {
 /// Options of kprgp.
 template <class S>
 struct kprgp_options {
-  S Γ = S(1);                    ///< proportioning: large keeps the face, small releases early; > 0
-  std::optional<S> step_length;  ///< α̃; not given: step_factor / (upper bound of σ_max)
-  S step_factor = S(1);          ///< in (0, 2); above 1 only for subsymmetric sets, see above
-  bool half_step = true;         ///< a CG step that leaves Λ is first followed up to the boundary
-  index refresh = 50;            ///< CG steps after which r = A x − b is recomputed; 0: never
+  S Γ = S(1);  ///< proportioning: large keeps the face, small releases early; > 0
+  std::optional<S> step_length =
+      std::nullopt;        ///< α̃; not given: step_factor / (upper bound of σ_max)
+  S step_factor = S(1.9);  ///< in (0, 2); the bricks need half the steps that 1 needs
+  bool half_step = true;   ///< a CG step that leaves Λ is first followed up to the boundary
+  index refresh = 50;      ///< CG steps after which r = A x − b is recomputed; 0: never
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   /// Throws bad_input naming the option, its value and what was expected.
@@ -245,7 +247,7 @@ class kprgp {
 
 template <class QP>
 kprgp(QP&&) -> kprgp<kept_t<QP>>;
-template <class QP, class O>
-kprgp(QP&&, O) -> kprgp<kept_t<QP>>;
+template <class QP>
+kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> kprgp<kept_t<QP>>;
 
 }  // namespace slant
