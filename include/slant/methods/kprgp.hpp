@@ -34,11 +34,11 @@ namespace slant {
 template <class S>
 struct kprgp_options {
   S Γ = S(1);  ///< proportioning: large keeps the face, small releases early; > 0
-  std::optional<S> step_length =
-      std::nullopt;        ///< α̃; not given: step_factor / (upper bound of σ_max)
-  S step_factor = S(1.9);  ///< in (0, 2); the bricks need half the steps that 1 needs
-  bool half_step = true;   ///< a CG step that leaves Λ is first followed up to the boundary
-  index refresh = 50;      ///< CG steps after which r = A x − b is recomputed; 0: never
+  std::optional<S> step_length{};  ///< α̃; not given: step_factor / (upper bound of σ_max)
+  S step_factor = S(1.9);          ///< in (0, 2); the bricks need half the steps that 1 needs
+  bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
+  index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
+  index patience = 1000;  ///< steps without a new smallest ‖r̃‖, beyond 10 n, that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   /// Throws bad_input naming the option, its value and what was expected.
@@ -51,6 +51,7 @@ struct kprgp_options {
       throw bad_input("step_factor", detail::show(step_factor), "a number in (0, 2)");
     }
     if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     spectrum.validate();
   }
 };
@@ -59,7 +60,8 @@ struct kprgp_options {
 /// Requires: psd_operator (A symmetric positive semidefinite) and separable_set with
 /// step_to_boundary. Spends one application of A a step (two for an expansion) and, only if no
 /// step_length is given, up to spectrum.steps once at the start. Statuses of its own: converged
-/// (r̃ = 0), unbounded (q decreases for ever along state.directions.p), breakdown (overflow).
+/// (r̃ = 0), unbounded (q decreases for ever along −state.directions.p), stalled (‖r̃‖ has reached
+/// the level of rounding errors), breakdown (overflow).
 template <class QP>
   requires psd_operator<typename std::remove_cvref_t<QP>::operator_type,
                         typename std::remove_cvref_t<QP>::vector_type> &&
@@ -91,6 +93,7 @@ class kprgp {
     gradient(s);
     detail::check_finite("A x0 - b", s.r);
     restart(s);
+    s.best_norm = s.reduced_gradient_norm;
     return s;
   }
 
@@ -103,6 +106,7 @@ class kprgp {
       proportioning_step(s);
     }
     ++s.iteration;
+    note_progress(s);
   }
 
  private:
@@ -207,15 +211,25 @@ class kprgp {
                                   .select(r, (x - projected) / s.step_length)
                                   .matrix();
     s.reduced_gradient_norm = norm(s.reduced);
+    scalar const noise = std::numeric_limits<scalar>::epsilon() * norm(s.x) / s.step_length;
     s.face.keep(s.reduced, s.φ);
-    s.φr = inner_product(s.φ, s.r);
+    s.φr = gain(s.φ, s.r, noise);
     s.face.keep_complement(s.reduced, s.φ);
-    s.βr = inner_product(s.φ, s.r);
+    s.βr = gain(s.φ, s.r, noise);
     note_scale(s);
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!(s.reduced_gradient_norm - s.reduced_gradient_norm == scalar(0))) {
       s.status = status::breakdown;
     }
+  }
+
+  /// φ̃ᵀr or β̃ᵀr. On a curved boundary r̃ is nearly orthogonal to r, and close to the solution the
+  /// product is lost in the rounding errors of r̃ = (x − P)/α̃. Then its lower bound ‖r̃‖² stands for
+  /// it (x ∈ Λ, so (x − P)ᵀ(z − P) ≤ 0 for z = x − α̃ r): as if Γ were larger for such blocks.
+  static scalar gain(vector_type const& part, vector_type const& r, scalar noise) {
+    scalar const product = inner_product(part, r);
+    scalar const bound = inner_product(part, part);
+    return product > bound + noise * norm(r) ? product : bound;
   }
 
   /// max(‖b‖, ‖A x‖), with ‖A x‖ of the first iterate kept if b = 0: else x → 0 would have no
@@ -225,6 +239,18 @@ class kprgp {
     scalar const image = norm(s.trial);
     if (s.scale_of_b == scalar(0)) s.scale_of_b = image;
     s.gradient_scale = std::max(s.scale_of_b, image);
+  }
+
+  /// Rounding errors end the descent somewhere; whoever asks for more is told so.
+  void note_progress(state_type& s) const {
+    if (s.reduced_gradient_norm < s.best_norm) {
+      s.best_norm = s.reduced_gradient_norm;
+      s.best_iteration = s.iteration;
+    }
+    index const patience = options_.patience + 10 * qp_.get().size();
+    if (s.status == status::running && s.iteration - s.best_iteration > patience) {
+      s.status = status::stalled;
+    }
   }
 
   /// Curvature below which p counts as a direction of the kernel: rounding of pᵀAp.

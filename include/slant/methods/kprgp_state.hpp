@@ -34,6 +34,8 @@ struct kprgp_state {
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖
   scalar gradient_scale{0};         ///< max(‖b‖, ‖A x‖): what ‖r̃‖ is small against
   scalar scale_of_b{0};             ///< ‖b‖, or ‖A x₀‖ if b = 0
+  scalar best_norm{0};              ///< smallest ‖r̃‖ so far
+  index best_iteration = 0;         ///< and when it was reached
   index since_refresh = 0;          ///< CG steps since r was computed from x
   kprgp_step last_step = kprgp_step::conjugate_gradient;
   index iteration = 0;

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact problems: from data to a dual problem, and back to displacements.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/tresca.hpp>
+// IWYU pragma: end_exports

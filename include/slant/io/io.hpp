@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+//
+// Reading and writing files; <slant/io/vtu.hpp>, which needs pugixml, is not among them.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/io/atomic_file.hpp>
+#include <slant/io/matrix_market.hpp>
+#include <slant/io/matrix_market_header.hpp>
+#include <slant/io/number_text.hpp>
+#include <slant/io/text_scanner.hpp>
+#include <slant/io/text_vector.hpp>
+#include <slant/io/vtu_array.hpp>
+#include <slant/io/write_matrix_market.hpp>
+// IWYU pragma: end_exports

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+//
+// Driver, range of iterates, stopping rules, observers, report.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/iteration/iterates.hpp>
+#include <slant/iteration/observers.hpp>
+#include <slant/iteration/report.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+// IWYU pragma: end_exports

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+//
+// All Krylov methods, and the bound of the largest eigenvalue.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/krylov/bicgstab.hpp>
+#include <slant/krylov/cg.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
+#include <slant/krylov/face_cg.hpp>
+#include <slant/krylov/linear_system.hpp>
+#include <slant/krylov/spectral_bound.hpp>
+// IWYU pragma: end_exports

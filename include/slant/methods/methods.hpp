@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+//
+// All methods, and the problem that they solve.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/separable_qp.hpp>
+// IWYU pragma: end_exports
