@@ -23,38 +23,11 @@
 #pragma once
 
 #include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
 #include <slant/methods/separable_qp.hpp>
 
-#include <optional>
-
 namespace slant {
-
-/// Options of kprgp.
-template <class S>
-struct kprgp_options {
-  S Γ = S(1);  ///< proportioning: large keeps the face, small releases early; > 0
-  std::optional<S> step_length{};  ///< α̃; not given: step_factor / (upper bound of σ_max)
-  S step_factor = S(1.9);          ///< in (0, 2); the bricks need half the steps that 1 needs
-  bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
-  index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
-  index patience = 1000;  ///< steps without a new smallest ‖r̃‖, beyond 10 n, that mean stalled
-  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
-
-  /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
-    if (!(Γ > S(0)) || !(Γ - Γ == S(0))) throw bad_input("Γ", detail::show(Γ), "a number > 0");
-    if (step_length && (!(*step_length > S(0)) || !(*step_length - *step_length == S(0)))) {
-      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
-    }
-    if (!(step_factor > S(0) && step_factor < S(2))) {
-      throw bad_input("step_factor", detail::show(step_factor), "a number in (0, 2)");
-    }
-    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    spectrum.validate();
-  }
-};
 
 /// KPRGP for a separable_qp: solve(kprgp{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// Requires: psd_operator (A symmetric positive semidefinite) and separable_set with
@@ -123,20 +96,20 @@ class kprgp {
     d.image(qp_.get().a(), s.a_workspace);
     ++s.work.operator_applications;
     scalar const slope = inner_product(s.r, d.p);
-    bool const flat = !(d.curvature > flatness(s));
-    scalar const α = flat ? std::numeric_limits<scalar>::infinity() : slope / d.curvature;
-    if (!flat && try_step(s, α)) return true;
+    scalar const flat = flatness(d.p, s.step_length);
+    if (!(d.curvature >= -flat)) {  // A is not what it promised, or not a number
+      s.status = status::breakdown;
+      return true;
+    }
+    if (d.curvature > flat && try_step(s, slope / d.curvature)) return true;
 
     slant::local(s.trial) = -slant::local(d.p);
     scalar const α_max = qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial));
-    if (flat && !(α_max < std::numeric_limits<scalar>::infinity())) {
-      // A slope at rounding level is the noise of a consistent right-hand side, not a way down.
-      auto const noise = scalar(qp_.get().size()) * std::numeric_limits<scalar>::epsilon();
-      bool const real = slope > noise * norm(d.p) * s.gradient_scale;
-      s.status = real ? status::unbounded : status::stalled;
+    if (!(α_max < std::numeric_limits<scalar>::infinity())) {
+      s.status = is_descent(slope, d.p, s.gradient_scale) ? status::unbounded : status::stalled;
       return true;
     }
-    if (options_.half_step || flat) {
+    if (options_.half_step || !(d.curvature > flat)) {
       slant::local(s.x) += α_max * slant::local(s.trial);
       slant::local(s.r) -= α_max * slant::local(d.Ap);
       split(s);
@@ -197,6 +170,10 @@ class kprgp {
     s.face.assign(qp_.get().set(), slant::local(s.x));
     s.directions.live = false;
     split(s);
+    if constexpr (!declares_positive_definite<typename problem::operator_type>) {
+      // Steps that leave Λ again and again may still sum up to a direction that never does.
+      if (s.recession.found(qp_.get().set(), s)) s.status = status::unbounded;
+    }
   }
 
   /// P_Λ(x − α̃ r), r̃ and its two parts' products with r.
@@ -251,12 +228,6 @@ class kprgp {
     if (s.status == status::running && s.iteration - s.best_iteration > patience) {
       s.status = status::stalled;
     }
-  }
-
-  /// Curvature below which p counts as a direction of the kernel: rounding of pᵀAp.
-  [[nodiscard]] scalar flatness(state_type const& s) const {
-    auto const ε = std::numeric_limits<scalar>::epsilon();
-    return ε * inner_product(s.directions.p, s.directions.p) / s.step_length;
   }
 
   [[nodiscard]] scalar step_length(state_type& s) const {

@@ -5,6 +5,7 @@
 
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
+#include <slant/methods/recession.hpp>
 #include <slant/sets/face.hpp>
 
 namespace slant {
@@ -26,6 +27,7 @@ struct kprgp_state {
   vector_type trial;                             ///< scratch
   slant::face<scalar> face;                      ///< blocks that could move at the last restart
   conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
+  recession_watch<vector_type> recession;        ///< looks for descent without end
   workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A
 
   scalar step_length{0};            ///< step length of the gradient steps
@@ -50,6 +52,7 @@ struct kprgp_state {
         φ(like(x0, qp.size())),
         trial(like(x0, qp.size())),
         directions(x0),
+        recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()),
         a_workspace(workspace(qp.a(), x0)) {}
 };
 

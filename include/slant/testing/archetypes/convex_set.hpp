@@ -8,6 +8,9 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/testing/archetypes/vector.hpp>
 
+#include <algorithm>
+#include <limits>
+
 namespace slant::testing::archetype {
 
 template <class V>
@@ -41,12 +44,32 @@ class basic_separable_set : public basic_convex_set<V> {
   }
 };
 
+/// The same with steps to the boundary: what KPRGP asks for.
+template <class V>
+class basic_active_set_set : public basic_separable_set<V> {
+ public:
+  using basic_separable_set<V>::basic_separable_set;
+
+  [[nodiscard]] scalar_t<V> step_to_boundary(V const& x, V const& d) const {
+    auto step = std::numeric_limits<scalar_t<V>>::infinity();
+    for (index i = 0; i < this->size(); ++i) {
+      auto const& from = slant::local(x);
+      auto const& along = slant::local(d);
+      if (along(i) < scalar_t<V>(0)) step = std::min(step, -from(i) / along(i));
+    }
+    return step;
+  }
+};
+
 using convex_set = basic_convex_set<vector>;
 using separable_set = basic_separable_set<vector>;
+using active_set_set = basic_active_set_set<vector>;
 
 static_assert(slant::convex_set<convex_set, vector>);
 static_assert(!slant::separable_set<convex_set, vector>);
 static_assert(slant::separable_set<separable_set, vector>);
 static_assert(!has_slant<separable_set, vector> && !has_visit<separable_set>);
+static_assert(!has_step_to_boundary<separable_set, vector>);
+static_assert(has_step_to_boundary<active_set_set, vector>);
 
 }  // namespace slant::testing::archetype

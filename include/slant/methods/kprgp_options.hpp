@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// The parameters of KPRGP.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/krylov/spectral_bound.hpp>
+
+#include <optional>
+
+namespace slant {
+
+/// Options of kprgp.
+template <class S>
+struct kprgp_options {
+  S Γ = S(1);  ///< proportioning: large keeps the face, small releases early; > 0
+  std::optional<S> step_length{};  ///< α̃; not given: step_factor / (upper bound of σ_max)
+  S step_factor = S(1.9);          ///< in (0, 2); the bricks need half the steps that 1 needs
+  bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
+  index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
+  index patience = 1000;  ///< steps without a new smallest ‖r̃‖, beyond 10 n, that mean stalled
+  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    if (!(Γ > S(0)) || !(Γ - Γ == S(0))) throw bad_input("Γ", detail::show(Γ), "a number > 0");
+    if (step_length && (!(*step_length > S(0)) || !(*step_length - *step_length == S(0)))) {
+      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
+    }
+    if (!(step_factor > S(0) && step_factor < S(2))) {
+      throw bad_input("step_factor", detail::show(step_factor), "a number in (0, 2)");
+    }
+    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    spectrum.validate();
+  }
+};
+
+}  // namespace slant

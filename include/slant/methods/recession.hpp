@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Descent without end. For a semidefinite A the function q(x) = ½ xᵀA x − bᵀx has no minimum over Λ
+// if there is a direction d with
+//
+//     A d = 0,   rᵀd < 0,   x + t d ∈ Λ for all t ≥ 0.
+//
+// In floating point: the curvature dᵀA d is below its own rounding error, the slope above its.
+#pragma once
+
+#include <slant/concepts/vector.hpp>
+
+#include <limits>
+
+namespace slant {
+
+/// Curvature pᵀAp below which p counts as a direction of the kernel: ε ‖p‖² / α̃, α̃ ≈ 1/σ_max.
+template <class V, class S>
+[[nodiscard]] S flatness(V const& p, S step_length) {
+  return std::numeric_limits<S>::epsilon() * inner_product(p, p) / step_length;
+}
+
+/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_scale?
+template <class V, class S>
+[[nodiscard]] bool is_descent(S slope, V const& d, S gradient_scale) {
+  auto const noise = S(slant::local(d).size()) * std::numeric_limits<S>::epsilon();
+  return slope > noise * norm(d) * gradient_scale;
+}
+
+/// Compares iterates with an earlier one, which is replaced whenever the number of comparisons is a
+/// power of two (Brent's cycle detection): steps may repeat in cycles of any length and add up to
+/// such a direction, although none of them is one. Spends no product: A d is a difference of
+/// gradients.
+template <class V>
+class recession_watch {
+ public:
+  /// For vectors of n entries like the prototype.
+  recession_watch(V const& prototype, index n) : x_(like(prototype, n)), r_(like(prototype, n)) {}
+
+  /// Looks at s.x and its gradient s.r. If true, s.directions.p is the negative direction.
+  template <class Set, class State>
+  [[nodiscard]] bool found(Set const& set, State& s) {
+    using S = scalar_t<V>;
+    bool const yes = seen_ > 0 && [&] {
+      slant::local(s.φ) = slant::local(s.r) - slant::local(r_);
+      slant::local(s.trial) = slant::local(s.x) - slant::local(x_);
+      S const slope = -inner_product(s.trial, s.r);
+      return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.step_length)) &&
+             is_descent(slope, s.trial, s.gradient_scale) &&
+             !(set.step_to_boundary(slant::local(s.x), slant::local(s.trial)) <
+               std::numeric_limits<S>::infinity());
+    }();
+    if (yes) slant::local(s.directions.p) = -slant::local(s.trial);
+    if ((seen_ & (seen_ - 1)) == 0) {
+      slant::local(x_) = slant::local(s.x);
+      slant::local(r_) = slant::local(s.r);
+    }
+    ++seen_;
+    return yes;
+  }
+
+ private:
+  V x_;             // the earlier iterate
+  V r_;             // its gradient
+  index seen_ = 0;  // comparisons so far
+};
+
+}  // namespace slant

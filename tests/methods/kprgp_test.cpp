@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include <slant/iteration/iterates.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/operators/counted.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/diagonal.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/ellipse.hpp>
+#include <slant/sets/point.hpp>
+#include <slant/sets/second_order_cone.hpp>
+#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes/linear_operator.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <krylov/spd_matrices.hpp>
+#include <limits>
+#include <oracle/certificate.hpp>
+#include <oracle/dense_newton.hpp>
+#include <support/allocation_guard.hpp>
+
+namespace {
+
+using Eigen::VectorXd;
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// A mixture of all kinds of constraints on 20 unknowns, as a set and as plain data.
+struct mixture {
+  Eigen::MatrixXd A;
+  VectorXd b = 3 * test::random_vector(20, 5);
+  VectorXd lower{{0.0, -1.0, 0.5, -inf, 2.0, 0.0}};
+  VectorXd g{{0.5, 0.0, 2.0, inf}};
+
+  explicit mixture(double κ, unsigned seed = 1)
+      : A(test::with_spectrum(test::log_spaced(20, κ), seed)) {}
+
+  [[nodiscard]] auto set() const {
+    return slant::cartesian(slant::half_lines(lower), slant::intervals(VectorXd{{0.1, 1e-3}}),
+                            slant::discs(g), slant::free_components(4));
+  }
+  [[nodiscard]] oracle::dense_qp plain() const {
+    oracle::dense_qp qp{A, b.cast<long double>(), {}, {}};
+    for (Eigen::Index i = 0; i < 6; ++i) qp.intervals.push_back({i, lower(i)});
+    qp.intervals.push_back({6, -0.1, 0.1});
+    qp.intervals.push_back({7, -1e-3, 1e-3});
+    for (Eigen::Index i = 0; i < 3; ++i) qp.circles.push_back({8 + 2 * i, 9 + 2 * i, g(i)});
+    return qp;
+  }
+};
+
+TEST_CASE("kprgp agrees with Newton's method on dense data, whatever its options") {
+  for (double κ : {1.0, 30.0, 1000.0}) {
+    CAPTURE(κ);
+    mixture const p(κ);
+    auto const reference = oracle::solve_dense(p.plain());
+    auto const A = test::spd(p.A);
+    auto const qp = slant::separable_qp{A, p.b, p.set()};
+    for (auto const& o :
+         {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.Γ = 0.01},
+          slant::kprgp_options<double>{.Γ = 100}, slant::kprgp_options<double>{.step_factor = 0.5},
+          slant::kprgp_options<double>{.half_step = false},
+          slant::kprgp_options<double>{.refresh = 1}, slant::kprgp_options<double>{.refresh = 0}}) {
+      auto const r = slant::solve(slant::kprgp{qp, o}, VectorXd(VectorXd::Zero(20)),
+                                  slant::reduced_gradient_below(1e-13) || slant::at_most(100000));
+      REQUIRE(r.converged());
+      CHECK((r.x() - reference.x.cast<double>()).norm() <= 1e-11 * κ * r.x().norm());
+      CHECK(oracle::certify(p.plain(), r.x().cast<long double>()).energy_error < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("iterates are feasible and the energy falls with every step") {
+  mixture const p(1000);
+  auto const A = test::spd(p.A);
+  auto const set = p.set();
+  auto const qp = slant::separable_qp{A, p.b, set};
+  slant::kprgp method{qp};
+  double last = inf;
+  int seen = 0;
+  for (auto const& s : slant::iterates(method, VectorXd(100 * test::random_vector(20, 9)))) {
+    CHECK(set.contains(s.x));
+    double const q = s.x.dot(0.5 * (p.A * s.x) - p.b);
+    CHECK(q <= last + 1e-13 * std::abs(last));
+    CHECK(slant::energy(qp, s.x, s.r) == doctest::Approx(q).epsilon(1e-9));
+    last = q;
+    if (++seen == 300) break;
+  }
+  CHECK(seen > 20);
+}
+
+TEST_CASE("without constraints kprgp is the method of conjugate gradients") {
+  auto const M = test::with_spectrum(test::log_spaced(30, 100));
+  VectorXd const x = test::random_vector(30), b = M * x;
+  auto const A = test::spd(M);
+  auto const qp = slant::separable_qp{A, b, slant::free_components(30)};
+  auto const r = slant::solve(slant::kprgp{qp, {.step_length = 1.0}}, VectorXd(VectorXd::Zero(30)),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(60));
+  REQUIRE(r.converged());
+  CHECK((r.x() - x).norm() <= 1e-9 * x.norm());
+  CHECK(r.state.work.operator_applications == r.iterations() + r.iterations() / 50);
+}
+
+TEST_CASE("cones, ellipses, points and other blocks") {
+  auto const M = test::with_spectrum(test::log_spaced(11, 50));
+  VectorXd const b = test::random_vector(11);
+  auto const A = test::spd(M);
+  auto const set = slant::cartesian(slant::power(slant::second_order_cone<3>(0.3), 2),
+                                    slant::ellipse<>(2.0, 0.1),
+                                    slant::point<1>(Eigen::Matrix<double, 1, 1>(0.25)),
+                                    slant::interval<>(0.5, 0.5), slant::ball<1>(0.0));
+  auto const qp = slant::separable_qp{A, b, set};
+  auto const r = slant::solve(slant::kprgp{qp, {.step_factor = 1.0}}, VectorXd(VectorXd::Zero(11)),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(20000));
+  REQUIRE(r.converged());
+  // Variational inequality against many feasible points: rᵀ(z − x) ≥ 0.
+  VectorXd const gradient = M * r.x() - b;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    VectorXd const z = slant::project(set, VectorXd(3 * test::random_vector(11, seed)));
+    CHECK(gradient.dot(z - r.x()) >= -1e-10 * gradient.norm() * (z - r.x()).norm());
+  }
+  CHECK(r.x()(8) == 0.25);
+  CHECK(r.x()(9) == 0.5);
+  CHECK(r.x()(10) == 0.0);
+}
+
+TEST_CASE("no allocation between the first and the last iteration") {
+  mixture const p(1000);
+  auto const A = test::spd(p.A);
+  auto const qp = slant::separable_qp{A, p.b, p.set()};
+  slant::kprgp method{qp};
+  auto s = method.start(VectorXd::Zero(20));
+  bool seen[3] = {false, false, false};
+  slant::testing::allocation_guard guard;
+  for (int k = 0; k < 500; ++k) {
+    method.step(s);
+    seen[int(s.last_step)] = true;
+  }
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK((seen[0] && seen[1] && seen[2]));  // the guard has seen each kind of step
+}
+
+TEST_CASE("the report counts every product, and a given step length saves those for σ_max") {
+  mixture const p(1000);
+  auto const A = test::spd(p.A);
+  auto const set = p.set();
+  auto const run = [&](auto const& options) {
+    auto const counting = slant::counted(A);
+    auto const qp = slant::separable_qp{counting, p.b, set};
+    auto const r =
+        slant::solve(slant::kprgp{qp, options}, VectorXd(VectorXd::Zero(20)), slant::at_most(100));
+    CHECK(counting.applications() ==
+          r.state.work.operator_applications + r.state.work.setup_applications);
+    return r.state.work;
+  };
+  CHECK(run(slant::kprgp_options<double>{}).setup_applications > 0);
+  CHECK(run(slant::kprgp_options<double>{.step_length = 1.0}).setup_applications == 0);
+}
+
+TEST_CASE("a right-hand side of zero is solved by zero") {
+  mixture const p(30);
+  auto const A = test::spd(p.A);
+  VectorXd const b = VectorXd::Zero(20);
+  auto const set = slant::intervals(VectorXd(VectorXd::Ones(20)));
+  auto const qp = slant::separable_qp{A, b, set};
+  auto const cold = slant::solve(slant::kprgp{qp}, b, slant::reduced_gradient_below(1e-10));
+  CHECK(cold.converged());
+  CHECK(cold.iterations() == 0);
+  auto const warm = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Ones(20)),
+                                 slant::reduced_gradient_below(1e-10) || slant::at_most(1000));
+  CHECK(warm.converged());
+  CHECK(warm.x().norm() <= 1e-8);
+}
+
+TEST_CASE("semidefinite operators: consistent, unbounded, and held by the constraints") {
+  VectorXd const d{{1.0, 2.0, 0.0}};
+  auto const A =
+      slant::declare<slant::self_adjoint, slant::positive_semidefinite>(slant::diagonal(d));
+  auto const run = [&](VectorXd const& b, auto const& set) {
+    auto const qp = slant::separable_qp{A, b, set};
+    return slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(3)),
+                        slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
+  };
+  auto const consistent = run(VectorXd{{1.0, 1.0, 0.0}}, slant::free_components(3));
+  CHECK(consistent.converged());
+  CHECK(consistent.x()(0) == doctest::Approx(1));
+
+  auto const unbounded = run(VectorXd{{1.0, 1.0, 1.0}}, slant::half_lines(3));
+  CHECK(unbounded.status == slant::status::unbounded);
+  VectorXd const down = -unbounded.state.directions.p;
+  CHECK(down(2) > 0);
+  CHECK(std::abs(down(0)) + std::abs(down(1)) <= 1e-10 * down(2));
+
+  auto const held = run(VectorXd{{1.0, 1.0, 1.0}}, slant::intervals(VectorXd{{9.0, 9.0, 5.0}}));
+  CHECK(held.converged());
+  CHECK(held.x()(2) == doctest::Approx(5));
+
+  VectorXd const b{{1.0, -1.0, 0.0}};
+  auto const nothing = slant::declare<slant::self_adjoint, slant::positive_semidefinite>(
+      slant::diagonal(VectorXd(VectorXd::Zero(3))));
+  auto const linear = slant::separable_qp{nothing, b, slant::intervals(VectorXd{{2.0, 3.0, 4.0}})};
+  auto const corner = slant::solve(slant::kprgp{linear}, VectorXd(VectorXd::Zero(3)),
+                                   slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
+  CHECK(corner.converged());
+  CHECK(corner.x() == VectorXd{{2.0, -3.0, 0.0}});
+}
+
+TEST_CASE("an accuracy beyond reach ends as stalled, at the floor") {
+  mixture const p(1e6);
+  auto const A = test::spd(p.A);
+  auto const qp = slant::separable_qp{A, p.b, p.set()};
+  auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(20)),
+                              slant::stop_when([](auto const&) { return false; }, ""));
+  CHECK((r.status == slant::status::stalled || r.status == slant::status::converged));
+  CHECK(r.state.best_norm <= 1e-14 * r.state.gradient_scale);
+}
+
+TEST_CASE_TEMPLATE("huge and tiny scales change nothing but the scale", S, double, float) {
+  mixture const p(100);
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const M = p.A.cast<S>();
+  auto const solve_in = [&](int stiffness, int length) {
+    auto const s = std::ldexp(S(1), stiffness), t = std::ldexp(S(1), length);
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const scaled = s * M;
+    vector const b = s * t * p.b.cast<S>(), lower = t * p.lower.cast<S>(), g = t * p.g.cast<S>();
+    auto const A = test::spd(scaled);
+    auto const set =
+        slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<S>(6));
+    auto const qp = slant::separable_qp{A, b, set};
+    auto r = slant::solve(slant::kprgp{qp}, vector(vector::Zero(20)),
+                          slant::reduced_gradient_below(S(1e-5)) || slant::at_most(2000));
+    r.state.x /= t;
+    return r;
+  };
+  auto const plain = solve_in(0, 0);
+  REQUIRE(plain.converged());
+  constexpr int far = std::numeric_limits<S>::max_exponent / 4 - 8;  // squares stay in range
+  constexpr int si = std::numeric_limits<S>::max_exponent / 4 - 4;
+  for (auto const& [stiffness, length] :
+       {std::pair{far, 0}, {-far, 0}, {0, far}, {0, -far}, {si, -si}, {-si, si}}) {
+    CAPTURE(stiffness);
+    CAPTURE(length);
+    auto const r = solve_in(stiffness, length);
+    CHECK(r.status == plain.status);
+    CHECK(r.iterations() == plain.iterations());
+    CHECK(r.x() == plain.x());
+  }
+}
+
+TEST_CASE("bad options and bad starts are named") {
+  mixture const p(10);
+  auto const A = test::spd(p.A);
+  auto const qp = slant::separable_qp{A, p.b, p.set()};
+  using slant::bad_input;
+  CHECK_THROWS_WITH_AS(slant::kprgp(qp, {.Γ = 0}), "Γ: got 0, expected a number > 0", bad_input);
+  CHECK_THROWS_WITH_AS(slant::kprgp(qp, {.Γ = std::nan("")}), "Γ: got nan, expected a number > 0",
+                       bad_input);
+  CHECK_THROWS_AS(slant::kprgp(qp, {.Γ = inf}), bad_input);
+  CHECK_THROWS_WITH_AS(slant::kprgp(qp, {.step_length = -1.0}),
+                       "step_length: got -1, expected a number > 0", bad_input);
+  CHECK_THROWS_WITH_AS(slant::kprgp(qp, {.step_factor = 2}),
+                       "step_factor: got 2, expected a number in (0, 2)", bad_input);
+  CHECK_THROWS_WITH_AS(slant::kprgp(qp, {.refresh = -1}), "refresh: got -1, expected a number >= 0",
+                       bad_input);
+  CHECK_THROWS_WITH_AS(slant::kprgp(qp, {.patience = -1}),
+                       "patience: got -1, expected a number >= 0", bad_input);
+  CHECK_THROWS_AS(slant::kprgp(qp, {.spectrum = {.steps = 1}}), bad_input);
+  slant::kprgp method{qp};
+  CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd::Zero(19))), bad_input);
+  VectorXd x0 = VectorXd::Zero(20);
+  x0(7) = inf;
+  CHECK_THROWS_WITH_AS(static_cast<void>(method.start(x0)),
+                       "x0[7]: got inf, expected a finite number", bad_input);
+}
+
+/// Well behaved once.
+struct fragile {
+  static constexpr auto laws = slant::laws<slant::law::self_adjoint, slant::law::positive_definite>;
+  mutable int calls = 0;
+  [[nodiscard]] slant::index rows() const { return 2; }
+  [[nodiscard]] slant::index cols() const { return 2; }
+  void apply(VectorXd const& x, VectorXd& y) const {
+    y = x;
+    y(1) *= 3;
+    if (++calls > 1) y(0) = std::nan("");
+  }
+};
+
+TEST_CASE("a NaN that the operator makes later is a breakdown, not a result") {
+  fragile const A;
+  VectorXd const b{{1.0, 1.0}};
+  auto const qp = slant::separable_qp{A, b, slant::free_components(2)};
+  auto const r = slant::solve(slant::kprgp{qp, {.step_length = 0.3}}, VectorXd(VectorXd::Zero(2)),
+                              slant::reduced_gradient_below(1e-10) || slant::at_most(10));
+  CHECK(r.status == slant::status::breakdown);
+}
+
+TEST_CASE("kprgp asks its archetypes for nothing more") {
+  namespace archetype = slant::testing::archetype;
+  archetype::psd_operator const A(Eigen::MatrixXd{{2.0, 1.0}, {1.0, 2.0}});
+  archetype::vector const b(VectorXd{{3.0, -3.0}});
+  archetype::basic_active_set_set<VectorXd> const set(2);
+  auto const qp = slant::separable_qp{A, b, set};
+  auto const r = slant::solve(slant::kprgp{qp}, archetype::vector(VectorXd{{1.0, 1.0}}),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(100));
+  REQUIRE(r.converged());
+  CHECK(r.x().local()(0) == doctest::Approx(1.5));
+  CHECK(r.x().local()(1) == 0.0);
+}
+
+}  // namespace
