@@ -6,8 +6,8 @@
 //     K u + Bᵀλ = f,    λ_ν ≥ 0,  N u ≤ d,  λ_ν (N u − d) = 0,
 //     ‖λ_t‖ ≤ g,  and  T u = 0 or (λ_t = g T u / ‖T u‖)                        [K (16)–(18)]
 //
-// Each violation is a force, divided by max(‖f‖, ‖Bᵀλ‖): numbers without units. Lengths are turned
-// into forces by ρ = max(‖f‖, ‖Bᵀλ‖) / ‖u‖, a stiffness of the body.
+// Each violation is a force, divided by max(‖f‖, ‖Bᵀλ‖) (by ‖K u‖ if both are 0): numbers without
+// units. Lengths are turned into forces by ρ, the same divided by ‖u‖: a stiffness of the body.
 #pragma once
 
 #include <slant/contact/contact_data.hpp>
@@ -27,8 +27,11 @@ struct optimality {
   S adhesion = S(0);     ///< max(−λ_ν, 0), largest node
   S cone = S(0);         ///< max(‖λ_t‖ − g, 0), largest node
 
-  /// The relative KKT residual: the largest of the three residuals.
-  [[nodiscard]] S residual() const { return std::max({equilibrium, normal, friction}); }
+  /// The relative KKT residual: the largest of the three residuals; NaN if one of them is.
+  [[nodiscard]] S residual() const {
+    S const sum = equilibrium + normal + friction;
+    return sum == sum ? std::max({equilibrium, normal, friction}) : sum;
+  }
 };
 
 /// Evaluates the conditions. K is n_u × n_u, u has n_u and λ = (λ_ν, λ_t) m + rows(T) entries.
@@ -44,10 +47,12 @@ template <class S, class Matrix, class V>
   if (c.T.rows() > 0) Bλ += c.T.transpose() * λt;
 
   optimality<S> o;
-  S const force = std::max<S>(c.f.stableNorm(), Bλ.stableNorm());
+  vector_type const Ku = K * u;
   S const length = u.stableNorm();
-  if (!(force > S(0))) return o;  // no load and no reaction: u = 0 solves K u = 0
-  vector_type const unbalanced = K * u + Bλ - c.f;
+  S force = std::max<S>(c.f.stableNorm(), Bλ.stableNorm());
+  if (force == S(0)) force = Ku.stableNorm();
+  if (force == S(0)) return o;  // no load, no reaction, no displacement
+  vector_type const unbalanced = Ku + Bλ - c.f;
   o.equilibrium = unbalanced.stableNorm() / force;
   S const ρ = length > S(0) ? force / length : S(1);
 

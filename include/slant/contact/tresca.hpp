@@ -108,8 +108,10 @@ class dual {
     constexpr index tangents = std::is_same_v<Friction, frictionless>    ? 0
                                : std::is_same_v<Friction, friction_line> ? 1
                                                                          : 2;
-    slant::detail::check_size("tangents per contact node", c.tangents(), tangents,
-                              "for this friction law,");
+    if (c.tangents() != tangents) {
+      throw bad_input("tangents per contact node", slant::detail::show(c.tangents()),
+                      slant::detail::show(tangents) + " for this friction law");
+    }
     return c;
   }
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "scenes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using slant::bad_input;
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+slant::contact::data<double> good() {
+  return test::contact_data(fem::make_steel_brick({.k = 1}));
+}
+
+/// What validate says of the data after a change.
+template <class Change>
+std::string complaint(Change change) {
+  auto c = good();
+  change(c);
+  try {
+    c.validate();
+  } catch (bad_input const& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_CASE("data of a scene are valid, and so are infinite gaps and slip bounds") {
+  CHECK(complaint([](auto&) {}) == "");
+  CHECK(complaint([](auto& c) { c.d(0) = inf; }) == "");
+  CHECK(complaint([](auto& c) { c.d(0) = -1; }) == "");  // pressed in from the beginning
+  CHECK(complaint([](auto& c) { c.g(0) = inf; }) == "");
+  CHECK(complaint([](auto& c) { c.g(0) = 0; }) == "");
+  CHECK(good().nodes() == 6);
+  CHECK(good().tangents() == 2);
+  CHECK(test::frictionless_data(fem::make_steel_brick({.k = 1})).tangents() == 0);
+}
+
+TEST_CASE("each number that is none is named") {
+  CHECK(complaint([](auto& c) { c.f(3) = std::nan(""); }) ==
+        "f[3]: got nan, expected a finite number");
+  CHECK(complaint([](auto& c) { c.f(2) = -inf; }) == "f[2]: got -inf, expected a finite number");
+  CHECK(complaint([](auto& c) { c.d(1) = std::nan(""); }) ==
+        "d[1]: got nan, expected a number or +inf");
+  CHECK(complaint([](auto& c) { c.d(1) = -inf; }) == "d[1]: got -inf, expected a number or +inf");
+  CHECK(complaint([](auto& c) { c.g(4) = -0.5; }) ==
+        "g[4]: got -0.5, expected a number >= 0 or +inf");
+  CHECK(complaint([](auto& c) { c.g(4) = std::nan(""); }) ==
+        "g[4]: got nan, expected a number >= 0 or +inf");
+  CHECK(complaint([](auto& c) { c.N.valuePtr()[0] = inf; }).starts_with("N("));
+  CHECK(complaint([](auto& c) { c.T.valuePtr()[0] = std::nan(""); }).starts_with("T("));
+}
+
+TEST_CASE("each size that does not fit is named") {
+  CHECK(complaint([](auto& c) { c.f.conservativeResize(5); }).starts_with("columns of N"));
+  CHECK(complaint([](auto& c) { c.d.conservativeResize(5); }).starts_with("d: got 5"));
+  CHECK(complaint([](auto& c) { c.g.conservativeResize(5); }).starts_with("g: got 5"));
+  CHECK(complaint([](auto& c) { c.g.resize(0); }).starts_with("g: got 0"));
+  CHECK(complaint([](auto& c) { c.N.resize(0, c.N.cols()); }).starts_with("N: got 0"));
+  CHECK(complaint([](auto& c) { c.T.resize(7, c.N.cols()); }).starts_with("rows of T: got 7"));
+  CHECK(complaint([](auto& c) { c.T.resize(12, 3); }).starts_with("columns of T"));
+  CHECK(complaint([](auto& c) { c.T.resize(0, c.N.cols()); }).starts_with("g: got 6"));
+}
+
+}  // namespace

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "scenes.hpp"
+
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/ldlt.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/kprgp.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <support/allocation_guard.hpp>
+
+namespace {
+
+using Eigen::VectorXd;
+namespace contact = slant::contact;
+
+template <class Friction>
+void check_against_reference(Friction friction, Eigen::SparseMatrix<double> const& K,
+                             contact::data<double> const& c) {
+  auto const reference = test::reference(K, c);
+  contact::dual const dual(friction, slant::ldlt(K), c);
+  auto const qp = dual.qp();
+  auto const r = slant::solve(slant::kprgp{qp}, dual.zero(),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(100000));
+  REQUIRE(r.converged());
+  VectorXd const u = dual.displacement(r.x());
+  CHECK(oracle::energy_error(K, u, reference.u) <= 1e-7);
+  CHECK((r.x().head(c.nodes()) - reference.normal).norm() <= 1e-5 * r.x().norm());
+  CHECK(contact::check_optimality(K, c, u, r.x()).residual() <= 1e-9);
+}
+
+TEST_CASE("bricks with friction, with one tangent, without friction: as the reference") {
+  for (auto const load : fem::brick_loads) {
+    CAPTURE(fem::name_of(load));
+    auto const scene = fem::make_steel_brick({.k = 2, .load = load});
+    check_against_reference(contact::friction_disc{}, scene.K, test::contact_data(scene));
+    check_against_reference(contact::friction_line{}, scene.K, test::one_tangent(scene));
+    check_against_reference(contact::frictionless{}, scene.K, test::frictionless_data(scene));
+  }
+}
+
+TEST_CASE("the set is what the friction law needs and no more") {
+  auto const scene = fem::make_steel_brick({.k = 1});
+  slant::ldlt const factor(scene.K);
+  auto const count_discs = [](auto const& dual) {
+    int discs = 0;
+    slant::visit_blocks(dual.set(), [&](auto const& block, auto const&) {
+      discs += std::is_same_v<std::remove_cvref_t<decltype(block)>, slant::ball<2>>;
+    });
+    return discs;
+  };
+  contact::dual const rough(contact::friction_disc{}, factor, test::contact_data(scene));
+  contact::dual const smooth(contact::frictionless{}, factor, test::frictionless_data(scene));
+  CHECK(count_discs(rough) == scene.d.size());
+  CHECK(count_discs(smooth) == 0);
+  CHECK(slant::dimension_of(smooth.set()) == scene.d.size());
+}
+
+/// LDLᵀ that counts its solves.
+class counting_factor {
+ public:
+  static constexpr slant::law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  explicit counting_factor(Eigen::SparseMatrix<double> const& K) : inner_(K) {}
+  [[nodiscard]] slant::index rows() const { return inner_.rows(); }
+  void solve(VectorXd const& b, VectorXd& x) const {
+    ++solves;
+    x = inner_.solve(b);
+  }
+  mutable int solves = 0;
+
+ private:
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> inner_;
+};
+
+TEST_CASE("no solve with K beyond b, the products, and u if it is asked for") {
+  auto const scene = fem::make_steel_brick({.k = 2});
+  counting_factor const factor(scene.K);
+  contact::dual const dual(contact::friction_disc{}, factor, test::contact_data(scene));
+  CHECK(factor.solves == 1);
+  auto const qp = dual.qp();
+  auto const r = slant::solve(slant::kprgp{qp}, dual.zero(), slant::at_most(25));
+  auto const products = r.state.work.operator_applications + r.state.work.setup_applications;
+  CHECK(factor.solves == 1 + products);
+  static_cast<void>(dual.displacement(r.x()));
+  CHECK(factor.solves == 2 + products);
+}
+
+TEST_CASE("no allocation in the iteration with a sparse factorisation inside") {
+  auto const scene = fem::make_steel_brick({.k = 2});
+  contact::dual const dual(contact::friction_disc{}, slant::ldlt(scene.K),
+                           test::contact_data(scene));
+  auto const qp = dual.qp();
+  slant::kprgp method{qp};
+  auto s = method.start(dual.zero());
+  slant::testing::allocation_guard guard;
+  for (int k = 0; k < 100; ++k) method.step(s);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+TEST_CASE("nodes that never meet the obstacle carry no force; infinite slip bounds stick") {
+  auto const scene = fem::make_steel_brick({.k = 2});
+  auto c = test::contact_data(scene);
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < c.d.size(); i += 3) c.d(i) = inf;
+  for (Eigen::Index i = 1; i < c.g.size(); i += 3) c.g(i) = inf;
+  for (Eigen::Index i = 2; i < c.g.size(); i += 3) c.g(i) = 0;
+  contact::dual const dual(contact::friction_disc{}, slant::ldlt(scene.K), c);
+  auto const qp = dual.qp();
+  auto const r = slant::solve(slant::kprgp{qp}, dual.zero(),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(100000));
+  REQUIRE(r.converged());
+  VectorXd const u = dual.displacement(r.x());
+  CHECK(contact::check_optimality(scene.K, c, u, r.x()).residual() <= 1e-9);
+  VectorXd const slip = c.T * u;
+  for (Eigen::Index i = 0; i < c.d.size(); i += 3) CHECK(r.x()(i) == 0);
+  for (Eigen::Index i = 1; i < c.g.size(); i += 3) {
+    CHECK(slip.segment(2 * i, 2).norm() <= 1e-8 * slip.norm());
+  }
+  for (Eigen::Index i = 2; i < c.g.size(); i += 3) {
+    CHECK(r.x().segment(c.nodes() + 2 * i, 2).norm() == 0);
+  }
+}
+
+// K in s, f in t: displacements and gaps in t/s, forces and slip bounds in t.
+TEST_CASE("units change neither status nor iterations nor errors") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const plain = test::contact_data(scene);
+  struct result {
+    slant::status status;
+    slant::index iterations;
+    VectorXd λ;
+    VectorXd u;
+    double residual;
+  };
+  auto const solve_in = [&](double s, double t) {
+    Eigen::SparseMatrix<double> const K = s * scene.K;
+    auto c = plain;
+    c.f *= t;
+    c.g *= t;
+    c.d = (c.d.array() + 1e-6).matrix() * (t / s);
+    contact::dual const dual(contact::friction_disc{}, slant::ldlt(K), c);
+    auto const qp = dual.qp();
+    auto const r = slant::solve(slant::kprgp{qp}, dual.zero(),
+                                slant::reduced_gradient_below(1e-6) || slant::at_most(20000));
+    VectorXd const u = dual.displacement(r.x());
+    double const residual = contact::check_optimality(K, c, u, r.x()).residual();
+    return result{r.status, r.iterations(), r.x() / t, u * (s / t), residual};
+  };
+  auto const reference = solve_in(1, 1);
+  CHECK(reference.status == slant::status::converged);
+  for (int const s : {-40, 0, 40}) {
+    for (int const t : {-40, 0, 40}) {
+      CAPTURE(s);
+      CAPTURE(t);
+      auto const scaled = solve_in(std::ldexp(1.0, s), std::ldexp(1.0, t));
+      CHECK(scaled.status == reference.status);
+      CHECK(scaled.iterations == reference.iterations);
+      CHECK(scaled.λ == reference.λ);
+      CHECK(scaled.u == reference.u);
+      CHECK(scaled.residual == reference.residual);
+    }
+  }
+  for (double const s : {1e-12, 1e-5, 1e12}) {
+    for (double const t : {1e-12, 1e3, 1e12}) {
+      CAPTURE(s);
+      CAPTURE(t);
+      auto const scaled = solve_in(s, t);
+      CHECK(scaled.status == reference.status);
+      CHECK(scaled.iterations == reference.iterations);
+      CHECK((scaled.u - reference.u).norm() <= 1e-11 * reference.u.norm());
+      CHECK(scaled.residual == doctest::Approx(reference.residual).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("friction law and data must fit") {
+  auto const scene = fem::make_steel_brick({.k = 1});
+  slant::ldlt const factor(scene.K);
+  using slant::bad_input;
+  CHECK_THROWS_WITH_AS(contact::dual(contact::frictionless{}, factor, test::contact_data(scene)),
+                       "tangents per contact node: got 2, expected 0 for this friction law",
+                       bad_input);
+  auto c = test::contact_data(scene);
+  c.f.conservativeResize(c.f.size() - 1);
+  CHECK_THROWS_AS(contact::dual(contact::friction_disc{}, factor, c), bad_input);
+  contact::dual const dual(contact::friction_disc{}, factor, test::contact_data(scene));
+  CHECK_THROWS_AS(static_cast<void>(dual.displacement(VectorXd::Zero(1))), bad_input);
+}
+
+}  // namespace
