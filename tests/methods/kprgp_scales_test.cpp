@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "mixture.hpp"
+
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/kprgp.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace {
+
+using test::mixture;
+
+TEST_CASE_TEMPLATE("huge and tiny scales change nothing but the scale", S, double, float) {
+  mixture const p(100);
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const M = p.A.cast<S>();
+  auto const solve_in = [&](int stiffness, int length) {
+    auto const s = std::ldexp(S(1), stiffness), t = std::ldexp(S(1), length);
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const scaled = s * M;
+    vector const b = s * t * p.b.cast<S>(), lower = t * p.lower.cast<S>(), g = t * p.g.cast<S>();
+    auto const A = test::spd(scaled);
+    auto const set =
+        slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<S>(6));
+    auto const qp = slant::separable_qp{A, b, set};
+    auto r = slant::solve(slant::kprgp{qp}, vector(vector::Zero(20)),
+                          slant::reduced_gradient_below(S(1e-5)) || slant::at_most(2000));
+    r.state.x /= t;
+    return r;
+  };
+  auto const plain = solve_in(0, 0);
+  REQUIRE(plain.converged());
+  constexpr int far = std::numeric_limits<S>::max_exponent / 4 - 8;  // squares stay in range
+  constexpr int si = std::numeric_limits<S>::max_exponent / 4 - 4;
+  for (auto const& [stiffness, length] :
+       {std::pair{far, 0}, {-far, 0}, {0, far}, {0, -far}, {si, -si}, {-si, si}}) {
+    CAPTURE(stiffness);
+    CAPTURE(length);
+    auto const r = solve_in(stiffness, length);
+    CHECK(r.status == plain.status);
+    CHECK(r.iterations() == plain.iterations());
+    CHECK(r.x() == plain.x());
+  }
+}
+
+}  // namespace

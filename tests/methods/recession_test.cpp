@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <slant/methods/recession.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+
+namespace {
+
+using Eigen::VectorXd;
+
+/// What the watch looks at.
+struct snapshot {
+  VectorXd x;
+  VectorXd r;
+  double step_length = 1;
+  double gradient_scale = 1;
+  VectorXd φ = VectorXd(2);
+  VectorXd trial = VectorXd(2);
+  struct {
+    VectorXd p = VectorXd(2);
+  } directions{};
+};
+
+// A = diag(1, 0), b = (0, 1): q falls for ever along (0, 1).
+snapshot at(double x0, double x1) {
+  return {VectorXd{{x0, x1}}, VectorXd{{x0, -1.0}}};
+}
+
+TEST_CASE("a cycle of any length that moves on along the kernel is found") {
+  for (int period = 1; period <= 7; ++period) {
+    CAPTURE(period);
+    slant::recession_watch<VectorXd> watch(VectorXd(2), 2);
+    bool found = false;
+    int k = 0;
+    for (; k < 100 && !found; ++k) {
+      auto s = at(1 + k % period, k);
+      found = watch.found(slant::half_lines(2), s);
+      if (found) {
+        CHECK(s.directions.p(0) == 0.0);
+        CHECK(s.directions.p(1) < 0.0);
+      }
+    }
+    CHECK(found);
+    CHECK(k <= 4 * period + 2);
+  }
+}
+
+TEST_CASE("no direction: the set is in the way, the way is not flat, or it does not go down") {
+  auto const never = [](auto const& set, auto const& snapshot_at) {
+    slant::recession_watch<VectorXd> watch(VectorXd(2), 2);
+    bool found = false;
+    for (int k = 0; k < 50; ++k) {
+      auto s = snapshot_at(k);
+      found = found || watch.found(set, s);
+    }
+    return !found;
+  };
+  VectorXd const wide{{1e3, 1e3}};
+  CHECK(never(slant::intervals(wide), [](int k) { return at(1, k); }));
+  CHECK(never(slant::half_lines(2), [](int k) { return at(1 + 1e-3 * k, k); }));
+  CHECK(never(slant::half_lines(2), [](int k) {
+    auto s = at(1, k);
+    s.r(1) = 1e-17;  // noise of a right-hand side in the range of A
+    return s;
+  }));
+  CHECK(never(slant::half_lines(2), [](int) { return at(1, 1); }));
+}
+
+TEST_CASE("flatness and descent know no units") {
+  VectorXd const p{{3.0, 4.0}};
+  CHECK(slant::flatness(p, 2.0) == 12.5 * 0x1p-52);
+  CHECK(slant::flatness(VectorXd(0x1p200 * p), 0x1p-100) == 25 * 0x1p448);
+  CHECK(slant::is_descent(1e-10, p, 1.0));
+  CHECK(!slant::is_descent(1e-16, p, 1.0));
+  CHECK(slant::is_descent(0x1p-433, p, 0x1p-400));
+}
+
+}  // namespace
