@@ -14,9 +14,7 @@ using Eigen::VectorXd;
 /// A face given by its 0/1 mask.
 struct masked {
   VectorXd mask;
-  void keep(auto const& x, auto& y) const {
-    slant::local(y) = mask.cwiseProduct(slant::local(x));
-  }
+  void keep(auto const& x, auto& y) const { slant::local(y) = mask.cwiseProduct(slant::local(x)); }
 };
 
 TEST_CASE("face_cg minimises over the free components and leaves the others alone") {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "spd_matrices.hpp"
+
+#include <slant/krylov/conjugate_directions.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using Eigen::VectorXd;
+
+TEST_CASE("each direction is conjugate to its predecessor, whatever gradient comes in") {
+  auto const M = test::with_spectrum(test::log_spaced(12, 1e3));
+  auto const A = test::spd(M);
+  auto w = slant::workspace(A, VectorXd(12));
+  slant::conjugate_directions<VectorXd> d(VectorXd(12));
+  VectorXd previous;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    VectorXd const φ = test::random_vector(12, seed);
+    d.advance(φ);
+    d.image(A, w);
+    CHECK(d.curvature == doctest::Approx(d.p.dot(M * d.p)).epsilon(1e-14));
+    if (seed == 1) {
+      CHECK(d.p == φ);
+    } else {
+      CHECK(std::abs(d.p.dot(M * previous)) <= 1e-13 * d.p.norm() * previous.norm());
+    }
+    previous = d.p;
+  }
+}
+
+TEST_CASE("fed with residuals, all directions are conjugate: conjugate gradients") {
+  auto const M = test::with_spectrum(test::log_spaced(12, 30));
+  auto const A = test::spd(M);
+  auto w = slant::workspace(A, VectorXd(12));
+  slant::conjugate_directions<VectorXd> d(VectorXd(12));
+  VectorXd r = test::random_vector(12);
+  std::vector<VectorXd> all;
+  for (int k = 0; k < 6; ++k) {
+    d.advance(r);
+    d.image(A, w);
+    for (auto const& p : all) {
+      CHECK(std::abs(d.p.dot(M * p)) <= 1e-11 * d.p.norm() * p.norm());
+    }
+    all.push_back(d.p);
+    r -= (r.dot(d.p) / d.curvature) * d.Ap;
+  }
+}
+
+TEST_CASE("a restart forgets") {
+  auto const M = test::with_spectrum(test::log_spaced(5, 30));
+  auto const A = test::spd(M);
+  auto w = slant::workspace(A, VectorXd(5));
+  slant::conjugate_directions<VectorXd> d(VectorXd(5));
+  d.advance(test::random_vector(5, 1));
+  d.image(A, w);
+  CHECK(d.live);
+  d.live = false;
+  VectorXd const φ = test::random_vector(5, 2);
+  d.advance(φ);
+  CHECK(d.p == φ);
+}
+
+}  // namespace

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "spd_matrices.hpp"
+
+#include <slant/iteration/report.hpp>
+#include <slant/krylov/linear_system.hpp>
+#include <slant/operators/counted.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using Eigen::VectorXd;
+
+template <class W>
+struct minimal_state {
+  VectorXd x;
+  VectorXd r;
+  W a_workspace;
+  double residual_norm = 0;
+  double residual_scale = 0;
+  slant::status status = slant::status::running;
+  slant::work work{};
+};
+
+TEST_CASE("sizes and numbers of a linear system are checked") {
+  auto const A = test::spd(test::with_spectrum(test::log_spaced(4, 10)));
+  using slant::bad_input;
+  CHECK_NOTHROW(slant::detail::check_linear_system(A, VectorXd(VectorXd::Ones(4))));
+  CHECK_THROWS_AS(slant::detail::check_linear_system(A, VectorXd(VectorXd::Ones(5))), bad_input);
+  VectorXd b = VectorXd::Ones(4);
+  b(2) = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(slant::detail::check_linear_system(A, b),
+                       "b[2]: got inf, expected a finite number", bad_input);
+}
+
+TEST_CASE("first residual and its scale: one product, none from zero") {
+  auto const M = test::with_spectrum(test::log_spaced(4, 10));
+  auto const A = slant::counted(test::spd(M));
+  VectorXd const b = test::random_vector(4), x = test::random_vector(4, 7);
+  auto const start = [&](VectorXd const& right, VectorXd const& x0) {
+    minimal_state<decltype(slant::workspace(A, x0))> s{x0, VectorXd(4), slant::workspace(A, x0)};
+    slant::detail::start_residual(A, right, s);
+    return s;
+  };
+  auto const zero = start(b, VectorXd::Zero(4));
+  CHECK(zero.r == -b);
+  CHECK(zero.residual_scale == zero.residual_norm);
+  CHECK(A.applications() == 0);
+  auto const warm = start(b, x);
+  CHECK((warm.r - (M * x - b)).norm() <= 1e-15 * b.norm());
+  CHECK(warm.residual_scale == doctest::Approx(b.norm()).epsilon(1e-14));
+  CHECK(warm.work.operator_applications == 1);
+  CHECK(A.applications() == 1);
+  auto const homogeneous = start(VectorXd::Zero(4), x);
+  CHECK(homogeneous.residual_scale == homogeneous.residual_norm);
+  CHECK(start(VectorXd::Zero(4), VectorXd::Zero(4)).status == slant::status::converged);
+}
+
+TEST_CASE("a residual that is no number is a breakdown") {
+  minimal_state<int> s{VectorXd(2), VectorXd{{1.0, std::nan("")}}, 0};
+  slant::detail::note_residual(s);
+  CHECK(s.status == slant::status::breakdown);
+}
+
+}  // namespace
