@@ -12,8 +12,6 @@
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
 
 #include <doctest/doctest.h>
 
@@ -231,19 +229,6 @@ TEST_CASE("a NaN that the operator makes later is a breakdown, not a result") {
   auto const r = slant::solve(slant::kprgp{qp, {.step_length = 0.3}}, VectorXd(VectorXd::Zero(2)),
                               slant::reduced_gradient_below(1e-10) || slant::at_most(10));
   CHECK(r.status == slant::status::breakdown);
-}
-
-TEST_CASE("kprgp asks its archetypes for nothing more") {
-  namespace archetype = slant::testing::archetype;
-  archetype::psd_operator const A(Eigen::MatrixXd{{2.0, 1.0}, {1.0, 2.0}});
-  archetype::vector const b(VectorXd{{3.0, -3.0}});
-  archetype::basic_active_set_set<VectorXd> const set(2);
-  auto const qp = slant::separable_qp{A, b, set};
-  auto const r = slant::solve(slant::kprgp{qp}, archetype::vector(VectorXd{{1.0, 1.0}}),
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(100));
-  REQUIRE(r.converged());
-  CHECK(r.x().local()(0) == doctest::Approx(1.5));
-  CHECK(r.x().local()(1) == 0.0);
 }
 
 }  // namespace

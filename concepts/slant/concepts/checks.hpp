@@ -20,14 +20,13 @@ inline void check_size(std::string_view name, index got, index expected,
 }
 
 /// Throws bad_input "name[7]: got nan, expected a finite number" for the first offending entry.
-/// x − x is 0 exactly for finite x, and NaN otherwise.
 template <class V>
 void check_finite(std::string_view name, V const& v) {
   using S = scalar_t<V>;
   auto const& entries = slant::local(v);
   for (index i = 0; i < index(entries.size()); ++i) {
     S const e = entries.coeff(i);
-    if (!(S(e - e) == S(0))) {
+    if (!is_finite(e)) {
       throw bad_input(std::string(name) + "[" + show(i) + "]", show(e), "a finite number");
     }
   }

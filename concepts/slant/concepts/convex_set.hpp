@@ -14,13 +14,16 @@
 //     slant(x)                  a slanting operator G of the projection, symmetric, 0 ⪯ G ⪯ I
 //     step_to_boundary(x, d)    sup {α ≥ 0 : x + α d ∈ Λ} for x ∈ Λ
 //     support(y)                sup {yᵀz : z ∈ Λ}
-//     state(x)                  free, sliding or fixed (face.hpp); products: of each block
+//     state(x)                  a block: free, sliding or fixed (face.hpp)
 //     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
-//                               f(x) ≤ 0 with smooth convex f; interior {f < 0} nonempty
+//                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
 //
 // Laws.   P(P(x)) = P(x),   ‖P(x) − P(y)‖ ≤ ‖x − y‖,   ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
-//         contains(P(x)),   ‖P(x+h) − P(x) − G(x+h) h‖ = o(‖h‖),   support(y) = sup over Λ.
+//         contains(P(x)),   ‖P(x+h) − P(x) − G(x+h) h‖ = o(‖h‖),   support(y) = sup over Λ,
+//         ∇f_i(x)ᵀ(z − x) ≤ 0 for z ∈ Λ where f_i(x) = 0.
+// The last is what convexity of Λ implies. The f_i themselves need not be convex: of the cone
+// ‖x_t‖ ≤ μ x_n, ‖x_t‖² − μ²x_n² is not.
 //
 // Models. everything in slant/sets, slant::testing::archetype::convex_set.
 //

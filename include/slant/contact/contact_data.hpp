@@ -67,7 +67,7 @@ struct data {
   static void check_entries(char const* what, sparse_type const& m) {
     for (index j = 0; j < m.outerSize(); ++j) {
       for (typename sparse_type::InnerIterator e(m, j); e; ++e) {
-        if (!(e.value() - e.value() == S(0))) {
+        if (!slant::detail::is_finite(e.value())) {
           throw bad_input(std::string(what) + "(" + slant::detail::show(e.row()) + ", " +
                               slant::detail::show(e.col()) + ")",
                           slant::detail::show(e.value()), "a finite number");

@@ -51,7 +51,10 @@ template <class S, class Matrix, class V>
   S const length = u.stableNorm();
   S force = std::max<S>(c.f.stableNorm(), Bλ.stableNorm());
   if (force == S(0)) force = Ku.stableNorm();
-  if (force == S(0)) return o;  // no load, no reaction, no displacement
+  if (force == S(0)) {  // no load, no reaction, no displacement: wrong only where d forbids it
+    if ((c.d.array() < S(0)).any()) o.normal = o.penetration = S(1);
+    return o;
+  }
   vector_type const unbalanced = Ku + Bλ - c.f;
   o.equilibrium = unbalanced.stableNorm() / force;
   S const ρ = length > S(0) ? force / length : S(1);

@@ -129,7 +129,7 @@ class dual {
       }
     };
     // A node that never meets its obstacle (infinite gap) presses on nothing: its row is empty.
-    append(c.N, 0, [&](index i) { return std::isfinite(double(c.d(i))); });
+    append(c.N, 0, [&](index i) { return slant::detail::is_finite(c.d(i)); });
     append(c.T, c.nodes(), [](index) { return true; });
     sparse_type b(c.N.rows() + c.T.rows(), c.f.size());
     b.setFromTriplets(entries.begin(), entries.end());
@@ -140,8 +140,7 @@ class dual {
   void close_infinite_gaps(data<S> const& c) {
     S const size = b_.size() > 0 ? b_.cwiseAbs().maxCoeff() : S(0);
     for (index i = 0; i < c.nodes(); ++i) {
-      using std::isfinite;
-      b_(i) -= isfinite(c.d(i)) ? c.d(i) : (size > S(0) ? size : S(1));
+      b_(i) -= slant::detail::is_finite(c.d(i)) ? c.d(i) : (size > S(0) ? size : S(1));
     }
   }
 

@@ -11,6 +11,7 @@
 // residual is renewed (r̂ = r); when that does not help either, the status is breakdown: never NaN.
 #pragma once
 
+#include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/held.hpp>
@@ -39,12 +40,25 @@ struct bicgstab_state {
   slant::work work{};
 };
 
+/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+template <class A, class V, class M = identity_operator>
+class bicgstab : public detail::refused_method<std::remove_cvref_t<V>> {
+  static_assert(vector<std::remove_cvref_t<V>>, "bicgstab: b must be a vector, not an expression");
+  static_assert(linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>>,
+                "bicgstab: A must be a linear operator on vectors like b");
+  static_assert(linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>,
+                "bicgstab: the preconditioner must be a linear operator on vectors like b");
+
+ public:
+  using bicgstab::refused_method::refused_method;
+};
+
 /// BiCGSTAB: solve(bicgstab{A, b}, x0, residual_below(1e-10)), or bicgstab{A, b, M}.
 /// Requires linear_operator for A and M; laws are not asked for.
-template <class A, class V, class M = identity_operator>
+template <class A, class V, class M>
   requires linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
-class bicgstab {
+class bicgstab<A, V, M> {
  public:
   using operator_type = std::remove_cvref_t<A>;
   using vector_type = std::remove_cvref_t<V>;
@@ -128,7 +142,7 @@ class bicgstab {
  private:
   static bool usable(scalar value, scalar noise) {
     using std::abs;
-    return abs(value) > noise && value - value == scalar(0);
+    return abs(value) > noise && detail::is_finite(value);
   }
   static void restart(state_type& s) {
     slant::local(s.shadow) = slant::local(s.r);

@@ -11,6 +11,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
+#include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/linear_system.hpp>
@@ -37,12 +38,25 @@ struct cg_state {
   slant::work work{};
 };
 
+/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+template <class A, class V, class M = identity_operator>
+class cg : public detail::refused_method<std::remove_cvref_t<V>> {
+  static_assert(vector<std::remove_cvref_t<V>>, "cg: b must be a vector, not an expression");
+  static_assert(spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>>,
+                "cg: A must be an operator that declares self_adjoint and positive_definite");
+  static_assert(spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>,
+                "cg: the preconditioner must declare self_adjoint and positive_definite");
+
+ public:
+  using cg::refused_method::refused_method;
+};
+
 /// Conjugate gradients: solve(cg{A, b}, x0, residual_below(1e-10)), or cg{A, b, M}.
 /// Requires spd_operator for A and M. Status breakdown if pᵀAp ≤ 0 shows that A is not definite.
-template <class A, class V, class M = identity_operator>
+template <class A, class V, class M>
   requires spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
-class cg {
+class cg<A, V, M> {
  public:
   using operator_type = std::remove_cvref_t<A>;
   using vector_type = std::remove_cvref_t<V>;

@@ -10,6 +10,8 @@
 // full gradient r comes along, whose other components decide which block to release next.
 #pragma once
 
+#include <slant/concepts/face.hpp>
+#include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/linear_system.hpp>
@@ -34,16 +36,26 @@ struct face_cg_state {
   slant::work work{};
 };
 
-/// Anything that can cut a vector down to its free components: keep(x, y), y may alias x.
-template <class F, class V>
-concept face_for = requires(F const& face, V const& x, V& y) { face.keep(x, y); };
+/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+template <class A, class V, class F>
+class face_cg : public detail::refused_method<std::remove_cvref_t<V>> {
+  static_assert(vector<std::remove_cvref_t<V>>, "face_cg: b must be a vector, not an expression");
+  static_assert(
+      psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>>,
+      "face_cg: A must be an operator that declares self_adjoint and positive_semidefinite");
+  static_assert(has_keep<std::remove_cvref_t<F>, std::remove_cvref_t<V>>,
+                "face_cg: the face must cut vectors down to it by keep(x, y)");
+
+ public:
+  using face_cg::refused_method::refused_method;
+};
 
 /// CG on a face: solve(face_cg{A, b, face}, x0, residual_below(1e-10)).
 /// Requires psd_operator; A must be definite on the face, else the status is breakdown.
 template <class A, class V, class F>
   requires psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
-           face_for<std::remove_cvref_t<F>, std::remove_cvref_t<V>>
-class face_cg {
+           has_keep<std::remove_cvref_t<F>, std::remove_cvref_t<V>>
+class face_cg<A, V, F> {
  public:
   using operator_type = std::remove_cvref_t<A>;
   using vector_type = std::remove_cvref_t<V>;
@@ -90,7 +102,7 @@ class face_cg {
     face_.get().keep(s.r, s.φ);
     s.residual_norm = norm(s.φ);
     if (s.residual_norm == scalar(0)) s.status = status::converged;
-    if (!(s.residual_norm - s.residual_norm == scalar(0))) s.status = status::breakdown;
+    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
   }
 
   held<A> a_;

@@ -23,7 +23,7 @@ void note_residual(State& s) {
   using S = scalar_t<decltype(s.r)>;
   s.residual_norm = norm(s.r);
   if (s.residual_norm == S(0)) s.status = status::converged;
-  if (!(s.residual_norm - s.residual_norm == S(0))) s.status = status::breakdown;
+  if (!is_finite(s.residual_norm)) s.status = status::breakdown;
 }
 
 /// s.r = A s.x − b, the scale ‖b‖ (or ‖A x₀‖ if b = 0); one application, none if x₀ = 0.

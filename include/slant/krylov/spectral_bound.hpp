@@ -16,8 +16,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <slant/krylov/tridiagonal_eigenvalue.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,28 +47,6 @@ struct spectral_bound_options {
   }
 };
 
-namespace detail {
-
-/// Largest eigenvalue of the symmetric tridiagonal matrix with diagonal a and off-diagonal b.
-template <class S>
-S largest_tridiagonal_eigenvalue(std::vector<S> const& a, std::vector<S> const& b) {
-  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  auto const n = static_cast<index>(a.size());
-  column d = Eigen::Map<column const>(a.data(), n);
-  column e = Eigen::Map<column const>(b.data(), n - 1);
-  S scale = d.cwiseAbs().maxCoeff();  // the solver squares its data: keep them near 1
-  if (n > 1) scale = std::max<S>(scale, e.cwiseAbs().maxCoeff());
-  if (!(scale > S(0))) return S(0);
-  d /= scale;
-  e /= scale;
-  Eigen::SelfAdjointEigenSolver<matrix> solver;
-  solver.computeFromTridiagonal(d, e, Eigen::EigenvaluesOnly);
-  return scale * solver.eigenvalues().maxCoeff();
-}
-
-}  // namespace detail
-
 /// Upper bound of the largest eigenvalue of A, for vectors like `prototype`.
 /// Throws bad_input if A x is not finite, or if it shows that A is not semidefinite.
 template <class A, class V>
@@ -99,7 +76,7 @@ template <class A, class V>
   for (index k = 0; k < steps && !exhausted; ++k) {
     slant::apply(a, q, w, temporaries);
     S const α = inner_product(q, w);
-    if (!(S(α - α) == S(0))) {
+    if (!detail::is_finite(α)) {
       throw bad_input("A", detail::show(α), "finite values of xᵀA x for finite x");
     }
     diagonal.push_back(α);

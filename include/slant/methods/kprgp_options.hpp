@@ -3,7 +3,7 @@
 // The parameters of KPRGP.
 #pragma once
 
-#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/checks.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 
 #include <optional>
@@ -23,8 +23,8 @@ struct kprgp_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
-    if (!(Γ > S(0)) || !(Γ - Γ == S(0))) throw bad_input("Γ", detail::show(Γ), "a number > 0");
-    if (step_length && (!(*step_length > S(0)) || !(*step_length - *step_length == S(0)))) {
+    if (!(Γ > S(0)) || !detail::is_finite(Γ)) throw bad_input("Γ", detail::show(Γ), "a number > 0");
+    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
       throw bad_input("step_length", detail::show(*step_length), "a number > 0");
     }
     if (!(step_factor > S(0) && step_factor < S(2))) {

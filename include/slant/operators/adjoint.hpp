@@ -80,7 +80,7 @@ class adjoint_operator {
 };
 
 /// Aᵀ.
-template <operand A>
+template <adjoint_operand A>
 [[nodiscard]] auto adjoint(A&& a) {
   return adjoint_operator<part_t<A>>{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
 }

@@ -4,24 +4,30 @@
 // matrices are wrapped, so `congruence(B, inverse(ldlt(K)))` takes a sparse matrix B as it is.
 #pragma once
 
+#include <slant/concepts/member_names.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <utility>
 
 namespace slant {
 
-/// An operator on vectors of some type: what can be known before the vectors are.
+/// What can be a part of a composition: an Eigen matrix, or an operator as far as can be known
+/// before the vectors are.
 template <class A>
-concept unwrapped_operator =
-    !eigen_matrix<A> && has_rows<std::remove_cvref_t<A>> && has_cols<std::remove_cvref_t<A>>;
+concept operand = has_rows<std::remove_cvref_t<A>> && has_cols<std::remove_cvref_t<A>> &&
+                  (eigen_matrix<A> || has_apply_member<std::remove_cvref_t<A>>);
 
-/// What can be a part of a composition: an operator or an Eigen matrix.
-template <class A> concept operand = unwrapped_operator<A> || eigen_matrix<A>;
+/// The same with an adjoint, so that Aᵀ can be a part.
+template <class A>
+concept adjoint_operand =
+    operand<A> && (eigen_matrix<A> || has_apply_adjoint_member<std::remove_cvref_t<A>> ||
+                   declares_self_adjoint<std::remove_cvref_t<A>>);
 
 namespace detail {
 
 struct as_operator_fn {
-  template <unwrapped_operator A>
+  template <operand A>
+    requires(!eigen_matrix<A>)
   [[nodiscard]] constexpr A&& operator()(A&& a) const noexcept {
     return std::forward<A>(a);
   }

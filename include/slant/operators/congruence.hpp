@@ -22,7 +22,7 @@ struct full_row_rank_assertion {
 };
 
 /// Asserts that the rows of B are linearly independent.
-template <operand B>
+template <adjoint_operand B>
 [[nodiscard]] full_row_rank_assertion<part_t<B>> full_row_rank(B&& b) {
   held<part_t<B>> kept{slant::as_operator(std::forward<B>(b))};
   if (kept.get().rows() > kept.get().cols()) {
@@ -134,7 +134,7 @@ template <bool FullRowRank, class B, class A>
 }  // namespace detail
 
 /// B A Bᵀ. Throws bad_input unless A is square with as many rows as B has columns.
-template <operand B, operand A>
+template <adjoint_operand B, operand A>
 [[nodiscard]] auto congruence(B&& b, A&& a) {
   return detail::make_congruence<false>(held<part_t<B>>(slant::as_operator(std::forward<B>(b))),
                                         held<part_t<A>>(slant::as_operator(std::forward<A>(a))));

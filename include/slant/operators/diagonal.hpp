@@ -79,7 +79,7 @@ void require_diagonal_laws(D const& d) {
     auto const require = [&](bool holds, char const* expectation) {
       if (!holds) throw bad_input("d", show(value), expectation).at(i);
     };
-    require(finite_number(value), "a finite number");
+    require(is_finite(value), "a finite number");
     if constexpr (L.contains(law::positive_definite)) require(value > S(0), "a number > 0");
     if constexpr (L.contains(law::positive_semidefinite)) require(value >= S(0), "a number >= 0");
     if constexpr (L.contains(law::projector)) require(value == S(0) || value == S(1), "0 or 1");

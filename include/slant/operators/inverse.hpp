@@ -6,6 +6,7 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/factorization.hpp>
+#include <slant/concepts/member_names.hpp>
 #include <slant/operators/detail/applicable.hpp>
 #include <slant/operators/detail/closure.hpp>
 #include <slant/operators/held.hpp>
@@ -69,23 +70,23 @@ class inverse_operator {
 namespace detail {
 
 /// A factorisation has solve, which operators do not have, and need not have cols.
-template <class F> concept factorization_like = has_rows<F> && !has_cols<F>;
+template <class F> concept factorization_like = has_rows<F> && !has_cols<F> && has_solve_member<F>;
 
 }  // namespace detail
 
-/// The inverse of a factored matrix.
+/// A factorisation, or an operator with inverse().
 template <class F>
-  requires detail::factorization_like<std::remove_cvref_t<F>>
-[[nodiscard]] auto inverse(F&& factors) {
-  return inverse_operator<kept_t<F>>{held<kept_t<F>>(std::forward<F>(factors))};
-}
+concept invertible = has_rows<F> && (detail::factorization_like<F> || detail::knows_its_inverse<F>);
 
-/// The inverse of an operator that knows it.
-template <class A>
-  requires(detail::knows_its_inverse<std::remove_cvref_t<A>> &&
-           !detail::factorization_like<std::remove_cvref_t<A>>)
-[[nodiscard]] auto inverse(A&& a) {
-  return a.inverse();
+/// The inverse of a factored matrix, or of an operator that knows it.
+template <class F>
+  requires invertible<std::remove_cvref_t<F>>
+[[nodiscard]] auto inverse(F&& factors) {
+  if constexpr (detail::factorization_like<std::remove_cvref_t<F>>) {
+    return inverse_operator<kept_t<F>>{held<kept_t<F>>(std::forward<F>(factors))};
+  } else {
+    return factors.inverse();
+  }
 }
 
 }  // namespace slant

@@ -94,21 +94,18 @@ class product_operator {
   held<B> b_;
 };
 
-/// A B. Throws bad_input if A has not as many columns as B has rows.
-template <operand A, operand B>
-[[nodiscard]] auto product(A&& a, B&& b) {
-  held<part_t<A>> left{slant::as_operator(std::forward<A>(a))};
-  held<part_t<B>> right{slant::as_operator(std::forward<B>(b))};
-  detail::require_rows("B", right.get(), left.get().cols(), "the columns of A");
-  return product_operator<part_t<A>, part_t<B>>{std::move(left), std::move(right)};
-}
-
-/// A (B (C …)).
-template <operand A, operand B, operand... C>
-  requires(sizeof...(C) >= 1)
+/// A B, or A (B (C …)). Throws bad_input if A has not as many columns as B has rows.
+template <operand A, operand B, class... C>
 [[nodiscard]] auto product(A&& a, B&& b, C&&... c) {
-  return slant::product(std::forward<A>(a),
-                        slant::product(std::forward<B>(b), std::forward<C>(c)...));
+  if constexpr (sizeof...(C) > 0) {
+    return slant::product(std::forward<A>(a),
+                          slant::product(std::forward<B>(b), std::forward<C>(c)...));
+  } else {
+    held<part_t<A>> left{slant::as_operator(std::forward<A>(a))};
+    held<part_t<B>> right{slant::as_operator(std::forward<B>(b))};
+    detail::require_rows("B", right.get(), left.get().cols(), "the columns of A");
+    return product_operator<part_t<A>, part_t<B>>{std::move(left), std::move(right)};
+  }
 }
 
 }  // namespace slant

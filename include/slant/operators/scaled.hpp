@@ -26,7 +26,7 @@ struct positive_factor {
 template <class S>
   requires scalar<S> || std::is_integral_v<S>
 [[nodiscard]] positive_factor<S> positive(S c) {
-  if (!(c > S(0)) || !detail::finite_number(c)) {
+  if (!(c > S(0)) || !detail::is_finite(c)) {
     throw bad_input("c", detail::show(c), "a finite number > 0");
   }
   return {c};
@@ -123,7 +123,7 @@ template <class S, operand A>
 template <class S, operand A>
   requires scalar<S> || std::is_integral_v<S>
 [[nodiscard]] auto scaled(S c, A&& a) {
-  if (!detail::finite_number(c)) throw bad_input("c", detail::show(c), "a finite number");
+  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
   return scaled_operator<S, part_t<A>, false>{
       c, held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
 }

@@ -21,6 +21,10 @@ namespace slant {
 
 namespace detail {
 
+/// K⁻¹ as an operator, or a factorisation of K.
+template <class K>
+concept inverse_operand = factorization_like<std::remove_cvref_t<K>> || operand<K>;
+
 /// K⁻¹ as an operator, from the operator itself or from a factorisation of K.
 template <class K>
 [[nodiscard]] decltype(auto) as_inverse(K&& k) {
@@ -35,7 +39,7 @@ template <class K>
 
 /// S = D + B₂ K⁻¹ B₁ᵀ. The first argument is K⁻¹ or a factorisation of K; B₁ needs an adjoint.
 /// Throws bad_input naming the argument whose size does not fit.
-template <class K, operand B1, operand B2, operand D>
+template <detail::inverse_operand K, adjoint_operand B1, operand B2, operand D>
 [[nodiscard]] auto schur_complement(K&& k_inverse, B1&& b1, B2&& b2, D&& d) {
   index const n = k_inverse.rows();
   detail::require_cols("B1", b1, n, "the size of K");
@@ -48,7 +52,7 @@ template <class K, operand B1, operand B2, operand D>
 }
 
 /// S = D + B K⁻¹ Bᵀ. The first argument is K⁻¹ or a factorisation of K.
-template <class K, operand B, operand D>
+template <detail::inverse_operand K, adjoint_operand B, operand D>
 [[nodiscard]] auto schur_complement(K&& k_inverse, B&& b, D&& d) {
   detail::require_cols("B", b, k_inverse.rows(), "the size of K");
   detail::require_size("D", d, b.rows(), b.rows(), "the rows of B");
@@ -58,7 +62,7 @@ template <class K, operand B, operand D>
 }
 
 /// S = D + B K⁻¹ Bᵀ with independent rows of B.
-template <class K, class B, operand D>
+template <detail::inverse_operand K, class B, operand D>
 [[nodiscard]] auto schur_complement(K&& k_inverse, full_row_rank_assertion<B> b, D&& d) {
   index const rows = b.part.get().rows();
   detail::require_cols("B", b.part.get(), k_inverse.rows(), "the size of K");

@@ -117,17 +117,33 @@ class sum_operator {
   std::tuple<held<A>...> terms_;
 };
 
+namespace detail {
+
+/// One complaint per term that is no operator; a fold over the terms would only say that one is
+/// not.
+template <class Term>
+consteval bool check_term() {
+  static_assert(operand<Term>, "a term of a sum must be an operator or an Eigen matrix");
+  return true;
+}
+
+}  // namespace detail
+
 /// A₁ + A₂ + …. Throws bad_input if the sizes differ.
-template <operand... A>
+template <class... A>
   requires(sizeof...(A) >= 2)
 [[nodiscard]] auto sum(A&&... a) {
-  sum_operator<part_t<A>...> s{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))...};
-  index i = 0;
-  s.for_each([&](auto const& term) {
-    detail::require_size(std::string("A").append(std::to_string(++i)), term, s.rows(), s.cols(),
-                         "the size of A1");
-  });
-  return s;
+  if constexpr (!(operand<A> && ...)) {
+    return (detail::check_term<A>() && ...);
+  } else {
+    sum_operator<part_t<A>...> s{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))...};
+    index i = 0;
+    s.for_each([&](auto const& term) {
+      detail::require_size(std::string("A").append(std::to_string(++i)), term, s.rows(), s.cols(),
+                           "the size of A1");
+    });
+    return s;
+  }
 }
 
 }  // namespace slant

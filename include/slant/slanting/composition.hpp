@@ -41,10 +41,6 @@ class composition_map : public slanting_base {
   using outer_type = std::remove_cvref_t<F>;
   using inner_type = std::remove_cvref_t<G>;
 
-  template <class V>
-  static constexpr bool usable =
-      slanting_function<inner_type, V> && slanting_function<outer_type, V>;
-
  public:
   /// @throws bad_input unless F takes as many arguments as G has values.
   composition_map(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
@@ -66,13 +62,13 @@ class composition_map : public slanting_base {
         slant::workspace(inner(), y), std::move(between), std::move(outer_temporaries)};
   }
   template <class Y, class V, class W>
-    requires usable<plain_t<Y>>
+    requires slanting_function<inner_type, plain_t<Y>> && slanting_function<outer_type, plain_t<Y>>
   void value(Y const& y, V& v, W& w) const {
     slant::evaluate(inner(), y, w.between, w.inner);
     slant::evaluate(outer(), w.between, v, w.outer);
   }
   template <class Y>
-    requires usable<plain_t<Y>>
+    requires slanting_function<inner_type, plain_t<Y>> && slanting_function<outer_type, plain_t<Y>>
   [[nodiscard]] auto slant(Y const& y) const {
     auto const between = slant::evaluate(inner(), y);
     return detail::assembled_operator(detail::product_rule{}, outer().slant(between),
@@ -97,7 +93,7 @@ class composition_map : public slanting_base {
 
 /// F∘G: y ↦ F(G(y)), also spelled f * g. Lvalues are referenced.
 /// @throws bad_input unless F takes as many arguments as G has values.
-template <has_sizes F, has_sizes G>
+template <slanting_part F, slanting_part G>
 [[nodiscard]] auto compose(F&& f, G&& g) {
   return composition_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
 }

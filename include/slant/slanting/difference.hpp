@@ -31,7 +31,7 @@ using difference_map = detail::two_terms<detail::difference_rule, F, G>;
 
 /// y ↦ F(y) − G(y), also spelled f - g. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
-template <has_sizes F, has_sizes G>
+template <slanting_part F, slanting_part G>
 [[nodiscard]] auto subtract(F&& f, G&& g) {
   return difference_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
 }

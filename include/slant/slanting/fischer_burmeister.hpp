@@ -76,7 +76,7 @@ using fischer_burmeister_map = detail::pointwise_pair<detail::fischer_burmeister
 
 /// y ↦ √(F(y)² + G(y)²) − F(y) − G(y) componentwise. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
-template <has_sizes F, has_sizes G>
+template <slanting_part F, slanting_part G>
 [[nodiscard]] auto fischer_burmeister(F&& f, G&& g) {
   return fischer_burmeister_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
 }

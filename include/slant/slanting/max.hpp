@@ -88,7 +88,7 @@ using max_map = detail::pointwise_pair<detail::max_kernel, F, G>;
 }
 
 /// y ↦ max(0, F(y)) componentwise. An lvalue is referenced.
-template <has_sizes F>
+template <slanting_part F>
 [[nodiscard]] auto positive_part(F&& f) {
   auto const n = f.rows();
   return slant::compose(positive_part_map(n), std::forward<F>(f));
@@ -96,7 +96,7 @@ template <has_sizes F>
 
 /// y ↦ max(F(y), G(y)) componentwise. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
-template <has_sizes F, has_sizes G>
+template <slanting_part F, slanting_part G>
 [[nodiscard]] auto max(F&& f, G&& g) {
   return max_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
 }

@@ -38,7 +38,7 @@ using min_map = detail::pointwise_pair<detail::min_kernel, F, G>;
 
 /// y ↦ min(F(y), G(y)) componentwise. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
-template <has_sizes F, has_sizes G>
+template <slanting_part F, slanting_part G>
 [[nodiscard]] auto min(F&& f, G&& g) {
   return min_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
 }

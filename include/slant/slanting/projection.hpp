@@ -15,6 +15,10 @@
 
 namespace slant {
 
+/// The set has a slanting operator for vectors like Y, or for what is local of them.
+template <class C, class Y>
+concept has_projection_slant = has_slant<C, local_t<Y>> || has_slant<C, Y>;
+
 /// F(y) = P(y). C is `Set const&` (referenced) or a set type (owned).
 template <class C>
 class projection_map : public slanting_base {
@@ -48,7 +52,7 @@ class projection_map : public slanting_base {
     slant::project(set(), y, v);
   }
   template <class Y>
-    requires has_slant<set_type, local_t<Y>> || has_slant<set_type, Y>
+    requires has_projection_slant<set_type, Y>
   [[nodiscard]] auto slant(Y const& y) const {
     return detail::derivative_operator<projection_laws>(
         slant::projection_slant(set(), argument(y)));
@@ -65,7 +69,8 @@ class projection_map : public slanting_base {
 
 /// y ↦ P(y), the nearest point of the set. An lvalue is referenced.
 template <class C>
-  requires has_static_dimension<std::remove_cvref_t<C>> || has_size<std::remove_cvref_t<C>>
+  requires has_slant_member<std::remove_cvref_t<C>> &&
+           (has_static_dimension<std::remove_cvref_t<C>> || has_size<std::remove_cvref_t<C>>)
 [[nodiscard]] auto projection(C&& set) {
   return projection_map<kept_t<C>>(std::forward<C>(set));
 }

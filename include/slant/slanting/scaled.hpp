@@ -76,15 +76,15 @@ class scaled_map : public slanting_base {
 
 /// y ↦ c F(y), also spelled c * f. An lvalue f is referenced.
 /// @throws bad_input if c is NaN or infinite.
-template <class S, has_sizes F>
+template <class S, slanting_part F>
   requires scalar<S> || std::is_integral_v<S>
 [[nodiscard]] auto scale(S c, F&& f) {
-  if (!detail::is_number(c)) throw bad_input("c", detail::show(c), "a finite number");
+  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
   return scaled_map<S, kept_t<F>, false>(std::move(c), std::forward<F>(f));
 }
 
 /// y ↦ c F(y) for a factor known to be positive: scale(positive(ρ), f).
-template <class S, has_sizes F>
+template <class S, slanting_part F>
 [[nodiscard]] auto scale(positive_factor<S> c, F&& f) {
   return scaled_map<S, kept_t<F>, true>(std::move(c.value), std::forward<F>(f));
 }

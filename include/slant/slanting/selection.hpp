@@ -27,12 +27,12 @@ template <class Components>
 
 /// y ↦ (F(y)_c for the components c). An lvalue f is referenced. All of F is evaluated.
 /// @throws bad_input unless the components are different numbers in [0, f.rows()).
-template <has_sizes F, class Components>
+template <slanting_part F, class Components>
 [[nodiscard]] auto select(F&& f, Components const& components) {
   auto chosen = slant::selection(f.rows(), components);
   return slant::compose(std::move(chosen), std::forward<F>(f));
 }
-template <has_sizes F>
+template <slanting_part F>
 [[nodiscard]] auto select(F&& f, std::initializer_list<index> components) {
   auto chosen = slant::selection(f.rows(), components);
   return slant::compose(std::move(chosen), std::forward<F>(f));

@@ -9,6 +9,7 @@
 // not.
 #pragma once
 
+#include <slant/concepts/member_names.hpp>
 #include <slant/concepts/slanting_function.hpp>
 #include <slant/operators/held.hpp>
 
@@ -26,8 +27,11 @@ template <class F>
 concept slanting_map = std::is_base_of_v<slanting_base, std::remove_cvref_t<F>> &&
                        has_rows<std::remove_cvref_t<F>> && has_cols<std::remove_cvref_t<F>>;
 
-/// What factories ask of their arguments before the vector type is known.
+/// A slanting function as far as can be known before the vectors are: what factories ask of their
+/// arguments.
 template <class F>
-concept has_sizes = has_rows<std::remove_cvref_t<F>> && has_cols<std::remove_cvref_t<F>>;
+concept slanting_part =
+    has_rows<std::remove_cvref_t<F>> && has_cols<std::remove_cvref_t<F>> &&
+    has_value_member<std::remove_cvref_t<F>> && has_slant_member<std::remove_cvref_t<F>>;
 
 }  // namespace slant

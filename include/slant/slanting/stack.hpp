@@ -114,12 +114,27 @@ class stack_map : public slanting_base {
   boost::hana::tuple<held<F>...> parts_;
 };
 
+namespace detail {
+
+/// One complaint per row that is no function; a fold over the rows would only say that one is not.
+template <class Row>
+consteval bool check_row() {
+  static_assert(slanting_part<Row>, "a row of a stack must be a slanting function");
+  return true;
+}
+
+}  // namespace detail
+
 /// y ↦ (F₁(y); F₂(y); …). Lvalues are referenced.
 /// @throws bad_input if the numbers of arguments differ.
-template <has_sizes... F>
+template <class... F>
   requires(sizeof...(F) >= 1)
 [[nodiscard]] auto stack(F&&... f) {
-  return stack_map<kept_t<F>...>(held<kept_t<F>>(std::forward<F>(f))...);
+  if constexpr (!(slanting_part<F> && ...)) {
+    return (detail::check_row<F>() && ...);
+  } else {
+    return stack_map<kept_t<F>...>(held<kept_t<F>>(std::forward<F>(f))...);
+  }
 }
 
 }  // namespace slant

@@ -3,7 +3,7 @@
 // Checks of arguments that the factories of operators share. All run once, at construction.
 #pragma once
 
-#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/scalar.hpp>
 
 #include <string>
@@ -47,13 +47,6 @@ void require_square(std::string_view name, A const& a) {
   if (a.rows() != a.cols()) {
     throw bad_input(name, size_text(a.rows(), a.cols()), "a square operator");
   }
-}
-
-/// isfinite for built-in and multiprecision scalars alike.
-template <class S>
-[[nodiscard]] bool finite_number(S const& value) {
-  using std::isfinite;
-  return static_cast<bool>(isfinite(value));
 }
 
 }  // namespace slant::detail

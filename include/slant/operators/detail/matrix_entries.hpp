@@ -48,7 +48,7 @@ void for_each_entry(M const& m, F f) {
 template <class M>
 void require_finite_entries(std::string_view name, M const& m) {
   for_each_entry(m, [&](index i, index j, auto const& value) {
-    if (!finite_number(value)) {
+    if (!is_finite(value)) {
       throw bad_input(entry_text(name, i, j), show(value), "a finite number");
     }
   });

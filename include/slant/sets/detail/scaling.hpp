@@ -6,6 +6,8 @@
 // moved to the middle of the exponent range and back without an additional rounding.
 #pragma once
 
+#include <slant/concepts/scalar.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -30,12 +32,6 @@ template <class S>
 template <class... S>
 [[nodiscard]] bool any_nan(S const&... v) {
   return (!(v == v) || ...);
-}
-
-template <class S>
-[[nodiscard]] bool is_finite(S const& v) {
-  using std::abs;
-  return abs(v) < std::numeric_limits<S>::infinity();
 }
 
 template <class S>

@@ -33,12 +33,6 @@ template <class C>
   }
 }
 
-/// Not NaN, ∞ or −∞, for every scalar.
-template <class S>
-[[nodiscard]] bool is_number(S const& value) {
-  return value - value == S(0);
-}
-
 inline void require_equal_sizes(std::string_view name, index got, index expected,
                                 std::string_view what) {
   if (got != expected) {
@@ -55,7 +49,7 @@ void require_offset(std::string_view name, C const& c, index n) {
                       "the number of rows of the operator");
   for (index i = 0; i < n; ++i) {
     scalar_t<C> const entry = v.coeff(i);
-    if (!is_number(entry)) {
+    if (!is_finite(entry)) {
       throw bad_input(name, show(entry), "a finite number").at(i);
     }
   }

@@ -26,10 +26,6 @@ class two_terms : public slanting_base {
   using left_type = std::remove_cvref_t<F>;
   using right_type = std::remove_cvref_t<G>;
 
-  template <class V>
-  static constexpr bool usable =
-      slanting_function<left_type, V> && slanting_function<right_type, V>;
-
  public:
   /// @throws bad_input if the numbers of values or of arguments differ.
   two_terms(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
@@ -50,14 +46,14 @@ class two_terms : public slanting_base {
         slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows())};
   }
   template <class Y, class V, class W>
-    requires usable<plain_t<Y>>
+    requires slanting_function<left_type, plain_t<Y>> && slanting_function<right_type, plain_t<Y>>
   void value(Y const& y, V& v, W& w) const {
     slant::evaluate(left(), y, v, w.first);
     slant::evaluate(right(), y, w.other, w.second);
     Rule::combine(slant::local(v), slant::local(w.other));
   }
   template <class Y>
-    requires usable<plain_t<Y>>
+    requires slanting_function<left_type, plain_t<Y>> && slanting_function<right_type, plain_t<Y>>
   [[nodiscard]] auto slant(Y const& y) const {
     return assembled_operator(Rule{}, left().slant(y), right().slant(y));
   }

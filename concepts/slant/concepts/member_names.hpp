@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// What is known of a type before its vectors are: the names of its members.
+//
+// Intuition. apply(x, y) is usually a template, so whether it takes vectors of some type can only
+// be asked with that type at hand, far from the line where a part went into a composition. But that
+// there is no apply at all, or one that is misspelt, shows in that very line.
+//
+// How. A class derived from A and from another one with a member of that name finds two of them if
+// A has one: the name is ambiguous. A class that is final cannot be asked and is believed.
+#pragma once
+
+#include <type_traits>
+
+namespace slant {
+
+namespace detail {
+
+template <class A, class Other>
+struct beside : A, Other {};
+
+template <class A> concept can_be_base = std::is_class_v<A> && !std::is_final_v<A>;
+
+struct other_apply {
+  int apply;
+};
+template <class A>
+inline constexpr bool names_apply = !requires {
+  requires can_be_base<A>;
+  &beside<A, other_apply>::apply;
+};
+
+struct other_apply_adjoint {
+  int apply_adjoint;
+};
+template <class A>
+inline constexpr bool names_apply_adjoint = !requires {
+  requires can_be_base<A>;
+  &beside<A, other_apply_adjoint>::apply_adjoint;
+};
+
+struct other_solve {
+  int solve;
+};
+template <class A>
+inline constexpr bool names_solve = !requires {
+  requires can_be_base<A>;
+  &beside<A, other_solve>::solve;
+};
+
+struct other_value {
+  int value;
+};
+template <class A>
+inline constexpr bool names_value = !requires {
+  requires can_be_base<A>;
+  &beside<A, other_value>::value;
+};
+
+struct other_slant {
+  int slant;
+};
+template <class A>
+inline constexpr bool names_slant = !requires {
+  requires can_be_base<A>;
+  &beside<A, other_slant>::slant;
+};
+
+}  // namespace detail
+
+/// A has something called apply.
+template <class A> concept has_apply_member = detail::names_apply<A>;
+
+/// A has something called apply_adjoint.
+template <class A> concept has_apply_adjoint_member = detail::names_apply_adjoint<A>;
+
+/// A has something called solve.
+template <class A> concept has_solve_member = detail::names_solve<A>;
+
+/// A has something called value.
+template <class A> concept has_value_member = detail::names_value<A>;
+
+/// A has something called slant.
+template <class A> concept has_slant_member = detail::names_slant<A>;
+
+}  // namespace slant
