@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <fem/wire_counts.hpp>
 #include <optional>
 #include <oracle/certificate.hpp>
-#include <oracle/wire_counts.hpp>
 #include <oracle/wire_reference.hpp>
 #include <utility>
 
 TEST_CASE("the wire has the printed numbers of active and free constraints up to n = 2048") {
-  for (auto const& printed : oracle::printed_wire_counts) {
+  for (auto const& printed : fem::printed_wire_counts) {
     CAPTURE(printed.l);
     CAPTURE(printed.g);
     std::optional<oracle::wire_reference> coarse;
@@ -17,7 +17,7 @@ TEST_CASE("the wire has the printed numbers of active and free constraints up to
       auto solution =
           oracle::solve_wire(printed.m(entry), printed.l, printed.g, coarse ? &*coarse : nullptr);
       auto const counts = oracle::count_active(solution.qp, solution.report.x);
-      if (printed.bounds[entry] != oracle::wire_counts::not_printed) {
+      if (printed.bounds[entry] != fem::wire_counts::not_printed) {
         CHECK(counts.intervals == printed.bounds[entry]);
         CHECK(counts.circles == printed.circles[entry]);
       }
