@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "mixture.hpp"
+
+#include <slant/methods/kprgp.hpp>
+#include <slant/operators/declare.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using Eigen::VectorXd;
+
+// P_Λ(x0), its gradient, the parts of the reduced gradient: by their definitions.
+TEST_CASE("the first state is that of the projected start") {
+  test::mixture const p(30);
+  auto const A = test::spd(p.A);
+  auto const set = p.set();
+  slant::kprgp const method{slant::separable_qp{A, p.b, set}, {.step_length = 0.7}};
+  VectorXd const x0 = 3 * test::random_vector(20, 11);
+  auto const s = method.start(x0);
+  CHECK(s.x == slant::project(set, x0));
+  CHECK((s.r - (p.A * s.x - p.b)).norm() <= 1e-14 * s.r.norm());
+  VectorXd const reduced = (s.x - slant::project(set, VectorXd(s.x - 0.7 * s.r))) / 0.7;
+  CHECK((s.reduced - reduced).norm() <= 1e-13 * s.r.norm());
+  CHECK(s.reduced_gradient_norm == doctest::Approx(reduced.norm()).epsilon(1e-12));
+  VectorXd free = reduced;
+  s.face.keep(reduced, free);
+  CHECK(s.φr == doctest::Approx(free.dot(s.r)).epsilon(1e-11));
+  CHECK(s.βr == doctest::Approx((reduced - free).dot(s.r)).epsilon(1e-11));
+  CHECK(s.gradient_scale == doctest::Approx(std::max(p.b.norm(), (p.A * s.x).norm())));
+  CHECK(s.iteration == 0);
+  CHECK(s.status == slant::status::running);
+  CHECK(s.work.operator_applications == 1);
+}
+
+TEST_CASE("a state can be copied and continued: both go the same way") {
+  test::mixture const p(300);
+  auto const A = test::spd(p.A);
+  slant::separable_qp const qp{A, p.b, p.set()};
+  slant::kprgp const method{qp};
+  auto s = method.start(VectorXd::Zero(20));
+  for (int k = 0; k < 10; ++k) method.step(s);
+  auto copy = s;
+  for (int k = 0; k < 10; ++k) {
+    method.step(s);
+    method.step(copy);
+  }
+  CHECK(s.x == copy.x);
+  CHECK(s.work == copy.work);
+}
+
+}  // namespace
