@@ -54,7 +54,7 @@ TEST_CASE("sizes that the bytes of the file cannot back are refused") {
 }
 
 TEST_CASE("each word of the header is checked, and the line is named") {
-  CHECK(complaint("%%MatrixMarket vector coordinate real general\n1 1 0\n").find("line 1") !=
+  CHECK(complaint("%%MatrixMarket vector coordinate real general\n1 1 0\n").find("m.mtx:1:") !=
         std::string::npos);
   CHECK(complaint("%%MatrixMarket matrix coordinate complex general\n1 1 0\n")
             .find("complex matrices are not supported") != std::string::npos);
