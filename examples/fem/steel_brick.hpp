@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <fem/brick_mesh.hpp>
 #include <fem/contact_scene.hpp>
@@ -39,6 +40,24 @@ inline constexpr std::array brick_loads{brick_load::press, brick_load::pull, bri
   return std::nullopt;
 }
 
+/// Tractions (MPa) on the sides of the brick, and Tresca's slip bound (MPa).
+struct brick_loading {
+  std::vector<side_traction<3>> tractions;
+  double slip_bound;
+};
+
+/// The loading of that name, times a factor.
+[[nodiscard]] inline brick_loading loading_of(brick_load load, double factor = 1) {
+  brick_loading loading{{{brick_side::top, factor * Eigen::Vector3d(0, 0, -1)}}, factor * 0.3};
+  if (load == brick_load::pull)
+    loading.tractions.push_back({brick_side::right, factor * Eigen::Vector3d(0.5, 0, 0.3)});
+  if (load == brick_load::lift) {
+    loading.tractions.push_back({brick_side::right, factor * Eigen::Vector3d(0.3, 0.2, 1.2)});
+    loading.slip_bound = factor * 0.6;
+  }
+  return loading;
+}
+
 /// Everything that can be varied about the brick.
 struct steel_brick_options {
   int k = 4;  ///< 3k × k × k cells
@@ -53,28 +72,13 @@ struct steel_brick_options {
 [[nodiscard]] inline contact_scene<3> make_steel_brick(steel_brick_options const& options) {
   require(std::isfinite(options.load_factor) && options.load_factor > 0, "load_factor",
           options.load_factor, "a positive finite number");
-  box_on_foundation<3> brick{.mesh = make_brick_mesh(options.k, options.size),
-                             .material = lame(options.E, options.nu),
-                             .fixed = brick_side::left,
-                             .contact = brick_side::bottom};
-  Eigen::Vector3d const pressure(0, 0, -1);
-  brick.loads.push_back({brick_side::top, options.load_factor * pressure});
-  switch (options.load) {
-    case brick_load::press:
-      brick.slip_bound = options.load_factor * 0.3;
-      break;
-    case brick_load::pull:
-      brick.slip_bound = options.load_factor * 0.3;
-      brick.loads.push_back(
-          {brick_side::right, options.load_factor * Eigen::Vector3d(0.5, 0, 0.3)});
-      break;
-    case brick_load::lift:
-      brick.slip_bound = options.load_factor * 0.6;
-      brick.loads.push_back(
-          {brick_side::right, options.load_factor * Eigen::Vector3d(0.3, 0.2, 1.2)});
-      break;
-  }
-  return make_contact_scene(brick);
+  brick_loading const loading = loading_of(options.load, options.load_factor);
+  return make_contact_scene<3>({.mesh = make_brick_mesh(options.k, options.size),
+                                .material = lame(options.E, options.nu),
+                                .fixed = brick_side::left,
+                                .contact = brick_side::bottom,
+                                .loads = loading.tractions,
+                                .slip_bound = loading.slip_bound});
 }
 
 }  // namespace fem

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace oracle {
+namespace fem {
 
 /// Printed counts for one bound l and radius g, for n = 32, 64, 128, …, 2048.
 struct wire_counts {
@@ -40,4 +40,4 @@ inline constexpr std::array printed_wire_counts{
     wire_counts{-0.1, 2, {4, 6, 12, 23, 45, 89, 178}, {0, 0, 0, 0, 0, 0, 0}},
     wire_counts{0, 2, {5, 9, 19, 37, 73, 146, 292}, {0, 0, 0, 0, 0, 0, 0}}};
 
-}  // namespace oracle
+}  // namespace fem

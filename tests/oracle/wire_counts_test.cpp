@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <fem/wire_counts.hpp>
 #include <optional>
 #include <oracle/certificate.hpp>
-#include <oracle/wire_counts.hpp>
 #include <oracle/wire_reference.hpp>
 
 TEST_CASE("the wire has the printed numbers of active and free constraints up to n = 256") {
-  for (auto const& printed : oracle::printed_wire_counts) {
+  for (auto const& printed : fem::printed_wire_counts) {
     CAPTURE(printed.l);
     CAPTURE(printed.g);
     std::optional<oracle::wire_reference> coarse;
@@ -28,7 +28,7 @@ TEST_CASE("the wire has the printed numbers of active and free constraints up to
 }
 
 TEST_CASE("the reference solutions of the wire are optimal by duality") {
-  for (auto const& printed : oracle::printed_wire_counts) {
+  for (auto const& printed : fem::printed_wire_counts) {
     CAPTURE(printed.l);
     CAPTURE(printed.g);
     auto const solution = oracle::solve_wire(16, printed.l, printed.g);

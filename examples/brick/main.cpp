@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// The steel brick of [T §4.2, K Ex 3] in frictional contact with a rigid foundation, by KPRGP on
+// the dual problem.
+#include <unistd.h>
+
+#include <chrono>
+#include <fem/steel_brick.hpp>
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/iteration/observers.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <support/command_line.hpp>
+
+#include "brick_output.hpp"
+
+namespace {
+
+struct settings {
+  int k = 6;
+  std::string load = "lift";
+  double tolerance = 1e-7;
+  slant::index max_iterations = 100000;
+  std::filesystem::path output{};
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+int solve_brick(settings const& s) {
+  auto const load = fem::brick_load_named(s.load).value();
+  auto const scene = fem::make_steel_brick({.k = s.k, .load = load});
+  if (!s.output.empty()) examples::make_folder("--output", s.output);
+
+  auto const begin = std::chrono::steady_clock::now();
+  auto const factor = slant::factorize(scene.K);
+  slant::contact::data<double> const contact{scene.N, scene.T, scene.f, scene.d, scene.g};
+  slant::contact::dual const dual(slant::contact::friction_disc{}, factor, contact);
+  double const setup_seconds = seconds_since(begin);
+  brick::print_problem(scene, load, factor.name());
+
+  auto const accuracy = [](auto const& state) {
+    return fem::history_point{.products = static_cast<double>(state.work.operator_applications),
+                              .residual = state.reduced_gradient_norm / state.gradient_scale};
+  };
+  slant::history<decltype(accuracy), fem::history_point> history(accuracy);
+  auto const start = std::chrono::steady_clock::now();
+  auto const report = [&] {
+    slant::progress_bar bar("kprgp", s.tolerance,
+                            {.enabled = isatty(STDERR_FILENO) != 0, .every = 25});
+    return slant::solve(
+        slant::kprgp{dual.qp()}, dual.zero(),
+        slant::reduced_gradient_below(s.tolerance) || slant::at_most(s.max_iterations), history,
+        bar);
+  }();
+  Eigen::VectorXd const& λ = report.x();
+  Eigen::VectorXd const u = dual.displacement(λ);
+  double const solve_seconds = seconds_since(start);
+
+  Eigen::Index const m = scene.contact_count();
+  auto const field = fem::make_contact_field(scene, u, λ.head(m), λ.tail(2 * m));
+  brick::print_result(report, setup_seconds, solve_seconds, field, scene.displacement(u));
+  brick::print_optimality(slant::contact::check_optimality(scene.K, contact, u, λ));
+  if (!s.output.empty()) brick::write_output(s.output, scene, field, u, {s.load, history.values()});
+  return report.converged() ? examples::succeeded : examples::not_converged;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("A steel brick with Tresca friction on a rigid foundation.", "brick");
+  app.footer(std::string(examples::exit_status_help));
+  settings s;
+  app.add_option("--load", s.load, "press, pull or lift")
+      ->capture_default_str()
+      ->check(examples::expects<std::string>("press, pull or lift", [](std::string const& name) {
+        return fem::brick_load_named(name).has_value();
+      }));
+  app.add_option("--cells", s.k, "k of the 3k x k x k cells")
+      ->capture_default_str()
+      ->check(examples::expects_at_least(1));
+  app.add_option("--tolerance", s.tolerance, "relative norm of the reduced gradient")
+      ->capture_default_str()
+      ->check(examples::expects_tolerance());
+  app.add_option("--max-iterations", s.max_iterations, "steps at most")
+      ->capture_default_str()
+      ->check(examples::expects_at_least(0));
+  app.add_option("--output", s.output,
+                 "folder for brick.vtu (ParaView) and the pictures contact.png and history.png")
+      ->check(examples::expects_name());
+  return examples::run_program(app, argc, argv, [&] { return solve_brick(s); });
+}

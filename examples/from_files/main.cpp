@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+//
+// Solves a contact problem whose matrices are files in a folder, by a method of one's choice, and
+// prints one JSON object.
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <slant/io/atomic_file.hpp>
+#include <slant/io/text_vector.hpp>
+#include <string>
+#include <support/command_line.hpp>
+
+#include "solution.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct arguments {
+  fs::path folder{};
+  std::string method{from_files::recommended_method};
+  from_files::settings settings{};
+  fs::path output{};
+  bool list_methods = false;
+};
+
+int list_methods() {
+  from_files::for_each_method([](auto const& method) {
+    std::printf("%-20s %s%s\n", method.name.data(), method.sentence.data(),
+                method.name == from_files::recommended_method ? " (recommended)" : "");
+  });
+  return examples::succeeded;
+}
+
+/// Both files or none.
+void write(fs::path const& folder, from_files::solution const& s) {
+  slant::atomic_files files;
+  slant::write_text_vector(files.add(folder / "u.txt"), s.u);
+  slant::write_text_vector(files.add(folder / "lambda.txt"), s.run.λ);
+  files.commit();
+}
+
+/// Finds out before the computation whether the results will find a place.
+void prepare_output(fs::path const& folder) {
+  examples::make_folder("--output", folder);
+  slant::atomic_files probe;
+  probe.add(folder / "u.txt");
+  probe.add(folder / "lambda.txt");
+}
+
+/// One line; what is not finite becomes null.
+std::string json_text(arguments const& a, from_files::problem const& p,
+                      from_files::solution const& s, bool written) {
+  nlohmann::ordered_json json{
+      {"status", slant::to_string(s.run.status)},
+      {"reason", s.run.reason},
+      {"method", a.method},
+      {"iterations", s.run.iterations},
+      {"operator_applications", s.run.work.operator_applications + s.run.work.setup_applications},
+      {"setup_applications", s.run.work.setup_applications},
+      {"setup_seconds", s.setup_seconds},
+      {"solve_seconds", s.solve_seconds},
+      {"kkt_residual", s.kkt_residual},
+      {"tolerance", a.settings.tolerance},
+      {"unknowns", p.K.rows()},
+      {"contact_nodes", p.contact.nodes()},
+      {"tangents_per_node", p.contact.tangents()},
+      {"factorization", s.factorization},
+      {"output", nullptr}};
+  if (written) json["output"] = a.output.string();
+  // A path may hold bytes that are no text.
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+int solve_folder(arguments const& a) {
+  if (a.list_methods) return list_methods();
+  if (a.folder.empty())
+    throw slant::bad_input("DIR", "nothing", "the folder with the matrices of the problem");
+  from_files::with_method(a.method, [](auto const&) {});
+  auto const problem = from_files::read_problem_folder(a.folder);
+  if (!a.output.empty()) prepare_output(a.output);
+  auto const solution = from_files::solve(problem, a.method, a.settings);
+  bool const written = !a.output.empty() && solution.is_finite();
+  if (written) write(a.output, solution);
+  std::printf("%s\n", json_text(a, problem, solution, written).c_str());
+  return solution.converged() ? examples::succeeded : examples::not_converged;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Contact with Tresca friction: min 1/2 u'Ku - f'u + sum g_i |(Tu)_i|  subject to  Nu <= d.\n"
+      "DIR holds K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx and g.txt.",
+      "from_files");
+  app.footer(
+      "Prints one JSON object. \"kkt_residual\" is relative and computed from the matrices; "
+      "\"operator_applications\" includes \"setup_applications\".\n"
+      "Exit status: 0 converged; 1 not converged, for the reason in the JSON object; 2 input "
+      "that cannot be used or\noutput that cannot be written, named in one line on standard "
+      "error; nothing is printed and no file written then.");
+  arguments a;
+  app.add_option("DIR", a.folder, "folder with the problem");
+  app.add_option("--method", a.method, "name of a method; see --list-methods")
+      ->capture_default_str();
+  app.add_option("--tolerance", a.settings.tolerance,
+                 "relative norm of the reduced gradient at which the method stops")
+      ->capture_default_str()
+      ->check(examples::expects_tolerance());
+  app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")
+      ->capture_default_str()
+      ->check(examples::expects_at_least(0));
+  app.add_option("--output", a.output,
+                 "folder for u.txt and lambda.txt (normal, then tangential forces)")
+      ->check(examples::expects_name());
+  app.add_flag("--list-methods", a.list_methods, "print the methods and end");
+  return examples::run_program(app, argc, argv, [&] { return solve_folder(a); });
+}

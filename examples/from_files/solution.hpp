@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// From the problem of a folder to its solution, with the time and the work that it took.
+#pragma once
+
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "methods.hpp"
+#include "problem_folder.hpp"
+
+namespace from_files {
+
+struct solution {
+  outcome run;
+  Eigen::VectorXd u;
+  std::string factorization;  ///< what factored K
+  double setup_seconds;       ///< factorisation, right-hand side, what the method prepares
+  double solve_seconds;       ///< iteration and recovery of u
+  double kkt_residual;        ///< relative; NaN if the run broke down
+
+  [[nodiscard]] bool converged() const { return run.status == slant::status::converged; }
+  [[nodiscard]] bool is_finite() const { return u.allFinite() && run.λ.allFinite(); }
+};
+
+namespace detail {
+
+template <class Friction>
+[[nodiscard]] solution solve_with(Friction friction, problem const& p, std::string_view method,
+                                  settings const& s) {
+  auto const begin = clock::now();
+  auto const factor = slant::factorize(p.K);
+  slant::contact::dual const dual(friction, factor, p.contact);
+  solution result;
+  with_method(method, [&](auto const& chosen) { result.run = chosen.run(dual, s); });
+  result.u = dual.displacement(result.run.λ);
+  auto const end = clock::now();
+
+  auto const seconds = [](auto duration) {
+    return std::chrono::duration<double>(duration).count();
+  };
+  result.setup_seconds = seconds(result.run.started - begin);
+  result.solve_seconds = seconds(end - result.run.started);
+  result.factorization = factor.name();
+  result.kkt_residual =
+      slant::contact::check_optimality(p.K, p.contact, result.u, result.run.λ).residual();
+  return result;
+}
+
+}  // namespace detail
+
+/// Solves with the method of that name. The friction law is that of T: no disc is compiled into a
+/// frictionless solver. Throws slant::bad_input if K is not symmetric positive definite (naming the
+/// entry or the pivot) or if there is no such method.
+[[nodiscard]] inline solution solve(problem const& p, std::string_view method, settings const& s) {
+  switch (p.contact.tangents()) {
+    case 0:
+      return detail::solve_with(slant::contact::frictionless{}, p, method, s);
+    case 1:
+      return detail::solve_with(slant::contact::friction_line{}, p, method, s);
+    default:
+      return detail::solve_with(slant::contact::friction_disc{}, p, method, s);
+  }
+}
+
+}  // namespace from_files

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// The file for ParaView, read back: every point has the numbers of its contact node.
+#include <doctest/doctest.h>
+
+#include <fem/contact_vtu.hpp>
+#include <fem/steel_brick.hpp>
+#include <io/io_support.hpp>
+#include <pugixml.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+/// The numbers of a data array of points, one column per point.
+Eigen::MatrixXd point_data(pugi::xml_document const& file, char const* name) {
+  auto const piece = file.child("VTKFile").child("UnstructuredGrid").child("Piece");
+  auto const array = piece.child("PointData").find_child_by_attribute("Name", name);
+  auto const points = piece.attribute("NumberOfPoints").as_int();
+  Eigen::MatrixXd values(array.attribute("NumberOfComponents").as_int(), points);
+  std::istringstream text(array.child_value());
+  for (Eigen::Index point = 0; point < points; ++point)
+    for (Eigen::Index i = 0; i < values.rows(); ++i) text >> values(i, point);
+  REQUIRE_FALSE(text.fail());
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("a contact solution arrives at its points") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  Eigen::Index const m = scene.contact_count();
+  Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(scene.unknowns.count, -1, 1);
+  Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(3 * m, 0, 1);
+  auto const field = fem::make_contact_field(scene, u, λ.head(m), λ.tail(2 * m));
+
+  io_test::temporary_folder const folder;
+  fem::write_contact_vtu(folder / "a.vtu", scene, field, u, slant::vtu_encoding::ascii);
+  pugi::xml_document file;
+  REQUIRE(file.load_file((folder / "a.vtu").c_str()));
+
+  CHECK(point_data(file, "displacement").isApprox(scene.displacement(u), 1e-14));
+  Eigen::MatrixXd pressure = point_data(file, "contact_pressure");
+  Eigen::MatrixXd friction = point_data(file, "friction");
+  Eigen::MatrixXd state = point_data(file, "contact_state");
+  REQUIRE(friction.rows() == 3);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    auto const at = static_cast<std::size_t>(i);
+    int const node = scene.contact_nodes[at];
+    CHECK(pressure(0, node) == doctest::Approx(field.normal[i]));
+    CHECK(friction.col(node).head(2).isApprox(field.friction.col(i), 1e-14));
+    CHECK(state(0, node) == static_cast<int>(field.state[at]));
+    pressure(0, node) = friction(0, node) = friction(1, node) = 0;
+    state(0, node) = fem::no_contact_node;
+  }
+  CHECK(pressure.isZero(0));
+  CHECK(friction.isZero(0));
+  CHECK((state.array() == fem::no_contact_node).all());
+}

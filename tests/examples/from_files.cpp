@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+//
+// from_files on problems that can be solved, or at least attempted: statuses, JSON, files.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <oracle/dense_contact_reference.hpp>
+#include <slant/io/text_vector.hpp>
+
+#include "problem_files.hpp"
+
+namespace {
+
+using examples_test::contains;
+using examples_test::is_one_line;
+using examples_test::problem_files;
+using examples_test::run;
+using nlohmann::json;
+
+std::string const coordinate = "%%MatrixMarket matrix coordinate real general\n";
+
+/// One spring K = 4 pulled by f = 2 towards an obstacle at 0.25: u = 0.25, λ = 2 − 4 · 0.25 = 1.
+struct one_spring : problem_files {
+  one_spring() {
+    put("K.mtx", coordinate + "1 1 1\n1 1 4\n");
+    put("N.mtx", coordinate + "1 1 1\n1 1 1\n");
+    put("f.txt", "2\n");
+    put("d.txt", "0.25\n");
+  }
+};
+
+/// A block of rubber in the plane, pressed down and pulled to the right.
+fem::contact_scene<2> plane_scene() {
+  return fem::make_contact_scene<2>(
+      {.mesh = fem::make_box_mesh<2>({4, 2}, Eigen::Vector2d(2, 1)),
+       .material = fem::lame(10, 0.3),
+       .fixed = {.axis = 0, .upper = false},
+       .contact = {.axis = 1, .upper = false},
+       .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
+                 {{.axis = 0, .upper = true}, Eigen::Vector2d(0.6, 0.5)}},
+       .slip_bound = 0.3});
+}
+
+/// Compares the files that were written with the reference solution of the scene.
+template <int D>
+void check_against_reference(problem_files const& files, fem::contact_scene<D> const& scene,
+                             json const& result) {
+  oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};
+  auto const reference = oracle::solve_contact(data);
+  Eigen::VectorXd const u = files.read("u.txt");
+  Eigen::VectorXd const λ = files.read("lambda.txt");
+  REQUIRE(λ.size() == scene.N.rows() + scene.T.rows());
+  CHECK(oracle::energy_error(scene.K, u, reference.u) < 1e-6);
+  Eigen::VectorXd exact(λ.size());
+  exact << reference.normal, reference.tangential;
+  CHECK((λ - exact).norm() < 1e-5 * exact.norm());
+  CHECK(oracle::check_contact(data, u.cast<oracle::real>(), λ.cast<oracle::real>()).largest() <
+        1e-5);
+  CHECK(result["kkt_residual"].get<double>() < 1e-5);
+}
+
+}  // namespace
+
+TEST_CASE("from_files: a brick in space") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  problem_files const files(scene);
+  auto const ran = files.solve();
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  REQUIRE(is_one_line(ran.out));
+  json const result = json::parse(ran.out);
+  CHECK(result["status"] == "converged");
+  CHECK(result["method"] == "kprgp");
+  CHECK(result["unknowns"] == 162);
+  CHECK(result["contact_nodes"] == 18);
+  CHECK(result["tangents_per_node"] == 2);
+  CHECK(result["iterations"].get<int>() > 10);
+  CHECK(result["operator_applications"].get<int>() >=
+        result["iterations"].get<int>() + result["setup_applications"].get<int>());
+  CHECK(result["setup_seconds"].get<double>() > 0);
+  CHECK(result["solve_seconds"].get<double>() > 0);
+  CHECK(result["factorization"].get<std::string>() != "");
+  CHECK(contains(result["reason"].get<std::string>(), "reduced gradient"));
+  CHECK(result["output"] == files.output().string());
+  CHECK(files.files_written() == 2);
+  check_against_reference(files, scene, result);
+}
+
+TEST_CASE("from_files: a body in the plane") {
+  auto const scene = plane_scene();
+  problem_files const files(scene);
+  auto const ran = files.solve("--method kprgp --tolerance 1e-10");
+  CHECK(ran.status == 0);
+  json const result = json::parse(ran.out);
+  CHECK(result["tangents_per_node"] == 1);
+  check_against_reference(files, scene, result);
+}
+
+TEST_CASE("from_files: no friction") {
+  auto scene = plane_scene();
+  problem_files const files(scene);
+  files.remove("T.mtx");
+  files.remove("g.txt");
+  scene.T.resize(0, scene.K.cols());
+  scene.g.resize(0);
+  auto const ran = files.solve();
+  CHECK(ran.status == 0);
+  json const result = json::parse(ran.out);
+  CHECK(result["tangents_per_node"] == 0);
+  check_against_reference(files, scene, result);
+}
+
+TEST_CASE("from_files: a known answer, and none asked for in files") {
+  one_spring const files;
+  CHECK(files.solve().status == 0);
+  CHECK(files.read("u.txt")[0] == doctest::Approx(0.25).epsilon(1e-14));
+  CHECK(files.read("lambda.txt")[0] == doctest::Approx(1).epsilon(1e-14));
+
+  auto const silent = run("from_files", examples_test::word(files.input().string()));
+  CHECK(silent.status == 0);
+  CHECK(json::parse(silent.out)["output"] == nullptr);
+}
+
+TEST_CASE("from_files: nodes that never meet the obstacle, and nodes that stick") {
+  auto scene = plane_scene();
+  scene.d.setConstant(std::numeric_limits<double>::infinity());
+  problem_files const files(plane_scene());
+  std::string d, g;
+  for (Eigen::Index i = 0; i < scene.d.size(); ++i) {
+    d += "inf\n";
+    g += "inf\n";
+  }
+  files.put("d.txt", d);
+  CHECK(files.solve().status == 0);
+  CHECK(files.read("lambda.txt").head(scene.d.size()) == Eigen::VectorXd::Zero(scene.d.size()));
+
+  files.put("g.txt", g);
+  CHECK(files.solve("--tolerance 1e-12").status == 0);
+  Eigen::VectorXd const u = files.read("u.txt");
+  CHECK((scene.T * u).norm() < 1e-10 * u.norm());
+}
+
+TEST_CASE("from_files: a run that stops early says so, with its last iterate") {
+  auto const files = examples_test::small_brick();
+  for (std::string const limit : {"0", "2"}) {
+    auto const ran = files.solve("--max-iterations " + limit);
+    CHECK(ran.status == 1);
+    CHECK(ran.err == "");
+    REQUIRE(is_one_line(ran.out));
+    json const result = json::parse(ran.out);
+    CHECK(result["status"] == "iteration_limit");
+    CHECK(result["iterations"].get<int>() == std::stoi(limit));
+    CHECK(result["kkt_residual"].get<double>() > 1e-6);
+    CHECK(files.files_written() == 2);
+  }
+}
+
+TEST_CASE("from_files: penetration without any force is not taken for a solution") {
+  one_spring const files;
+  files.put("f.txt", "0\n");
+  files.put("d.txt", "-1\n");
+  auto const nothing_done = files.solve("--max-iterations 0");
+  CHECK(nothing_done.status == 1);
+  CHECK(json::parse(nothing_done.out)["kkt_residual"] == 1.0);
+  CHECK(files.solve().status == 0);
+  CHECK(files.read("u.txt")[0] == doctest::Approx(-1).epsilon(1e-14));
+  CHECK(files.read("lambda.txt")[0] == doctest::Approx(4).epsilon(1e-14));
+}
+
+TEST_CASE("from_files: a problem without solution is not solved") {
+  // No displacement opens the gap of −1: the row of N is empty, and the multiplier grows for ever.
+  one_spring const files;
+  files.put("N.mtx", coordinate + "2 1 1\n1 1 1\n");
+  files.put("d.txt", "0.25\n-1\n");
+  auto const ran = files.solve();
+  CHECK(ran.status == 1);
+  REQUIRE(is_one_line(ran.out));
+  CHECK(json::parse(ran.out)["status"] == "unbounded");
+}
+
+TEST_CASE("from_files: numbers at the end of their range give valid JSON and no wrong answer") {
+  one_spring const files;
+  files.put("f.txt", "1e300\n");
+  files.put("K.mtx", coordinate + "1 1 1\n1 1 1e-300\n");
+  auto const ran = files.solve();
+  // K⁻¹f is no number: whether that is found before or in the iteration, it is not "converged".
+  CHECK((ran.status == 1 || ran.status == 2));
+  if (ran.status == 1) CHECK(json::parse(ran.out)["status"] != "converged");
+  if (ran.status == 2) {
+    CHECK(is_one_line(ran.err));
+    CHECK(ran.out == "");
+  }
+}
+
+TEST_CASE("from_files: other units, the same digits") {
+  auto const one = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
+  problem_files const files(one);
+  auto const ran = files.solve();
+  REQUIRE(ran.status == 0);
+  json const result = json::parse(ran.out);
+  for (double const s : {0x1p-40, 0x1p40})
+    for (double const t : {0x1p-40, 0x1p40}) {
+      auto other = one;
+      other.K *= s;
+      other.f *= t;
+      other.g *= t;
+      other.d *= t / s;
+      problem_files const scaled(other);
+      auto const again = scaled.solve();
+      CHECK(again.status == 0);
+      json const scaled_result = json::parse(again.out);
+      for (auto const* field : {"status", "iterations", "operator_applications", "kkt_residual"})
+        CHECK(scaled_result[field] == result[field]);
+      CHECK(scaled.read("u.txt") == (t / s) * files.read("u.txt"));
+      CHECK(scaled.read("lambda.txt") == t * files.read("lambda.txt"));
+    }
+}
+
+TEST_CASE("from_files: help and the list of methods need no folder") {
+  auto const list = run("from_files", "--list-methods");
+  CHECK(list.status == 0);
+  CHECK(list.err == "");
+  CHECK(list.out.starts_with("kprgp "));
+  CHECK(contains(list.out, "(recommended)"));
+  auto const help = run("from_files", "--help");
+  CHECK(help.status == 0);
+  CHECK(help.err == "");
+  for (auto const* expected :
+       {"--method", "--tolerance", "--max-iterations", "--output", "--list-methods", "Exit status"})
+    CHECK(contains(help.out, expected));
+}
+
+TEST_CASE("from_files: a folder whose name is no text") {
+  io_test::temporary_folder const folder;
+  one_spring const files;
+  std::string const output = (folder / "caf\xe9").string();  // Latin-1, so no UTF-8
+  auto const ran = run("from_files", examples_test::word(files.input().string()) + " --output " +
+                                         examples_test::word(output));
+  CHECK(ran.status == 0);
+  REQUIRE(is_one_line(ran.out));
+  CHECK(contains(json::parse(ran.out)["output"].get<std::string>(), "/caf"));
+  CHECK(std::filesystem::exists(output + "/u.txt"));
+}

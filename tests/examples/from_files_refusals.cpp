@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+//
+// from_files on input that cannot be used: exit status 2, nothing on standard output, one line on
+// standard error that says what is wrong, and no file written.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "problem_files.hpp"
+
+namespace {
+
+using examples_test::contains;
+using examples_test::is_one_line;
+using examples_test::problem_files;
+using examples_test::program_result;
+
+std::string const coordinate = "%%MatrixMarket matrix coordinate real general\n";
+
+/// A line of standard error that names this, and nothing else anywhere.
+void check_refusal(program_result const& ran, std::string const& expected) {
+  CAPTURE(expected);
+  CAPTURE(ran.err);
+  CHECK(ran.status == 2);
+  CHECK(ran.out == "");
+  CHECK(is_one_line(ran.err));
+  CHECK(ran.err.starts_with("from_files: "));
+  CHECK(contains(ran.err, expected));
+}
+
+/// The small brick with one file replaced.
+void check_file(std::string const& name, std::string const& text, std::string const& expected) {
+  auto const files = examples_test::small_brick();
+  files.put(name, text);
+  check_refusal(files.solve(), expected);
+  CHECK(files.files_written() == 0);
+}
+
+/// The small brick with one file changed.
+template <class Change>
+void check_change(std::string const& name, Change const& change, std::string const& expected) {
+  auto const files = examples_test::small_brick();
+  std::string text = files.get(name);
+  change(text);
+  files.put(name, text);
+  check_refusal(files.solve(), expected);
+  CHECK(files.files_written() == 0);
+}
+
+std::string numbers(int count, std::string const& number) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += number + "\n";
+  return text;
+}
+
+/// The first line of a text that begins so gets another ending.
+void replace_line(std::string& text, std::string const& beginning, std::string const& line) {
+  auto const at = text.find("\n" + beginning) + 1;
+  REQUIRE(at != std::string::npos + 1);
+  text.replace(at, text.find('\n', at) - at, line);
+}
+
+}  // namespace
+
+// The small brick has 36 unknowns and 6 contact nodes.
+
+TEST_CASE("from_files refuses sizes that do not match") {
+  check_file("N.mtx", coordinate + "6 35 1\n1 1 1\n",
+             "columns of N: got 35, expected the size of f, 36");
+  check_file("T.mtx", coordinate + "12 40 1\n1 1 1\n",
+             "columns of T: got 40, expected the size of f, 36");
+  check_file("T.mtx", coordinate + "7 36 1\n1 1 1\n",
+             "rows of T: got 7, expected 6 (2D) or 12 (3D)");
+  check_file("K.mtx", coordinate + "36 35 1\n1 1 1\n",
+             "columns of K: got 35, expected as many as rows, 36");
+  check_file("f.txt", numbers(35, "1"), "f.txt:36: got the end of the file after 35 numbers");
+  check_file("d.txt", numbers(7, "0"), "d.txt:7: got number 7, expected 6 numbers");
+  check_file("g.txt", numbers(5, "1"), "expected 6 numbers");
+}
+
+TEST_CASE("from_files refuses NaN and infinity") {
+  check_file("f.txt", numbers(35, "1") + "nan\n", "f.txt:36: got 'nan', expected a finite number");
+  check_file("f.txt", numbers(35, "1") + "-inf\n",
+             "f.txt:36: got '-inf', expected a finite number");
+  check_file("d.txt", "nan\n" + numbers(5, "0"), "d.txt:1: got 'nan', expected a number or inf");
+  check_file("d.txt", numbers(5, "0") + "-inf\n", "d[5]: got -inf, expected a number or +inf");
+  check_file("g.txt", "NaN\n" + numbers(5, "0"), "g.txt:1: got 'NaN'");
+  check_file("N.mtx", coordinate + "6 36 1\n1 1 inf\n", "N.mtx:3: got 'inf'");
+  check_file("T.mtx", coordinate + "12 36 1\n1 1 nan\n", "T.mtx:3: got 'nan'");
+  check_change(
+      "K.mtx", [](std::string& text) { replace_line(text, "1 1 ", "1 1 1e999"); },
+      "got '1e999', expected a number within the range of the scalar type");
+}
+
+TEST_CASE("from_files refuses a negative radius") {
+  check_file("g.txt", numbers(3, "1") + "-0.25\n1\n1\n",
+             "g[3]: got -0.25, expected a number >= 0 or +inf");
+}
+
+TEST_CASE("from_files refuses K that is not symmetric or not definite") {
+  check_file("K.mtx", coordinate + "2 2 3\n1 1 1\n2 2 1\n1 2 0.5\n", "f.txt:3: got number 3");
+  problem_files const files;
+  files.put("N.mtx", coordinate + "1 2 1\n1 1 1\n");
+  files.put("f.txt", "1\n1\n");
+  files.put("d.txt", "0\n");
+  auto const with_K = [&](std::string const& K, std::string const& expected) {
+    files.put("K.mtx", K);
+    check_refusal(files.solve(), expected);
+    CHECK(files.files_written() == 0);
+  };
+  std::string const symmetric = "%%MatrixMarket matrix coordinate real symmetric\n";
+  with_K(coordinate + "2 2 3\n1 1 1\n2 2 1\n1 2 0.5\n", "expected a symmetric matrix");
+  // The eigenvalues are 3 and −1; the second pivot is 1 − 2²/1 = −3.
+  with_K(symmetric + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n", "K: got pivot 1 (row ");
+  with_K(symmetric + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n",
+         ") = -3, expected a symmetric positive definite matrix");
+  with_K(symmetric + "2 2 3\n1 1 1\n2 1 1\n2 2 1\n", "= 0, zero up to rounding");
+  with_K(symmetric + "2 2 1\n1 1 1\n", "= 0, zero up to rounding");
+  with_K(symmetric + "2 2 2\n1 1 1\n2 2 -1\n", ") = -1, expected a symmetric positive definite");
+}
+
+TEST_CASE("from_files refuses files that are missing or no text") {
+  for (std::string const name : {"K.mtx", "N.mtx", "f.txt", "d.txt", "g.txt", "T.mtx"}) {
+    auto const files = examples_test::small_brick();
+    files.remove(name);
+    check_refusal(files.solve(), name + ": got no such file");
+    CHECK(files.files_written() == 0);
+  }
+  auto const files = examples_test::small_brick();
+  files.remove("K.mtx");
+  std::filesystem::create_directory(files.input() / "K.mtx");
+  check_refusal(files.solve(), "K.mtx: got a directory, expected a readable text file");
+  check_file("d.txt", std::string(6, '\0'), "d.txt: got binary data");
+  check_file("f.txt", "", "f.txt: got an empty file");
+  check_refusal(examples_test::run("from_files", "/no/such/folder"),
+                "/no/such/folder: got no such folder, expected a folder with K.mtx");
+  // A name with a line feed still makes one line.
+  check_refusal(examples_test::run("from_files", "'no\nsuch\nfolder'"), "no\\x0asuch\\x0afolder");
+}
+
+TEST_CASE("from_files refuses truncated files") {
+  for (std::string const name : {"K.mtx", "N.mtx", "T.mtx", "f.txt", "d.txt", "g.txt"}) {
+    check_change(
+        name, [](std::string& text) { text.pop_back(); }, "truncated file?");
+    check_change(
+        name, [](std::string& text) { text.resize(text.size() / 2); }, name + ":");
+    // Whole lines are missing.
+    check_change(
+        name, [](std::string& text) { text.resize(text.rfind('\n', text.size() - 2) + 1); },
+        name + ":");
+  }
+}
+
+TEST_CASE("from_files refuses malicious files") {
+  // Sizes that would need terabytes, or overflow their product.
+  check_file("K.mtx", coordinate + "2000000000 2000000000 4000000000\n1 1 1\n", "K.mtx:2: got");
+  check_file("K.mtx", coordinate + "9223372036854775807 9223372036854775807 1\n1 1 1\n",
+             "K.mtx:2: got");
+  check_file("K.mtx", coordinate + "99999999999999999999 1 1\n1 1 1\n", "K.mtx:2: got");
+  check_file("K.mtx", coordinate + "-3 -3 1\n1 1 1\n", "K.mtx:2: got '-3'");
+  check_file("K.mtx", coordinate + "36 36 1\n37 1 1\n", "K.mtx:3: got '37'");
+  check_file("K.mtx", coordinate + "36 36 1\n0 1 1\n", "K.mtx:3: got '0'");
+  check_file("K.mtx", "%%MatrixMarket matrix array real general\n100000 100000\n1\n",
+             "K.mtx:2: got 10000000000 entries");
+  check_file("K.mtx", "%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1 0\n",
+             "K.mtx:1: got 'complex'");
+  check_file("K.mtx", "\x1b[2J evil\n", "K.mtx:1: got '\\x1b[2J evil'");
+  check_file("f.txt", std::string(100000, '7') + "\n",
+             "expected a line of at most 1024 characters");
+}
+
+TEST_CASE("from_files refuses options that make no sense") {
+  auto const files = examples_test::small_brick();
+  auto const with = [&](std::string const& options, std::string const& expected) {
+    check_refusal(files.solve(options), expected);
+    CHECK(files.files_written() == 0);
+  };
+  for (std::string const value : {"1", "-1e-3", "nan", "inf", "abc", "''"})
+    with("--tolerance=" + value, "expected a relative accuracy in [0, 1)");
+  for (std::string const value : {"-1", "1.5", "many", "99999999999999999999"})
+    with("--max-iterations=" + value, "expected a whole number >= 0");
+  with("--method newton", "--method: got newton, expected one of kprgp");
+  with("--no-such-option", "argument: got --no-such-option, expected one of those that --help");
+  with("another_folder", "argument: got another_folder, expected one of those that --help lists");
+  with("--tolerance 1e-3 --tolerance 1e-4", "--tolerance");
+  check_refusal(examples_test::run("from_files", ""), "DIR: got nothing, expected the folder");
+  check_refusal(examples_test::run("from_files", ". --tolerance"), "--tolerance");
+}
+
+TEST_CASE("from_files refuses an output that cannot be written") {
+  auto const files = examples_test::small_brick();
+  std::string const input = examples_test::word(files.input().string());
+  auto const with = [&](std::string const& output, std::string const& expected) {
+    check_refusal(examples_test::run("from_files", input + " --output " + output), expected);
+  };
+  io_test::temporary_folder const folder;
+  io_test::put(folder / "file", "content\n");
+  with(examples_test::word((folder / "file").string()), "--output: got ");
+  with(examples_test::word((folder / "file/below").string()), "--output: got ");
+  with("/dev/null", "--output: got /dev/null (Not a directory)");
+  with("''", "--output: got nothing, expected a name");
+  CHECK(io_test::get(folder / "file") == "content\n");
+
+  // One of the two cannot be written: then neither is.
+  std::filesystem::create_directories(files.output() / "lambda.txt");
+  check_refusal(files.solve(), "lambda.txt: got a directory, expected a file name");
+  CHECK(files.files_written() == 1);
+}
+
+TEST_CASE("from_files on a full disk leaves the earlier results as they were") {
+  problem_files const files(fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift}));
+  std::filesystem::create_directories(files.output());
+  io_test::put(files.output() / "u.txt", "earlier\n");
+  // One block of 512 or 1024 bytes per file: u.txt needs more than 3000. The signal is ignored, as
+  // then the write fails the way it does on a full disk.
+  auto const ran = examples_test::run_command(
+      "ulimit -f 1; trap '' XFSZ; " + examples_test::program("from_files") + " " +
+      examples_test::word(files.input().string()) + " --output " +
+      examples_test::word(files.output().string()));
+  check_refusal(ran, "writing " + (files.output() / "u.txt").string());
+  CHECK(files.files_written() == 1);
+  CHECK(io_test::get(files.output() / "u.txt") == "earlier\n");
+}
+
+TEST_CASE("from_files notices that its result did not arrive") {
+  auto const files = examples_test::small_brick();
+  auto const ran =
+      examples_test::run_command(examples_test::program("from_files") + " " +
+                                 examples_test::word(files.input().string()) + " >/dev/full");
+  check_refusal(ran, "standard output: got an error");
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// brick, tridiagonal and wire: do they run, end with the right status, and say the right thing?
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "run_program.hpp"
+
+namespace {
+
+using examples_test::contains;
+using examples_test::is_one_line;
+using examples_test::run;
+using examples_test::word;
+
+bool has_gnuplot() {
+  return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+}
+
+}  // namespace
+
+TEST_CASE("tridiagonal: active set and products near the printed ones") {
+  auto const ran = run("tridiagonal", "");
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(contains(ran.out, "active set: {2, 3, 5}\n"));
+
+  std::istringstream lines(ran.out.substr(ran.out.find("products")));
+  std::string line;
+  std::getline(lines, line);
+  int rows = 0;
+  for (double Γ, ours, printed; lines >> Γ >> ours >> printed; ++rows) {
+    CAPTURE(Γ);
+    CHECK(std::fabs(ours - printed) <= printed / 3);
+    std::getline(lines, line);
+    CHECK(contains(line, "converged"));
+  }
+  CHECK(rows == 11);
+}
+
+TEST_CASE("wire: all printed counts of a small mesh") {
+  auto const ran = run("wire", "--unknowns 64");
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(contains(ran.out, "all counts that were printed are reproduced\n"));
+
+  auto const one = run("wire", "--unknowns 128 --lower 0 --radius 0.3");
+  CHECK(one.status == 0);
+  CHECK(contains(one.out, "29:3      29:3      16:16     16:16"));
+
+  auto const impatient = run("wire", "--unknowns 64 --radius 1 --max-iterations 3");
+  CHECK(impatient.status == 1);
+  CHECK(contains(impatient.out, "iteration_limit"));
+}
+
+TEST_CASE("brick: problem, result, proof and files") {
+  io_test::temporary_folder const folder;
+  auto const output = folder / "new/demo";
+  auto const ran = run("brick", "--cells 2 --load lift --output " + word(output.string()));
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");  // no progress where there is no terminal
+  for (auto const* expected :
+       {"load \"lift\"", "(0.3, 0.2, 1.2) MPa on the right end", "slip bound     0.6 MPa",
+        "144 tetrahedra, 162 unknowns", "18 nodes", "factorisation", "status         converged",
+        "products", "open", "stick", "slip", "equilibrium", "penetration"})
+    CHECK(contains(ran.out, expected));
+  CHECK(contains(io_test::get(output / "brick.vtu"), "contact_pressure"));
+  bool const drawn = has_gnuplot();
+  CHECK(contains(ran.out, "wrote " + (output / "contact.png").string()) == drawn);
+  CHECK(contains(ran.out, "no picture: ") == !drawn);
+  CHECK(io_test::get(output / "contact.png").starts_with("\x89PNG") == drawn);
+}
+
+TEST_CASE("brick: without gnuplot it says so and goes on") {
+  io_test::temporary_folder const folder;
+  auto const ran = examples_test::run_command(
+      "PATH=/no/such/folder " + examples_test::program("brick") +
+      " --cells 1 --load press --output " + word(folder.path().string()));
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(contains(ran.out, "no picture: gnuplot was not found"));
+  CHECK(std::filesystem::exists(folder / "brick.vtu"));
+  CHECK_FALSE(std::filesystem::exists(folder / "contact.png"));
+}
+
+TEST_CASE("brick: not converged is not success") {
+  auto const ran = run("brick", "--cells 1 --max-iterations 2");
+  CHECK(ran.status == 1);
+  CHECK(contains(ran.out, "iteration_limit: reached the limit of 2 steps"));
+}
+
+TEST_CASE("the programs refuse bad options in one line") {
+  auto const check = [](std::string const& name, std::string const& options,
+                        std::string const& expected) {
+    auto const ran = run(name, options);
+    CAPTURE(ran.err);
+    CHECK(ran.status == 2);
+    CHECK(ran.out == "");
+    CHECK(is_one_line(ran.err));
+    CHECK(contains(ran.err, expected));
+  };
+  check("brick", "--load push", "--load: got push, expected press, pull or lift");
+  check("brick", "--cells 0", "--cells: got 0, expected a whole number >= 1");
+  check("brick", "--cells 1 --output /dev/null", "--output: got /dev/null");
+  check("wire", "--unknowns 30", "--unknowns: got 30, expected a multiple of 4");
+  check("wire", "--radius -1", "--radius: got -1, expected a number >= 0");
+  check("wire", "--lower nan", "--lower: got nan");
+  check("tridiagonal", "--step 2", "--step: got 2, expected a number in (0, 2)");
+  check("tridiagonal", "extra", "argument: got extra, expected one of those that --help lists");
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Problems as folders of files: a small brick, or a few numbers by hand.
+#pragma once
+
+#include <fem/steel_brick.hpp>
+#include <fem/write_folder.hpp>
+#include <slant/io/matrix_market.hpp>
+#include <string>
+#include <string_view>
+
+#include "run_program.hpp"
+
+namespace examples_test {
+
+namespace fs = std::filesystem;
+
+/// A folder with a problem, and one beside it for results; both vanish with the object.
+class problem_files {
+ public:
+  problem_files() = default;
+  template <int D>
+  explicit problem_files(fem::contact_scene<D> const& scene) {
+    fem::write_folder(scene, input());
+  }
+
+  [[nodiscard]] fs::path input() const { return root_ / "input"; }
+  [[nodiscard]] fs::path output() const { return root_ / "output"; }
+
+  void put(std::string_view name, std::string_view text) const {
+    fs::create_directories(input());
+    io_test::put(input() / name, text);
+  }
+  void remove(std::string_view name) const { fs::remove(input() / name); }
+  [[nodiscard]] std::string get(std::string_view name) const {
+    return io_test::get(input() / name);
+  }
+
+  /// Number of files in the folder for results, hidden ones included; 0 if there is no folder.
+  [[nodiscard]] int files_written() const {
+    if (!fs::exists(output())) return 0;
+    int count = 0;
+    for (auto const& entry : fs::recursive_directory_iterator(output())) {
+      (void)entry;
+      ++count;
+    }
+    return count;
+  }
+  [[nodiscard]] Eigen::VectorXd read(std::string_view name) const {
+    return slant::read_text_vector(output() / name);
+  }
+
+  /// from_files DIR options --output …
+  [[nodiscard]] program_result solve(std::string const& options = "") const {
+    return run("from_files",
+               word(input().string()) + " " + options + " --output " + word(output().string()));
+  }
+
+ private:
+  io_test::temporary_folder root_{};
+};
+
+/// The brick of 3 × 1 × 1 cells under the load that opens a part of its contact.
+[[nodiscard]] inline problem_files small_brick() {
+  return problem_files(fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift}));
+}
+
+}  // namespace examples_test

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs one of the example programs through the shell and keeps what it says.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fem/plots/gnuplot.hpp>
+#include <io/io_support.hpp>
+#include <string>
+#include <string_view>
+
+namespace examples_test {
+
+struct program_result {
+  int status;  ///< exit status; 128 + n if signal n ended it
+  std::string out;
+  std::string err;
+};
+
+/// A word that the shell takes as it is.
+[[nodiscard]] inline std::string word(std::string_view text) {
+  return fem::detail::shell_word(text);
+}
+
+/// The path of a program, as a shell word.
+[[nodiscard]] inline std::string program(std::string_view name) {
+  return word(std::string(SLANT_PROGRAMS "/").append(name));
+}
+
+/// Runs a shell command. Its output passes through pipes, so that limits on files do not touch it.
+[[nodiscard]] inline program_result run_command(std::string const& command) {
+  io_test::temporary_folder const folder;
+  auto const file = [&](char const* name) { return word((folder / name).string()); };
+  std::string const whole = "{ { { " + command + " ; } </dev/null; echo $? >" + file("status") +
+                            "; } 2>&3 | cat >" + file("out") + "; } 3>&1 | cat >" + file("err");
+  int const shell = std::system(whole.c_str());
+  std::string const status = io_test::get(folder / "status");
+  bool const ran = WIFEXITED(shell) && WEXITSTATUS(shell) == 0 && !status.empty();
+  return {ran ? std::stoi(status) : -1, io_test::get(folder / "out"), io_test::get(folder / "err")};
+}
+
+/// Runs a program with arguments that are already shell words.
+[[nodiscard]] inline program_result run(std::string_view name, std::string const& arguments) {
+  return run_command(program(name) + " " + arguments);
+}
+
+[[nodiscard]] inline bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+/// Exactly one line, complete, with something on it.
+[[nodiscard]] inline bool is_one_line(std::string_view text) {
+  return text.size() > 1 && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+}  // namespace examples_test

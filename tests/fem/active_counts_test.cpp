@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fem/active_counts.hpp>
+#include <fem/string_1d.hpp>
+#include <fem/wire_counts.hpp>
+#include <limits>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <tridiagonal/example_1.hpp>
+
+TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
+  Eigen::MatrixXd const A = Eigen::Vector4d(2, 4, 4, 1).asDiagonal();
+  auto const set = slant::cartesian(slant::half_lines(1), slant::discs(Eigen::VectorXd::Ones(1)),
+                                    slant::free_components(1));
+  auto const counts = [&](Eigen::VectorXd const& b, Eigen::VectorXd const& x) {
+    return fem::count_active(set, A, b, x);
+  };
+  Eigen::VectorXd const origin = Eigen::VectorXd::Zero(4);
+  // z = x − (A x − b)/A_ii = b/A_ii for a diagonal matrix.
+  CHECK(counts(Eigen::Vector4d(2, 0, 0, 5), origin) == fem::active_counts{0, 0});
+  CHECK(counts(Eigen::Vector4d(-2, 0, 0, 5), origin) == fem::active_counts{1, 0});
+  CHECK(counts(Eigen::Vector4d(0, 4, 0, 5), origin) == fem::active_counts{0, 0});  // on the circle
+  CHECK(counts(Eigen::Vector4d(0, 4, 0.5, 5), origin) == fem::active_counts{0, 1});
+  // The step belongs to the block, not to the matrix: with 1/2 for all the disc would be active.
+  CHECK(counts(Eigen::Vector4d(0, 3, 0, 5), origin) == fem::active_counts{0, 0});
+  CHECK((fem::active_blocks(set, A, Eigen::VectorXd(Eigen::Vector4d(-1, 9, 0, 5)), origin) ==
+         std::vector<bool>{true, true, false}));
+}
+
+TEST_CASE("the active blocks do not depend on units") {
+  Eigen::SparseMatrix<double> const A = example_1::matrix();
+  Eigen::VectorXd const b = example_1::right_hand_side(), g = example_1::radii();
+  for (double const stiffness : {1.0, 0x1p-60, 0x1p60})
+    for (double const length : {1.0, 0x1p-40, 0x1p40}) {
+      auto const set = slant::discs<slant::planar>((length * g).eval());
+      Eigen::SparseMatrix<double> const scaled = stiffness * A;
+      Eigen::VectorXd const load = stiffness * length * b;
+      auto const qp = slant::separable_qp{
+          slant::matrix<slant::self_adjoint, slant::positive_definite>(scaled), load, set};
+      auto const report = slant::solve(slant::kprgp{qp}, Eigen::VectorXd::Zero(12).eval(),
+                                       slant::reduced_gradient_below(1e-10) || slant::at_most(500));
+      REQUIRE(report.converged());
+      CHECK((fem::active_blocks(set, scaled, load, report.x()) ==
+             std::vector<bool>{false, true, true, false, true, false}));
+    }
+}
+
+TEST_CASE("KPRGP finds the printed numbers of active constraints of the wire up to n = 256") {
+  for (auto const& printed : fem::printed_wire_counts)
+    for (std::size_t entry = 0; printed.unknowns(entry) <= 256; ++entry) {
+      auto const m = static_cast<Eigen::Index>(printed.m(entry));
+      CAPTURE(printed.l);
+      CAPTURE(printed.g);
+      CAPTURE(m);
+      auto const wire = fem::make_wire(m);
+      auto const set = slant::cartesian(
+          slant::half_lines(Eigen::VectorXd::Constant(m, printed.l).eval()),
+          slant::discs(Eigen::VectorXd::Constant(m, printed.g).eval()), slant::free_components(m));
+      auto const qp = slant::separable_qp{
+          slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A), wire.b, set};
+      auto const report =
+          slant::solve(slant::kprgp{qp, {.step_length = 1.9 * wire.h() / 4}},
+                       Eigen::VectorXd::Zero(4 * m).eval(),
+                       slant::reduced_gradient_below(1e-9) || slant::at_most(100000));
+      CHECK(report.converged());
+      CHECK(report.state.work.setup_applications == 0);
+      CHECK(fem::count_active(set, wire.A, wire.b, report.x()) ==
+            fem::active_counts{printed.bounds[entry], printed.circles[entry]});
+    }
+}
+
+TEST_CASE("sizes are checked") {
+  auto const set = slant::half_lines(2);
+  Eigen::MatrixXd const A = Eigen::MatrixXd::Identity(2, 2);
+  Eigen::VectorXd const two = Eigen::VectorXd::Zero(2), three = Eigen::VectorXd::Zero(3);
+  CHECK_THROWS_WITH_AS((void)fem::active_blocks(set, A, two, three),
+                       "x: got 3, expected the dimension of the set", std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::active_blocks(set, A, three, two), std::invalid_argument);
+}
