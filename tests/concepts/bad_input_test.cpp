@@ -19,8 +19,11 @@ TEST_CASE("bad_input: the same complaint about an entry of a list") {
   CHECK(std::string(e.at(3).at(4).what()) == "radius[3][4]: got -1, expected a number >= 0");
 }
 
-TEST_CASE("bad_input: numbers are shown with all their digits") {
-  CHECK(slant::detail::show(0.1) == "0.10000000000000001");
+TEST_CASE("bad_input: numbers are shown with all the digits they need") {
+  CHECK(slant::detail::show(0.1) == "0.1");
+  CHECK(slant::detail::show(0.1 + 0.2) == "0.30000000000000004");
+  CHECK(slant::detail::show(1e-7) == "1e-07");
+  CHECK(slant::detail::show(0.1f) == "0.1");
   CHECK(slant::detail::show(7) == "7");
   CHECK(slant::detail::show(std::numeric_limits<double>::infinity()) == "inf");
 }

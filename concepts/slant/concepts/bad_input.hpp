@@ -5,23 +5,30 @@
 // report.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace slant {
 
 namespace detail {
 
-/// Text of anything that can be streamed, with enough digits to tell neighbouring doubles apart.
+/// Text of anything that can be streamed; of a floating-point number the shortest that means it.
 template <class T>
 [[nodiscard]] std::string show(T const& value) {
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  return out.str();
+  if constexpr (std::is_floating_point_v<T>) {
+    char text[64];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  } else {
+    std::ostringstream out;
+    out.precision(17);
+    out << value;
+    return out.str();
+  }
 }
 
 }  // namespace detail

@@ -77,8 +77,11 @@ template <class V> concept has_inner_product_member = requires(V const& x) { x.i
 
 namespace detail {
 
+template <class X, class Y> concept has_dot = requires(X const& x, Y const& y) { x.dot(y); };
+
 struct inner_product_fn {
   template <class X, class Y>
+    requires has_inner_product_member<X> || has_dot<X, Y>
   [[nodiscard]] auto operator()(X const& x, Y const& y) const -> scalar_t<X> {
     if constexpr (has_inner_product_member<X>) {
       return x.inner_product(y);
@@ -150,8 +153,11 @@ template <class V> concept has_like_member = requires(V const& x, index n) { x.l
 
 namespace detail {
 
+template <class X> concept has_plain_object = requires { typename X::PlainObject; };
+
 struct like_fn {
   template <class X>
+    requires has_like_member<X> || has_plain_object<X>
   [[nodiscard]] auto operator()(X const& x, index n) const {
     if constexpr (has_like_member<X>) {
       return x.like(n);

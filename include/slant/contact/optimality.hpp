@@ -7,7 +7,8 @@
 //     ‖λ_t‖ ≤ g,  and  T u = 0 or (λ_t = g T u / ‖T u‖)                        [K (16)–(18)]
 //
 // Each violation is a force, divided by max(‖f‖, ‖Bᵀλ‖) (by ‖K u‖ if both are 0): numbers without
-// units. Lengths are turned into forces by ρ, the same divided by ‖u‖: a stiffness of the body.
+// units. Lengths are turned into forces by ρ, the same divided by ‖u‖ (by the largest gap if u = 0):
+// a stiffness of the body.
 #pragma once
 
 #include <slant/contact/contact_data.hpp>
@@ -34,6 +35,17 @@ struct optimality {
   }
 };
 
+/// Largest finite |d|: the length that is left if nothing moves.
+template <class S>
+[[nodiscard]] S largest_gap(data<S> const& c) {
+  S largest(0);
+  for (index i = 0; i < c.nodes(); ++i) {
+    using std::abs;
+    if (slant::detail::is_finite(c.d(i))) largest = std::max<S>(largest, S(abs(c.d(i))));
+  }
+  return largest;
+}
+
 /// Evaluates the conditions. K is n_u × n_u, u has n_u and λ = (λ_ν, λ_t) m + rows(T) entries.
 template <class S, class Matrix, class V>
 [[nodiscard]] optimality<S> check_optimality(Matrix const& K, data<S> const& c, V const& u,
@@ -48,7 +60,7 @@ template <class S, class Matrix, class V>
 
   optimality<S> o;
   vector_type const Ku = K * u;
-  S const length = u.stableNorm();
+  S length = u.stableNorm();
   S force = std::max<S>(c.f.stableNorm(), Bλ.stableNorm());
   if (force == S(0)) force = Ku.stableNorm();
   if (force == S(0)) {  // no load, no reaction, no displacement: wrong only where d forbids it
@@ -57,7 +69,8 @@ template <class S, class Matrix, class V>
   }
   vector_type const unbalanced = Ku + Bλ - c.f;
   o.equilibrium = unbalanced.stableNorm() / force;
-  S const ρ = length > S(0) ? force / length : S(1);
+  if (length == S(0)) length = largest_gap(c);
+  S const ρ = length == S(0) ? S(1) : force / length;  // no length at all: ρ meets only zeros
 
   vector_type const opening = c.N * u - c.d;
   vector_type normal(m);

@@ -72,6 +72,7 @@ class dual {
         b_(B_.rows()) {
     auto const Kinv = inverse(factor_.get());
     slant::apply(Kinv, f_, free_displacement_);
+    slant::detail::check_finite("K^-1 f", free_displacement_);
     b_.noalias() = B_ * free_displacement_;
     close_infinite_gaps(c);
   }
@@ -136,9 +137,11 @@ class dual {
     return b;
   }
 
-  /// b −= c; a node with an infinite gap gets any negative load, which keeps its multiplier at 0.
+  /// b −= c; a node with an infinite gap gets a negative load, which keeps its multiplier at 0 and
+  /// is small enough not to show in ‖b‖.
   void close_infinite_gaps(data<S> const& c) {
-    S const size = b_.size() > 0 ? b_.cwiseAbs().maxCoeff() : S(0);
+    auto const m = static_cast<S>(static_cast<double>(c.nodes()));
+    S const size = b_.cwiseAbs().maxCoeff() / m;
     for (index i = 0; i < c.nodes(); ++i) {
       b_(i) -= slant::detail::is_finite(c.d(i)) ? c.d(i) : (size > S(0) ? size : S(1));
     }
