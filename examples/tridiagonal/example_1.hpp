@@ -14,26 +14,37 @@ namespace example_1 {
 /// Upper bound of the eigenvalues 4 + 2 cos(kπ/13) of A.
 inline constexpr double largest_eigenvalue = 6;
 
-[[nodiscard]] inline Eigen::SparseMatrix<double> matrix() {
-  Eigen::SparseMatrix<double> A(12, 12);
+/// All data as correctly rounded numbers of the scalar S.
+template <class S>
+using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+template <class S = double>
+[[nodiscard]] Eigen::SparseMatrix<S> matrix() {
+  Eigen::SparseMatrix<S> A(12, 12);
   for (int i = 0; i < 12; ++i) {
-    A.insert(i, i) = 4;
-    if (i > 0) A.insert(i, i - 1) = A.insert(i - 1, i) = -1;
+    A.insert(i, i) = S(4);
+    if (i == 0) continue;
+    A.insert(i, i - 1) = S(-1);
+    A.insert(i - 1, i) = S(-1);
   }
   A.makeCompressed();
   return A;
 }
 
 /// b = A y: y would be the solution if no disc constrained it.
-[[nodiscard]] inline Eigen::VectorXd right_hand_side() {
-  Eigen::VectorXd y(12);
-  y << 2, 1, 0.5, 0, 0, 11, 1e-5, -1, std::sqrt(2.0), -0.1, 4.1e-4, 143;
-  return matrix() * y;
+template <class S = double>
+[[nodiscard]] vector<S> right_hand_side() {
+  using std::sqrt;
+  vector<S> y(12);
+  y << S(2), S(1), S(1) / S(2), S(0), S(0), S(11), S(1) / S(100000), S(-1), sqrt(S(2)),
+      S(-1) / S(10), S(41) / S(100000), S(143);
+  return matrix<S>() * y;
 }
 
-[[nodiscard]] inline Eigen::VectorXd radii() {
-  Eigen::VectorXd g(6);
-  g << 2, 1, 0.5, 2, 1e-3, 154;
+template <class S = double>
+[[nodiscard]] vector<S> radii() {
+  vector<S> g(6);
+  g << S(2), S(1), S(1) / S(2), S(2), S(1) / S(1000), S(154);
   return g;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// [K Ex 1]: A = tridiag(−1, 4, −1), b = A y, twelve unknowns in six discs of radii g. The pairs are
-// (i, i + 6). The solution has the discs 2, 3, 5 active; here it comes from Newton's method on the
-// optimality conditions with that set of equations, and is checked against the inequalities.
+// Example 1 of the lecture in any scalar, and its solution: the discs 2, 3, 5 are active, so it
+// comes from Newton's method on the optimality conditions with these equations; that the
+// inequalities hold as well is for the tests to check.
 #pragma once
 
 #include <slant/operators/matrix.hpp>
@@ -11,34 +11,22 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
+#include <tridiagonal/example_1.hpp>
 
 namespace test {
 
 template <class S>
 struct example_one {
-  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector = example_1::vector<S>;
   using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
-  matrix A = matrix::Zero(12, 12);
-  vector b;
-  vector g = vector(6);
-
-  example_one() {
-    using std::sqrt;
-    for (Eigen::Index i = 0; i < 12; ++i) {
-      A(i, i) = S(4);
-      if (i > 0) A(i, i - 1) = A(i - 1, i) = S(-1);
-    }
-    vector y(12);
-    y << S(2), S(1), S(1) / S(2), S(0), S(0), S(11), S(1) / S(100000), S(-1), sqrt(S(2)),
-        S(-1) / S(10), S(41) / S(100000), S(143);
-    b = A * y;
-    g << S(2), S(1), S(1) / S(2), S(2), S(1) / S(1000), S(154);
-  }
+  matrix A = example_1::matrix<S>();
+  vector b = example_1::right_hand_side<S>();
+  vector g = example_1::radii<S>();
 
   [[nodiscard]] auto set() const { return slant::discs<slant::planar>(g); }
   [[nodiscard]] auto a() const {
-    return slant::matrix<slant::law::self_adjoint, slant::law::positive_definite>(A);
+    return slant::matrix<slant::self_adjoint, slant::positive_definite>(A);
   }
   [[nodiscard]] vector zero() const { return vector::Zero(12); }
 };

@@ -211,7 +211,7 @@ TEST_CASE("bad starts are named") {
 
 /// Well behaved once.
 struct fragile {
-  static constexpr auto laws = slant::laws<slant::law::self_adjoint, slant::law::positive_definite>;
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
   mutable int calls = 0;
   [[nodiscard]] slant::index rows() const { return 2; }
   [[nodiscard]] slant::index cols() const { return 2; }

@@ -7,48 +7,30 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
-#include <oracle/wire_counts.hpp>
+#include <fem/wire_counts.hpp>
 
-namespace {
-
-struct active_counts {
-  int bounds = 0;
-  int circles = 0;
-};
-
-// Active: a gradient step of one over the diagonal entry leaves the constraint.
-active_counts count_active(fem::wire<> const& w, double l, double g, Eigen::VectorXd const& x) {
-  Eigen::VectorXd const z = x - (w.A * x - w.b).cwiseQuotient(w.A.diagonal());
-  active_counts n;
-  for (Eigen::Index i = 0; i < w.m; ++i) {
-    n.bounds += z(i) < l;
-    n.circles += std::hypot(z(w.m + 2 * i), z(w.m + 2 * i + 1)) > g;
-  }
-  return n;
-}
-
-TEST_CASE("the wire has the printed numbers of active constraints up to n = 256") {
-  for (auto const& printed : oracle::printed_wire_counts) {
+TEST_CASE("KPRGP finds the printed numbers of active constraints of the wire up to n = 256") {
+  for (auto const& printed : fem::printed_wire_counts)
     for (std::size_t entry = 0; printed.unknowns(entry) <= 256; ++entry) {
+      auto const m = static_cast<Eigen::Index>(printed.m(entry));
       CAPTURE(printed.l);
       CAPTURE(printed.g);
-      CAPTURE(printed.unknowns(entry));
-      auto const w = fem::make_wire(printed.m(entry));
-      auto const a = slant::matrix<slant::law::self_adjoint, slant::law::positive_definite>(w.A);
-      auto const set = slant::cartesian(slant::power(slant::half_line<>{printed.l}, w.m),
-                                        slant::power(slant::ball<2>{printed.g}, w.m),
-                                        slant::free_components(w.m));
-      auto const qp = slant::separable_qp{a, w.b, set};
-      auto const r = slant::solve(slant::kprgp{qp}, Eigen::VectorXd(Eigen::VectorXd::Zero(4 * w.m)),
-                                  slant::reduced_gradient_below(1e-10) || slant::at_most(200000));
-      REQUIRE(r.converged());
-      auto const counts = count_active(w, printed.l, printed.g, r.x());
-      CHECK(counts.bounds == printed.bounds[entry]);
-      CHECK(counts.circles == printed.circles[entry]);
+      CAPTURE(m);
+      auto const wire = fem::make_wire(m);
+      auto const set = slant::cartesian(
+          slant::half_lines(Eigen::VectorXd::Constant(m, printed.l).eval()),
+          slant::discs(Eigen::VectorXd::Constant(m, printed.g).eval()), slant::free_components(m));
+      auto const qp = slant::separable_qp{
+          slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A), wire.b, set};
+      auto const report =
+          slant::solve(slant::kprgp{qp, {.step_length = 1.9 * wire.h() / 4}},
+                       Eigen::VectorXd::Zero(4 * m).eval(),
+                       slant::reduced_gradient_below(1e-9) || slant::at_most(100000));
+      CHECK(report.converged());
+      CHECK(report.state.work.setup_applications == 0);
+      CHECK(fem::count_active(set, wire.A, wire.b, report.x()) ==
+            fem::active_counts{printed.bounds[entry], printed.circles[entry]});
     }
-  }
 }
-
-}  // namespace
