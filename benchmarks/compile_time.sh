@@ -4,12 +4,13 @@
 # What including the library costs: processor seconds and peak memory of the compiler for a few
 # translation units, medians of five runs.
 #
-#   benchmarks/compile_time.sh [--output FOLDER] [--runs N] [--compiler g++]
+#   benchmarks/compile_time.sh [--output FOLDER] [--runs N] [--compiler g++]…
 #
 # Prints a table, writes compile_time.csv into FOLDER (default out/bench) and exits with status 1 if
 # one of the two limits is exceeded:
 #   one set, such as <slant/sets/ball.hpp>   at most 1.3 times <Eigen/Core>
 #   <slant/slant.hpp>                        at most 3 times <Eigen/Sparse>
+# Without --compiler g++ is asked, and the newest clang++ from version 16 on, if there is one.
 # Processor time, not elapsed time, so that other work on the machine disturbs little; the runs go
 # round the list, so that a slow minute does not meet one row only.
 set -euo pipefail
@@ -17,12 +18,12 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 output=$root/out/bench
 runs=5
-compiler=g++
+compilers=()
 while (($# > 0)); do
   case $1 in
     --output) output=$2 ;;
     --runs) runs=$2 ;;
-    --compiler) compiler=$2 ;;
+    --compiler) compilers+=("$2") ;;
     *)
       printf 'compile_time.sh: unknown option %s\n' "$1" >&2
       exit 2
@@ -30,6 +31,15 @@ while (($# > 0)); do
   esac
   shift 2
 done
+if ((${#compilers[@]} == 0)); then
+  compilers=(g++)
+  for version in 22 21 20 19 18 17 16; do
+    if command -v "clang++-$version" >/dev/null; then
+      compilers+=("clang++-$version")
+      break
+    fi
+  done
+fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -42,54 +52,34 @@ if [[ ! -e $tree/compile_flags.rsp ]]; then
 fi
 flags=("@$tree/compile_flags.rsp" "-I$root/examples" -O2)
 
-sets=(slant/sets/ball.hpp slant/sets/ellipse.hpp slant/sets/second_order_cone.hpp)
-names=(empty Eigen/Core "${sets[@]}" Eigen/Sparse slant/slant.hpp wire)
+sets=()
+for name in ball ellipse free_space half_line interval point second_order_cone; do
+  sets+=("slant/sets/$name.hpp")
+done
+names=(empty Eigen/Core "${sets[@]}" Eigen/Sparse slant/slant.hpp examples/first_steps
+  examples/wire)
 for name in "${names[@]}"; do
   file=$work/${name//\//_}.cpp
   case $name in
     empty) : >"$file" ;;
-    wire) printf '#include "%s"\n' "$root/examples/wire/main.cpp" >"$file" ;;
+    examples/*) printf '#include "%s"\n' "$root/$name/main.cpp" >"$file" ;;
     *) printf '#include <%s>\n' "$name" >"$file" ;;
   esac
 done
 
+# compile COMPILER NAME RUNS_FILE
 compile() {
-  local unit=$work/${1//\//_}
-  /usr/bin/time -q -f '%U %S %M' -o "$work/time" \
-    "$compiler" "${flags[@]}" -c "$unit.cpp" -o "$unit.o"
-  awk '{ printf "%.3f %.1f\n", $1 + $2, $3 / 1024 }' "$work/time" >>"$unit.runs"
+  local unit=$work/${2//\//_}
+  /usr/bin/time -q -f '%U %S %M' -o "$work/time" "$1" "${flags[@]}" -c "$unit.cpp" -o "$unit.o"
+  awk '{ printf "%.3f %.1f\n", $1 + $2, $3 / 1024 }' "$work/time" >>"$3"
 }
-
-for ((run = 1; run <= runs; run++)); do
-  for name in "${names[@]}"; do compile "$name"; done
-done
 
 # median COLUMN FILE
 median() { cut -d' ' -f"$1" "$2" | sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a / b }'; }
 
-declare -A seconds memory
-for name in "${names[@]}"; do
-  seconds[$name]=$(median 1 "$work/${name//\//_}.runs")
-  memory[$name]=$(median 2 "$work/${name//\//_}.runs")
-done
-
-csv=$output/compile_time.csv
-printf 'translation_unit,seconds,peak_mebibytes,seconds_over_eigen_core,seconds_over_eigen_sparse\n' \
-  >"$csv"
-printf '%s, -O2, median of %d runs\n\n' "$("$compiler" --version | head -n 1)" "$runs"
-printf '%-32s %8s %9s %13s %15s\n' 'translation unit' seconds MiB '/ Eigen/Core' '/ Eigen/Sparse'
-for name in "${names[@]}"; do
-  over_core=$(ratio "${seconds[$name]}" "${seconds[Eigen/Core]}")
-  over_sparse=$(ratio "${seconds[$name]}" "${seconds[Eigen/Sparse]}")
-  printf '%-32s %8s %9s %13s %15s\n' "$name" "${seconds[$name]}" "${memory[$name]}" \
-    "$over_core" "$over_sparse"
-  printf '%s,%s,%s,%s,%s\n' "$name" "${seconds[$name]}" "${memory[$name]}" \
-    "$over_core" "$over_sparse" >>"$csv"
-done
-
-# limit NAME REFERENCE MOST
 status=0
+# limit NAME REFERENCE MOST
 limit() {
   local value verdict=kept
   value=$(ratio "${seconds[$1]}" "${seconds[$2]}")
@@ -99,7 +89,34 @@ limit() {
   fi
   printf '%s: %s times %s, limit %s: %s\n' "$1" "$value" "$2" "$3" "$verdict"
 }
-printf '\n'
-for name in "${sets[@]}"; do limit "$name" Eigen/Core 1.3; done
-limit slant/slant.hpp Eigen/Sparse 3
+
+csv=$output/compile_time.csv
+printf 'compiler,translation_unit,seconds,peak_mebibytes,over_eigen_core,over_eigen_sparse\n' >"$csv"
+for compiler in "${compilers[@]}"; do
+  rm -f "$work"/*.runs
+  for ((run = 1; run <= runs; run++)); do
+    for name in "${names[@]}"; do compile "$compiler" "$name" "$work/${name//\//_}.runs"; done
+  done
+
+  declare -A seconds=() memory=()
+  for name in "${names[@]}"; do
+    seconds[$name]=$(median 1 "$work/${name//\//_}.runs")
+    memory[$name]=$(median 2 "$work/${name//\//_}.runs")
+  done
+
+  printf '%s, -O2, median of %d runs\n\n' "$("$compiler" --version | head -n 1)" "$runs"
+  printf '%-34s %8s %9s %13s %15s\n' 'translation unit' seconds MiB '/ Eigen/Core' '/ Eigen/Sparse'
+  for name in "${names[@]}"; do
+    over_core=$(ratio "${seconds[$name]}" "${seconds[Eigen/Core]}")
+    over_sparse=$(ratio "${seconds[$name]}" "${seconds[Eigen/Sparse]}")
+    printf '%-34s %8s %9s %13s %15s\n' "$name" "${seconds[$name]}" "${memory[$name]}" \
+      "$over_core" "$over_sparse"
+    printf '%s,%s,%s,%s,%s,%s\n' "${compiler##*/}" "$name" "${seconds[$name]}" "${memory[$name]}" \
+      "$over_core" "$over_sparse" >>"$csv"
+  done
+  printf '\n'
+  for name in "${sets[@]}"; do limit "$name" Eigen/Core 1.3; done
+  limit slant/slant.hpp Eigen/Sparse 3
+  printf '\n'
+done
 exit "$status"

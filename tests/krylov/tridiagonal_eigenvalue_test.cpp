@@ -37,7 +37,7 @@ TEST_CASE("random matrices of all sizes, as by a dense eigenvalue solver") {
 }
 
 TEST_CASE("closed form: tridiag(-1, 2, -1)") {
-  for (std::size_t n : {1, 2, 5, 100}) {
+  for (std::size_t const n : {1U, 2U, 5U, 100U}) {
     std::vector<double> const a(n, 2.0), b(n - 1, -1.0);
     double const λ = 2 - 2 * std::cos(double(n) * std::acos(-1.0) / double(n + 1));
     CHECK(largest_tridiagonal_eigenvalue(a, b) == doctest::Approx(λ).epsilon(1e-15));

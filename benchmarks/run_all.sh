@@ -1,0 +1,182 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+#
+# Runs the benchmarks; `./run bench` builds them and then comes here.
+#
+#   benchmarks/run_all.sh [--only NAME]… [--output FOLDER]
+#
+#   composition    instructions of composed operators, beside loops written by hand
+#   compile_time   seconds and memory of the compiler for a few includes
+#   projections    largest error of the projections at a million points each
+#   example_1      products of KPRGP for eleven Γ, beside the printed ones
+#   wire           active constraints of the wire, beside the printed ones
+#   brick          error of KPRGP against work: the steel brick, three sizes, three loads
+#
+# FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
+# Exit status 1 if one of them fails or misses a limit that it knows.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+here=$root/benchmarks
+tree=${SLANT_BUILD_DIR:-$root/build/bench}
+programs=$tree/benchmarks
+all=(composition compile_time projections example_1 wire brick)
+
+# A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
+export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
+export SLANT_BUILD_DIR=$tree
+export LC_ALL=C
+
+die() {
+  printf 'run_all.sh: %s\n' "$*" >&2
+  exit 2
+}
+
+output=$root/out/bench
+chosen=()
+while (($# > 0)); do
+  (($# > 1)) || die "unknown option or missing value: $1"
+  case $1 in
+    --only)
+      [[ " ${all[*]} " == *" $2 "* ]] || die "no benchmark $2; there are ${all[*]}"
+      chosen+=("$2")
+      ;;
+    --output) output=$2 ;;
+    *) die "unknown option $1" ;;
+  esac
+  shift 2
+done
+if ((${#chosen[@]} == 0)); then chosen=("${all[@]}"); fi
+mkdir -p "$output"
+
+# program NAME: the path of a built benchmark.
+program() {
+  [[ -x $programs/bench_$1 ]] || die "$programs/bench_$1 is not built; use ./run bench"
+  printf '%s' "$programs/bench_$1"
+}
+
+run_composition() { "$here/composition.sh" "$(program composition)" >"$output/composition.csv"; }
+run_compile_time() { "$here/compile_time.sh" --output "$output"; }
+run_projections() { "$(program projection_errors)" >"$output/projections.csv"; }
+run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"; }
+run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
+run_brick() {
+  local status=0
+  "$(program kprgp_products)" brick 4 6 8 >"$output/brick.csv" || status=$?
+  draw_brick
+  return "$status"
+}
+
+# Work and precision: relative energy error against the seconds of the iteration.
+draw_brick() {
+  command -v gnuplot >/dev/null || return 0
+  gnuplot <<PLOT
+set terminal pngcairo size 1200,420
+set output "$output/brick.png"
+set datafile separator ","
+set logscale xy
+set format "10^{%L}"
+set xlabel "seconds of the iteration"
+set ylabel "relative error in the energy norm"
+set key left bottom
+set multiplot layout 1,3
+do for [load in "press pull lift"] {
+  set title load
+  plot for [k in "4 6 8"] "$output/brick.csv" skip 1 \
+    using (strcol(1) eq load && strcol(2) eq k ? \$9 : NaN):10 with linespoints title "k = ".k
+}
+PLOT
+}
+
+# --- summary --------------------------------------------------------------------------------------
+
+# macros HEADER NAME...: values of macros, joined by dots; nothing if the header is not there.
+macros() {
+  local header=$1 name values=()
+  shift
+  local text
+  text=$(printf '#include <%s>\n' "$header" |
+    g++ "@$tree/compile_flags.rsp" -I/usr/include/suitesparse -x c++ -E -dM - 2>/dev/null) ||
+    return 0
+  for name in "$@"; do
+    values+=("$(awk -v n="$name" '$2 == n { gsub(/"/, "", $3); print $3 }' <<<"$text")")
+  done
+  local IFS=.
+  printf '%s' "${values[*]}"
+}
+
+compilers() {
+  local version
+  printf 'g++\n'
+  for version in 22 21 20 19 18 17 16; do
+    if command -v "clang++-$version" >/dev/null; then
+      printf 'clang++-%s\n' "$version"
+      return
+    fi
+  done
+}
+
+describe_machine() {
+  local compiler
+  printf '| | |\n|---|---|\n'
+  printf '| processor | %s, %s cores |\n' \
+    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)" "$(nproc)"
+  for compiler in $(compilers); do
+    printf '| %s | %s |\n' "$compiler" "$("$compiler" --version | head -n 1)"
+  done
+  printf '| Eigen | %s |\n' \
+    "$(macros Eigen/Core EIGEN_WORLD_VERSION EIGEN_MAJOR_VERSION EIGEN_MINOR_VERSION)"
+  printf '| Boost | %s |\n' "$(macros boost/version.hpp BOOST_LIB_VERSION | tr _ .)"
+  printf '| CHOLMOD | %s |\n' \
+    "$(macros cholmod.h CHOLMOD_MAIN_VERSION CHOLMOD_SUB_VERSION CHOLMOD_SUBSUB_VERSION)"
+  printf '| build | %s, OPENBLAS_NUM_THREADS=%s |\n' \
+    "$(sed -n 's/^CMAKE_CXX_FLAGS_RELEASE:[^=]*=//p' "$tree/CMakeCache.txt" 2>/dev/null)" \
+    "$OPENBLAS_NUM_THREADS"
+}
+
+# table: comma-separated values from standard input as a table of Markdown.
+table() {
+  awk -F, '{
+    line = "|"; rule = "|"
+    for (i = 1; i <= NF; i++) { line = line " " $i " |"; rule = rule "---|" }
+    if (NR == 1) gsub(/_/, " ", line)
+    print line
+    if (NR == 1) print rule
+  }'
+}
+
+# section NAME TITLE [FILTER...]: the table of NAME.csv, if it is there, perhaps only some rows.
+section() {
+  local name=$1 title=$2
+  shift 2
+  [[ -s $output/$name.csv ]] || return 0
+  printf '\n## %s\n\n`./run bench --only %s`\n\n' "$title" "$name"
+  if (($# == 0)); then set -- cat; fi
+  "$@" <"$output/$name.csv" | table
+}
+
+# For each load and size the first row that is within 1e-6 of the reference.
+accurate_rows() { awk -F, 'NR == 1 || ($10 <= 1e-6 && !seen[$1, $2]++)'; }
+
+write_summary() {
+  printf '# Benchmarks\n\n'
+  describe_machine
+  section composition "Instructions of one application"
+  section compile_time "Compile time"
+  section projections "Accuracy of projections"
+  section example_1 "Example 1: products of KPRGP, relative reduced gradient 1e-6"
+  section wire "Wire: active constraints, relative reduced gradient 1e-9"
+  section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
+}
+
+status=0
+for name in "${chosen[@]}"; do
+  printf '\n=== %s ===\n' "$name"
+  if ! "run_$name"; then
+    printf 'run_all.sh: %s failed or missed a limit\n' "$name" >&2
+    status=1
+  fi
+done
+write_summary >"$output/summary.md"
+printf '\nsummary: %s\n' "$output/summary.md"
+exit "$status"
