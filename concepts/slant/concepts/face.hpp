@@ -6,8 +6,8 @@
 // smooth piece of its boundary along which it can slide (sliding), or pinned (fixed). This
 // partition is what active-set, semismooth Newton and interior-point methods hand to each other.
 //
-// Minimal definition. A face has size(), the number of blocks, state(i), assign(set, x), which makes
-// it the face of x, and keep(x, y): y = x on the free components, 0 elsewhere.
+// Minimal definition. A face has size(), the number of blocks, state(i), assign(set, x), which
+// makes it the face of x, and keep(x, y): y = x on the free components, 0 elsewhere.
 //
 // Laws.  keep ∘ keep = keep,   ⟨keep x, y⟩ = ⟨x, keep y⟩,   free + sliding + fixed = size().
 //

@@ -186,9 +186,12 @@ template <class V> concept has_like = requires(V const& x, index n) { slant::lik
 template <class X>
 using plain_t = decltype(slant::like(std::declval<X const&>(), index{}));
 
+/// An expression such as 2 * x, or a view, refers to entries of others: a state cannot keep it.
+template <class V> concept owns_its_entries = std::same_as<plain_t<V>, V>;
+
 /// A vector; see the top of this file.
 template <class V>
-concept vector =
-    std::copyable<V> && has_local<V> && has_inner_product<V> && has_like<V> && scalar<scalar_t<V>>;
+concept vector = has_local<V> && has_like<V> && owns_its_entries<V> && std::copyable<V> &&
+                 has_inner_product<V> && scalar<scalar_t<V>>;
 
 }  // namespace slant

@@ -56,7 +56,8 @@ class bicgstab : public detail::refused_method<std::remove_cvref_t<V>> {
 /// BiCGSTAB: solve(bicgstab{A, b}, x0, residual_below(1e-10)), or bicgstab{A, b, M}.
 /// Requires linear_operator for A and M; laws are not asked for.
 template <class A, class V, class M>
-  requires linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+  requires vector<std::remove_cvref_t<V>> &&
+           linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
 class bicgstab<A, V, M> {
  public:

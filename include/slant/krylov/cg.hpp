@@ -54,7 +54,8 @@ class cg : public detail::refused_method<std::remove_cvref_t<V>> {
 /// Conjugate gradients: solve(cg{A, b}, x0, residual_below(1e-10)), or cg{A, b, M}.
 /// Requires spd_operator for A and M. Status breakdown if pᵀAp ≤ 0 shows that A is not definite.
 template <class A, class V, class M>
-  requires spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+  requires vector<std::remove_cvref_t<V>> &&
+           spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
 class cg<A, V, M> {
  public:

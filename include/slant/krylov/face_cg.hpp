@@ -53,7 +53,8 @@ class face_cg : public detail::refused_method<std::remove_cvref_t<V>> {
 /// CG on a face: solve(face_cg{A, b, face}, x0, residual_below(1e-10)).
 /// Requires psd_operator; A must be definite on the face, else the status is breakdown.
 template <class A, class V, class F>
-  requires psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+  requires vector<std::remove_cvref_t<V>> &&
+           psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            has_keep<std::remove_cvref_t<F>, std::remove_cvref_t<V>>
 class face_cg<A, V, F> {
  public:

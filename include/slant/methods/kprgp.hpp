@@ -24,6 +24,7 @@
 
 #include <slant/krylov/spectral_bound.hpp>
 #include <slant/methods/kprgp_options.hpp>
+#include <slant/methods/kprgp_problem.hpp>
 #include <slant/methods/kprgp_state.hpp>
 #include <slant/methods/separable_qp.hpp>
 
@@ -36,11 +37,8 @@ namespace slant {
 /// (r̃ = 0), unbounded (q decreases for ever along −state.directions.p), stalled (‖r̃‖ has reached
 /// the level of rounding errors), breakdown (overflow).
 template <class QP>
-  requires psd_operator<typename std::remove_cvref_t<QP>::operator_type,
-                        typename std::remove_cvref_t<QP>::vector_type> &&
-           separable_set<typename std::remove_cvref_t<QP>::set_type,
-                         local_t<typename std::remove_cvref_t<QP>::vector_type>>
-class kprgp {
+  requires kprgp_problem<std::remove_cvref_t<QP>>
+class kprgp<QP> {
  public:
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
@@ -195,7 +193,7 @@ class kprgp {
     s.βr = gain(s.φ, s.r, noise);
     note_scale(s);
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!(s.reduced_gradient_norm - s.reduced_gradient_norm == scalar(0))) {
+    if (!detail::is_finite(s.reduced_gradient_norm)) {
       s.status = status::breakdown;
     }
   }

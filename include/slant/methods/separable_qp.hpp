@@ -11,20 +11,46 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/iteration/detail/refused.hpp>
 #include <slant/operators/held.hpp>
 
 #include <utility>
 
 namespace slant {
 
+/// What separable_qp asks of A, b and the set.
+template <class A, class V, class C>
+concept separable_qp_parts = vector<V> && linear_operator<A, V> && convex_set<C, local_t<V>>;
+
+/// Arguments that lack something end here and are told so; see
+/// iteration/detail/refused.hpp.
+template <class A, class V, class C>
+class separable_qp : public detail::refused, public detail::scalar_of<std::remove_cvref_t<V>> {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using set_type = std::remove_cvref_t<C>;
+
+  static_assert(vector<vector_type>, "separable_qp: b must be a vector, not an expression");
+  static_assert(linear_operator<operator_type, vector_type>,
+                "separable_qp: A must be a linear operator on vectors like b");
+  static_assert(convex_set<set_type, local_t<vector_type>>,
+                "separable_qp: the set must be a convex set of vectors like b");
+
+  separable_qp(held<A>, held<V>, held<C>);
+  operator_type const& a() const;
+  vector_type const& b() const;
+  set_type const& set() const;
+  index size() const;
+};
+
 /// A quadratic program with separable convex constraints: separable_qp{A, b, set}.
 /// Lvalues are referenced, rvalues owned. A is n × n, b has n finite entries, set has dimension n;
 /// otherwise bad_input.
 template <class A, class V, class C>
-  requires vector<std::remove_cvref_t<V>> &&
-           linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
-           convex_set<std::remove_cvref_t<C>, local_t<std::remove_cvref_t<V>>>
-class separable_qp {
+  requires separable_qp_parts<std::remove_cvref_t<A>, std::remove_cvref_t<V>,
+                              std::remove_cvref_t<C>>
+class separable_qp<A, V, C> {
  public:
   using operator_type = std::remove_cvref_t<A>;
   using vector_type = std::remove_cvref_t<V>;

@@ -11,6 +11,7 @@
 
 #include <slant/operators/adjoint.hpp>
 #include <slant/operators/congruence.hpp>
+#include <slant/operators/detail/refused_operator.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
@@ -35,30 +36,45 @@ template <class K>
   }
 }
 
+/// Three overloads that each explain why they do not fit would hide this one sentence.
+template <class B>
+[[nodiscard]] refused_operator refuse_factor() {
+  static_assert(adjoint_operand<B>, "schur_complement: B must have apply_adjoint(x, y)");
+  return {};
+}
+
 }  // namespace detail
 
 /// S = D + B₂ K⁻¹ B₁ᵀ. The first argument is K⁻¹ or a factorisation of K; B₁ needs an adjoint.
 /// Throws bad_input naming the argument whose size does not fit.
-template <detail::inverse_operand K, adjoint_operand B1, operand B2, operand D>
+template <detail::inverse_operand K, operand B1, operand B2, operand D>
 [[nodiscard]] auto schur_complement(K&& k_inverse, B1&& b1, B2&& b2, D&& d) {
-  index const n = k_inverse.rows();
-  detail::require_cols("B1", b1, n, "the size of K");
-  detail::require_cols("B2", b2, n, "the size of K");
-  detail::require_size("D", d, b2.rows(), b1.rows(), "the rows of B2 and of B1");
-  return slant::sum(
-      std::forward<D>(d),
-      slant::product(std::forward<B2>(b2), detail::as_inverse(std::forward<K>(k_inverse)),
-                     slant::adjoint(std::forward<B1>(b1))));
+  if constexpr (!adjoint_operand<B1>) {
+    return detail::refuse_factor<B1>();
+  } else {
+    index const n = k_inverse.rows();
+    detail::require_cols("B1", b1, n, "the size of K");
+    detail::require_cols("B2", b2, n, "the size of K");
+    detail::require_size("D", d, b2.rows(), b1.rows(), "the rows of B2 and of B1");
+    return slant::sum(
+        std::forward<D>(d),
+        slant::product(std::forward<B2>(b2), detail::as_inverse(std::forward<K>(k_inverse)),
+                       slant::adjoint(std::forward<B1>(b1))));
+  }
 }
 
 /// S = D + B K⁻¹ Bᵀ. The first argument is K⁻¹ or a factorisation of K.
-template <detail::inverse_operand K, adjoint_operand B, operand D>
+template <detail::inverse_operand K, operand B, operand D>
 [[nodiscard]] auto schur_complement(K&& k_inverse, B&& b, D&& d) {
-  detail::require_cols("B", b, k_inverse.rows(), "the size of K");
-  detail::require_size("D", d, b.rows(), b.rows(), "the rows of B");
-  return slant::sum(
-      std::forward<D>(d),
-      slant::congruence(std::forward<B>(b), detail::as_inverse(std::forward<K>(k_inverse))));
+  if constexpr (!adjoint_operand<B>) {
+    return detail::refuse_factor<B>();
+  } else {
+    detail::require_cols("B", b, k_inverse.rows(), "the size of K");
+    detail::require_size("D", d, b.rows(), b.rows(), "the rows of B");
+    return slant::sum(
+        std::forward<D>(d),
+        slant::congruence(std::forward<B>(b), detail::as_inverse(std::forward<K>(k_inverse))));
+  }
 }
 
 /// S = D + B K⁻¹ Bᵀ with independent rows of B.

@@ -9,6 +9,7 @@
 #include <slant/operators/as_operator.hpp>
 #include <slant/operators/detail/accumulate.hpp>
 #include <slant/operators/detail/closure.hpp>
+#include <slant/operators/detail/refused_operator.hpp>
 
 #include <cstddef>
 #include <string>
@@ -122,9 +123,8 @@ namespace detail {
 /// One complaint per term that is no operator; a fold over the terms would only say that one is
 /// not.
 template <class Term>
-consteval bool check_term() {
+void check_term() {
   static_assert(operand<Term>, "a term of a sum must be an operator or an Eigen matrix");
-  return true;
 }
 
 }  // namespace detail
@@ -134,7 +134,8 @@ template <class... A>
   requires(sizeof...(A) >= 2)
 [[nodiscard]] auto sum(A&&... a) {
   if constexpr (!(operand<A> && ...)) {
-    return (detail::check_term<A>() && ...);
+    (detail::check_term<A>(), ...);
+    return detail::refused_operator{};
   } else {
     sum_operator<part_t<A>...> s{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))...};
     index i = 0;

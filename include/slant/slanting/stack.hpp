@@ -6,6 +6,7 @@
 //     …)
 #pragma once
 
+#include <slant/operators/detail/refused_operator.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
 #include <slant/slanting/detail/checks.hpp>
 #include <slant/slanting/detail/stacked_operator.hpp>
@@ -118,9 +119,8 @@ namespace detail {
 
 /// One complaint per row that is no function; a fold over the rows would only say that one is not.
 template <class Row>
-consteval bool check_row() {
+void check_row() {
   static_assert(slanting_part<Row>, "a row of a stack must be a slanting function");
-  return true;
 }
 
 }  // namespace detail
@@ -131,7 +131,8 @@ template <class... F>
   requires(sizeof...(F) >= 1)
 [[nodiscard]] auto stack(F&&... f) {
   if constexpr (!(slanting_part<F> && ...)) {
-    return (detail::check_row<F>() && ...);
+    (detail::check_row<F>(), ...);
+    return detail::refused_function{};
   } else {
     return stack_map<kept_t<F>...>(held<kept_t<F>>(std::forward<F>(f))...);
   }

@@ -50,23 +50,23 @@ struct newton_parts<assembled_operator<
   }
 };
 
-template <class M>
-[[nodiscard]] consteval bool can_be_symmetrized() {
-  using parts = newton_parts<M>;
-  if constexpr (parts::known) {
-    return declares_self_adjoint<typename parts::slant_type> &&
-           declares_firmly_nonexpansive<typename parts::slant_type> &&
-           declares_self_adjoint<typename parts::operator_type> &&
-           declares_positive_definite<typename parts::operator_type>;
-  } else {
-    return false;
-  }
-}
+template <class M> concept newton_operator = newton_parts<M>::known;
+
+template <newton_operator M>
+using slant_part_t = typename newton_parts<M>::slant_type;
+template <newton_operator M>
+using matrix_part_t = typename newton_parts<M>::operator_type;
 
 }  // namespace detail
 
 /// An operator I − G (I − ρ A) whose parts promise what the top of this file asks for.
-template <class M> concept symmetrizable = detail::can_be_symmetrized<std::remove_cvref_t<M>>();
+template <class M>
+concept symmetrizable =
+    detail::newton_operator<std::remove_cvref_t<M>> &&
+    declares_self_adjoint<detail::slant_part_t<std::remove_cvref_t<M>>> &&
+    declares_firmly_nonexpansive<detail::slant_part_t<std::remove_cvref_t<M>>> &&
+    declares_self_adjoint<detail::matrix_part_t<std::remove_cvref_t<M>>> &&
+    declares_positive_definite<detail::matrix_part_t<std::remove_cvref_t<M>>>;
 
 /// A slanting function whose F°(y) is symmetrizable, as that of a natural residual with definite A.
 template <class F, class V>

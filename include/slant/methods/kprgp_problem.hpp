@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// What KPRGP asks of its problem, and the answer to a problem that lacks something.
+#pragma once
+
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/iteration/detail/refused.hpp>
+#include <slant/methods/detail/block_states.hpp>
+#include <slant/methods/kprgp_options.hpp>
+#include <slant/methods/kprgp_state.hpp>
+
+#include <concepts>
+#include <type_traits>
+
+namespace slant {
+
+template <class QP>
+concept has_hessian = requires(QP const& qp) {
+  { qp.a() } -> std::same_as<typename QP::operator_type const&>;
+};
+template <class QP>
+concept has_linear_term = requires(QP const& qp) {
+  { qp.b() } -> std::same_as<typename QP::vector_type const&>;
+};
+template <class QP>
+concept has_feasible_set = requires(QP const& qp) {
+  { qp.set() } -> std::same_as<typename QP::set_type const&>;
+};
+/// A quadratic program: A, b and a set of vectors with size() entries, as separable_qp has them.
+template <class QP>
+concept quadratic_program =
+    has_hessian<QP> && has_linear_term<QP> && has_feasible_set<QP> && has_size<QP>;
+
+/// A convex set whose faces and boundary a method can follow.
+template <class C, class V>
+concept active_set_domain =
+    separable_set<C, V> && has_block_states<C, V> && has_step_to_boundary<C, V>;
+
+/// What kprgp works on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive semidefinite.
+template <class QP>
+concept kprgp_problem =
+    quadratic_program<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
+    active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>;
+
+namespace detail {
+
+template <class QP>
+using refused_kprgp =
+    refused_method<typename QP::vector_type, kprgp_state<QP>, kprgp_options<typename QP::scalar>>;
+
+}  // namespace detail
+
+/// A problem that lacks something ends here and is told so; see iteration/detail/refused.hpp. The
+/// method itself is in kprgp.hpp.
+template <class QP>
+class kprgp : public detail::refused_kprgp<std::remove_cvref_t<QP>> {
+  using problem = std::remove_cvref_t<QP>;
+  static_assert(psd_operator<typename problem::operator_type, typename problem::vector_type>,
+                "kprgp: A must declare that it is self-adjoint and positive semidefinite");
+  static_assert(
+      active_set_domain<typename problem::set_type, local_t<typename problem::vector_type>>,
+      "kprgp: the set must be made of blocks with state(x) and step_to_boundary(x, d)");
+
+ public:
+  using kprgp::refused_method::refused_method;
+};
+
+/// A problem that was told so already.
+template <class QP>
+  requires detail::was_refused<std::remove_cvref_t<QP>>
+class kprgp<QP> : public detail::refused_kprgp<std::remove_cvref_t<QP>> {
+ public:
+  using kprgp::refused_method::refused_method;
+};
+
+/// No problem at all.
+template <class QP>
+  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
+           !detail::was_refused<std::remove_cvref_t<QP>>)
+class kprgp<QP> : public detail::refused_method<void, void> {
+  static_assert(quadratic_program<std::remove_cvref_t<QP>>, "kprgp: expected a separable_qp");
+
+ public:
+  using kprgp::refused_method::refused_method;
+};
+
+}  // namespace slant

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// expect: 'has_verdict['<]
+// max-lines-gcc: 25
+// max-lines-clang: 30
+//
+// A stopping rule that answers yes or no, from which nobody learns whether that is success.
+#include <slant/concepts/iterative_method.hpp>
+
+#include <Eigen/Core>
+
+struct state {
+  Eigen::VectorXd x;
+  slant::index iteration = 0;
+  slant::status status = slant::status::running;
+};
+
+struct after_one_step {
+#ifdef SLANT_COMPLETE
+  slant::status operator()(state const& s) const {
+    return s.iteration > 0 ? slant::status::iteration_limit : slant::status::running;
+  }
+#else
+  bool operator()(state const& s) const { return s.iteration > 0; }
+#endif
+  std::string reason(state const&) const { return "one step was enough"; }
+};
+
+static_assert(slant::stopping_rule<after_one_step, state>);

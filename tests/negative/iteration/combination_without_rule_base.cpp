@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// expect: 'combinable_rule['<]
+// max-lines-gcc: 30
+// max-lines-clang: 30
+//
+// A rule of its own that is not derived from slant::rule and so has no part in || and &&.
+#include <slant/iteration/stopping.hpp>
+
+#include <Eigen/Core>
+
+#ifdef SLANT_COMPLETE
+struct never : slant::rule {
+#else
+struct never {
+#endif
+  slant::status operator()(auto const&) const { return slant::status::running; }
+  std::string reason(auto const&) const { return ""; }
+};
+
+auto const rule = never{} || slant::at_most(10);

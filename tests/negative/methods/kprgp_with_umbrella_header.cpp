@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// expect: kprgp: A must declare.*'declares_self_adjoint['<]
+// max-lines-gcc: 20
+// max-lines-clang: 30
+//
+// An operator minus its laws, with the whole library included, options and an observer: nothing of
+// that may add to the complaint.
+#include <slant/slant.hpp>
+
+struct twice {
+#ifdef SLANT_COMPLETE
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+#endif
+  Eigen::Index rows() const { return 2; }
+  Eigen::Index cols() const { return 2; }
+  void apply(auto const& x, auto& y) const { y = 2 * x; }
+};
+
+auto solution(Eigen::VectorXd const& b) {
+  auto const set = slant::half_lines(b.size());
+  auto const qp = slant::separable_qp{twice{}, b, set};
+  slant::history accuracy([](auto const& s) { return s.reduced_gradient_norm; });
+  auto const r = slant::solve(slant::kprgp{qp, {.Γ = 2.0}}, b,
+                              slant::reduced_gradient_below(1e-8) || slant::at_most(500), accuracy);
+  return r.converged() ? r.x() : b;
+}
