@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+namespace bad_input_test {
+
 TEST_CASE("bad_input: argument, value, expectation") {
   slant::bad_input const e("radius", "-1", "a number >= 0");
   CHECK(std::string(e.what()) == "radius: got -1, expected a number >= 0");
@@ -27,3 +29,5 @@ TEST_CASE("bad_input: numbers are shown with all the digits they need") {
   CHECK(slant::detail::show(7) == "7");
   CHECK(slant::detail::show(std::numeric_limits<double>::infinity()) == "inf");
 }
+
+}  // namespace bad_input_test

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <slant/concepts/member_names.hpp>
 
-namespace {
+namespace member_names_test {
 
 struct plain {
   void apply(int const&, int&) const {}
@@ -29,8 +29,6 @@ struct everything {
   void value(auto const&, auto&) const {}
   auto slant(auto const& x) const { return x; }
 };
-
-}  // namespace
 
 TEST_CASE("a member is found by its name, whatever its kind") {
   CHECK(slant::has_apply_member<plain>);
@@ -60,3 +58,5 @@ TEST_CASE("each name is asked for itself") {
   CHECK_FALSE(slant::has_value_member<plain>);
   CHECK_FALSE(slant::has_slant_member<plain>);
 }
+
+}  // namespace member_names_test

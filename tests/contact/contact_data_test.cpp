@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace contact_data_test {
 
 using slant::bad_input;
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -65,4 +65,4 @@ TEST_CASE("each size that does not fit is named") {
   CHECK(complaint([](auto& c) { c.T.resize(0, c.N.cols()); }).starts_with("g: got 6"));
 }
 
-}  // namespace
+}  // namespace contact_data_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
+namespace optimality_test {
 
 using Eigen::VectorXd;
 
@@ -105,4 +105,4 @@ TEST_CASE("nothing loaded, nothing moved; sizes are checked") {
                   slant::bad_input);
 }
 
-}  // namespace
+}  // namespace optimality_test

@@ -13,7 +13,7 @@
 #include <limits>
 #include <support/allocation_guard.hpp>
 
-namespace {
+namespace tresca_test {
 
 using Eigen::VectorXd;
 namespace contact = slant::contact;
@@ -192,4 +192,4 @@ TEST_CASE("friction law and data must fit") {
   CHECK_THROWS_AS(static_cast<void>(dual.displacement(VectorXd::Zero(1))), bad_input);
 }
 
-}  // namespace
+}  // namespace tresca_test

@@ -15,15 +15,13 @@
 #include "factorizations/spd_examples.hpp"
 #include "support/allocation_guard.hpp"
 
+namespace cholmod_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
-namespace {
-
 auto const factor = [](sparse const& k) { return slant::cholmod(k); };
-
-}  // namespace
 
 static_assert(slant::factorization<slant::cholmod, VectorXd>);
 static_assert(slant::factorization<slant::cholmod, MatrixXd>);
@@ -158,3 +156,5 @@ TEST_CASE("the empty matrix; factors outlive what they were moved from") {
   auto const b = std::move(a);
   CHECK(test::residual(b.factors(), k) < 1e-13);
 }
+
+}  // namespace cholmod_test

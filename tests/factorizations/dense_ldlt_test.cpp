@@ -6,14 +6,12 @@
 #include "factorizations/spd_examples.hpp"
 #include "support/allocation_guard.hpp"
 
+namespace dense_ldlt_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
 auto const factor = [](MatrixXd const& k) { return slant::dense_ldlt(k); };
-
-}  // namespace
 
 static_assert(slant::factorization<slant::dense_ldlt<>, VectorXd>);
 static_assert(slant::factorization<slant::dense_ldlt<>, MatrixXd>);
@@ -63,3 +61,5 @@ TEST_CASE("a solve allocates nothing; the empty matrix") {
   CHECK(allocations == 0);
   CHECK(slant::dense_ldlt(MatrixXd(0, 0)).rows() == 0);
 }
+
+}  // namespace dense_ldlt_test

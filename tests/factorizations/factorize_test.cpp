@@ -5,6 +5,8 @@
 
 #include "factorizations/spd_examples.hpp"
 
+namespace factorize_test {
+
 TEST_CASE("the best factorisation for the matrix") {
   auto const k = test::grid_laplacian(3, 0.1);
   auto const sparse_factors = slant::factorize(k);
@@ -30,3 +32,5 @@ TEST_CASE("complaints are those of the factorisation") {
   CHECK(test::contains(text, "K: got pivot 26"));
   CHECK(test::contains(text, "zero up to rounding"));
 }
+
+}  // namespace factorize_test

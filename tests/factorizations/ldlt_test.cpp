@@ -13,17 +13,15 @@
 #include "factorizations/spd_examples.hpp"
 #include "support/allocation_guard.hpp"
 
+namespace ldlt_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                      boost::multiprecision::et_off>;
 
-namespace {
-
 auto const factor = [](auto const& k) { return slant::ldlt(k); };
-
-}  // namespace
 
 static_assert(slant::factorization<slant::ldlt<>, VectorXd>);
 static_assert(slant::factorization<slant::ldlt<>, MatrixXd>);
@@ -118,3 +116,5 @@ TEST_CASE("copies share factors that outlive the original; a solve allocates not
   CHECK(allocations == 0);
   CHECK((k * x - b).norm() < 1e-14 * b.norm());
 }
+
+}  // namespace ldlt_test

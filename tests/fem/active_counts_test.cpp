@@ -10,6 +10,8 @@
 #include <slant/sets/contact_sets.hpp>
 #include <tridiagonal/example_1.hpp>
 
+namespace active_counts_test {
+
 TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
   Eigen::MatrixXd const A = Eigen::Vector4d(2, 4, 4, 1).asDiagonal();
   auto const set = slant::cartesian(slant::half_lines(1), slant::discs(Eigen::VectorXd::Ones(1)),
@@ -55,3 +57,5 @@ TEST_CASE("sizes are checked") {
                        "x: got 3, expected the dimension of the set", std::invalid_argument);
   CHECK_THROWS_AS((void)fem::active_blocks(set, A, three, two), std::invalid_argument);
 }
+
+}  // namespace active_counts_test

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-namespace {
+namespace box_mesh_test {
 
 template <int D>
 double volume_of(fem::simplex_mesh<D> const& mesh) {
@@ -29,8 +29,6 @@ std::map<std::set<int>, int> facets_of(fem::simplex_mesh<D> const& mesh) {
     }
   return facets;
 }
-
-}  // namespace
 
 TEST_CASE("a brick of 3k x k x k cells has the published numbers of nodes and tetrahedra") {
   for (int const k : {1, 2, 4}) {
@@ -101,3 +99,5 @@ TEST_CASE("impossible boxes are refused by name") {
                   std::invalid_argument);
   CHECK_THROWS_AS((void)fem::make_brick_mesh(0), std::invalid_argument);
 }
+
+}  // namespace box_mesh_test

@@ -6,6 +6,8 @@
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
 
+namespace contact_field_test {
+
 TEST_CASE("the field of a solution has its stresses and states") {
   auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
   auto const solution =
@@ -57,3 +59,5 @@ TEST_CASE("sizes are checked") {
   CHECK_THROWS_AS((void)fem::make_contact_field(scene, u, u, tangential), std::invalid_argument);
   CHECK_THROWS_AS((void)fem::make_contact_field(scene, u, normal, normal), std::invalid_argument);
 }
+
+}  // namespace contact_field_test

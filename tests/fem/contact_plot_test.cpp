@@ -5,7 +5,7 @@
 #include <fem/plots/contact_plot.hpp>
 #include <io/io_support.hpp>
 
-namespace {
+namespace contact_plot_test {
 
 bool contains(std::string const& text, std::string const& part) {
   return text.find(part) != std::string::npos;
@@ -33,8 +33,6 @@ fem::contact_field some_field(int k) {
   field.state[2] = fem::contact_state::slip;
   return field;
 }
-
-}  // namespace
 
 TEST_CASE("the script holds a row per node and the counts of the states") {
   auto const script =
@@ -71,3 +69,5 @@ TEST_CASE("the contact becomes a PNG where gnuplot is installed") {
   bool const missing = contains(result.message, "was not found");
   CHECK(result.written != missing);  // a script that gnuplot refuses is neither
 }
+
+}  // namespace contact_plot_test

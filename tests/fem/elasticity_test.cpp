@@ -8,7 +8,7 @@
 #include <fem/elasticity.hpp>
 #include <fem/surface.hpp>
 
-namespace {
+namespace elasticity_test {
 
 template <int D>
 fem::unknown_map all_unknown(fem::simplex_mesh<D> const& mesh) {
@@ -24,8 +24,6 @@ Eigen::VectorXd affine(fem::simplex_mesh<D> const& mesh, Eigen::Matrix<double, D
 }
 
 fem::lame_parameters const steel = fem::lame(2.119e5, 0.277);
-
-}  // namespace
 
 TEST_CASE("the stiffness is symmetric bit for bit and positive semidefinite") {
   auto const mesh = fem::make_brick_mesh(1, {2.9, 1.1, 0.7});
@@ -140,3 +138,5 @@ TEST_CASE("material constants") {
   CHECK_THROWS_AS((void)fem::lame(std::nan(""), 0.3), std::invalid_argument);
   CHECK_THROWS_AS((void)fem::lame(1, std::nan("")), std::invalid_argument);
 }
+
+}  // namespace elasticity_test

@@ -4,6 +4,8 @@
 #include <fem/plots/gnuplot.hpp>
 #include <io/io_support.hpp>
 
+namespace gnuplot_test {
+
 TEST_CASE("text becomes one gnuplot string, whatever it contains") {
   CHECK(fem::gnuplot_string("plain") == "'plain'");
   CHECK(fem::gnuplot_string("it's `rm` \"x\"") == "'it''s `rm` \"x\"'");
@@ -50,3 +52,5 @@ TEST_CASE("a folder that does not exist is a message") {
   CHECK_FALSE(result.written);
   CHECK(result.message.find("cannot write") != std::string::npos);
 }
+
+}  // namespace gnuplot_test

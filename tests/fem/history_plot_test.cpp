@@ -5,13 +5,11 @@
 #include <fem/plots/history_plot.hpp>
 #include <io/io_support.hpp>
 
-namespace {
+namespace history_plot_test {
 
 bool contains(std::string const& text, std::string const& part) {
   return text.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST_CASE("what a logarithmic axis cannot show is left out") {
   std::vector<fem::history_series> const series{
@@ -39,3 +37,5 @@ TEST_CASE("the history becomes a PNG where gnuplot is installed") {
   bool const missing = contains(result.message, "was not found");
   CHECK(result.written != missing);  // a script that gnuplot refuses is neither
 }
+
+}  // namespace history_plot_test

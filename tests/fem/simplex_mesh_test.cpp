@@ -3,6 +3,8 @@
 
 #include <fem/simplex_mesh.hpp>
 
+namespace simplex_mesh_test {
+
 TEST_CASE_TEMPLATE("gradients reproduce differences of the hat functions", dimension,
                    std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int D = dimension::value;
@@ -30,3 +32,5 @@ TEST_CASE("volumes are signed") {
   triangle << 0, 1, 0, 0, 0, 5;
   CHECK(fem::make_p1_element<2>(triangle).volume == doctest::Approx(2.5));
 }
+
+}  // namespace simplex_mesh_test

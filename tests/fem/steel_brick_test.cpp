@@ -6,6 +6,8 @@
 #include <fem/elasticity_3d.hpp>
 #include <functional>
 
+namespace steel_brick_test {
+
 TEST_CASE("numbers of unknowns and contact nodes are the published ones") {
   auto const scene = fem::make_steel_brick({.k = 4, .load = fem::brick_load::pull});
   CHECK(scene.K.rows() == 3 * 3 * 4 * 5 * 5);
@@ -121,3 +123,5 @@ TEST_CASE("impossible scenes are refused by name") {
   plate.contact = plate.fixed;
   CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
 }
+
+}  // namespace steel_brick_test

@@ -7,15 +7,13 @@
 #include <numbers>
 #include <set>
 
-namespace {
+namespace string_1d_test {
 
 constexpr double π = std::numbers::pi;
 
 Eigen::VectorXd solve(fem::wire<double> const& wire) {
   return Eigen::MatrixXd(wire.A).llt().solve(wire.b);
 }
-
-}  // namespace
 
 TEST_CASE("the order of the unknowns: bounds, consecutive pairs, free ones") {
   auto const wire = fem::make_wire(5);
@@ -92,3 +90,5 @@ TEST_CASE("a wire without nodes is refused") {
   CHECK_THROWS_AS((void)fem::make_wire(0), std::invalid_argument);
   CHECK_THROWS_AS((void)fem::make_wire(-3), std::invalid_argument);
 }
+
+}  // namespace string_1d_test

@@ -4,13 +4,11 @@
 #include <fem/brick_mesh.hpp>
 #include <fem/surface.hpp>
 
-namespace {
+namespace surface_test {
 
 fem::unknown_map all_unknown(fem::simplex_mesh<3> const& mesh) {
   return fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
 }
-
-}  // namespace
 
 TEST_CASE("a traction adds up to traction times area, about the right point") {
   Eigen::Vector3d const size(2.5, 0.75, 1.25);
@@ -73,3 +71,5 @@ TEST_CASE("trapezoidal weights sum to the area and patches tile the side") {
   CHECK(weight(1) == doctest::Approx(cell / 2));
   CHECK(weight(4) == doctest::Approx(cell));
 }
+
+}  // namespace surface_test

@@ -7,13 +7,11 @@
 #include <io/io_support.hpp>
 #include <slant/io/matrix_market.hpp>
 
-namespace {
+namespace write_folder_test {
 
 bool same(Eigen::SparseMatrix<double> const& a, Eigen::SparseMatrix<double> const& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && (a - b).norm() == 0;
 }
-
-}  // namespace
 
 TEST_CASE("a scene comes back from its folder bit for bit") {
   io_test::temporary_folder const temporary;
@@ -37,3 +35,5 @@ TEST_CASE("a scene that cannot be written leaves nothing behind") {
   io_test::put(folder / "file", "not a folder");
   CHECK_THROWS_AS(fem::write_folder(scene, folder / "file"), std::filesystem::filesystem_error);
 }
+
+}  // namespace write_folder_test

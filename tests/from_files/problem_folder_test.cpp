@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace {
+namespace problem_folder_test {
 
 using io_test::refusal;
 using io_test::temporary_folder;
@@ -46,8 +46,6 @@ class problem {
 
   temporary_folder folder{};
 };
-
-}  // namespace
 
 TEST_CASE("problem folder: friction in space") {
   auto const p = problem().read();
@@ -164,3 +162,5 @@ TEST_CASE("problem folder: values that cannot be") {
         "K.mtx:1: got 'not a matrix', expected a first line like '%%MatrixMarket matrix coordinate "
         "real general'");
 }
+
+}  // namespace problem_folder_test

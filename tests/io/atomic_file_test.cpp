@@ -14,7 +14,7 @@
 
 #include "io_support.hpp"
 
-namespace {
+namespace atomic_file_test {
 
 using io_test::get;
 using io_test::put;
@@ -42,8 +42,6 @@ class full_disk {
   void (*handler_)(int);
   rlimit before_{};
 };
-
-}  // namespace
 
 TEST_CASE("atomic file: appears at commit, whole") {
   temporary_folder const folder;
@@ -221,3 +219,5 @@ TEST_CASE("atomic files: one name twice") {
         (folder / "./u.txt").string() +
             ": got a file that is already being written, expected different names");
 }
+
+}  // namespace atomic_file_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-namespace {
+namespace matrix_market_damage_test {
 
 using matrix = Eigen::SparseMatrix<double>;
 
@@ -57,8 +57,6 @@ bool all_finite_and_inside(matrix const& A) {
       if (!std::isfinite(entry.value()) || entry.row() < 0 || entry.row() >= A.rows()) return false;
   return A.nonZeros() <= A.rows() * A.cols();
 }
-
-}  // namespace
 
 TEST_CASE("damaged matrix market: every prefix is refused or means the same") {
   for (std::string_view const file : files) {
@@ -118,3 +116,5 @@ TEST_CASE("damaged matrix market: random changes are refused or read as they sta
   CHECK(accepted > 1000);
   CHECK(refused > 5000);
 }
+
+}  // namespace matrix_market_damage_test

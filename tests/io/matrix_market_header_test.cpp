@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace {
+namespace matrix_market_header_test {
 
 using slant::detail::matrix_market_header;
 
@@ -70,4 +70,4 @@ TEST_CASE("each word of the header is checked, and the line is named") {
   CHECK(complaint("") != "");
 }
 
-}  // namespace
+}  // namespace matrix_market_header_test

@@ -12,7 +12,7 @@
 
 #include "io_support.hpp"
 
-namespace {
+namespace matrix_market_test {
 
 using io_test::refusal;
 using slant::parse_matrix_market;
@@ -28,8 +28,6 @@ std::string refused(std::string_view text) {
 }
 
 std::string const banner = "%%MatrixMarket matrix coordinate real general\n";
-
-}  // namespace
 
 TEST_CASE("matrix market: coordinate general") {
   Eigen::MatrixXd expected(2, 3);
@@ -272,3 +270,5 @@ TEST_CASE("matrix market: entries given twice, entries above the diagonal") {
   CHECK(refused("%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n2 1 1\n3 3 1\n2 1 1\n") ==
         "5: got row 2, column 1 again, expected each entry once (first on line 3)");
 }
+
+}  // namespace matrix_market_test

@@ -11,7 +11,7 @@
 #include <slant/io/number_text.hpp>
 #include <string>
 
-namespace {
+namespace number_text_test {
 
 using slant::detail::number_defect;
 using slant::detail::parse_number;
@@ -34,8 +34,6 @@ std::string text_of(S value) {
   slant::detail::append_number(text, value);
   return text;
 }
-
-}  // namespace
 
 TEST_CASE("number text: the spellings of decimal numbers") {
   CHECK(parsed<double>("1") == 1);
@@ -118,3 +116,5 @@ TEST_CASE("number text: back to the same bits") {
   CHECK(text_of(0.1) == "0.1");
   CHECK(text_of(-std::numeric_limits<double>::infinity()) == "-inf");
 }
+
+}  // namespace number_text_test

@@ -9,6 +9,8 @@
 
 #include "io_support.hpp"
 
+namespace text_scanner_test {
+
 using io_test::put;
 using io_test::refusal;
 using io_test::temporary_folder;
@@ -108,3 +110,5 @@ TEST_CASE("messages stay on one line and printable") {
   CHECK(slant::detail::quoted("a\nb\x1b\xff") == "'a\\x0ab\\x1b\\xff'");
   CHECK(slant::detail::quoted(std::string(41, 'x')) == "'" + std::string(40, 'x') + "...'");
 }
+
+}  // namespace text_scanner_test

@@ -14,7 +14,7 @@
 
 #include "io_support.hpp"
 
-namespace {
+namespace text_vector_test {
 
 using io_test::refusal;
 using io_test::temporary_folder;
@@ -28,8 +28,6 @@ std::string refused(std::string_view text, text_vector_options const& options = 
   std::string const message = refusal([&] { (void)parse_text_vector(text, "f.txt", options); });
   return message.starts_with("f.txt:") ? message.substr(6) : message;
 }
-
-}  // namespace
 
 TEST_CASE("text vector: what is read") {
   CHECK(parse_text_vector("1\n-2.5\n+3e2\n", "f.txt") == Eigen::Vector3d(1, -2.5, 300));
@@ -141,3 +139,5 @@ TEST_CASE("text vector: what is not written, and that nothing is left of it") {
         name + ": got inf in component 0, expected finite numbers");
   CHECK(folder.entries() == 0);
 }
+
+}  // namespace text_vector_test

@@ -8,7 +8,7 @@
 
 #include "io_support.hpp"
 
-namespace {
+namespace vtu_array_test {
 
 using slant::vtu_encoding;
 
@@ -65,4 +65,4 @@ TEST_CASE("data that do not fit are named") {
                   bad_input);
 }
 
-}  // namespace
+}  // namespace vtu_array_test

@@ -15,7 +15,7 @@
 
 #include "io_support.hpp"
 
-namespace {
+namespace vtu_test {
 
 using io_test::refusal;
 using io_test::temporary_folder;
@@ -81,8 +81,6 @@ struct square {
 };
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 TEST_CASE("vtu: everything comes back") {
   temporary_folder const folder;
@@ -219,3 +217,5 @@ TEST_CASE("vtu: a refusal while writing leaves the file as it was") {
   CHECK(io_test::get(folder / "a.vtu") == before);
   CHECK(folder.entries() == 1);
 }
+
+}  // namespace vtu_test

@@ -14,7 +14,7 @@
 
 #include "io_support.hpp"
 
-namespace {
+namespace write_matrix_market_test {
 
 using io_test::get;
 using io_test::refusal;
@@ -53,8 +53,6 @@ bool identical(Eigen::SparseMatrix<double> const& a, Eigen::SparseMatrix<double>
   }
   return true;
 }
-
-}  // namespace
 
 TEST_CASE("write matrix market: the text") {
   temporary_folder const folder;
@@ -128,3 +126,5 @@ TEST_CASE("write matrix market: what is not written, and that nothing is left of
             "symmetric");
   CHECK(folder.entries() == 0);
 }
+
+}  // namespace write_matrix_market_test

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace {
+namespace iterates_test {
 
 TEST_CASE("iterates begins with the start and ends behind the state at rest") {
   toy::halving method;
@@ -48,4 +48,4 @@ TEST_CASE("taking n states performs n - 1 steps") {
   CHECK(method.steps <= 4);  // the view may look one ahead, never more
 }
 
-}  // namespace
+}  // namespace iterates_test

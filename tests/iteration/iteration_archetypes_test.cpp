@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace iteration_archetypes_test {
 
 namespace archetype = slant::testing::archetype;
 
@@ -32,4 +32,4 @@ TEST_CASE("iterates shows the states of a minimal method") {
   CHECK(sum == 4 + 3 + 2 + 1);
 }
 
-}  // namespace
+}  // namespace iteration_archetypes_test

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-namespace {
+namespace observers_test {
 
 std::string drawn(slant::progress_bar::options o, double start) {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), &std::fclose);
@@ -51,4 +51,4 @@ TEST_CASE("a disabled bar prints nothing, a rare one prints rarely") {
   CHECK(lines(rarely) == 3);
 }
 
-}  // namespace
+}  // namespace observers_test

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace report_test {
 
 TEST_CASE("a report answers from its state, and only success is convergence") {
   using slant::status;
@@ -32,4 +32,4 @@ TEST_CASE("counts of work start at zero and compare") {
   CHECK(a != b);
 }
 
-}  // namespace
+}  // namespace report_test

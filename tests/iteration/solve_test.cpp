@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace {
+namespace solve_test {
 
 TEST_CASE("solve stops where the method comes to rest and says so") {
   auto const r = slant::solve(toy::halving{}, 1.0, slant::at_most(100));
@@ -51,4 +51,4 @@ TEST_CASE("accuracy reached in the last permitted step counts as converged") {
   CHECK(r.converged());
 }
 
-}  // namespace
+}  // namespace solve_test

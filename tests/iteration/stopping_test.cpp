@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace {
+namespace stopping_test {
 
 using slant::status;
 
@@ -102,4 +102,4 @@ TEST_CASE("rules nest, and client rules take part") {
   CHECK(rule.reason(at(1, 1000)) == "x ran away");
 }
 
-}  // namespace
+}  // namespace stopping_test

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace bicgstab_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -118,4 +118,4 @@ TEST_CASE("scales do not matter: powers of two give the same bits") {
   CHECK(VectorXd(std::ldexp(1.0, 500) * r2.x()) == r.x());
 }
 
-}  // namespace
+}  // namespace bicgstab_test

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace {
+namespace cg_test {
 
 using Eigen::VectorXd;
 
@@ -135,4 +135,4 @@ TEST_CASE_TEMPLATE("cg computes in any scalar", S, float, double, long double) {
   CHECK((r.x() - x).norm() <= 1000 * ε * x.norm());
 }
 
-}  // namespace
+}  // namespace cg_test

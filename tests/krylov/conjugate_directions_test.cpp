@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace conjugate_directions_test {
 
 using Eigen::VectorXd;
 
@@ -64,4 +64,4 @@ TEST_CASE("a restart forgets") {
   CHECK(d.p == φ);
 }
 
-}  // namespace
+}  // namespace conjugate_directions_test

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace face_cg_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -68,4 +68,4 @@ TEST_CASE("a flat direction of the face is a breakdown, not a division by zero")
   CHECK(r.x().allFinite());
 }
 
-}  // namespace
+}  // namespace face_cg_test

@@ -18,7 +18,7 @@
 
 #include <support/allocation_guard.hpp>
 
-namespace {
+namespace krylov_allocations_test {
 
 using Eigen::VectorXd;
 
@@ -48,4 +48,4 @@ TEST_CASE("cg, preconditioned cg, bicgstab and cg on a face do not allocate") {
   CHECK(allocations_of(slant::face_cg{A, b, face}, VectorXd(x0.cwiseMax(0)), 20) == 0);
 }
 
-}  // namespace
+}  // namespace krylov_allocations_test

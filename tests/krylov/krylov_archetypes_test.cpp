@@ -15,7 +15,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace krylov_archetypes_test {
 
 namespace archetype = slant::testing::archetype;
 using Eigen::VectorXd;
@@ -71,4 +71,4 @@ TEST_CASE("a scalar without silent conversions") {
   CHECK(slant::largest_eigenvalue_bound(A, right).upper >= S(1));
 }
 
-}  // namespace
+}  // namespace krylov_archetypes_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace linear_system_test {
 
 using Eigen::VectorXd;
 
@@ -65,4 +65,4 @@ TEST_CASE("a residual that is no number is a breakdown") {
   CHECK(s.status == slant::status::breakdown);
 }
 
-}  // namespace
+}  // namespace linear_system_test

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <random>
+#include <utility>
 
 namespace test {
 
@@ -43,8 +44,8 @@ inline Eigen::VectorXd random_vector(Eigen::Index n, unsigned seed = 2) {
 
 /// The matrix as an operator that promises to be symmetric positive definite.
 template <class M>
-auto spd(M const& m) {
-  return slant::matrix<slant::self_adjoint, slant::positive_definite>(m);
+auto spd(M&& m) {
+  return slant::matrix<slant::self_adjoint, slant::positive_definite>(std::forward<M>(m));
 }
 
 }  // namespace test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace {
+namespace spectral_bound_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -19,12 +19,16 @@ TEST_CASE("the bound is never below the largest eigenvalue, and not far above it
     for (double κ : {1.0, 10.0, 1e4, 1e12}) {
       for (unsigned seed = 1; seed <= 3; ++seed) {
         auto const M = test::with_spectrum(test::log_spaced(n, κ), seed);
-        double const σ = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues().maxCoeff();
+        VectorXd const spectrum = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+        double const σ = spectrum.maxCoeff();
         auto const A = test::spd(M);
         auto const bound = slant::largest_eigenvalue_bound(A, VectorXd(n), {.seed = seed});
         CHECK(bound.upper >= σ);
         CHECK(bound.upper <= 1.8 * σ);
         CHECK(bound.ritz <= σ * (1 + 1e-12));
+        CHECK(bound.smallest_ritz >= spectrum.minCoeff() - 1e-12 * σ);
+        CHECK(bound.smallest_ritz <= bound.ritz * (1 + 1e-12));
+        if (n <= 5) CHECK(bound.smallest_ritz <= spectrum.minCoeff() + 1e-8 * σ);
         ++tested;
       }
     }
@@ -86,4 +90,4 @@ TEST_CASE("zero operator, no unknowns, broken operators") {
                   slant::bad_input);
 }
 
-}  // namespace
+}  // namespace spectral_bound_test

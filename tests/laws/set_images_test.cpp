@@ -14,6 +14,8 @@
 
 #include <cmath>
 
+namespace set_images_test {
+
 using Eigen::Vector2d;
 using slant::cartesian;
 using slant::power;
@@ -23,8 +25,6 @@ using slant::shifted;
 using slant::testing::check_set_laws;
 using slant::testing::set_options;
 
-namespace {
-
 Eigen::Matrix2d turn(double angle) {
   Eigen::Matrix2d q;
   q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -33,8 +33,6 @@ Eigen::Matrix2d turn(double angle) {
 
 set_options const few{.points = 24, .directions = 3};
 Eigen::VectorXd const radii = Eigen::Vector3d(1, 0.3, 0);
-
-}  // namespace
 
 TEST_CASE("laws: shifted, scaled and rotated blocks") {
   check_set_laws(shifted(slant::ball<2>{}, Vector2d(3, -4)), few);
@@ -53,3 +51,5 @@ TEST_CASE("laws: images of images, and their products") {
   Eigen::VectorXd const centre = Eigen::VectorXd::LinSpaced(8, -2, 5);
   check_set_laws(scaled(0.5, shifted(product, centre)), few);
 }
+
+}  // namespace set_images_test

@@ -11,6 +11,8 @@
 
 #include <vector>
 
+namespace set_multiprecision_test {
+
 TEST_CASE("laws: a product in multiprecision") {
   using S = oracle::float_50;
   std::vector<S> const g{S(1), S(3) / S(10)};
@@ -18,3 +20,5 @@ TEST_CASE("laws: a product in multiprecision") {
   slant::testing::check_set_laws(
       slant::cartesian(slant::half_lines<S>(1), slant::discs<slant::planar>(g)), few);
 }
+
+}  // namespace set_multiprecision_test

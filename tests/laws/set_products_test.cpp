@@ -11,18 +11,16 @@
 
 #include <doctest/doctest.h>
 
+namespace set_products_test {
+
 using slant::cartesian;
 using slant::power;
 using slant::shifted;
 using slant::testing::check_set_laws;
 using slant::testing::set_options;
 
-namespace {
-
 set_options const few{.points = 24, .directions = 3};
 Eigen::VectorXd const radii = Eigen::Vector3d(1, 0.3, 0);
-
-}  // namespace
 
 TEST_CASE("laws: powers in both layouts") {
   check_set_laws(slant::discs(radii), few);
@@ -44,3 +42,5 @@ TEST_CASE("laws: on vectors that are no Eigen vectors") {
                            Eigen::VectorXd(Eigen::VectorXd::LinSpaced(8, -2, 5)));
   check_set_laws(set, slant::testing::archetype::vector(Eigen::VectorXd::Zero(8)), few);
 }
+
+}  // namespace set_products_test

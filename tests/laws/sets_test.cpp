@@ -16,10 +16,10 @@
 
 #include <limits>
 
+namespace sets_test {
+
 using slant::testing::check_set_laws;
 using slant::testing::set_options;
-
-namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -27,8 +27,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 set_options few(unsigned seed = 1, double size = 1) {
   return {.seed = seed, .points = 24, .directions = 3, .size = size};
 }
-
-}  // namespace
 
 TEST_CASE("laws: half line") {
   check_set_laws(slant::half_line<>{}, few());
@@ -80,3 +78,5 @@ TEST_CASE("laws: point and free space") {
   check_set_laws(slant::point<2>{Eigen::Vector2d(1, -20)}, few());
   check_set_laws(slant::free_space<2>{}, few());
 }
+
+}  // namespace sets_test

@@ -11,7 +11,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace kprgp_archetypes_test {
 
 namespace archetype = slant::testing::archetype;
 using Eigen::VectorXd;
@@ -43,4 +43,4 @@ TEST_CASE("a scalar without silent conversions gives the bits of double") {
   CHECK((r.x().template cast<double>() - expected.x()).norm() <= 1e-13 * expected.x().norm());
 }
 
-}  // namespace
+}  // namespace kprgp_archetypes_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace kprgp_example_one_test {
 
 using wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                            boost::multiprecision::et_off>;
@@ -71,4 +71,4 @@ TEST_CASE_TEMPLATE("example 1 in every precision", S, float, double, long double
   if constexpr (std::is_same_v<S, wide>) CHECK(error <= wide("1e-30"));
 }
 
-}  // namespace
+}  // namespace kprgp_example_one_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace {
+namespace kprgp_options_test {
 
 using options = slant::kprgp_options<double>;
 
@@ -36,4 +36,4 @@ TEST_CASE("options out of range are named with their value and what was expected
   CHECK(complaint({.spectrum = {.steps = 1}}) == "steps: got 1, expected at least 2 Lanczos steps");
 }
 
-}  // namespace
+}  // namespace kprgp_options_test

@@ -17,7 +17,7 @@
 #include <slant/sets/shifted.hpp>
 #include <slant/testing/archetypes/convex_set.hpp>
 
-namespace {
+namespace kprgp_problem_test {
 
 using vector = Eigen::VectorXd;
 
@@ -44,8 +44,6 @@ struct reticent {
 
 template <class A>
 using problem = slant::separable_qp<A, vector, decltype(slant::half_lines(1))>;
-
-}  // namespace
 
 TEST_CASE("a set has block states if each of its blocks has a state") {
   CHECK(classified<slant::ball<2>>);
@@ -85,3 +83,5 @@ TEST_CASE("a problem of KPRGP has an operator that declares to be semidefinite")
   CHECK_FALSE(slant::kprgp_problem<problem<self_adjoint>>);
   CHECK_FALSE(slant::kprgp_problem<identity>);
 }
+
+}  // namespace kprgp_problem_test

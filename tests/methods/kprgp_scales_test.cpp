@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace {
+namespace kprgp_scales_test {
 
 using test::mixture;
 
@@ -46,4 +46,4 @@ TEST_CASE_TEMPLATE("huge and tiny scales change nothing but the scale", S, doubl
   }
 }
 
-}  // namespace
+}  // namespace kprgp_scales_test

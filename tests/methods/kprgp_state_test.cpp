@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace {
+namespace kprgp_state_test {
 
 using Eigen::VectorXd;
 
@@ -49,4 +49,4 @@ TEST_CASE("a state can be copied and continued: both go the same way") {
   CHECK(s.work == copy.work);
 }
 
-}  // namespace
+}  // namespace kprgp_state_test

@@ -22,7 +22,7 @@
 #include <oracle/dense_newton.hpp>
 #include <support/allocation_guard.hpp>
 
-namespace {
+namespace kprgp_test {
 
 using Eigen::VectorXd;
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -231,4 +231,4 @@ TEST_CASE("a NaN that the operator makes later is a breakdown, not a result") {
   CHECK(r.status == slant::status::breakdown);
 }
 
-}  // namespace
+}  // namespace kprgp_test

@@ -11,6 +11,8 @@
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
 
+namespace kprgp_wire_test {
+
 TEST_CASE("KPRGP finds the printed numbers of active constraints of the wire up to n = 256") {
   for (auto const& printed : fem::printed_wire_counts)
     for (std::size_t entry = 0; printed.unknowns(entry) <= 256; ++entry) {
@@ -34,3 +36,5 @@ TEST_CASE("KPRGP finds the printed numbers of active constraints of the wire up 
             fem::active_counts{printed.bounds[entry], printed.circles[entry]});
     }
 }
+
+}  // namespace kprgp_wire_test

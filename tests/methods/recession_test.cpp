@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace {
+namespace recession_test {
 
 using Eigen::VectorXd;
 
@@ -77,4 +77,4 @@ TEST_CASE("flatness and descent know no units") {
   CHECK(slant::is_descent(0x1p-433, p, 0x1p-400));
 }
 
-}  // namespace
+}  // namespace recession_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace {
+namespace separable_qp_test {
 
 using Eigen::VectorXd;
 
@@ -50,4 +50,4 @@ TEST_CASE("sizes that do not match and numbers that are none are named") {
                        "b[4]: got nan, expected a finite number", bad_input);
 }
 
-}  // namespace
+}  // namespace separable_qp_test

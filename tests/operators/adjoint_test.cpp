@@ -9,6 +9,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace adjoint_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -49,3 +51,5 @@ TEST_CASE("archetypes: only what has an adjoint") {
   static_assert(!slant::linear_operator<slant::adjoint_operator<archetype::linear_operator const&>,
                                         archetype::vector>);
 }
+
+}  // namespace adjoint_test

@@ -14,6 +14,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace any_operator_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using any = slant::any_operator<VectorXd>;
@@ -67,3 +69,5 @@ TEST_CASE("on archetype vectors") {
       archetype::linear_operator(test::random_dense(3, 3, 3));
   slant::testing::check_operator_laws(a, archetype::vector(VectorXd()));
 }
+
+}  // namespace any_operator_test

@@ -8,6 +8,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace as_operator_test {
+
 using Eigen::MatrixXd;
 using sparse = Eigen::SparseMatrix<double>;
 
@@ -35,3 +37,5 @@ TEST_CASE("a matrix with an entry that is no number is refused wherever it is pa
   CHECK(test::message<slant::bad_input>([&] { (void)slant::sum(slant::identity(3), m); }) ==
         "M(1, 0): got inf, expected a finite number");
 }
+
+}  // namespace as_operator_test

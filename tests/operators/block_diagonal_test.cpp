@@ -10,6 +10,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace block_diagonal_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -62,3 +64,5 @@ TEST_CASE("parts that know only their own vector type work on copies") {
   static_assert(!slant::has_accumulate<decltype(a), archetype::vector>);
   slant::testing::check_operator_laws(a, x);
 }
+
+}  // namespace block_diagonal_test

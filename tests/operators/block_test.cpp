@@ -11,6 +11,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace block_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -93,3 +95,5 @@ TEST_CASE("sizes must fit") {
           (void)slant::block(slant::block_row(m, m), slant::block_row(m, slant::identity(2)));
         }) == "block(1, 1): got 2 x 2, expected 2 x 3 (the first blocks of its row and column)");
 }
+
+}  // namespace block_test

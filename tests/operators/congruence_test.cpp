@@ -13,6 +13,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace congruence_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -90,3 +92,5 @@ TEST_CASE("sizes must fit") {
   CHECK(test::message<bad_input>([&] { (void)slant::full_row_rank(b.transpose()); }) ==
         "B: got 3 x 2, expected at most as many rows as columns (independent rows)");
 }
+
+}  // namespace congruence_test

@@ -14,6 +14,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace counted_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -91,3 +93,5 @@ TEST_CASE("no application is lost between threads") {
   other.join();
   CHECK(a.applications() == 2000);
 }
+
+}  // namespace counted_test

@@ -9,6 +9,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace declare_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -45,3 +47,5 @@ TEST_CASE("only square operators have laws") {
           (void)slant::declare<slant::self_adjoint>(MatrixXd(MatrixXd::Ones(2, 3)));
         }) == "A: got 2 x 3, expected a square operator");
 }
+
+}  // namespace declare_test

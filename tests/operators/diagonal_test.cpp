@@ -10,6 +10,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace diagonal_test {
+
 using Eigen::VectorXd;
 
 TEST_CASE("a diagonal matrix") {
@@ -75,3 +77,5 @@ TEST_CASE("entries may be any kind of vector") {
   slant::testing::archetype::vector const d(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
   slant::testing::check_operator_laws(slant::diagonal(d), d);
 }
+
+}  // namespace diagonal_test

@@ -9,6 +9,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace difference_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -53,3 +55,5 @@ TEST_CASE("sizes must agree") {
           (void)slant::difference(MatrixXd(MatrixXd::Ones(3, 2)), slant::identity(3));
         }) == "B: got 3 x 3, expected 3 x 2 (the size of A)");
 }
+
+}  // namespace difference_test

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace held_test {
 
 struct traced {
   inline static int copies = 0;
@@ -35,8 +35,6 @@ static_assert(std::is_copy_assignable_v<slant::held<int const&>>);
 static_assert(std::is_copy_assignable_v<slant::held<int>>);
 static_assert(!std::is_copy_constructible_v<slant::held<std::unique_ptr<int>>>);
 static_assert(std::is_move_constructible_v<slant::held<std::unique_ptr<int>>>);
-
-}  // namespace
 
 TEST_CASE("an lvalue is referenced: no copy, and changes show") {
   traced::copies = traced::moves = 0;
@@ -71,3 +69,5 @@ TEST_CASE("copies of a reference refer to the same object, copies of an owner ow
   CHECK(copy.get() == owner.get());
   CHECK(copy.get().data() != owner.get().data());
 }
+
+}  // namespace held_test

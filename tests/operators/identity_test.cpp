@@ -8,6 +8,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace identity_test {
+
 TEST_CASE("the identity") {
   auto const a = slant::identity(5);
   static_assert(slant::spd_operator<slant::identity_operator, Eigen::VectorXd>);
@@ -21,3 +23,5 @@ TEST_CASE("the identity") {
   CHECK(test::message<slant::bad_input>([] { (void)slant::identity(-1); }) ==
         "n: got -1, expected a size >= 0");
 }
+
+}  // namespace identity_test

@@ -12,6 +12,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace inverse_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -48,8 +50,6 @@ TEST_CASE("archetypes: a solve is enough, and promises nothing") {
   slant::testing::check_operator_laws(b, x, {.roundings = 1000});
 }
 
-namespace {
-
 /// A nonsymmetric factorisation that can also solve with the transposed matrix.
 struct lu {
   Eigen::PartialPivLU<MatrixXd> factors;
@@ -57,8 +57,6 @@ struct lu {
   void solve(VectorXd const& b, VectorXd& x) const { x = factors.solve(b); }
   void solve_adjoint(VectorXd const& b, VectorXd& x) const { x = factors.transpose().solve(b); }
 };
-
-}  // namespace
 
 TEST_CASE("solve_adjoint makes an adjoint") {
   MatrixXd const m = test::random_dense(5, 5, 5) + 3 * MatrixXd::Identity(5, 5);
@@ -75,3 +73,5 @@ TEST_CASE("operators that know their inverse") {
                       MatrixXd(d.cwiseInverse().asDiagonal())));
   CHECK(test::matches(slant::inverse(slant::identity(3)), MatrixXd(MatrixXd::Identity(3, 3))));
 }
+
+}  // namespace inverse_test

@@ -10,6 +10,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace matrix_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using row_major_sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -132,3 +134,5 @@ TEST_CASE("only vectors of the same scalar, of any kind") {
   slant::testing::check_operator_laws(slant::matrix(m),
                                       slant::testing::archetype::vector(VectorXd()));
 }
+
+}  // namespace matrix_test

@@ -13,7 +13,7 @@
 #include "operators/dense_oracle.hpp"
 #include "support/allocation_guard.hpp"
 
-namespace {
+namespace operators_test {
 
 using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                      boost::multiprecision::et_off>;
@@ -65,8 +65,6 @@ test::dense<S> inverse_of(test::dense<S> k) {
   return inverse;
 }
 
-}  // namespace
-
 TEST_CASE_TEMPLATE("other scalars", S, float, multiprecision) {
   test::dense<S> const k = test::random_spd<S>(5, 1);
   Eigen::SparseMatrix<S> const b = test::random_sparse<S>(3, 5, 2);
@@ -115,3 +113,5 @@ TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense m
   CHECK((u - expected.transpose() * z).norm() < 1e-12);
   CHECK((images - expected * several).norm() < 1e-12);
 }
+
+}  // namespace operators_test

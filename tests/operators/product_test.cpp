@@ -10,6 +10,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace product_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -69,3 +71,5 @@ TEST_CASE("sizes must fit") {
           (void)slant::product(MatrixXd(MatrixXd::Ones(3, 2)), slant::identity(3));
         }) == "B: got 3 x 3, expected 2 rows (the columns of A)");
 }
+
+}  // namespace product_test

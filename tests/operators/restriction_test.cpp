@@ -13,19 +13,17 @@
 #include "operators/dense_oracle.hpp"
 #include "support/allocation_guard.hpp"
 
+namespace restriction_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
-
-namespace {
 
 MatrixXd rows_of_identity(std::vector<int> const& components, int n) {
   MatrixXd r = MatrixXd::Zero(static_cast<int>(components.size()), n);
   for (std::size_t i = 0; i < components.size(); ++i) r(static_cast<int>(i), components[i]) = 1;
   return r;
 }
-
-}  // namespace
 
 TEST_CASE("restriction gathers, its adjoint scatters") {
   std::vector<int> const components{4, 0, 3};
@@ -108,3 +106,5 @@ TEST_CASE("components must be different and exist; a refused list changes nothin
   CHECK(r.components() == std::vector<slant::index>{1, 3});
   CHECK_NOTHROW(r.assign(std::vector<int>{0, 2}));  // no mark was left behind
 }
+
+}  // namespace restriction_test

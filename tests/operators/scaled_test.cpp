@@ -12,6 +12,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace scaled_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -81,3 +83,5 @@ TEST_CASE("the factor must be a number, and positive if that is claimed") {
   CHECK(test::message<bad_input>([&] { (void)slant::positive(infinity); }) ==
         "c: got inf, expected a finite number > 0");
 }
+
+}  // namespace scaled_test

@@ -12,6 +12,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace schur_complement_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -78,3 +80,5 @@ TEST_CASE("sizes must fit") {
           (void)slant::schur_complement(kinv, slant::full_row_rank(b), slant::identity(3));
         }) == "D: got 3 x 3, expected 2 x 2 (the rows of B)");
 }
+
+}  // namespace schur_complement_test

@@ -10,6 +10,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace sum_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
@@ -101,3 +103,5 @@ TEST_CASE("sizes must agree") {
           (void)slant::sum(slant::identity(3), MatrixXd(MatrixXd::Ones(3, 3)), slant::identity(4));
         }) == "A3: got 4 x 4, expected 3 x 3 (the size of A1)");
 }
+
+}  // namespace sum_test

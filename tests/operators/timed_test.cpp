@@ -10,7 +10,7 @@
 
 #include "operators/dense_oracle.hpp"
 
-namespace {
+namespace timed_test {
 
 /// The identity, taking at least two milliseconds.
 struct slow_identity {
@@ -23,8 +23,6 @@ struct slow_identity {
     y = x;
   }
 };
-
-}  // namespace
 
 TEST_CASE("time adds up, over copies, until it is reset") {
   auto const a = slant::timed(slow_identity{});
@@ -48,3 +46,5 @@ TEST_CASE("laws and capabilities are those of the operator inside") {
   static_assert(!slant::has_accumulate<slant::timed_operator<slow_identity>, Eigen::VectorXd>);
   slant::testing::check_operator_laws(a);
 }
+
+}  // namespace timed_test

@@ -7,6 +7,8 @@
 
 #include "operators/dense_oracle.hpp"
 
+namespace zero_test {
+
 TEST_CASE("the zero operator") {
   auto const wide = slant::zero(2, 3);
   CHECK(test::matches(wide, Eigen::MatrixXd(Eigen::MatrixXd::Zero(2, 3)), 0));
@@ -20,3 +22,5 @@ TEST_CASE("the zero operator") {
   CHECK(test::message<slant::bad_input>([] { (void)slant::zero(2, -1); }) ==
         "cols: got -1, expected a size >= 0");
 }
+
+}  // namespace zero_test

@@ -4,7 +4,7 @@
 #include <oracle/certificate.hpp>
 #include <oracle/dense_newton.hpp>
 
-namespace {
+namespace certificate_test {
 
 // One bound, one circle, one free unknown, solved by hand:
 //   x₀ ≥ 0 with A = 2, b = −4          → x₀ = 0, multiplier 4
@@ -17,8 +17,6 @@ oracle::dense_qp by_hand() {
   qp.circles.push_back({1, 2, 5.0});
   return qp;
 }
-
-}  // namespace
 
 TEST_CASE("certify accepts the solution and bounds the error of other points") {
   auto const qp = by_hand();
@@ -58,3 +56,5 @@ TEST_CASE("solve_dense finds the solution computed by hand") {
   CHECK(counts.intervals == 1);
   CHECK(counts.circles == 1);
 }
+
+}  // namespace certificate_test

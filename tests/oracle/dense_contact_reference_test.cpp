@@ -4,15 +4,13 @@
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
 
-namespace {
+namespace dense_contact_reference_test {
 
 auto solve_brick(int k, fem::brick_load load) {
   auto scene = fem::make_steel_brick({.k = k, .load = load});
   auto reference = oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
   return std::pair(std::move(scene), std::move(reference));
 }
-
-}  // namespace
 
 TEST_CASE("the reference of the brick satisfies the contact conditions and is optimal by duality") {
   auto const check = [](int k, fem::brick_load load) {
@@ -83,3 +81,5 @@ TEST_CASE("without friction and in the plane the reference works too") {
   CHECK(flat.violations.largest() < 1e-15);
   CHECK(flat.proof.energy_error < 1e-9);
 }
+
+}  // namespace dense_contact_reference_test

@@ -5,7 +5,7 @@
 #include <oracle/dense_newton.hpp>
 #include <random>
 
-namespace {
+namespace dense_newton_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -38,8 +38,6 @@ oracle::dense_qp random_qp(unsigned seed, double radius) {
   for (Eigen::Index i = 5; i < 11; i += 2) qp.circles.push_back({i, i + 1, radius});
   return qp;  // 11, 12 and 13 are free
 }
-
-}  // namespace
 
 TEST_CASE("the tridiagonal example has the printed active set {2, 3, 5}") {
   auto const qp = tridiagonal_example();
@@ -105,3 +103,5 @@ TEST_CASE("NaN data do not yield a solution") {
   qp.A(3, 3) = infinity;
   CHECK_THROWS_AS((void)oracle::solve_dense(qp), std::runtime_error);
 }
+
+}  // namespace dense_newton_test

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <oracle/envelope_cholesky.hpp>
 
-namespace {
+namespace envelope_cholesky_test {
 
 // Irregular envelope: some rows begin at the first column, some at the diagonal.
 Eigen::SparseMatrix<double> arrow_and_band(Eigen::Index n) {
@@ -16,8 +16,6 @@ Eigen::SparseMatrix<double> arrow_and_band(Eigen::Index n) {
   }
   return K;
 }
-
-}  // namespace
 
 TEST_CASE("envelope_cholesky solves") {
   auto const K = arrow_and_band(23);
@@ -44,3 +42,5 @@ TEST_CASE("envelope_cholesky refuses indefinite, singular and NaN matrices") {
   Eigen::SparseMatrix<double> const zero(3, 3);
   CHECK_THROWS_AS(oracle::envelope_cholesky{zero}, std::runtime_error);
 }
+
+}  // namespace envelope_cholesky_test

@@ -6,6 +6,8 @@
 #include <oracle/certificate.hpp>
 #include <oracle/wire_reference.hpp>
 
+namespace wire_counts_test {
+
 TEST_CASE("the wire has the printed numbers of active and free constraints up to n = 256") {
   for (auto const& printed : fem::printed_wire_counts) {
     CAPTURE(printed.l);
@@ -52,3 +54,5 @@ TEST_CASE("the classification does not depend on units") {
     CHECK(counts.circles == 9);
   }
 }
+
+}  // namespace wire_counts_test

@@ -44,8 +44,8 @@ namespace oracle {
 class sparse_lu {
  public:
   void compute(Eigen::MatrixXd const& J) {
-    Eigen::SparseMatrix<double> const sparse = J.sparseView();
-    lu_.compute(sparse);
+    Eigen::SparseMatrix<double> const stored = J.sparseView();
+    lu_.compute(stored);
     if (lu_.info() != Eigen::Success) throw std::runtime_error("sparse_lu: singular Jacobian");
   }
   [[nodiscard]] Eigen::VectorXd solve(Eigen::VectorXd const& b) { return lu_.solve(b); }

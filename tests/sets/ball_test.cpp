@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace ball_test {
 
 using oracle::float_50;
 using slant::ball;
@@ -20,8 +20,6 @@ using vec2 = Eigen::Vector2d;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ε = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("ball: known answers", S, float, double, long double, float_50) {
   using vec = Eigen::Matrix<S, 2, 1>;
@@ -237,3 +235,5 @@ TEST_CASE("ball: bad input is named") {
   CHECK(made(quiet_nan) == "radius: got nan, expected a number >= 0");
   CHECK(made(inf).empty());
 }
+
+}  // namespace ball_test

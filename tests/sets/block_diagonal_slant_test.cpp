@@ -10,10 +10,10 @@
 
 #include <limits>
 
+namespace block_diagonal_slant_test {
+
 using namespace products;
 using slant::block_diagonal_slant;
-
-namespace {
 
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -27,8 +27,6 @@ block_diagonal_slant<double, 2, Layout> example() {
   g.assign(1, Eigen::Matrix2d::Identity() / 4);
   return g;
 }
-
-}  // namespace
 
 TEST_CASE("block_diagonal_slant: apply, apply_add and diagonal in both layouts") {
   vec<> const x = Eigen::Vector4d(1, 2, 3, 4);
@@ -104,3 +102,5 @@ TEST_CASE("block_diagonal_slant: blocks without constraint store nothing") {
   CHECK(y == vec<>::Ones(2000));
   CHECK(g.block(7) == Eigen::Matrix2d::Identity());
 }
+
+}  // namespace block_diagonal_slant_test

@@ -8,6 +8,8 @@
 
 #include <vector>
 
+namespace block_list_test {
+
 using slant::detail::parameter_list;
 using slant::detail::takes_parameters;
 
@@ -39,3 +41,5 @@ TEST_CASE("block_list: copies of a block share it") {
   CHECK(blocks[999999].radius() == 3.0);
   CHECK(&blocks[0] == &blocks[5]);
 }
+
+}  // namespace block_list_test

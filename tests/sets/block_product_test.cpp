@@ -14,6 +14,8 @@
 #include <limits>
 #include <vector>
 
+namespace block_product_test {
+
 using namespace products;
 using slant::cartesian;
 
@@ -73,3 +75,5 @@ TEST_CASE("block_product: the inequalities of all parts") {
   using unconstrained = decltype(cartesian(slant::free_space<1>{}, slant::free_space<2>{}));
   static_assert(slant::whole_space<unconstrained>);
 }
+
+}  // namespace block_product_test

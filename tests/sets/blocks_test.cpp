@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace {
+namespace blocks_test {
 
 /// A client's block that names no scalar.
 struct nameless {
@@ -18,8 +18,6 @@ struct nameless {
   Eigen::Vector2d project(auto const& x) const { return x; }
   bool contains(auto const&) const { return true; }
 };
-
-}  // namespace
 
 TEST_CASE("blocks: what types tell about a set") {
   using power_type = decltype(slant::power(slant::ball<2>{}, 1));
@@ -69,3 +67,5 @@ TEST_CASE("blocks: the smallest of several steps") {
   CHECK(spoilt(quiet_nan));
   CHECK(spoilt.value() != spoilt.value());
 }
+
+}  // namespace blocks_test

@@ -15,11 +15,11 @@
 #include <limits>
 #include <vector>
 
+namespace cartesian_test {
+
 using namespace products;
 using slant::cartesian;
 using slant::power;
-
-namespace {
 
 /// The vectors below 1, of any length. No capability, no static dimension.
 struct bounded_above {
@@ -28,8 +28,6 @@ struct bounded_above {
   void project(auto const& x, auto& y) const { y = x.cwiseMin(1.0); }
   bool contains(auto const& x) const { return (x.array() <= 1.0).all(); }
 };
-
-}  // namespace
 
 TEST_CASE("cartesian: parts follow one another") {
   vec<> const g = Eigen::Vector3d(1, 2, 0);
@@ -180,3 +178,5 @@ TEST_CASE("cartesian: vectors that are no Eigen vectors") {
   CHECK(w.local() == expected);
   static_assert(slant::separable_set<decltype(set), slant::testing::archetype::vector>);
 }
+
+}  // namespace cartesian_test

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+namespace contact_sets_test {
+
 using namespace products;
 
 TEST_CASE_TEMPLATE("contact_sets: the scalar is that of the data", S, float, double, long double,
@@ -49,3 +51,5 @@ TEST_CASE("contact_sets: bad data is named") {
   CHECK(complaint([&] { static_cast<void>(slant::intervals(g, vec<>(-g))); }) ==
         "l[0]: got 1, expected a number <= u = -1");
 }
+
+}  // namespace contact_sets_test

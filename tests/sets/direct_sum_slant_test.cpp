@@ -9,11 +9,11 @@
 
 #include <limits>
 
+namespace direct_sum_slant_test {
+
 using namespace products;
 using bounds = slant::block_diagonal_slant<double, 1>;
 using identity = slant::block_diagonal_slant<double, 1, slant::consecutive, true>;
-
-namespace {
 
 bounds zero_one() {
   bounds g(2);
@@ -21,8 +21,6 @@ bounds zero_one() {
   g.assign(1, Eigen::Matrix<double, 1, 1>(1.0));
   return g;
 }
-
-}  // namespace
 
 TEST_CASE("direct_sum_slant: each part works on its own components") {
   slant::direct_sum_slant<bounds, identity> g(zero_one(), identity(1));
@@ -55,3 +53,5 @@ TEST_CASE("direct_sum_slant: keeps the laws that all parts have") {
   static_assert(slant::spd_operator<free, vec<>>);
   static_assert(slant::declares_projector<free>);
 }
+
+}  // namespace direct_sum_slant_test

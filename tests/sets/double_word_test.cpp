@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace {
+namespace double_word_test {
 
 using slant::detail::double_word;
 
@@ -26,8 +26,6 @@ double_word<S> random_word(oracle::number_source<S>& source) {
   return slant::detail::ordered_sum(
       high, S(source.of_size(-1, 0) * high * std::numeric_limits<S>::epsilon() / S(8)));
 }
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("double word: sums and products of two numbers lose nothing", S, float, double,
                    long double) {
@@ -82,3 +80,5 @@ TEST_CASE_TEMPLATE("double word: an inner product that cancels keeps its digits"
   CHECK(slant::detail::precise_dot<S>(a, b).hi == S(0));
   CHECK(slant::detail::precise_dot<S>(a, vec(S(1) - ε, S(-1), S(0))).hi == -ε * ε);
 }
+
+}  // namespace double_word_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace ellipse_test {
 
 using oracle::float_50;
 using slant::block_state;
@@ -21,8 +21,6 @@ using vec2 = Eigen::Vector2d;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ε = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("ellipse: known answers", S, float, double, long double, float_50) {
   using vec = Eigen::Matrix<S, 2, 1>;
@@ -294,3 +292,5 @@ TEST_CASE("ellipse: bad input is named") {
   CHECK(made(1, quiet_nan) == "b: got nan, expected a number >= 0");
   CHECK(made(0, inf).empty());
 }
+
+}  // namespace ellipse_test

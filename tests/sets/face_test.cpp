@@ -14,16 +14,14 @@
 #include <limits>
 #include <vector>
 
+namespace face_test {
+
 using namespace products;
 using slant::block_state;
 using slant::face_of;
 
-namespace {
-
 using indices = std::vector<slant::index>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 TEST_CASE("face: a product of half lines and discs") {
   vec<> const g = Eigen::Vector3d(1, 5, 0);
@@ -161,3 +159,5 @@ TEST_CASE_TEMPLATE("face: other scalars", S, float, long double) {
   CHECK(y[0] == S(3));
   CHECK(y[1] == S(0));
 }
+
+}  // namespace face_test

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace free_space_test {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("free space: everything is inside", S, float, double, long double) {
   slant::free_space<3, S> const space;
@@ -46,3 +44,5 @@ TEST_CASE("free space: NaN stays NaN") {
   CHECK(std::isnan(space.support(bad)));
   CHECK_FALSE(space.contains(bad));
 }
+
+}  // namespace free_space_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace half_line_test {
 
 template <class S>
 using vec = Eigen::Matrix<S, 1, 1>;
@@ -22,8 +22,6 @@ vec<S> at(S const& value) {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("half line: known answers", S, float, double, long double, oracle::float_50) {
   slant::half_line<S> const positive;
@@ -125,3 +123,5 @@ TEST_CASE("half line: bad input is named") {
   CHECK(oracle::complaint<bad_input>([] { return slant::half_line<double>().with(inf); }) ==
         "l: got inf, expected a number less than infinity");
 }
+
+}  // namespace half_line_test

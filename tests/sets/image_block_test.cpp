@@ -12,12 +12,12 @@
 
 #include <vector>
 
+namespace image_block_test {
+
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using slant::scaled;
 using slant::shifted;
-
-namespace {
 
 /// A client's block that can do the least.
 struct plain {
@@ -25,8 +25,6 @@ struct plain {
   Vector2d project(auto const& x) const { return x; }
   bool contains(auto const&) const { return true; }
 };
-
-}  // namespace
 
 TEST_CASE("image_block: images of images") {
   auto const set = shifted(scaled(2.0, slant::ball<2>{3.0}), Vector2d(10, 0));
@@ -70,3 +68,5 @@ TEST_CASE("image_block: has what its part has, no more") {
   static_assert(!slant::has_inequality_form<moved_plain, Vector2d>);
   CHECK(shifted(slant::free_space<2>{}, Vector2d(1, 2)).project(Vector2d(3, 4)) == Vector2d(3, 4));
 }
+
+}  // namespace image_block_test

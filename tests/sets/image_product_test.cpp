@@ -11,11 +11,11 @@
 
 #include <limits>
 
+namespace image_product_test {
+
 using namespace products;
 using slant::scaled;
 using slant::shifted;
-
-namespace {
 
 /// A client's set of run-time dimension that is no product: the vectors with mean value <= 1.
 struct small_mean {
@@ -28,8 +28,6 @@ struct small_mean {
   }
   bool contains(auto const& x) const { return x.sum() <= double(n); }
 };
-
-}  // namespace
 
 TEST_CASE("image_product: of a set that is no product") {
   vec<> const c = Eigen::Vector3d(1e6, 2e6, 3e6);
@@ -75,3 +73,5 @@ TEST_CASE("image_product: infinite bounds stay infinite") {
   CHECK(set.support(vec<>(Eigen::Vector2d(-1, 0))) == infinity);
   CHECK(set.support(vec<>(Eigen::Vector2d(0, -2))) == -10.0);
 }
+
+}  // namespace image_product_test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace interval_test {
 
 template <class S>
 using vec = Eigen::Matrix<S, 1, 1>;
@@ -22,8 +22,6 @@ vec<S> at(S const& value) {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("interval: known answers", S, float, double, long double, oracle::float_50) {
   slant::interval<S> const unit;
@@ -137,3 +135,5 @@ TEST_CASE("interval: bad input is named") {
   CHECK(made(-inf, -inf) == "u: got -inf, expected a number greater than -infinity");
   CHECK(made(-inf, inf).empty());
 }
+
+}  // namespace interval_test

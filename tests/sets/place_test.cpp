@@ -6,6 +6,8 @@
 
 #include <type_traits>
 
+namespace place_test {
+
 using slant::consecutive;
 using slant::place;
 using slant::planar;
@@ -77,3 +79,5 @@ TEST_CASE("place: composing is associative") {
   CHECK(left.index() == right.index());
   for (int j = 0; j < 2; ++j) CHECK(left.component(j) == right.component(j));
 }
+
+}  // namespace place_test

@@ -8,12 +8,10 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace point_test {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("point: known answers", S, float, double, long double, oracle::float_50) {
   using vec = Eigen::Matrix<S, 2, 1>;
@@ -65,3 +63,5 @@ TEST_CASE("point: bad input is named with its position") {
   CHECK(made(-inf, 0.0) == "p(0): got -inf, expected a finite number");
   CHECK(made(1.0, 2.0).empty());
 }
+
+}  // namespace point_test

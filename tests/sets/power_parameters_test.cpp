@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+namespace power_parameters_test {
+
 using namespace products;
 using slant::power;
-
-namespace {
 
 template <class F>
 std::string complaint(F&& f) {
@@ -28,8 +28,6 @@ std::string complaint(F&& f) {
   }
   return "no complaint";
 }
-
-}  // namespace
 
 TEST_CASE("power: copies of one block, and parameters that are lists or one number for all") {
   auto const copies = power(slant::half_line<>{2.0}, 3);
@@ -79,3 +77,5 @@ TEST_CASE("power: bad parameters are named with their block, and change nothing"
   CHECK(complaint([&] { static_cast<void>(power(slant::half_line<>{}, -1)); }) ==
         "number of blocks: got -1, expected a number >= 0");
 }
+
+}  // namespace power_parameters_test

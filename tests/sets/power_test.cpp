@@ -14,12 +14,12 @@
 #include <cmath>
 #include <limits>
 
+namespace power_test {
+
 using namespace products;
 using slant::consecutive;
 using slant::planar;
 using slant::power;
-
-namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -38,8 +38,6 @@ vec<S> naive_discs(vec<S> x, vec<S> const& g, First first, Second second) {
   }
   return x;
 }
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("power: discs agree with a loop, in both layouts and in place", S, float, double,
                    long double, oracle::float_50) {
@@ -211,3 +209,5 @@ TEST_CASE("power: expressions and vectors that are no Eigen vectors") {
   static_assert(slant::convex_set<decltype(set), slant::testing::archetype::vector>);
   static_assert(slant::separable_set<decltype(set), slant::testing::archetype::vector>);
 }
+
+}  // namespace power_test

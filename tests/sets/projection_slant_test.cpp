@@ -11,6 +11,8 @@
 
 #include <doctest/doctest.h>
 
+namespace projection_slant_test {
+
 using namespace products;
 
 TEST_CASE("projection_slant: a block gives an operator with one block") {
@@ -50,3 +52,5 @@ TEST_CASE("projection_slant: the whole space gives the identity without storage"
   g.apply(x, y);
   CHECK(y == x);
 }
+
+}  // namespace projection_slant_test

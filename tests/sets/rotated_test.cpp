@@ -13,20 +13,18 @@
 
 #include <cmath>
 
+namespace rotated_test {
+
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using slant::block_state;
 using slant::rotated;
-
-namespace {
 
 Matrix2d turn(double angle) {
   Matrix2d q;
   q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   return q;
 }
-
-}  // namespace
 
 TEST_CASE("rotated: an ellipse turned by 90 degrees is the ellipse with exchanged axes") {
   slant::ellipse<> const twin{1.0, 3.0};
@@ -94,3 +92,5 @@ TEST_CASE("rotated: a matrix that is not orthogonal is refused") {
   CHECK_THROWS_AS(static_cast<void>(rotated(slant::ball<2>{}, (1 + 1e-12) * turn(1.0))),
                   slant::bad_input);
 }
+
+}  // namespace rotated_test

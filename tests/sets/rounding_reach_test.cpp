@@ -8,6 +8,8 @@
 
 #include <limits>
 
+namespace rounding_reach_test {
+
 using Eigen::Vector2d;
 using slant::block_state;
 using slant::detail::contains_within;
@@ -37,3 +39,5 @@ TEST_CASE("rounding_reach: the most confined state within a distance") {
   CHECK(state_within(cone, Vector2d(1e-9, 0), 1e-8) == block_state::fixed);
   CHECK(state_within(cone, Vector2d(1, 1 - 1e-9), 1e-8) == block_state::sliding);
 }
+
+}  // namespace rounding_reach_test

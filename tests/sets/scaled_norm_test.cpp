@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace scaled_norm_test {
 
 template <class S, int N>
 double norm_error(Eigen::Matrix<S, N, 1> const& v) {
@@ -19,8 +19,6 @@ double norm_error(Eigen::Matrix<S, N, 1> const& v) {
   return static_cast<double>(abs(computed - exact) / exact) /
          static_cast<double>(std::numeric_limits<S>::epsilon());
 }
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("scaled norm: relative error below 2 epsilon over the whole range", S, float,
                    double, long double) {
@@ -61,3 +59,5 @@ TEST_CASE("scaled norm: extremes") {
   CHECK(scaled_norm<double, 2>(vec(3, 4)).exponent == 0);
   CHECK(scaled_norm<double, 2>(vec(3, 4)).value == 5.0);
 }
+
+}  // namespace scaled_norm_test

@@ -13,6 +13,8 @@
 
 #include <limits>
 
+namespace scaled_test {
+
 using namespace products;
 using Eigen::Vector2d;
 using slant::scaled;
@@ -94,3 +96,5 @@ TEST_CASE("scaled: bad factors are named") {
       static_cast<void>(scaled(std::numeric_limits<double>::quiet_NaN(), slant::half_lines(3))),
       slant::bad_input);
 }
+
+}  // namespace scaled_test

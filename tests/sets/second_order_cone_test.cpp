@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace second_order_cone_test {
 
 using oracle::float_50;
 using slant::block_state;
@@ -20,8 +20,6 @@ using vec3 = Eigen::Vector3d;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ε = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("cone: known answers", S, float, double, long double, float_50) {
   using vec = Eigen::Matrix<S, 3, 1>;
@@ -245,3 +243,5 @@ TEST_CASE("cone: bad input is named") {
   CHECK(made(quiet_nan) == "mu: got nan, expected a finite number >= 0");
   CHECK(made(0).empty());
 }
+
+}  // namespace second_order_cone_test

@@ -15,6 +15,8 @@
 #include <limits>
 #include <string>
 
+namespace shifted_test {
+
 using namespace products;
 using Eigen::Vector2d;
 using slant::block_state;
@@ -153,3 +155,5 @@ TEST_CASE("shifted: bad centres are named") {
   CHECK(complaint([&] { static_cast<void>(shifted(slant::half_lines(3), c)); }) ==
         "c[1]: got inf, expected a finite number");
 }
+
+}  // namespace shifted_test

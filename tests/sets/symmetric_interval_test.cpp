@@ -6,6 +6,8 @@
 
 #include <limits>
 
+namespace symmetric_interval_test {
+
 TEST_CASE_TEMPLATE("symmetric_interval: an interval with one parameter", S, float, double,
                    long double) {
   using vec = Eigen::Matrix<S, 1, 1>;
@@ -31,3 +33,5 @@ TEST_CASE("symmetric_interval: in a power it has one parameter per block") {
   set.update(Eigen::VectorXd(3 * g));
   CHECK(slant::project(set, x) == Eigen::Vector3d(-3, 5, 0));
 }
+
+}  // namespace symmetric_interval_test

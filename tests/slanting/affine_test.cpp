@@ -12,6 +12,8 @@
 #include <limits>
 #include <type_traits>
 
+namespace affine_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense_slant;
 using slanting_support::random_matrix;
@@ -82,3 +84,5 @@ TEST_CASE("bad input") {
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::affine(a, c)),
                        "c[1]: got inf, expected a finite number", slant::bad_input);
 }
+
+}  // namespace affine_test

@@ -11,6 +11,8 @@
 #include <Eigen/Core>
 #include <type_traits>
 
+namespace arithmetic_test {
+
 using Eigen::VectorXd;
 
 namespace client {
@@ -63,3 +65,5 @@ TEST_CASE("operators of slant and Eigen matrices keep their own arithmetic") {
   CHECK((a * a).isIdentity());
   CHECK((2.0 * a - a).isIdentity());
 }
+
+}  // namespace arithmetic_test

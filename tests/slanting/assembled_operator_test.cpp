@@ -19,15 +19,14 @@
 #include <Eigen/Core>
 #include <type_traits>
 
+namespace assembled_operator_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using slanting_support::dense;
 
-namespace {
-
 MatrixXd const m = slanting_support::random_matrix(4, 4, 1);
 VectorXd const y{{1.0, -2.0, 0.0, 3.0}};
-}  // namespace
 
 TEST_CASE("a linear function passes on all that its operator can") {
   auto const f = slant::linear(m);
@@ -94,3 +93,5 @@ TEST_CASE("copies of F°(y) are independent, except for the operators of F itsel
   CHECK(dense(copy, y) == before);
   CHECK(dense(g, y) != before);
 }
+
+}  // namespace assembled_operator_test

@@ -16,6 +16,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+namespace composition_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
@@ -114,3 +116,5 @@ TEST_CASE("bad input") {
       static_cast<void>(slant::compose(slant::positive_part(3), slant::positive_part(2))),
       "g.rows(): got 2, expected 3 (f.cols())", slant::bad_input);
 }
+
+}  // namespace composition_test

@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 #include <type_traits>
 
+namespace difference_test {
+
 using Eigen::VectorXd;
 
 TEST_CASE("y - max(0, y) = min(0, y)") {
@@ -42,3 +44,5 @@ TEST_CASE("bad input") {
       static_cast<void>(slant::subtract(slant::identity_map(3), slant::linear(wide))),
       "g.cols(): got 4, expected 3 (f.cols())", slant::bad_input);
 }
+
+}  // namespace difference_test

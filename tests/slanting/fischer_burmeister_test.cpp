@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-namespace {
+namespace fischer_burmeister_test {
 
 using Eigen::VectorXd;
 using kernel = slant::detail::fischer_burmeister_kernel;
@@ -38,8 +38,6 @@ struct worst_case {
     place = std::to_string(a) + ", " + std::to_string(b);
   }
 };
-
-}  // namespace
 
 TEST_CASE("known values") {
   CHECK(kernel::value(3.0, 4.0) == doctest::Approx(-2.0).epsilon(1e-15));
@@ -141,3 +139,5 @@ TEST_CASE("float, long double and multiprecision") {
   CHECK(abs(a + wide(2) / 5) <= 4 * std::numeric_limits<wide>::epsilon());
   CHECK(abs(b + wide(1) / 5) <= 4 * std::numeric_limits<wide>::epsilon());
 }
+
+}  // namespace fischer_burmeister_test

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+namespace identity_test {
+
 using Eigen::VectorXd;
 
 TEST_CASE("the identity") {
@@ -23,3 +25,5 @@ TEST_CASE("the identity") {
   CHECK_THROWS_WITH_AS(slant::identity_map(-1), "n: got -1, expected a size >= 0",
                        slant::bad_input);
 }
+
+}  // namespace identity_test

@@ -16,6 +16,8 @@
 #include <cmath>
 #include <type_traits>
 
+namespace max_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
@@ -112,3 +114,5 @@ TEST_CASE("bad input") {
       static_cast<void>(slant::max(slant::positive_part(3), slant::positive_part(2))),
       "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
 }
+
+}  // namespace max_test

@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+namespace min_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
@@ -54,3 +56,5 @@ TEST_CASE("NaN in, NaN out") {
   CHECK(kernel::value(-HUGE_VAL, 1.0) == -HUGE_VAL);
   CHECK(kernel::value(1.0, HUGE_VAL) == 1.0);
 }
+
+}  // namespace min_test

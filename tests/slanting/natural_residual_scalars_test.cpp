@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 #include <limits>
 
+namespace natural_residual_scalars_test {
+
 TEST_CASE_TEMPLATE("float, long double, multiprecision", S, float, long double,
                    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                  boost::multiprecision::et_off>) {
@@ -28,3 +30,5 @@ TEST_CASE_TEMPLATE("float, long double, multiprecision", S, float, long double,
   }
   CHECK(slant::evaluate(f, x).norm() <= S(16) * std::numeric_limits<S>::epsilon());
 }
+
+}  // namespace natural_residual_scalars_test

@@ -20,12 +20,12 @@
 #include <limits>
 #include <type_traits>
 
+namespace natural_residual_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
-
-namespace {
 
 /// Two bounds x >= 0 and two discs.
 auto contact_set() {
@@ -36,8 +36,6 @@ auto contact_set() {
 auto definite(MatrixXd const& m) {
   return slant::matrix<slant::self_adjoint, slant::positive_definite>(m);
 }
-
-}  // namespace
 
 TEST_CASE("value and slanting operator, derived by hand") {
   MatrixXd const m = slanting_support::random_spd(6, 1);
@@ -178,3 +176,5 @@ TEST_CASE("bad input is named") {
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b, set, 1.0)),
                        "b[4]: got nan, expected a finite number", slant::bad_input);
 }
+
+}  // namespace natural_residual_test

@@ -17,6 +17,8 @@
 #include <type_traits>
 #include <utility>
 
+namespace projection_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
@@ -89,3 +91,5 @@ TEST_CASE("a client's set whose slant is a matrix of any size") {
   using slope = slant::slant_operator_t<std::remove_cvref_t<decltype(f)>, VectorXd>;
   static_assert(slant::declares_firmly_nonexpansive<slope>);
 }
+
+}  // namespace projection_test

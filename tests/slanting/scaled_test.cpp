@@ -12,6 +12,8 @@
 #include <limits>
 #include <type_traits>
 
+namespace scaled_test {
+
 using Eigen::VectorXd;
 
 TEST_CASE("values and slanting operators are multiplied") {
@@ -48,3 +50,5 @@ TEST_CASE("bad input") {
   CHECK_THROWS_AS(static_cast<void>(slant::scale(slant::positive(-1.0), slant::positive_part(3))),
                   slant::bad_input);
 }
+
+}  // namespace scaled_test

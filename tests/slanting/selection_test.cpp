@@ -11,6 +11,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+namespace selection_test {
+
 using Eigen::VectorXd;
 
 TEST_CASE("some coordinates, in the order asked for") {
@@ -41,3 +43,5 @@ TEST_CASE("bad input") {
   CHECK_THROWS_AS(static_cast<void>(slant::select(slant::positive_part(3), {-1})),
                   slant::bad_input);
 }
+
+}  // namespace selection_test

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace {
+namespace slanting_base_test {
 
 // A function with all members but without the mark: factories take it, operators do not.
 struct unmarked {
@@ -35,4 +35,4 @@ TEST_CASE("the mark costs no memory") {
   CHECK(sizeof(with_mark) == sizeof(payload));
 }
 
-}  // namespace
+}  // namespace slanting_base_test

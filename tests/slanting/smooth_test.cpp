@@ -13,10 +13,10 @@
 #include <cmath>
 #include <utility>
 
+namespace smooth_test {
+
 using Eigen::Vector2d;
 using Eigen::VectorXd;
-
-namespace {
 
 auto circle_and_line() {
   return slant::smooth(
@@ -37,8 +37,6 @@ struct slope_operator {
   [[nodiscard]] slant::index cols() const { return d.size(); }
   void apply(VectorXd const& x, VectorXd& y) const { y = d.cwiseProduct(x); }
 };
-
-}  // namespace
 
 TEST_CASE("a derivative given as a matrix; Newton's method finds the intersection (3, 4)") {
   auto const f = circle_and_line();
@@ -89,3 +87,5 @@ TEST_CASE("bad input") {
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::smooth(-1, 2, value, derivative)),
                        "rows, cols: got -1, 2, expected sizes >= 0", slant::bad_input);
 }
+
+}  // namespace smooth_test

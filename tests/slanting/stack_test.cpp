@@ -15,6 +15,8 @@
 
 #include <Eigen/Core>
 
+namespace stack_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
@@ -87,3 +89,5 @@ TEST_CASE("bad input") {
       static_cast<void>(slant::stack(slant::positive_part(3), slant::positive_part(2))),
       "f2.cols(): got 2, expected 3 (f1.cols())", slant::bad_input);
 }
+
+}  // namespace stack_test

@@ -16,6 +16,8 @@
 #include <type_traits>
 #include <utility>
 
+namespace sum_test {
+
 using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
@@ -76,3 +78,5 @@ TEST_CASE("bad input") {
       static_cast<void>(slant::add(slant::positive_part(3), slant::positive_part(2))),
       "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
 }
+
+}  // namespace sum_test

@@ -19,10 +19,10 @@
 #include <Eigen/Core>
 #include <type_traits>
 
+namespace symmetrizable_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
 
 MatrixXd const m = slanting_support::random_spd(4, 1);
 VectorXd const b = slanting_support::random_vector(4, 2);
@@ -35,8 +35,6 @@ template <class F>
 constexpr bool known(F const&) {
   return slant::symmetrizable_function<F, VectorXd>;
 }
-
-}  // namespace
 
 TEST_CASE("the natural residual with a definite A is symmetrizable") {
   CHECK(known(slant::natural_residual(spd, b, discs, 0.5)));
@@ -82,3 +80,5 @@ TEST_CASE("the parts of the operator") {
          slanting_support::dense_slant(slant::projection(discs), z))
             .norm() <= 1e-15);
 }
+
+}  // namespace symmetrizable_test

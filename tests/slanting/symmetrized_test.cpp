@@ -17,11 +17,11 @@
 
 #include <Eigen/Core>
 
+namespace symmetrized_test {
+
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using slanting_support::dense;
-
-namespace {
 
 struct scene {
   MatrixXd m = slanting_support::random_spd(8, 1);
@@ -33,8 +33,6 @@ struct scene {
                             slant::power(slant::ball<2>{}, VectorXd{{1.0, 5.0, 0.0}}));
   }
 };
-
-}  // namespace
 
 TEST_CASE("H is symmetric, semidefinite and definite on the range of G") {
   scene const s;
@@ -115,3 +113,5 @@ TEST_CASE("archetypes") {
   auto const h = slant::symmetrized(f.slant(x));
   CHECK(dense(h, x).isApprox(dense(h, x).transpose(), 1e-13));
 }
+
+}  // namespace symmetrized_test

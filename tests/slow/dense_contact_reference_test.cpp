@@ -4,6 +4,8 @@
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
 
+namespace dense_contact_reference_test {
+
 TEST_CASE("the reference of the finer bricks is optimal by duality") {
   for (int const k : {4, 6, 8})
     for (fem::brick_load const load : fem::brick_loads) {
@@ -17,3 +19,5 @@ TEST_CASE("the reference of the finer bricks is optimal by duality") {
       CHECK(reference.energy_error < 1e-9);
     }
 }
+
+}  // namespace dense_contact_reference_test

@@ -9,6 +9,8 @@
 
 #include <contact/scenes.hpp>
 
+namespace kprgp_brick_test {
+
 TEST_CASE("kprgp on bricks: energy error at most 1e-6 against the dense reference") {
   for (int const k : {4, 6, 8}) {
     for (auto const load : fem::brick_loads) {
@@ -30,3 +32,5 @@ TEST_CASE("kprgp on bricks: energy error at most 1e-6 against the dense referenc
     }
   }
 }
+
+}  // namespace kprgp_brick_test

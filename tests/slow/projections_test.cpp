@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-namespace {
+namespace projections_test {
 
 using oracle::float_50;
 constexpr int million = 1000000;
@@ -47,8 +47,6 @@ void check_bounds(Make const& make, bool two_sided, unsigned seed) {
   check(errors, 0);
 }
 
-}  // namespace
-
 TEST_CASE("a million points: half line") {
   check_bounds([](double l, double) { return slant::half_line<double>(l); }, false, 101);
 }
@@ -82,3 +80,5 @@ TEST_CASE("projections of numbers with 50 digits") {
   check(oracle::ellipse_errors<float_50, oracle::float_100, float_50>(10000, 115), 2);
   check(oracle::cone_errors<float_50, oracle::binary_float<200>, 3>(50000, 116), 2);
 }
+
+}  // namespace projections_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace set_laws_test {
 
 /// The first breach under any of the seeds.
 template <class C>
@@ -23,8 +23,6 @@ std::string accusation(C const& set, double size = 1) {
   }
   return "";
 }
-
-}  // namespace
 
 TEST_CASE_TEMPLATE("set laws: no honest set is accused", S, float, double) {
   using vector = Eigen::Matrix<S, 2, 1>;
@@ -51,3 +49,5 @@ TEST_CASE_TEMPLATE("set laws: no honest set is accused", S, float, double) {
   CHECK(accusation(slant::cartesian(slant::half_lines<S>(2), slant::discs<slant::planar>(g),
                                     slant::free_components<S>(1))) == "");
 }
+
+}  // namespace set_laws_test

@@ -7,6 +7,8 @@
 #include <oracle/wire_reference.hpp>
 #include <utility>
 
+namespace wire_counts_test {
+
 TEST_CASE("the wire has the printed numbers of active and free constraints up to n = 2048") {
   for (auto const& printed : fem::printed_wire_counts) {
     CAPTURE(printed.l);
@@ -29,3 +31,5 @@ TEST_CASE("the wire has the printed numbers of active and free constraints up to
     }
   }
 }
+
+}  // namespace wire_counts_test

@@ -11,7 +11,7 @@
 #include <new>
 #include <vector>
 
-namespace {
+namespace allocation_guard_test {
 
 using slant::testing::allocation_guard;
 
@@ -25,8 +25,6 @@ void keep(void const* address) {
 struct alignas(64) over_aligned {
   double values[8];
 };
-
-}  // namespace
 
 TEST_CASE("allocation guard: nothing allocated, nothing counted") {
   allocation_guard const guard;
@@ -101,3 +99,5 @@ TEST_CASE("allocation guard: sees the temporaries of Eigen") {
   CHECK(with_temporary == 1);
   CHECK(by_copy == 1);
 }
+
+}  // namespace allocation_guard_test

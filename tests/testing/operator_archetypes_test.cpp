@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+namespace operator_archetypes_test {
+
 namespace archetype = slant::testing::archetype;
 using archetype::vector;
 using Eigen::MatrixXd;
@@ -54,3 +56,5 @@ TEST_CASE("archetypes keep their word") {
   archetype::factorization(m).solve(b, x);
   CHECK((m * x.local() - b.local()).norm() < 1e-14);
 }
+
+}  // namespace operator_archetypes_test

@@ -13,7 +13,7 @@
 
 #include <string>
 
-namespace {
+namespace operator_laws_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -118,8 +118,6 @@ struct declaring : honest {
   static constexpr auto laws = slant::laws<L...>;
 };
 
-}  // namespace
-
 TEST_CASE("honest operators pass") {
   slant::testing::check_operator_laws(honest{random_matrix(7)});
   slant::testing::check_operator_laws(slant::matrix(MatrixXd(MatrixXd::Random(4, 9))));
@@ -201,3 +199,5 @@ TEST_CASE("liars about laws are found") {
     CHECK(finds(declaring<self_adjoint, firmly_nonexpansive>{{with_eigenvalues(λ)}}, "firmly"));
   }
 }
+
+}  // namespace operator_laws_test

@@ -10,9 +10,9 @@
 
 #include <string>
 
-using namespace liars;
+namespace set_breaches_test {
 
-namespace {
+using namespace liars;
 
 /// Even few points must do.
 slant::testing::set_options const few{.points = 20, .directions = 3};
@@ -30,8 +30,6 @@ bool breaks(C const& set, std::string const& law) {
   MESSAGE("found only: ", names);
   return false;
 }
-
-}  // namespace
 
 TEST_CASE("set_breaches: the honest have none") {
   CHECK(slant::testing::set_breaches(liar(lie::none)).empty());
@@ -106,3 +104,5 @@ TEST_CASE("set_breaches: a set that takes no Eigen vectors") {
   archetype::vector const prototype(Eigen::VectorXd::Zero(3));
   CHECK(slant::testing::set_breaches(archetype::separable_set(3), prototype).empty());
 }
+
+}  // namespace set_breaches_test

@@ -6,10 +6,10 @@
 
 #include <doctest/doctest.h>
 
+namespace set_laws_test {
+
 namespace archetype = slant::testing::archetype;
 using slant::testing::check_set_laws;
-
-namespace {
 
 /// A client's own set, of which the library knows nothing: x + y <= 1.
 struct half_plane {
@@ -20,8 +20,6 @@ struct half_plane {
   }
   bool contains(auto const& x) const { return x[0] + x[1] <= 1 + 1e-15; }
 };
-
-}  // namespace
 
 TEST_CASE("set_laws: a set with a projection only") {
   check_set_laws(half_plane{}, slant::testing::set_options{.points = 200});
@@ -40,3 +38,5 @@ TEST_CASE("set_laws: a broken law makes the test fail, with its name" * doctest:
   };
   check_set_laws(without_bound{});
 }
+
+}  // namespace set_laws_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <string>
 
-namespace {
+namespace slanting_laws_test {
 
 using Eigen::VectorXd;
 
@@ -62,8 +62,6 @@ bool finds(std::string const& law, F const& f, V const& y) {
 
 VectorXd const zero = VectorXd::Zero(3);
 VectorXd const near{{0.3, -2.0, 1e-3}};
-
-}  // namespace
 
 TEST_CASE("right functions pass, at and away from kinks, at any scale") {
   slant::testing::check_slanting_laws(maximum, zero, near, VectorXd(1e150 * near),
@@ -178,8 +176,6 @@ TEST_CASE("broken protocol is found") {
   CHECK(finds("slant overwrites", slant_accumulates{}, y));
 }
 
-namespace {
-
 struct slope_operator {
   VectorXd d;
   [[nodiscard]] slant::index rows() const { return d.size(); }
@@ -197,8 +193,6 @@ struct renewable : square_base {
   void slant(VectorXd const& y, slope_operator& g, VectorXd&) const { g.d = 2 * y; }
   void slant_after_value(VectorXd const&, slope_operator& g, VectorXd& w) const { g.d = 2 * w; }
 };
-
-}  // namespace
 
 TEST_CASE("a slant that is renewed wrongly is found") {
   VectorXd const y{{1.0, -3.0}};
@@ -229,3 +223,5 @@ TEST_CASE("a slant that is renewed wrongly is found") {
   };
   CHECK(finds("value with a used workspace", remembers{}, y));
 }
+
+}  // namespace slanting_laws_test

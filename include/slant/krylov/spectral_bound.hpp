@@ -29,7 +29,8 @@ namespace slant {
 template <class S>
 struct spectral_bound {
   S upper;             ///< σ_max ≤ upper, except with the probability asked for
-  S ritz;              ///< the Ritz value, σ_max ≥ ritz
+  S ritz;              ///< the largest Ritz value, σ_max ≥ ritz
+  S smallest_ritz;     ///< the smallest one, σ_min ≤ smallest_ritz up to rounding; not below 0
   index applications;  ///< products spent
 };
 
@@ -58,7 +59,7 @@ template <class A, class V>
   using std::sqrt;
   options.validate();
   auto const n = index(slant::local(prototype).size());
-  if (n == 0) return {S(0), S(0), 0};
+  if (n == 0) return {S(0), S(0), S(0), 0};
 
   V q = like(prototype, n), w = like(prototype, n), previous = like(prototype, n);
   auto temporaries = workspace(a, prototype);
@@ -95,11 +96,13 @@ template <class A, class V>
   auto const k = static_cast<index>(diagonal.size());
   S const rounding = S(1) + S(4 * n) * ε;
   if (θ < S(0)) throw bad_input("A", detail::show(θ), "a positive semidefinite operator");
-  if (exhausted || k == n) return {θ * rounding, θ, k};
+  S const θ_min =
+      std::max<S>(detail::smallest_tridiagonal_eigenvalue(diagonal, off_diagonal), S(0));
+  if (exhausted || k == n) return {θ * rounding, θ, θ_min, k};
   double const root = std::log(1.648 * std::sqrt(double(n)) / options.failure) / double(2 * k - 1);
   // Too few steps for a useful statement: the first Ritz values are far below; 1 − ε stays ≥ 1/4.
   double const share = 1 - std::min(root * root, 0.75);
-  return {θ * rounding / S(share), θ, k};
+  return {θ * rounding / S(share), θ, θ_min, k};
 }
 
 }  // namespace slant

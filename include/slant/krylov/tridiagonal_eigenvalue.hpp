@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The largest eigenvalue of a small symmetric tridiagonal matrix, by bisection on its Sturm
+// The extreme eigenvalues of a small symmetric tridiagonal matrix, by bisection on its Sturm
 // sequence [Barth, Martin, Wilkinson 1967]: λ exceeds all eigenvalues if and only if all pivots of
 // the LDLᵀ factorisation of T − λ I are negative. Backward stable in any scalar, and the bound errs
 // on the safe side: the upper end of the last interval is returned.
@@ -46,6 +46,13 @@ template <class S>
     (all_eigenvalues_below(middle, a, b) ? upper : lower) = middle;
   }
   return upper;
+}
+
+/// Smallest eigenvalue of the same matrix, never too large by more than the rounding of T.
+template <class S>
+[[nodiscard]] S smallest_tridiagonal_eigenvalue(std::vector<S> a, std::vector<S> const& b) {
+  for (auto& e : a) e = -e;  // −T has the off-diagonal −b, whose signs change no eigenvalue
+  return -largest_tridiagonal_eigenvalue(a, b);
 }
 
 }  // namespace slant::detail

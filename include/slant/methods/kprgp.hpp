@@ -28,6 +28,11 @@
 #include <slant/methods/kprgp_state.hpp>
 #include <slant/methods/separable_qp.hpp>
 
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
 namespace slant {
 
 /// KPRGP for a separable_qp: solve(kprgp{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
@@ -233,7 +238,10 @@ class kprgp<QP> {
     auto const bound = largest_eigenvalue_bound(qp_.get().a(), s.x, options_.spectrum);
     s.work.setup_applications += bound.applications;
     // A = 0: any step is as good as another; one that moves x by the size of b.
-    return bound.upper > scalar(0) ? options_.step_factor / bound.upper : scalar(1);
+    if (!(bound.upper > scalar(0))) return scalar(1);
+    // I − α̃ A contracts best with α̃ = 2 / (σ_max + σ_min); with A = I that is the whole solution.
+    scalar const best = scalar(2) / (scalar(1) + bound.smallest_ritz / bound.ritz);
+    return std::min<scalar>(options_.step_factor, best) / bound.upper;
   }
 
   held<QP> qp_;

@@ -14,8 +14,9 @@ namespace slant {
 template <class S>
 struct kprgp_options {
   S Γ = S(1);  ///< proportioning: large keeps the face, small releases early; > 0
-  std::optional<S> step_length{};  ///< α̃; not given: step_factor / (upper bound of σ_max)
-  S step_factor = S(1.9);          ///< in (0, 2); the bricks need half the steps that 1 needs
+  std::optional<S> step_length{};  ///< α̃; not given: from the bound of σ_max, see step_factor
+  S step_factor = S(1.9);          ///< in (0, 2); α̃ σ_max is this, or less if A is nearly a
+                                   ///< multiple of I; the bricks need half the steps that 1 needs
   bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
   index patience = 1000;  ///< steps without a new smallest ‖r̃‖, beyond 10 n, that mean stalled
