@@ -62,7 +62,7 @@ TEST_CASE("iterates are feasible and the energy falls with every step") {
     CHECK(set.contains(s.x));
     double const q = s.x.dot(0.5 * (p.A * s.x) - p.b);
     CHECK(q <= last + 1e-13 * std::abs(last));
-    CHECK(slant::energy(qp, s.x, s.r) == doctest::Approx(q).epsilon(1e-9));
+    CHECK(slant::energy(qp, s.x, VectorXd(s.unit * s.r)) == doctest::Approx(q).epsilon(1e-9));
     last = q;
     if (++seen == 300) break;
   }

@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 struct snapshot {
   VectorXd x;
   VectorXd r;
+  double unit = 1;
   double step_length = 1;
   double gradient_scale = 1;
   VectorXd φ = VectorXd(2);

@@ -17,7 +17,8 @@
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <utility>
+#include <limits>
+#include <type_traits>
 
 namespace slant {
 
@@ -25,12 +26,13 @@ namespace slant {
 template <class V, class WA, class WM>
 struct bicgstab_state {
   V x;                            ///< iterate
-  V r;                            ///< residual A x − b
+  V r;                            ///< residual A x − b, in multiples of unit
   V shadow;                       ///< r̂
   V p, v, t;                      ///< direction, A M p, A M s
   V preconditioned;               ///< M p or M s
   WA a_workspace;                 ///< temporaries of A
   WM m_workspace;                 ///< temporaries of M
+  scalar_t<V> unit{1};            ///< a power of two, see unit.hpp
   scalar_t<V> ρ{1}, α{1}, ω{1};   ///< the recurrence's coefficients
   bool restarted = true;          ///< p starts anew from r
   scalar_t<V> residual_norm{0};   ///< ‖r‖
@@ -59,30 +61,21 @@ template <class A, class V, class M>
   requires vector<std::remove_cvref_t<V>> &&
            linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
-class bicgstab<A, V, M> {
+class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
+  using system = detail::preconditioned_system<A, V, M>;
+
  public:
-  using operator_type = std::remove_cvref_t<A>;
-  using vector_type = std::remove_cvref_t<V>;
-  using preconditioner_type = std::remove_cvref_t<M>;
-  using scalar = scalar_t<vector_type>;
-  using state_type = bicgstab_state<vector_type, workspace_t<operator_type, vector_type>,
-                                    workspace_t<preconditioner_type, vector_type>>;
+  using typename system::scalar;
+  using typename system::vector_type;
+  using state_type =
+      bicgstab_state<vector_type, workspace_t<typename system::operator_type, vector_type>,
+                     workspace_t<typename system::preconditioner_type, vector_type>>;
+  using system::system;
 
-  /// Throws bad_input if sizes do not match or b is not finite.
-  bicgstab(held<A> a, held<V> b)
-    requires std::same_as<preconditioner_type, identity_operator>
-      : bicgstab(a, b, identity_operator(slant::local(b.get()).size())) {}
-  bicgstab(held<A> a, held<V> b, held<M> m) : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
-    detail::check_linear_system(a_.get(), b_.get());
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()),
-                       slant::local(b_.get()).size());
-  }
-
+  /// Throws bad_input if x0 or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const n = index(slant::local(b_.get()).size());
-    detail::check_size("x0", index(slant::local(x0).size()), n);
-    detail::check_finite("x0", x0);
-    auto blank = [&] { return like(x0, n); };
+    detail::check_start(x0, this->b());
+    auto blank = [&] { return like(x0, this->a().rows()); };
     state_type s{x0,
                  blank(),
                  blank(),
@@ -90,9 +83,9 @@ class bicgstab<A, V, M> {
                  blank(),
                  blank(),
                  blank(),
-                 workspace(a_.get(), x0),
-                 workspace(m_.get(), x0)};
-    detail::start_residual(a_.get(), b_.get(), s);
+                 workspace(this->a(), x0),
+                 workspace(this->m(), x0)};
+    detail::start_residual(this->a(), this->b(), s);
     return s;
   }
 
@@ -103,7 +96,7 @@ class bicgstab<A, V, M> {
       scalar const ρ = inner_product(s.shadow, s.r);
       // ρ at rounding level says nothing about the residual: start anew instead of dividing by it.
       using std::abs;
-      if (abs(ρ) <= ε * norm(s.shadow) * s.residual_norm) {
+      if (abs(ρ) <= ε * norm(s.shadow) * (s.residual_norm / s.unit)) {
         s.restarted = true;
       } else {
         scalar const β = (ρ / s.ρ) * (s.α / s.ω);
@@ -121,20 +114,17 @@ class bicgstab<A, V, M> {
       if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) return break_down(s);
     }
     s.α = s.ρ / denominator;
-    slant::local(s.x) -= s.α * slant::local(s.preconditioned);  // M p
-    slant::local(s.r) -= s.α * slant::local(s.v);               // r is now the half-step residual s
+    slant::local(s.x) -= (s.unit * s.α) * slant::local(s.preconditioned);  // M p
+    slant::local(s.r) -= s.α * slant::local(s.v);  // r is now the half-step residual s
     s.restarted = false;
     ++s.iteration;
-    s.residual_norm = norm(s.r);
-    if (s.residual_norm == scalar(0)) {
-      s.status = status::converged;
-      return;
-    }
+    detail::note_residual(s);
+    if (s.status != status::running) return;
     image(s, s.r, s.t);
-    scalar const tt = inner_product(s.t, s.t);
-    if (!usable(tt, scalar(0))) return break_down(s);
-    s.ω = inner_product(s.t, s.r) / tt;
-    slant::local(s.x) -= s.ω * slant::local(s.preconditioned);  // M s
+    scalar const τ = norm(s.t);
+    if (!usable(τ, scalar(0))) return break_down(s);
+    s.ω = inner_product(s.t, s.r) / τ / τ;
+    slant::local(s.x) -= (s.unit * s.ω) * slant::local(s.preconditioned);  // M s
     slant::local(s.r) -= s.ω * slant::local(s.t);
     if (s.ω == scalar(0)) s.restarted = true;  // a skew direction: the next step starts anew
     detail::note_residual(s);
@@ -155,14 +145,10 @@ class bicgstab<A, V, M> {
 
   /// y = A M x; M x stays in s.preconditioned for the update of the iterate.
   void image(state_type& s, vector_type const& x, vector_type& y) const {
-    slant::apply(m_.get(), x, s.preconditioned, s.m_workspace);
-    slant::apply(a_.get(), s.preconditioned, y, s.a_workspace);
+    slant::apply(this->m(), x, s.preconditioned, s.m_workspace);
+    slant::apply(this->a(), s.preconditioned, y, s.a_workspace);
     ++s.work.operator_applications;
   }
-
-  held<A> a_;
-  held<V> b_;
-  held<M> m_;
 };
 
 template <class A, class V>

@@ -18,7 +18,8 @@
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <utility>
+#include <concepts>
+#include <type_traits>
 
 namespace slant {
 
@@ -26,11 +27,12 @@ namespace slant {
 template <class V, class WA, class WM>
 struct cg_state {
   V x;                                 ///< iterate
-  V r;                                 ///< residual A x − b
+  V r;                                 ///< residual A x − b, in multiples of unit
   V z;                                 ///< preconditioned residual M r
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
   WM m_workspace;                      ///< temporaries of M
+  scalar_t<V> unit{1};                 ///< a power of two, see unit.hpp
   scalar_t<V> residual_norm{0};        ///< ‖r‖
   scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
   index iteration = 0;
@@ -57,65 +59,51 @@ template <class A, class V, class M>
   requires vector<std::remove_cvref_t<V>> &&
            spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
            spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>
-class cg<A, V, M> {
+class cg<A, V, M> : public detail::preconditioned_system<A, V, M> {
+  using system = detail::preconditioned_system<A, V, M>;
+
  public:
-  using operator_type = std::remove_cvref_t<A>;
-  using vector_type = std::remove_cvref_t<V>;
-  using preconditioner_type = std::remove_cvref_t<M>;
-  using scalar = scalar_t<vector_type>;
-  using state_type = cg_state<vector_type, workspace_t<operator_type, vector_type>,
-                              workspace_t<preconditioner_type, vector_type>>;
+  using typename system::scalar;
+  using typename system::vector_type;
+  using state_type = cg_state<vector_type, workspace_t<typename system::operator_type, vector_type>,
+                              workspace_t<typename system::preconditioner_type, vector_type>>;
+  using system::system;
 
-  /// Throws bad_input if sizes do not match or b is not finite.
-  cg(held<A> a, held<V> b)
-    requires std::same_as<preconditioner_type, identity_operator>
-      : cg(a, b, identity_operator(slant::local(b.get()).size())) {}
-  cg(held<A> a, held<V> b, held<M> m) : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
-    detail::check_linear_system(a_.get(), b_.get());
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()),
-                       slant::local(b_.get()).size());
-  }
-
+  /// Throws bad_input if x0 or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const n = index(slant::local(b_.get()).size());
-    detail::check_size("x0", index(slant::local(x0).size()), n);
-    detail::check_finite("x0", x0);
+    detail::check_start(x0, this->b());
+    auto const n = this->a().rows();
     state_type s{x0,
                  like(x0, n),
                  like(x0, n),
                  conjugate_directions<vector_type>(x0),
-                 workspace(a_.get(), x0),
-                 workspace(m_.get(), x0)};
-    detail::start_residual(a_.get(), b_.get(), s);
+                 workspace(this->a(), x0),
+                 workspace(this->m(), x0)};
+    detail::start_residual(this->a(), this->b(), s);
     return s;
   }
 
   void step(state_type& s) const {
     if (s.status != status::running) return;
     auto& d = s.directions;
-    if constexpr (std::same_as<preconditioner_type, identity_operator>) {
+    if constexpr (std::same_as<typename system::preconditioner_type, identity_operator>) {
       d.advance(s.r);
     } else {
-      slant::apply(m_.get(), s.r, s.z, s.m_workspace);
+      slant::apply(this->m(), s.r, s.z, s.m_workspace);
       d.advance(s.z);
     }
-    d.image(a_.get(), s.a_workspace);
+    d.image(this->a(), s.a_workspace);
     ++s.work.operator_applications;
     if (!(d.curvature > scalar(0))) {
       s.status = status::breakdown;
       return;
     }
     scalar const α = inner_product(s.r, d.p) / d.curvature;
-    slant::local(s.x) -= α * slant::local(d.p);
+    slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
     slant::local(s.r) -= α * slant::local(d.Ap);
     detail::note_residual(s);
     ++s.iteration;
   }
-
- private:
-  held<A> a_;
-  held<V> b_;
-  held<M> m_;
 };
 
 template <class A, class V>

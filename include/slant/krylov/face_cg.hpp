@@ -25,10 +25,11 @@ namespace slant {
 template <class V, class WA>
 struct face_cg_state {
   V x;                                 ///< iterate; equal to x₀ off the face
-  V r;                                 ///< full gradient A x − b
+  V r;                                 ///< full gradient A x − b, in multiples of unit
   V φ;                                 ///< free gradient: r on the face, 0 elsewhere
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
+  scalar_t<V> unit{1};                 ///< a power of two, see unit.hpp
   scalar_t<V> residual_norm{0};        ///< ‖φ‖
   scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
   index iteration = 0;
@@ -69,10 +70,10 @@ class face_cg<A, V, F> {
     detail::check_linear_system(a_.get(), b_.get());
   }
 
+  /// Throws bad_input if x0 or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const n = index(slant::local(b_.get()).size());
-    detail::check_size("x0", index(slant::local(x0).size()), n);
-    detail::check_finite("x0", x0);
+    detail::check_start(x0, b_.get());
+    auto const n = index(slant::local(x0).size());
     state_type s{x0, like(x0, n), like(x0, n), conjugate_directions<vector_type>(x0),
                  workspace(a_.get(), x0)};
     detail::start_residual(a_.get(), b_.get(), s);
@@ -92,7 +93,7 @@ class face_cg<A, V, F> {
       return;
     }
     scalar const α = inner_product(s.r, d.p) / d.curvature;
-    slant::local(s.x) -= α * slant::local(d.p);
+    slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
     slant::local(s.r) -= α * slant::local(d.Ap);
     note(s);
     ++s.iteration;
@@ -101,7 +102,7 @@ class face_cg<A, V, F> {
  private:
   void note(state_type& s) const {
     face_.get().keep(s.r, s.φ);
-    s.residual_norm = norm(s.φ);
+    s.residual_norm = s.unit * norm(s.φ);
     if (s.residual_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
   }

@@ -6,9 +6,18 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/operators/held.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <type_traits>
+#include <utility>
 
 namespace slant::detail {
 
+/// Throws bad_input unless A is n × n and b has n finite entries.
 template <class A, class V>
 void check_linear_system(A const& a, V const& b) {
   auto const n = index(slant::local(b).size());
@@ -17,31 +26,76 @@ void check_linear_system(A const& a, V const& b) {
   check_finite("b", b);
 }
 
+/// Throws bad_input unless x0 has as many entries as b, all of them finite.
+template <class V>
+void check_start(V const& x0, V const& b) {
+  check_size("x0", index(slant::local(x0).size()), index(slant::local(b).size()));
+  check_finite("x0", x0);
+}
+
 /// Norm of the residual in s.r and what follows from it for the status.
 template <class State>
 void note_residual(State& s) {
   using S = scalar_t<decltype(s.r)>;
-  s.residual_norm = norm(s.r);
+  s.residual_norm = s.unit * norm(s.r);
   if (s.residual_norm == S(0)) s.status = status::converged;
   if (!is_finite(s.residual_norm)) s.status = status::breakdown;
 }
 
-/// s.r = A s.x − b, the scale ‖b‖ (or ‖A x₀‖ if b = 0); one application, none if x₀ = 0.
+/// s.r = (A s.x − b) / s.unit, the unit, and the scale ‖b‖ (or ‖A x₀‖ if b = 0); one application,
+/// none if x₀ = 0.
 template <class A, class V, class State>
 void start_residual(A const& a, V const& b, State& s) {
   using S = scalar_t<V>;
   auto& r = s.r;
   s.residual_scale = norm(b);
   if (norm(s.x) == S(0)) {
-    slant::local(r) = -slant::local(b);
+    s.unit = unit_near(s.residual_scale);
+    slant::local(r) = slant::local(b) * (S(-1) / s.unit);
   } else {
     slant::apply(a, s.x, r, s.a_workspace);
     ++s.work.operator_applications;
-    if (s.residual_scale == S(0)) s.residual_scale = norm(r);
-    slant::local(r) -= slant::local(b);
-    check_finite("A x0 - b", r);
+    check_finite("A x0", r);
+    S const image = norm(r);
+    if (s.residual_scale == S(0)) s.residual_scale = image;
+    s.unit = unit_near(std::max<S>(s.residual_scale, image));
+    slant::local(r) = (slant::local(r) - slant::local(b)) * (S(1) / s.unit);
   }
   note_residual(s);
 }
+
+/// A x = b with a preconditioner M ≈ A⁻¹, checked. Each part is kept as kept_t says.
+template <class A, class V, class M>
+class preconditioned_system {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using preconditioner_type = std::remove_cvref_t<M>;
+  using scalar = scalar_t<vector_type>;
+
+  /// Throws bad_input if sizes do not match or b is not finite.
+  preconditioned_system(held<A> a, held<V> b)
+    requires std::same_as<preconditioner_type, identity_operator>
+      : a_(std::move(a)), b_(std::move(b)), m_(identity_operator(slant::local(b_.get()).size())) {
+    check_linear_system(a_.get(), b_.get());
+  }
+  preconditioned_system(held<A> a, held<V> b, held<M> m)
+      : a_(std::move(a)), b_(std::move(b)), m_(std::move(m)) {
+    check_linear_system(a_.get(), b_.get());
+    check_size("rows of the preconditioner", index(m_.get().rows()), slant::local(b_.get()).size());
+    check_size("columns of the preconditioner", index(m_.get().cols()),
+               slant::local(b_.get()).size());
+  }
+
+ protected:
+  [[nodiscard]] operator_type const& a() const noexcept { return a_.get(); }
+  [[nodiscard]] vector_type const& b() const noexcept { return b_.get(); }
+  [[nodiscard]] preconditioner_type const& m() const noexcept { return m_.get(); }
+
+ private:
+  held<A> a_;
+  held<V> b_;
+  held<M> m_;
+};
 
 }  // namespace slant::detail

@@ -23,6 +23,7 @@
 #pragma once
 
 #include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/unit.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_problem.hpp>
 #include <slant/methods/kprgp_state.hpp>
@@ -68,6 +69,8 @@ class kprgp<QP> {
     s.step_length = step_length(s);
     gradient(s);
     detail::check_finite("A x0 - b", s.r);
+    s.unit = unit_near(std::max<scalar>(s.scale_of_b, norm(s.r)));
+    slant::local(s.r) *= scalar(1) / s.unit;
     restart(s);
     s.best_norm = s.reduced_gradient_norm;
     return s;
@@ -109,21 +112,22 @@ class kprgp<QP> {
     slant::local(s.trial) = -slant::local(d.p);
     scalar const α_max = qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial));
     if (!(α_max < std::numeric_limits<scalar>::infinity())) {
-      s.status = is_descent(slope, d.p, s.gradient_scale) ? status::unbounded : status::stalled;
+      s.status =
+          is_descent(slope, d.p, s.gradient_scale / s.unit) ? status::unbounded : status::stalled;
       return true;
     }
     if (options_.half_step || !(d.curvature > flat)) {
       slant::local(s.x) += α_max * slant::local(s.trial);
-      slant::local(s.r) -= α_max * slant::local(d.Ap);
+      slant::local(s.r) -= (α_max / s.unit) * slant::local(d.Ap);
       split(s);
     }
     return false;
   }
 
-  /// x − α p if it lies in Λ.
+  /// x − α p, p in multiples of unit, if it lies in Λ.
   bool try_step(state_type& s, scalar α) const {
     auto& d = s.directions;
-    slant::local(s.trial) = slant::local(s.x) - α * slant::local(d.p);
+    slant::local(s.trial) = slant::local(s.x) - (s.unit * α) * slant::local(d.p);
     if (!qp_.get().set().contains(slant::local(s.trial))) return false;
     std::swap(s.x, s.trial);
     if (options_.refresh > 0 && ++s.since_refresh >= options_.refresh) {
@@ -156,16 +160,17 @@ class kprgp<QP> {
     s.last_step = kprgp_step::proportioning;
   }
 
-  /// r = A x − b; one application, none at x = 0.
+  /// r = (A x − b) / unit; one application, none at x = 0.
   void gradient(state_type& s) const {
     s.since_refresh = 0;
+    scalar const per_unit = scalar(1) / s.unit;
     if (norm(s.x) == scalar(0)) {
-      slant::local(s.r) = -slant::local(qp_.get().b());
+      slant::local(s.r) = -per_unit * slant::local(qp_.get().b());
       return;
     }
     slant::apply(qp_.get().a(), s.x, s.r, s.a_workspace);
     ++s.work.operator_applications;
-    slant::local(s.r) -= slant::local(qp_.get().b());
+    slant::local(s.r) = per_unit * (slant::local(s.r) - slant::local(qp_.get().b()));
   }
 
   /// A new face at x; the next direction is φ itself.
@@ -183,15 +188,15 @@ class kprgp<QP> {
   void split(state_type& s) const {
     auto x = slant::local(s.x).array();
     auto r = slant::local(s.r).array();
-    slant::local(s.trial) = slant::local(s.x) - s.step_length * slant::local(s.r);
+    scalar const α = s.step_length * s.unit;
+    slant::local(s.trial) = slant::local(s.x) - α * slant::local(s.r);
     slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.projected));
     // Where the projection does nothing r̃ = r, exactly: the quotient would lose ‖x‖ε/α̃.
     auto projected = slant::local(s.projected).array();
-    slant::local(s.reduced) = (projected == slant::local(s.trial).array())
-                                  .select(r, (x - projected) / s.step_length)
-                                  .matrix();
-    s.reduced_gradient_norm = norm(s.reduced);
-    scalar const noise = std::numeric_limits<scalar>::epsilon() * norm(s.x) / s.step_length;
+    slant::local(s.reduced) =
+        (projected == slant::local(s.trial).array()).select(r, (x - projected) / α).matrix();
+    s.reduced_gradient_norm = s.unit * norm(s.reduced);
+    scalar const noise = std::numeric_limits<scalar>::epsilon() * norm(s.x) / α;
     s.face.keep(s.reduced, s.φ);
     s.φr = gain(s.φ, s.r, noise);
     s.face.keep_complement(s.reduced, s.φ);
@@ -215,7 +220,7 @@ class kprgp<QP> {
   /// max(‖b‖, ‖A x‖), with ‖A x‖ of the first iterate kept if b = 0: else x → 0 would have no
   /// scale.
   void note_scale(state_type& s) const {
-    slant::local(s.trial) = slant::local(s.r) + slant::local(qp_.get().b());
+    slant::local(s.trial) = s.unit * slant::local(s.r) + slant::local(qp_.get().b());
     scalar const image = norm(s.trial);
     if (s.scale_of_b == scalar(0)) s.scale_of_b = image;
     s.gradient_scale = std::max(s.scale_of_b, image);

@@ -20,9 +20,9 @@ struct kprgp_state {
   using scalar = typename QP::scalar;
 
   vector_type x;                                 ///< iterate, in Λ
-  vector_type r;                                 ///< gradient A x − b
+  vector_type r;                                 ///< gradient A x − b, in multiples of unit
   vector_type projected;                         ///< P_Λ(x − α̃ r)
-  vector_type reduced;                           ///< reduced gradient r̃
+  vector_type reduced;                           ///< reduced gradient r̃, in multiples of unit
   vector_type φ;                                 ///< free gradient; between steps scratch
   vector_type trial;                             ///< scratch
   slant::face<scalar> face;                      ///< blocks that could move at the last restart
@@ -30,9 +30,10 @@ struct kprgp_state {
   recession_watch<vector_type> recession;        ///< looks for descent without end
   workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A
 
-  scalar step_length{0};            ///< step length of the gradient steps
-  scalar φr{0};                     ///< φ̃ᵀr, what the free set can still gain
-  scalar βr{0};                     ///< β̃ᵀr, what the active set can still gain
+  scalar unit{1};                   ///< of r and r̃, a power of two; see krylov/unit.hpp
+  scalar step_length{0};            ///< α̃ of the gradient steps
+  scalar φr{0};                     ///< φ̃ᵀr / unit², what the free set can still gain
+  scalar βr{0};                     ///< β̃ᵀr / unit², what the active set can still gain
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖
   scalar gradient_scale{0};         ///< max(‖b‖, ‖A x‖): what ‖r̃‖ is small against
   scalar scale_of_b{0};             ///< ‖b‖, or ‖A x₀‖ if b = 0

@@ -17,10 +17,12 @@ namespace slant {
 /// Curvature pᵀAp below which p counts as a direction of the kernel: ε ‖p‖² / α̃, α̃ ≈ 1/σ_max.
 template <class V, class S>
 [[nodiscard]] S flatness(V const& p, S step_length) {
-  return std::numeric_limits<S>::epsilon() * inner_product(p, p) / step_length;
+  S const size = norm(p);
+  return std::numeric_limits<S>::epsilon() * size * (size / step_length);
 }
 
-/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_scale?
+/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_scale,
+/// given in the unit of r?
 template <class V, class S>
 [[nodiscard]] bool is_descent(S slope, V const& d, S gradient_scale) {
   auto const noise = S(slant::local(d).size()) * std::numeric_limits<S>::epsilon();
@@ -37,7 +39,8 @@ class recession_watch {
   /// For vectors of n entries like the prototype.
   recession_watch(V const& prototype, index n) : x_(like(prototype, n)), r_(like(prototype, n)) {}
 
-  /// Looks at s.x and its gradient s.r. If true, s.directions.p is the negative direction.
+  /// Looks at s.x and its gradient s.r, in multiples of s.unit. If true, s.directions.p is the
+  /// negative direction.
   template <class Set, class State>
   [[nodiscard]] bool found(Set const& set, State& s) {
     using S = scalar_t<V>;
@@ -45,8 +48,8 @@ class recession_watch {
       slant::local(s.φ) = slant::local(s.r) - slant::local(r_);
       slant::local(s.trial) = slant::local(s.x) - slant::local(x_);
       S const slope = -inner_product(s.trial, s.r);
-      return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.step_length)) &&
-             is_descent(slope, s.trial, s.gradient_scale) &&
+      return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.step_length * s.unit)) &&
+             is_descent(slope, s.trial, s.gradient_scale / s.unit) &&
              !(set.step_to_boundary(slant::local(s.x), slant::local(s.trial)) <
                std::numeric_limits<S>::infinity());
     }();
