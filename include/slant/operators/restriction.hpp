@@ -8,7 +8,7 @@
 #pragma once
 
 #include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/applicable.hpp>
+#include <slant/operators/congruence.hpp>
 #include <slant/operators/detail/closure.hpp>
 #include <slant/operators/detail/component_list.hpp>
 
@@ -71,10 +71,12 @@ class restriction : public detail::component_list {
   }
 };
 
-/// y = R A Rᵀ x. A is `Operator const&` (referenced) or an operator type (owned).
+/// y = R A Rᵀ x: the congruence with R, whose components may change, and which knows its diagonal
+/// and columns. A is `Operator const&` (referenced) or an operator type (owned).
 template <class A>
 class restricted_operator {
   using part = std::remove_cvref_t<A>;
+  using congruence_type = congruence_operator<restriction const&, part const&, true>;
 
  public:
   static constexpr law_set laws = detail::restricted_laws(laws_of<A>);
@@ -95,44 +97,33 @@ class restricted_operator {
   template <class X>
     requires linear_operator<part, plain_t<X>>
   [[nodiscard]] auto workspace(X const& x) const {
-    return make_workspace(slant::like(x, r_.cols()), slant::like(x, r_.cols()),
-                          [&](auto const& full) { return slant::workspace(a_.get(), full); });
+    return congruence().workspace(x);
   }
   template <class X, class Y, class W>
     requires linear_operator<part, plain_t<X>>
   void apply(X const& x, Y& y, W& w) const {
-    r_.apply_adjoint(x, w.before);
-    slant::apply(a_.get(), w.before, w.after, w.inner);
-    r_.apply(w.after, y);
+    congruence().apply(x, y, w);
   }
   template <class X, class Y, class W>
     requires linear_operator<part, plain_t<X>>
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    r_.apply_adjoint(x, w.before);
-    slant::apply(a_.get(), w.before, w.after, w.inner);
-    r_.apply_add(α, w.after, y);
+    congruence().apply_add(α, x, y, w);
   }
 
   template <class X>
     requires has_adjoint<part, plain_t<X>>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return make_workspace(
-        slant::like(x, r_.cols()), slant::like(x, r_.cols()),
-        [&](auto const& full) { return slant::adjoint_workspace(a_.get(), full); });
+    return congruence().adjoint_workspace(x);
   }
   template <class X, class Y, class W>
     requires has_adjoint<part, plain_t<X>>
   void apply_adjoint(X const& x, Y& y, W& w) const {
-    r_.apply_adjoint(x, w.before);
-    slant::apply_adjoint(a_.get(), w.before, w.after, w.inner);
-    r_.apply(w.after, y);
+    congruence().apply_adjoint(x, y, w);
   }
   template <class X, class Y, class W>
     requires has_adjoint<part, plain_t<X>>
   void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    r_.apply_adjoint(x, w.before);
-    slant::apply_adjoint(a_.get(), w.before, w.after, w.inner);
-    r_.apply_add(α, w.after, y);
+    congruence().apply_adjoint_add(α, x, y, w);
   }
 
   template <class D>
@@ -154,17 +145,7 @@ class restricted_operator {
   }
 
  private:
-  template <class T, class Inner>
-  struct workspace_type {
-    T before;  ///< Rᵀ x
-    T after;   ///< A Rᵀ x
-    Inner inner;
-  };
-  template <class T, class F>
-  [[nodiscard]] static auto make_workspace(T before, T after, F inner) {
-    auto w = inner(before);
-    return workspace_type<T, decltype(w)>{std::move(before), std::move(after), std::move(w)};
-  }
+  [[nodiscard]] congruence_type congruence() const { return {r_, a_.get()}; }
 
   held<A> a_;
   restriction r_;

@@ -12,8 +12,7 @@
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
-#include <slant/slanting/detail/checks.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/detail/function_pair.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -48,25 +47,14 @@ struct pointwise_pair_workspace {
 
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}.
 template <class Kernel, class F, class G>
-class pointwise_pair : public slanting_base {
-  using left_type = std::remove_cvref_t<F>;
-  using right_type = std::remove_cvref_t<G>;
-
-  template <class V>
-  static constexpr bool usable =
-      slanting_function<left_type, V> && slanting_function<right_type, V>;
+class pointwise_pair : public function_pair<F, G> {
+  using pair = function_pair<F, G>;
 
  public:
-  /// @throws bad_input if the numbers of values or of arguments differ.
-  pointwise_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
-    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
-    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
-  }
-
-  [[nodiscard]] index rows() const { return left().rows(); }
-  [[nodiscard]] index cols() const { return left().cols(); }
-  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
-  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
+  using pair::left;
+  using pair::pair;
+  using pair::right;
+  using pair::rows;
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
@@ -77,15 +65,15 @@ class pointwise_pair : public slanting_base {
         slant::like(y, rows())};
   }
   template <class Y, class V, class W>
-    requires usable<plain_t<Y>>
-  void value(Y const& y, V& v, W& w) const {
+    requires pair::template
+  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
     evaluate_parts(y, w);
     slant::local(v) = slant::local(w.f).binaryExpr(
         slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
   }
   template <class Y>
-    requires usable<plain_t<Y>>
-  [[nodiscard]] auto slant(Y const& y) const {
+    requires pair::template
+  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
     assembled_operator s(weighted_sum_rule{}, slant::like(y, rows()), slant::like(y, rows()),
@@ -121,9 +109,6 @@ class pointwise_pair : public slanting_base {
       q[i] = at_g;
     }
   }
-
-  held<F> f_;
-  held<G> g_;
 };
 
 }  // namespace slant::detail

@@ -4,8 +4,7 @@
 #pragma once
 
 #include <slant/slanting/detail/assembled_operator.hpp>
-#include <slant/slanting/detail/checks.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/detail/function_pair.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -22,21 +21,14 @@ struct two_terms_workspace {
 
 /// F(y) ± G(y). Rule::combine(v, other) joins the values, rule(F°, G°) the slanting operators.
 template <class Rule, class F, class G>
-class two_terms : public slanting_base {
-  using left_type = std::remove_cvref_t<F>;
-  using right_type = std::remove_cvref_t<G>;
+class two_terms : public function_pair<F, G> {
+  using pair = function_pair<F, G>;
 
  public:
-  /// @throws bad_input if the numbers of values or of arguments differ.
-  two_terms(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
-    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
-    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
-  }
-
-  [[nodiscard]] index rows() const { return left().rows(); }
-  [[nodiscard]] index cols() const { return left().cols(); }
-  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
-  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
+  using pair::left;
+  using pair::pair;
+  using pair::right;
+  using pair::rows;
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
@@ -46,15 +38,15 @@ class two_terms : public slanting_base {
         slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows())};
   }
   template <class Y, class V, class W>
-    requires slanting_function<left_type, plain_t<Y>> && slanting_function<right_type, plain_t<Y>>
-  void value(Y const& y, V& v, W& w) const {
+    requires pair::template
+  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
     slant::evaluate(left(), y, v, w.first);
     slant::evaluate(right(), y, w.other, w.second);
     Rule::combine(slant::local(v), slant::local(w.other));
   }
   template <class Y>
-    requires slanting_function<left_type, plain_t<Y>> && slanting_function<right_type, plain_t<Y>>
-  [[nodiscard]] auto slant(Y const& y) const {
+    requires pair::template
+  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
     return assembled_operator(Rule{}, left().slant(y), right().slant(y));
   }
   template <class Y, class S, class W>
@@ -67,10 +59,6 @@ class two_terms : public slanting_base {
     slant::update_slant_after_value(left(), y, s.template part<0>(), w.first);
     slant::update_slant_after_value(right(), y, s.template part<1>(), w.second);
   }
-
- private:
-  held<F> f_;
-  held<G> g_;
 };
 
 }  // namespace slant::detail
