@@ -25,7 +25,7 @@ int solve_example(double tolerance, double step) {
   auto const run = [&](double Γ, double accuracy) {
     // A given step length spares the products that would bound the largest eigenvalue.
     double const α = step / example_1::largest_eigenvalue;
-    return slant::solve(slant::kprgp{qp, {.Γ = Γ, .step_length = α}}, zero,
+    return slant::solve(slant::kprgp{qp, {.proportioning = Γ, .step_length = α}}, zero,
                         slant::reduced_gradient_below(accuracy) || slant::at_most(10000));
   };
 

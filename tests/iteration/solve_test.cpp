@@ -51,4 +51,41 @@ TEST_CASE("accuracy reached in the last permitted step counts as converged") {
   CHECK(r.converged());
 }
 
+/// Its residual halves when a step updates it; in truth it is larger by `drift`, which every
+/// refresh brings down to a tenth.
+struct drifting {
+  struct state {
+    double x = 0;
+    double residual_norm = 1, residual_scale = 1, drift = 0.5;
+    bool updated = false;
+    slant::index iteration = 0;
+    slant::status status = slant::status::running;
+    int refreshes = 0;
+  };
+  static state start(double) { return {}; }
+  static void step(state& s) {
+    s.residual_norm /= 2;
+    s.updated = true;
+    ++s.iteration;
+  }
+  static bool refresh(state& s) {
+    if (!s.updated) return false;
+    s.residual_norm += s.drift;
+    s.drift /= 10;
+    s.updated = false;
+    ++s.refreshes;
+    return true;
+  }
+};
+
+TEST_CASE("success counts only for a residual computed from x, and is not asked for otherwise") {
+  auto const r = slant::solve(drifting{}, 0.0, slant::residual_below(0.01) || slant::at_most(100));
+  CHECK(r.converged());
+  CHECK(r.state.residual_norm <= 0.01);
+  CHECK(r.state.refreshes == 4);  // 0.5, 0.05 and 0.005 on top are too much
+  CHECK_FALSE(r.state.updated);
+  auto const limited = slant::solve(drifting{}, 0.0, slant::at_most(20));
+  CHECK(limited.state.refreshes == 0);
+}
+
 }  // namespace solve_test

@@ -48,8 +48,9 @@ TEST_CASE("example 1: products to 1e-6 for the eleven printed Γ") {
   double const σ_max = 4 + 2 * std::cos(std::acos(-1.0) / 13);
   for (auto const& [Γ, products] : example_1::printed) {
     CAPTURE(Γ);
-    auto const r = slant::solve(slant::kprgp{qp, {.Γ = Γ, .step_length = 1 / σ_max}}, p.zero(),
-                                slant::reduced_gradient_below(1e-6) || slant::at_most(500));
+    auto const r =
+        slant::solve(slant::kprgp{qp, {.proportioning = Γ, .step_length = 1 / σ_max}}, p.zero(),
+                     slant::reduced_gradient_below(1e-6) || slant::at_most(500));
     REQUIRE(r.converged());
     CHECK(r.state.work.setup_applications == 0);
     double const ratio = double(r.state.work.operator_applications) / products;

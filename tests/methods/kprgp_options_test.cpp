@@ -23,10 +23,13 @@ std::string complaint(options const& o) {
 TEST_CASE("options out of range are named with their value and what was expected") {
   constexpr double inf = std::numeric_limits<double>::infinity();
   CHECK(complaint({}) == "");
-  CHECK(complaint({.Γ = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}) == "");
-  CHECK(complaint({.Γ = 0}) == "Γ: got 0, expected a number > 0");
-  CHECK(complaint({.Γ = std::nan("")}) == "Γ: got nan, expected a number > 0");
-  CHECK(complaint({.Γ = inf}) == "Γ: got inf, expected a number > 0");
+  CHECK(complaint(
+            {.proportioning = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}) ==
+        "");
+  CHECK(complaint({.proportioning = 0}) == "proportioning: got 0, expected a number > 0");
+  CHECK(complaint({.proportioning = std::nan("")}) ==
+        "proportioning: got nan, expected a number > 0");
+  CHECK(complaint({.proportioning = inf}) == "proportioning: got inf, expected a number > 0");
   CHECK(complaint({.step_length = -1.0}) == "step_length: got -1, expected a number > 0");
   CHECK(complaint({.step_length = inf}) == "step_length: got inf, expected a number > 0");
   CHECK(complaint({.step_factor = 2}) == "step_factor: got 2, expected a number in (0, 2)");

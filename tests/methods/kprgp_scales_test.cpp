@@ -35,9 +35,14 @@ TEST_CASE_TEMPLATE("huge and tiny scales change nothing but the scale", S, doubl
   REQUIRE(plain.converged());
   // 1e±150 for double: nothing but the data themselves, A x and b, must be in range.
   constexpr int far = std::numeric_limits<S>::max_exponent / 2 - 14;
-  for (auto const& [stiffness, length] :
-       {std::pair{far, 0}, {-far, 0}, {0, far}, {0, -far}, {far, -far}, {-far, far}, {far, far},
-        {-far, -far}}) {
+  for (auto const& [stiffness, length] : {std::pair{far, 0},
+                                          {-far, 0},
+                                          {0, far},
+                                          {0, -far},
+                                          {far, -far},
+                                          {-far, far},
+                                          {far, far},
+                                          {-far, -far}}) {
     CAPTURE(stiffness);
     CAPTURE(length);
     auto const r = solve_in(stiffness, length);

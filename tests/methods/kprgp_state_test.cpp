@@ -30,10 +30,13 @@ TEST_CASE("the first state is that of the projected start") {
   double const square = s.unit * s.unit;
   CHECK(s.φr * square == doctest::Approx(free.dot(r)).epsilon(1e-11));
   CHECK(s.βr * square == doctest::Approx((reduced - free).dot(r)).epsilon(1e-11));
-  CHECK(s.gradient_scale == doctest::Approx(std::max(p.b.norm(), (p.A * s.x).norm())));
+  VectorXd const origin = slant::project(set, VectorXd(VectorXd::Zero(20)));
+  VectorXd const there = slant::project(set, VectorXd(origin - 0.7 * (p.A * origin - p.b)));
+  CHECK(s.gradient_scale == doctest::Approx((origin - there).norm() / 0.7));
   CHECK(s.iteration == 0);
   CHECK(s.status == slant::status::running);
-  CHECK(s.work.operator_applications == 1);
+  CHECK(s.work.operator_applications == 2);
+  CHECK(method.start(VectorXd::Zero(20)).work.operator_applications == 1);
 }
 
 TEST_CASE("a state can be copied and continued: both go the same way") {

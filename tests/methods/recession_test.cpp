@@ -15,8 +15,8 @@ struct snapshot {
   VectorXd x;
   VectorXd r;
   double unit = 1;
-  double step_length = 1;
-  double gradient_scale = 1;
+  double σ = 1;
+  double size_of_b = 1;
   VectorXd φ = VectorXd(2);
   VectorXd trial = VectorXd(2);
   struct {
@@ -71,8 +71,8 @@ TEST_CASE("no direction: the set is in the way, the way is not flat, or it does 
 
 TEST_CASE("flatness and descent know no units") {
   VectorXd const p{{3.0, 4.0}};
-  CHECK(slant::flatness(p, 2.0) == 12.5 * 0x1p-52);
-  CHECK(slant::flatness(VectorXd(0x1p200 * p), 0x1p-100) == 25 * 0x1p448);
+  CHECK(slant::flatness(p, 0.5) == 12.5 * 0x1p-52);
+  CHECK(slant::flatness(VectorXd(0x1p200 * p), 0x1p100) == 25 * 0x1p448);
   CHECK(slant::is_descent(1e-10, p, 1.0));
   CHECK(!slant::is_descent(1e-16, p, 1.0));
   CHECK(slant::is_descent(0x1p-433, p, 0x1p-400));

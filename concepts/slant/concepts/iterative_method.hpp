@@ -11,9 +11,12 @@
 //     rule      rule(state) → status: running to go on, anything else is the reason to stop,
 //               reason(state) → std::string, asked only after it has fired
 //     observer  observer(state)
+// and, for methods that update a residual where it could be computed from x,
+//     method    refresh(state) → bool: computes it; whether there was anything to do
 //
 // Laws.   start gives iteration 0; step adds 1 to it, or sets a status other than running;
-//         a step from a state at rest changes nothing.
+//         a step from a state at rest changes nothing; refresh leaves x alone, and a second one
+//         returns false.
 //
 // Models. slant::cg, slant::kprgp, …; slant::at_most, …; slant::history, ….
 #pragma once
@@ -84,6 +87,12 @@ template <class M, class V> concept has_step = requires(M& m, state_t<M, V>& s) 
 /// An iterative method for vectors of type V; see the top of this file.
 template <class M, class V>
 concept iterative_method = has_start<M, V> && has_step<M, V> && iteration_state<state_t<M, V>>;
+
+/// The method can compute its residual from x; see the top of this file.
+template <class M, class State>
+concept has_refresh = requires(M& m, State& s) {
+  { m.refresh(s) } -> std::same_as<bool>;
+};
 
 template <class R, class State>
 concept has_verdict = requires(R& r, State const& s) {

@@ -7,6 +7,7 @@
 #include <slant/iteration/stopping.hpp>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -26,7 +27,8 @@ std::string own_words(State const& s) {
 
 /// Runs a method from x0 until its state leaves `running` or the rule fires; every observer sees
 /// every state, the first included. Throws bad_input if the method refuses x0; never throws for
-/// numerical trouble, which is report.status.
+/// numerical trouble, which is report.status. A method that updates its residual has to show
+/// success by a residual computed from x: has_refresh, one application more.
 template <class Method, class V, class Rule, class... Observers>
   requires iterative_method<Method, V> && stopping_rule<Rule, state_t<Method, V>> &&
            (observer<Observers, state_t<Method, V>> && ...)
@@ -39,7 +41,13 @@ template <class Method, class V, class Rule, class... Observers>
   };
   while (true) {
     (observers(std::as_const(state)), ...);
-    status const verdict = stop(std::as_const(state));
+    status verdict = stop(std::as_const(state));
+    if constexpr (has_refresh<std::remove_reference_t<Method>, state_type>) {
+      bool const success = verdict == status::converged || state.status == status::converged;
+      if (success && method.refresh(state)) {
+        verdict = stop(std::as_const(state));
+      }
+    }
     // Success first: whoever else wants to stop in the step that succeeds has nothing to add.
     if (verdict == status::converged) return end(verdict, stop.reason(state));
     if (state.status != status::running) return end(state.status, detail::own_words(state));

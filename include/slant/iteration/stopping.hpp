@@ -32,6 +32,12 @@ S checked_tolerance(S tolerance) {
   return tolerance;
 }
 
+/// converged if size ≤ tolerance · scale; never against a scale that has overflowed.
+template <class N, class S>
+status is_below(N const& size, S const& tolerance, N const& scale) {
+  return size <= tolerance * scale && is_finite(scale) ? status::converged : status::running;
+}
+
 }  // namespace detail
 
 /// Stops after n steps with status iteration_limit. n ≥ 0, else bad_input.
@@ -84,7 +90,7 @@ class residual_below : public rule {
   explicit residual_below(S tolerance) : tolerance_(detail::checked_tolerance(tolerance)) {}
   template <has_residual_norm State>
   status operator()(State const& s) const {
-    return s.residual_norm <= tolerance_ * s.residual_scale ? status::converged : status::running;
+    return detail::is_below(s.residual_norm, tolerance_, s.residual_scale);
   }
   template <has_residual_norm State>
   std::string reason(State const& s) const {
@@ -101,15 +107,14 @@ concept has_reduced_gradient_norm =
     requires(State const& s) { s.reduced_gradient_norm <= s.gradient_scale; };
 
 /// ‖r̃‖ ≤ tolerance · scale with the reduced gradient r̃ = (x − P(x − αr))/α of [K (30)], which is
-/// zero exactly at the solution [K Lemma 2]. The scale is the state's, of the size of ‖b‖.
+/// zero exactly at the solution [K Lemma 2]. The scale is the state's: ‖r̃‖ at P_Λ(0).
 template <class S>
 class reduced_gradient_below : public rule {
  public:
   explicit reduced_gradient_below(S tolerance) : tolerance_(detail::checked_tolerance(tolerance)) {}
   template <has_reduced_gradient_norm State>
   status operator()(State const& s) const {
-    return s.reduced_gradient_norm <= tolerance_ * s.gradient_scale ? status::converged
-                                                                    : status::running;
+    return detail::is_below(s.reduced_gradient_norm, tolerance_, s.gradient_scale);
   }
   template <has_reduced_gradient_norm State>
   std::string reason(State const& s) const {

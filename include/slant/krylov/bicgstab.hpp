@@ -37,6 +37,9 @@ struct bicgstab_state {
   bool restarted = true;          ///< p starts anew from r
   scalar_t<V> residual_norm{0};   ///< ‖r‖
   scalar_t<V> residual_scale{0};  ///< ‖b‖, or ‖A x₀‖ if b = 0
+  scalar_t<V> computed_norm =
+      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
+  bool updated = false;                              ///< r was updated since it was computed from x
   index iteration = 0;
   slant::status status = slant::status::running;
   slant::work work{};
@@ -117,6 +120,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     slant::local(s.x) -= (s.unit * s.α) * slant::local(s.preconditioned);  // M p
     slant::local(s.r) -= s.α * slant::local(s.v);  // r is now the half-step residual s
     s.restarted = false;
+    s.updated = true;
     ++s.iteration;
     detail::note_residual(s);
     if (s.status != status::running) return;
@@ -128,6 +132,12 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     slant::local(s.r) -= s.ω * slant::local(s.t);
     if (s.ω == scalar(0)) s.restarted = true;  // a skew direction: the next step starts anew
     detail::note_residual(s);
+  }
+
+  /// r from x, if steps have been updating it; the recurrence starts anew.
+  bool refresh(state_type& s) const {
+    s.restarted = true;
+    return detail::refresh_residual(this->a(), this->b(), s, detail::note_residual<state_type>);
   }
 
  private:

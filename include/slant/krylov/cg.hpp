@@ -19,6 +19,7 @@
 #include <slant/operators/identity.hpp>
 
 #include <concepts>
+#include <limits>
 #include <type_traits>
 
 namespace slant {
@@ -35,6 +36,9 @@ struct cg_state {
   scalar_t<V> unit{1};                 ///< a power of two, see unit.hpp
   scalar_t<V> residual_norm{0};        ///< ‖r‖
   scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
+  scalar_t<V> computed_norm =
+      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
+  bool updated = false;                              ///< r was updated since it was computed from x
   index iteration = 0;
   slant::status status = slant::status::running;
   slant::work work{};
@@ -101,8 +105,15 @@ class cg<A, V, M> : public detail::preconditioned_system<A, V, M> {
     scalar const α = inner_product(s.r, d.p) / d.curvature;
     slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
     slant::local(s.r) -= α * slant::local(d.Ap);
+    s.updated = true;
     detail::note_residual(s);
     ++s.iteration;
+  }
+
+  /// r from x, if steps have been updating it; the next direction is r itself.
+  bool refresh(state_type& s) const {
+    s.directions.live = false;
+    return detail::refresh_residual(this->a(), this->b(), s, detail::note_residual<state_type>);
   }
 };
 

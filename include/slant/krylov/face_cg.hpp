@@ -17,6 +17,7 @@
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/held.hpp>
 
+#include <limits>
 #include <utility>
 
 namespace slant {
@@ -32,6 +33,9 @@ struct face_cg_state {
   scalar_t<V> unit{1};                 ///< a power of two, see unit.hpp
   scalar_t<V> residual_norm{0};        ///< ‖φ‖
   scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
+  scalar_t<V> computed_norm =
+      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
+  bool updated = false;                              ///< r was updated since it was computed from x
   index iteration = 0;
   slant::status status = slant::status::running;
   slant::work work{};
@@ -95,8 +99,15 @@ class face_cg<A, V, F> {
     scalar const α = inner_product(s.r, d.p) / d.curvature;
     slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
     slant::local(s.r) -= α * slant::local(d.Ap);
+    s.updated = true;
     note(s);
     ++s.iteration;
+  }
+
+  /// r from x, if steps have been updating it; the next direction is φ itself.
+  bool refresh(state_type& s) const {
+    s.directions.live = false;
+    return detail::refresh_residual(a_.get(), b_.get(), s, [this](state_type& t) { note(t); });
   }
 
  private:

@@ -8,6 +8,8 @@
 #include <slant/krylov/cg.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/face_cg.hpp>
+#include <slant/krylov/gradient_step.hpp>
 #include <slant/krylov/linear_system.hpp>
 #include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/unit.hpp>
 // IWYU pragma: end_exports

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -62,6 +63,25 @@ void start_residual(A const& a, V const& b, State& s) {
     slant::local(r) = (slant::local(r) - slant::local(b)) * (S(1) / s.unit);
   }
   note_residual(s);
+}
+
+/// s.r from s.x, if it has been updated instead; whether it has. One application; note(s) then
+/// takes the new norm down. Stalled if that is no smaller than half of what it was the last time: x
+/// has no more digits to give.
+template <class A, class V, class State, class Note>
+bool refresh_residual(A const& a, V const& b, State& s, Note note) {
+  using S = scalar_t<V>;
+  if (!s.updated) return false;
+  slant::apply(a, s.x, s.r, s.a_workspace);
+  ++s.work.operator_applications;
+  slant::local(s.r) = (slant::local(s.r) - slant::local(b)) * (S(1) / s.unit);
+  s.updated = false;
+  s.status = status::running;
+  note(s);
+  bool const better = s.residual_norm < s.computed_norm / S(2);
+  if (s.status == status::running && !better) s.status = status::stalled;
+  s.computed_norm = s.residual_norm;
+  return true;
 }
 
 /// A x = b with a preconditioner M ≈ A⁻¹, checked. Each part is kept as kept_t says.

@@ -22,11 +22,12 @@
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
 #pragma once
 
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/gradient_step.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_problem.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/separable_qp.hpp>
 
 #include <algorithm>
@@ -38,10 +39,12 @@ namespace slant {
 
 /// KPRGP for a separable_qp: solve(kprgp{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// Requires: psd_operator (A symmetric positive semidefinite) and separable_set with
-/// step_to_boundary. Spends one application of A a step (two for an expansion) and, only if no
-/// step_length is given, up to spectrum.steps once at the start. Statuses of its own: converged
-/// (r̃ = 0), unbounded (q decreases for ever along −state.directions.p), stalled (‖r̃‖ has reached
-/// the level of rounding errors), breakdown (overflow).
+/// step_to_boundary. Spends one application of A a step (two for an expansion and for a CG step
+/// that recomputes r) and, only if no step_length is given, those for the bound of σ_max at the
+/// start. Statuses of its own: converged (r̃ = 0); unbounded (q decreases for ever along
+/// −state.directions.p; only if A is not declared definite); stalled (neither ‖r̃‖ nor q fell for
+/// `patience` steps, or q falls for ever, but only along a curve on the boundary of a cone);
+/// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
   requires kprgp_problem<std::remove_cvref_t<QP>>
 class kprgp<QP> {
@@ -58,21 +61,30 @@ class kprgp<QP> {
     options_.validate();
   }
 
-  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size.
+  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
+  /// 1/σ_max is not a finite number.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
     detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
     detail::check_finite("x0", x0);
     state_type s(qp, x0);
-    s.scale_of_b = norm(qp.b());
-    slant::project(qp.set(), slant::local(x0), slant::local(s.x));
-    s.step_length = step_length(s);
-    gradient(s);
+    set_step_length(s);
+    // What ‖r̃‖ has to be small against: its value at the point of Λ next to 0, wherever the run
+    // starts. Not ‖b‖, much of which the constraints may absorb.
+    slant::local(s.trial).setZero();
+    place(s.trial, s);
+    s.gradient_scale = s.reduced_gradient_norm;
+    // That point may be the solution, up to rounding: then there is no better start.
+    bool const solved = s.gradient_scale <= epsilon() * norm(s.x) / s.step_length;
+    if (!solved && !at_projection(x0, s)) place(x0, s);
     detail::check_finite("A x0 - b", s.r);
-    s.unit = unit_near(std::max<scalar>(s.scale_of_b, norm(s.r)));
+
+    scalar const size_of_b = norm(qp.b());
+    s.unit = unit_near(std::max<scalar>(size_of_b, norm(s.r)));
+    s.size_of_b = size_of_b / s.unit;
     slant::local(s.r) *= scalar(1) / s.unit;
     restart(s);
-    s.best_norm = s.reduced_gradient_norm;
+    if (solved) s.status = status::converged;
     return s;
   }
 
@@ -88,10 +100,25 @@ class kprgp<QP> {
     note_progress(s);
   }
 
+  /// r and r̃ from x, if CG steps have been updating r instead; whether they have. One application.
+  bool refresh(state_type& s) const {
+    if (s.since_refresh == 0) return false;
+    s.status = status::running;
+    s.directions.live = false;
+    gradient(s);
+    split(s);
+    return true;
+  }
+
  private:
+  static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
+
+  static scalar epsilon() { return std::numeric_limits<scalar>::epsilon(); }
+
   /// [K (33)]: the error on the active set is small against the one on the free set.
   [[nodiscard]] bool strictly_proportional(state_type const& s) const {
-    return s.βr < options_.Γ * options_.Γ * s.φr;
+    auto const& Γ = options_.proportioning;
+    return s.βr < Γ * Γ * s.φr;
   }
 
   /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
@@ -102,21 +129,22 @@ class kprgp<QP> {
     d.image(qp_.get().a(), s.a_workspace);
     ++s.work.operator_applications;
     scalar const slope = inner_product(s.r, d.p);
-    scalar const flat = flatness(d.p, s.step_length);
-    if (!(d.curvature >= -flat)) {  // A is not what it promised, or not a number
+    scalar const noise = curvature_noise(s);
+    if (!(d.curvature >= -noise)) {  // A is not what it promised, or not a number
       s.status = status::breakdown;
       return true;
     }
-    if (d.curvature > flat && try_step(s, slope / d.curvature)) return true;
+    bool const curved = d.curvature > noise;
+    if (curved && try_step(s, slope / d.curvature)) return true;
 
     slant::local(s.trial) = -slant::local(d.p);
     scalar const α_max = qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial));
     if (!(α_max < std::numeric_limits<scalar>::infinity())) {
-      s.status =
-          is_descent(slope, d.p, s.gradient_scale / s.unit) ? status::unbounded : status::stalled;
+      bool const descent = !definite && !curved && is_descent(slope, d.p, gradient_noise(s));
+      s.status = descent ? status::unbounded : status::stalled;
       return true;
     }
-    if (options_.half_step || !(d.curvature > flat)) {
+    if (options_.half_step || !curved) {
       slant::local(s.x) += α_max * slant::local(s.trial);
       slant::local(s.r) -= (α_max / s.unit) * slant::local(d.Ap);
       split(s);
@@ -130,7 +158,8 @@ class kprgp<QP> {
     slant::local(s.trial) = slant::local(s.x) - (s.unit * α) * slant::local(d.p);
     if (!qp_.get().set().contains(slant::local(s.trial))) return false;
     std::swap(s.x, s.trial);
-    if (options_.refresh > 0 && ++s.since_refresh >= options_.refresh) {
+    ++s.since_refresh;
+    if (options_.refresh > 0 && s.since_refresh >= options_.refresh) {
       gradient(s);
     } else {
       slant::local(s.r) -= α * slant::local(d.Ap);
@@ -144,20 +173,35 @@ class kprgp<QP> {
   void expansion_step(state_type& s) const {
     s.face.keep(s.projected, s.φ);
     s.face.keep_complement(s.x, s.trial);
-    slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
-    gradient(s);
-    restart(s);
-    s.last_step = kprgp_step::expansion;
+    take_gradient_step(s, kprgp_step::expansion);
   }
 
   /// x ← x − α̃ β̃: may release blocks from the active set.
   void proportioning_step(state_type& s) const {
     s.face.keep_complement(s.projected, s.φ);
     s.face.keep(s.x, s.trial);
+    take_gradient_step(s, kprgp_step::proportioning);
+  }
+
+  /// The blocks that move are in s.φ, the others in s.trial.
+  void take_gradient_step(state_type& s, kprgp_step kind) const {
     slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
     gradient(s);
     restart(s);
-    s.last_step = kprgp_step::proportioning;
+    s.last_step = kind;
+  }
+
+  /// x = P_Λ(y) with its r and r̃.
+  void place(vector_type const& y, state_type& s) const {
+    slant::project(qp_.get().set(), slant::local(y), slant::local(s.x));
+    gradient(s);
+    reduce(s);
+  }
+  /// Is x = P_Λ(y)?
+  bool at_projection(vector_type const& y, state_type& s) const {
+    slant::project(qp_.get().set(), slant::local(y), slant::local(s.trial));
+    slant::local(s.trial) -= slant::local(s.x);
+    return norm(s.trial) == scalar(0);
   }
 
   /// r = (A x − b) / unit; one application, none at x = 0.
@@ -178,75 +222,70 @@ class kprgp<QP> {
     s.face.assign(qp_.get().set(), slant::local(s.x));
     s.directions.live = false;
     split(s);
-    if constexpr (!declares_positive_definite<typename problem::operator_type>) {
+    if constexpr (!definite) {
       // Steps that leave Λ again and again may still sum up to a direction that never does.
       if (s.recession.found(qp_.get().set(), s)) s.status = status::unbounded;
     }
   }
 
-  /// P_Λ(x − α̃ r), r̃ and its two parts' products with r.
-  void split(state_type& s) const {
-    auto x = slant::local(s.x).array();
-    auto r = slant::local(s.r).array();
-    scalar const α = s.step_length * s.unit;
-    slant::local(s.trial) = slant::local(s.x) - α * slant::local(s.r);
-    slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.projected));
-    // Where the projection does nothing r̃ = r, exactly: the quotient would lose ‖x‖ε/α̃.
-    auto projected = slant::local(s.projected).array();
-    slant::local(s.reduced) =
-        (projected == slant::local(s.trial).array()).select(r, (x - projected) / α).matrix();
+  /// P_Λ(x − α̃ r) and r̃.
+  void reduce(state_type& s) const {
+    reduced_gradient(qp_.get().set(), s.x, s.r, s.step_length * s.unit, s.trial, s.projected,
+                     s.reduced);
     s.reduced_gradient_norm = s.unit * norm(s.reduced);
-    scalar const noise = std::numeric_limits<scalar>::epsilon() * norm(s.x) / α;
+  }
+
+  /// r̃ and what its two parts can gain.
+  void split(state_type& s) const {
+    reduce(s);
+    scalar const rounding = epsilon() * norm(s.x) / (s.step_length * s.unit);  // of r̃
+    scalar const noise = rounding * norm(s.r);
     s.face.keep(s.reduced, s.φ);
     s.φr = gain(s.φ, s.r, noise);
     s.face.keep_complement(s.reduced, s.φ);
     s.βr = gain(s.φ, s.r, noise);
-    note_scale(s);
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) {
-      s.status = status::breakdown;
+    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+  }
+
+  /// Curvature of p below which p counts as a direction of the kernel; 0 if there is none.
+  scalar curvature_noise(state_type& s) const {
+    if constexpr (definite) {
+      return scalar(0);
+    } else {
+      auto const& d = s.directions;
+      if (options_.step_length) s.σ = std::max<scalar>(s.σ, d.curvature / inner_product(d.p, d.p));
+      return flatness(d.p, s.σ);
     }
   }
 
-  /// φ̃ᵀr or β̃ᵀr. On a curved boundary r̃ is nearly orthogonal to r, and close to the solution the
-  /// product is lost in the rounding errors of r̃ = (x − P)/α̃. Then its lower bound ‖r̃‖² stands for
-  /// it (x ∈ Λ, so (x − P)ᵀ(z − P) ≤ 0 for z = x − α̃ r): as if Γ were larger for such blocks.
-  static scalar gain(vector_type const& part, vector_type const& r, scalar noise) {
-    scalar const product = inner_product(part, r);
-    scalar const bound = inner_product(part, part);
-    return product > bound + noise * norm(r) ? product : bound;
-  }
+  /// At least max(‖b‖, ‖A x‖) / unit.
+  static scalar gradient_noise(state_type const& s) { return s.size_of_b + norm(s.r); }
 
-  /// max(‖b‖, ‖A x‖), with ‖A x‖ of the first iterate kept if b = 0: else x → 0 would have no
-  /// scale.
-  void note_scale(state_type& s) const {
-    slant::local(s.trial) = s.unit * slant::local(s.r) + slant::local(qp_.get().b());
-    scalar const image = norm(s.trial);
-    if (s.scale_of_b == scalar(0)) s.scale_of_b = image;
-    s.gradient_scale = std::max(s.scale_of_b, image);
-  }
-
-  /// Rounding errors end the descent somewhere; whoever asks for more is told so.
   void note_progress(state_type& s) const {
-    if (s.reduced_gradient_norm < s.best_norm) {
-      s.best_norm = s.reduced_gradient_norm;
-      s.best_iteration = s.iteration;
-    }
-    index const patience = options_.patience + 10 * qp_.get().size();
-    if (s.status == status::running && s.iteration - s.best_iteration > patience) {
+    if (s.status != status::running) return;
+    // q / unit = ½ xᵀ(r − b) / unit
+    auto const energy = [&] {
+      slant::local(s.trial) =
+          slant::local(s.r) - slant::local(qp_.get().b()) * (scalar(1) / s.unit);
+      return std::pair<scalar, scalar>(inner_product(s.x, s.trial) / scalar(2),
+                                       scalar(16) * epsilon() * norm(s.x) * norm(s.trial));
+    };
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy)) {
       s.status = status::stalled;
     }
   }
 
-  [[nodiscard]] scalar step_length(state_type& s) const {
-    if (options_.step_length) return *options_.step_length;
-    auto const bound = largest_eigenvalue_bound(qp_.get().a(), s.x, options_.spectrum);
-    s.work.setup_applications += bound.applications;
-    // A = 0: any step is as good as another; one that moves x by the size of b.
-    if (!(bound.upper > scalar(0))) return scalar(1);
-    // I − α̃ A contracts best with α̃ = 2 / (σ_max + σ_min); with A = I that is the whole solution.
-    scalar const best = scalar(2) / (scalar(1) + bound.smallest_ritz / bound.ritz);
-    return std::min<scalar>(options_.step_factor, best) / bound.upper;
+  void set_step_length(state_type& s) const {
+    if (options_.step_length) {
+      s.step_length = *options_.step_length;
+      return;
+    }
+    auto const safe =
+        safe_gradient_step(qp_.get().a(), s.x, options_.step_factor, options_.spectrum);
+    s.step_length = safe.length;
+    s.σ = safe.σ;
+    s.work.setup_applications += safe.applications;
   }
 
   held<QP> qp_;

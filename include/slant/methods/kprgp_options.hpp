@@ -13,18 +13,19 @@ namespace slant {
 /// Options of kprgp.
 template <class S>
 struct kprgp_options {
-  S Γ = S(1);  ///< proportioning: large keeps the face, small releases early; > 0
-  std::optional<S> step_length{};  ///< α̃; not given: from the bound of σ_max, see step_factor
-  S step_factor = S(1.9);          ///< in (0, 2); α̃ σ_max is this, or less if A is nearly a
-                                   ///< multiple of I; the bricks need half the steps that 1 needs
+  S proportioning = S(1);  ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
+  std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/gradient_step.hpp
+  S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
   bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
-  index patience = 1000;  ///< steps without a new smallest ‖r̃‖, beyond 10 n, that mean stalled
+  index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
-    if (!(Γ > S(0)) || !detail::is_finite(Γ)) throw bad_input("Γ", detail::show(Γ), "a number > 0");
+    if (!(proportioning > S(0)) || !detail::is_finite(proportioning)) {
+      throw bad_input("proportioning", detail::show(proportioning), "a number > 0");
+    }
     if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
       throw bad_input("step_length", detail::show(*step_length), "a number > 0");
     }

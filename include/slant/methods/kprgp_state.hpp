@@ -5,8 +5,11 @@
 
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
+#include <slant/methods/progress_watch.hpp>
 #include <slant/methods/recession.hpp>
 #include <slant/sets/face.hpp>
+
+#include <string>
 
 namespace slant {
 
@@ -35,10 +38,10 @@ struct kprgp_state {
   scalar φr{0};                     ///< φ̃ᵀr / unit², what the free set can still gain
   scalar βr{0};                     ///< β̃ᵀr / unit², what the active set can still gain
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖
-  scalar gradient_scale{0};         ///< max(‖b‖, ‖A x‖): what ‖r̃‖ is small against
-  scalar scale_of_b{0};             ///< ‖b‖, or ‖A x₀‖ if b = 0
-  scalar best_norm{0};              ///< smallest ‖r̃‖ so far
-  index best_iteration = 0;         ///< and when it was reached
+  scalar gradient_scale{0};         ///< ‖r̃‖ at P_Λ(0): what ‖r̃‖ is small against
+  scalar size_of_b{0};              ///< ‖b‖ / unit
+  scalar σ{0};                      ///< σ_max to a few digits; known if A is not declared definite
+  progress_watch<scalar> progress;  ///< looks for steps that get nowhere
   index since_refresh = 0;          ///< CG steps since r was computed from x
   kprgp_step last_step = kprgp_step::conjugate_gradient;
   index iteration = 0;
@@ -55,6 +58,22 @@ struct kprgp_state {
         directions(x0),
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()),
         a_workspace(workspace(qp.a(), x0)) {}
+
+  /// What a status other than running means here.
+  [[nodiscard]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the reduced gradient vanishes";
+      case slant::status::unbounded:
+        return "the function decreases for ever along a direction of the set";
+      case slant::status::stalled:
+        return "neither the reduced gradient nor the function has fallen any more";
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or A is not positive semidefinite";
+      default:
+        return std::string(to_string(status));
+    }
+  }
 };
 
 }  // namespace slant

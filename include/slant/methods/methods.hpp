@@ -5,6 +5,8 @@
 
 // IWYU pragma: begin_exports
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/separable_qp.hpp>
 // IWYU pragma: end_exports

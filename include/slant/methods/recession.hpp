@@ -14,19 +14,18 @@
 
 namespace slant {
 
-/// Curvature pᵀAp below which p counts as a direction of the kernel: ε ‖p‖² / α̃, α̃ ≈ 1/σ_max.
+/// Curvature pᵀAp below which p counts as a direction of the kernel: ε σ ‖p‖², σ ≈ σ_max.
 template <class V, class S>
-[[nodiscard]] S flatness(V const& p, S step_length) {
+[[nodiscard]] S flatness(V const& p, S σ) {
   S const size = norm(p);
-  return std::numeric_limits<S>::epsilon() * size * (size / step_length);
+  return std::numeric_limits<S>::epsilon() * size * (size * σ);
 }
 
-/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_scale,
-/// given in the unit of r?
+/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
 template <class V, class S>
-[[nodiscard]] bool is_descent(S slope, V const& d, S gradient_scale) {
+[[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {
   auto const noise = S(slant::local(d).size()) * std::numeric_limits<S>::epsilon();
-  return slope > noise * norm(d) * gradient_scale;
+  return slope > noise * norm(d) * gradient_size;
 }
 
 /// Compares iterates with an earlier one, which is replaced whenever the number of comparisons is a
@@ -48,8 +47,8 @@ class recession_watch {
       slant::local(s.φ) = slant::local(s.r) - slant::local(r_);
       slant::local(s.trial) = slant::local(s.x) - slant::local(x_);
       S const slope = -inner_product(s.trial, s.r);
-      return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.step_length * s.unit)) &&
-             is_descent(slope, s.trial, s.gradient_scale / s.unit) &&
+      return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
+             is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
              !(set.step_to_boundary(slant::local(s.x), slant::local(s.trial)) <
                std::numeric_limits<S>::infinity());
     }();

@@ -20,7 +20,7 @@ auto solution(Eigen::VectorXd const& b) {
   auto const set = slant::half_lines(b.size());
   auto const qp = slant::separable_qp{twice{}, b, set};
   slant::history accuracy([](auto const& s) { return s.reduced_gradient_norm; });
-  auto const r = slant::solve(slant::kprgp{qp, {.Γ = 2.0}}, b,
+  auto const r = slant::solve(slant::kprgp{qp, {.proportioning = 2.0}}, b,
                               slant::reduced_gradient_below(1e-8) || slant::at_most(500), accuracy);
   return r.converged() ? r.x() : b;
 }
