@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <support/allocation_guard.hpp>
+#include <utility>
 
 namespace tresca_test {
 
@@ -58,6 +59,30 @@ TEST_CASE("the set is what the friction law needs and no more") {
   CHECK(count_discs(rough) == scene.d.size());
   CHECK(count_discs(smooth) == 0);
   CHECK(slant::dimension_of(smooth.set()) == scene.d.size());
+}
+
+template <class D> concept lends_a = requires(D&& d) { std::forward<D>(d).a(); };
+template <class D> concept lends_qp = requires(D&& d) { std::forward<D>(d).qp(); };
+template <class D> concept lends_b = requires(D&& d) { std::forward<D>(d).b(); };
+template <class D> concept lends_set = requires(D&& d) { std::forward<D>(d).set(); };
+template <class D>
+concept lends_constraints = requires(D&& d) { std::forward<D>(d).constraints(); };
+
+template <class D>
+inline constexpr bool lends_all =
+    lends_a<D> && lends_qp<D> && lends_b<D> && lends_set<D> && lends_constraints<D>;
+template <class D>
+inline constexpr bool lends_any =
+    lends_a<D> || lends_qp<D> || lends_b<D> || lends_set<D> || lends_constraints<D>;
+
+TEST_CASE("nothing can be lent by a problem that is about to go") {
+  auto const scene = fem::make_steel_brick({.k = 1});
+  auto const c = test::frictionless_data(scene);
+  using problem = decltype(contact::dual(contact::frictionless{}, slant::ldlt(scene.K), c));
+  static_assert(lends_all<problem&> && lends_all<problem const&>);
+  static_assert(!lends_any<problem> && !lends_any<problem const>);
+  // What is a value of its own may still be asked of it.
+  CHECK(contact::dual(contact::frictionless{}, slant::ldlt(scene.K), c).zero().size() == 6);
 }
 
 /// LDLᵀ that counts its solves.
@@ -124,6 +149,58 @@ TEST_CASE("nodes that never meet the obstacle carry no force; infinite slip boun
   for (Eigen::Index i = 2; i < c.g.size(); i += 3) {
     CHECK(r.x().segment(c.nodes() + 2 * i, 2).norm() == 0);
   }
+}
+
+TEST_CASE("interference without load beside infinite gaps: any length is as good as another") {
+  Eigen::Index const n = 9;
+  Eigen::MatrixXd dense = 2 * Eigen::MatrixXd::Identity(n, n);
+  dense.diagonal(1).setConstant(-1);
+  dense.diagonal(-1).setConstant(-1);
+  Eigen::SparseMatrix<double> const K = dense.sparseView();
+  Eigen::SparseMatrix<double> N(2, n);
+  N.insert(0, 1) = 1;
+  N.insert(1, 4) = 1;
+  slant::ldlt const factor(K);
+  for (double const size : {1.0, 1e-9, 1e-30, 1e30}) {
+    CAPTURE(size);
+    contact::data<double> const c{N, Eigen::SparseMatrix<double>(0, n), VectorXd::Zero(n),
+                                  Eigen::Vector2d(-size, std::numeric_limits<double>::infinity()),
+                                  VectorXd(0)};
+    contact::dual const dual(contact::frictionless{}, factor, c);
+    CHECK(dual.b()(0) == size);
+    CHECK(dual.b()(1) == -size / 2);
+    auto const qp = dual.qp();
+    auto const r = slant::solve(slant::kprgp{qp}, dual.zero(),
+                                slant::reduced_gradient_below(1e-8) || slant::at_most(1000));
+    REQUIRE(r.converged());
+    VectorXd const u = dual.displacement(r.x());
+    CHECK(u(1) == doctest::Approx(-size).epsilon(1e-7));
+    CHECK(r.x()(1) == 0);
+    CHECK(contact::check_optimality(K, c, u, r.x()).residual() <= 1e-7);
+  }
+}
+
+TEST_CASE("the load of an infinite gap is measured by the other gaps and slips") {
+  auto const scene = fem::make_steel_brick({.k = 1});
+  auto c = test::contact_data(scene);
+  slant::ldlt const factor(scene.K);
+  c.d.setConstant(1e3);  // so far away that K⁻¹f does not matter
+  c.d(0) = std::numeric_limits<double>::infinity();
+  contact::dual const gaps(contact::friction_disc{}, factor, c);
+  double const m = static_cast<double>(c.nodes());
+  CHECK(gaps.b()(0) == doctest::Approx(-1e3 / m));
+  c.d.setConstant(std::numeric_limits<double>::infinity());
+  contact::dual const slips(contact::friction_disc{}, factor, c);
+  CHECK(slips.b()(0) == -slips.b().tail(c.T.rows()).cwiseAbs().maxCoeff() / m);
+  CHECK((slips.b().head(c.nodes()).array() == slips.b()(0)).all());
+  // No length at all: λ = 0 it is, at once.
+  c.f.setZero();
+  contact::dual const nothing(contact::friction_disc{}, factor, c);
+  auto const qp = nothing.qp();
+  auto const r = slant::solve(slant::kprgp{qp}, nothing.zero(), slant::reduced_gradient_below(0.0));
+  CHECK(r.converged());
+  CHECK(r.iterations() == 0);
+  CHECK(r.x() == nothing.zero());
 }
 
 // K in s, f in t: displacements and gaps in t/s, forces and slip bounds in t.

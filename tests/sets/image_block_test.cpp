@@ -10,10 +10,12 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <vector>
 
 namespace image_block_test {
 
+using Vector1d = Eigen::Matrix<double, 1, 1>;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using slant::scaled;
@@ -51,6 +53,28 @@ TEST_CASE("image_block: the blocks of a product stay blocks if the map does not 
   auto const turned = rotated(node, Eigen::Matrix3d::Identity());
   CHECK(turned.block_count() == 1);
   static_assert(!slant::has_visit<decltype(turned)>);
+}
+
+TEST_CASE("image_block: what rounding may have lost in one block excuses nothing in another") {
+  auto const quadrant = cartesian(slant::half_line<>{}, slant::half_line<>{});
+  auto const check = [](auto const& set) {
+    CHECK(set.contains(Vector2d(1e-6, 2e10)));
+    CHECK(!set.contains(Vector2d(-1e-6, 2e10)));
+    // In the block whose shift is large, its rounding still counts.
+    CHECK(set.contains(set.project(Vector2d(-1, -1))));
+    CHECK(!set.contains(Vector2d(-1e-6, 1e10)));
+  };
+  check(shifted(quadrant, Vector2d(0, 1e10)));
+  check(scaled(2.0, shifted(quadrant, Vector2d(0, 5e9))));
+  check(shifted(scaled(2.0, quadrant), Vector2d(0, 1e10)));
+  check(scaled(2.0, quadrant));
+  check(cartesian(slant::half_line<>{}, shifted(slant::half_line<>{}, Vector1d(1e10))));
+
+  auto const moved = shifted(quadrant, Vector2d(0, 1e10));
+  double const ulp = 0x1p-19;  // of 1e10
+  CHECK(moved.contains(Vector2d(0, 1e10 - ulp)));
+  CHECK(!moved.contains(Vector2d(-ulp, 1e10 - ulp)));
+  CHECK(!moved.contains(Vector2d(std::numeric_limits<double>::quiet_NaN(), 2e10)));
 }
 
 TEST_CASE("image_block: has what its part has, no more") {

@@ -4,10 +4,11 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/operators/detail/matrix_entries.hpp>
 
 #include <Eigen/SparseCore>
 
-#include <string>
+#include <limits>
 
 namespace slant::contact {
 
@@ -35,11 +36,11 @@ struct data {
     check_size("columns of N", N.cols(), f.size(), "the size of f,");
     check_size("d", d.size(), nodes(), "one gap per row of N,");
     slant::detail::check_finite("f", f);
-    check_entries("N", N);
-    check_entries("T", T);
+    slant::detail::require_finite_entries("N", N);
+    slant::detail::require_finite_entries("T", T);
     for (index i = 0; i < d.size(); ++i) {
       if (!(d(i) > -std::numeric_limits<S>::infinity())) {
-        throw bad_input(named("d", i), slant::detail::show(d(i)), "a number or +inf");
+        throw bad_input("d", slant::detail::show(d(i)), "a number or +inf").at(i);
       }
     }
     if (T.rows() == 0) {
@@ -55,23 +56,7 @@ struct data {
     check_size("g", g.size(), nodes(), "one slip bound per row of N,");
     for (index i = 0; i < g.size(); ++i) {
       if (!(g(i) >= S(0))) {
-        throw bad_input(named("g", i), slant::detail::show(g(i)), "a number >= 0 or +inf");
-      }
-    }
-  }
-
- private:
-  static std::string named(char const* what, index i) {
-    return std::string(what) + "[" + slant::detail::show(i) + "]";
-  }
-  static void check_entries(char const* what, sparse_type const& m) {
-    for (index j = 0; j < m.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator e(m, j); e; ++e) {
-        if (!slant::detail::is_finite(e.value())) {
-          throw bad_input(std::string(what) + "(" + slant::detail::show(e.row()) + ", " +
-                              slant::detail::show(e.col()) + ")",
-                          slant::detail::show(e.value()), "a finite number");
-        }
+        throw bad_input("g", slant::detail::show(g(i)), "a number >= 0 or +inf").at(i);
       }
     }
   }

@@ -6,15 +6,16 @@
 //     K u + Bᵀλ = f,    λ_ν ≥ 0,  N u ≤ d,  λ_ν (N u − d) = 0,
 //     ‖λ_t‖ ≤ g,  and  T u = 0 or (λ_t = g T u / ‖T u‖)                        [K (16)–(18)]
 //
-// Each violation is a force, divided by max(‖f‖, ‖Bᵀλ‖) (by ‖K u‖ if both are 0): numbers without
-// units. Lengths are turned into forces by ρ, the same divided by ‖u‖ (by the largest gap if u = 0):
-// a stiffness of the body.
+// Each violation is a force, divided by F = max(‖f‖, ‖Bᵀλ‖): numbers without units. (If F is 0, by
+// the first of ‖K u‖, κ ‖max(−d, 0)‖, ‖λ‖ that is not.) Lengths are turned into forces by a
+// stiffness of the body, ρ = F/‖u‖, but at most κ = max K_ii: what moves less than F/κ hardly
+// moves, and a rounding error of u must not pass for a large part of it.
 #pragma once
 
 #include <slant/contact/contact_data.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <initializer_list>
 
 namespace slant::contact {
 
@@ -35,22 +36,41 @@ struct optimality {
   }
 };
 
-/// Largest finite |d|: the length that is left if nothing moves.
+namespace detail {
+
+/// The first that is positive, else 1: then all that it divides is 0.
 template <class S>
-[[nodiscard]] S largest_gap(data<S> const& c) {
-  S largest(0);
-  for (index i = 0; i < c.nodes(); ++i) {
-    using std::abs;
-    if (slant::detail::is_finite(c.d(i))) largest = std::max<S>(largest, S(abs(c.d(i))));
+[[nodiscard]] S first_positive(std::initializer_list<S> candidates) {
+  for (S const& c : candidates) {
+    if (c > S(0)) return c;
   }
-  return largest;
+  return S(1);
 }
 
-/// Evaluates the conditions. K is n_u × n_u, u has n_u and λ = (λ_ν, λ_t) m + rows(T) entries.
+/// max K_ii.
+template <class S, class Matrix>
+[[nodiscard]] S largest_stiffness(Matrix const& K, index n) {
+  slant::detail::check_size("rows of K", K.rows(), n, "the size of f,");
+  slant::detail::check_size("columns of K", K.cols(), n, "the size of f,");
+  Eigen::Matrix<S, Eigen::Dynamic, 1> const diagonal = K.diagonal();
+  S const κ = n > 0 ? diagonal.maxCoeff() : S(0);
+  if (!(κ > S(0) && slant::detail::is_finite(κ))) {
+    throw bad_input("largest diagonal entry of K", slant::detail::show(κ), "a finite number > 0");
+  }
+  return κ;
+}
+
+}  // namespace detail
+
+/// Evaluates the conditions. K is n_u × n_u, dense or sparse, u has n_u and λ = (λ_ν, λ_t) has
+/// m + rows(T) entries. A NaN in u or λ shows in the residual. Throws bad_input if sizes do not
+/// fit, if the data are not valid (see contact::data::validate) or if no K_ii is positive.
 template <class S, class Matrix, class V>
 [[nodiscard]] optimality<S> check_optimality(Matrix const& K, data<S> const& c, V const& u,
                                              V const& λ) {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  c.validate();
+  S const κ = detail::largest_stiffness<S>(K, c.f.size());
   slant::detail::check_size("u", u.size(), c.f.size());
   slant::detail::check_size("lambda", λ.size(), c.N.rows() + c.T.rows());
   auto const m = c.nodes();
@@ -60,17 +80,13 @@ template <class S, class Matrix, class V>
 
   optimality<S> o;
   vector_type const Ku = K * u;
-  S length = u.stableNorm();
-  S force = std::max<S>(c.f.stableNorm(), Bλ.stableNorm());
-  if (force == S(0)) force = Ku.stableNorm();
-  if (force == S(0)) {  // no load, no reaction, no displacement: wrong only where d forbids it
-    if ((c.d.array() < S(0)).any()) o.normal = o.penetration = S(1);
-    return o;
-  }
+  vector_type const interference = (-c.d).cwiseMax(S(0));
+  S const force =
+      detail::first_positive<S>({std::max<S>(c.f.stableNorm(), Bλ.stableNorm()), Ku.stableNorm(),
+                                 κ * interference.stableNorm(), λ.stableNorm()});
+  S const ρ = std::min<S>(κ, force / u.stableNorm());  // u = 0: κ
   vector_type const unbalanced = Ku + Bλ - c.f;
   o.equilibrium = unbalanced.stableNorm() / force;
-  if (length == S(0)) length = largest_gap(c);
-  S const ρ = length == S(0) ? S(1) : force / length;  // no length at all: ρ meets only zeros
 
   vector_type const opening = c.N * u - c.d;
   vector_type normal(m);

@@ -49,7 +49,8 @@ auto feasible_set(friction_disc, data<S> const& c) {
 }  // namespace detail
 
 /// The dual problem of a contact scene. Holds B, b and the set; refers to the factorisation.
-/// Not movable: its operators refer to one another.
+/// Not movable: its operators refer to one another. What refers to it is not to be had from a
+/// temporary, which would be gone before the solver looks at it.
 ///
 ///     slant::contact::dual problem(slant::contact::friction_disc{}, slant::factorize(K), data);
 ///     auto r = slant::solve(slant::kprgp{problem.qp()}, problem.zero(), …);
@@ -74,21 +75,26 @@ class dual {
     slant::apply(Kinv, f_, free_displacement_);
     slant::detail::check_finite("K^-1 f", free_displacement_);
     b_.noalias() = B_ * free_displacement_;
-    close_infinite_gaps(c);
+    subtract_gaps(c);
   }
   dual(dual const&) = delete;
   dual& operator=(dual const&) = delete;
 
   /// A = B K⁻¹ Bᵀ, never formed.
-  [[nodiscard]] auto a() const { return congruence(B_, inverse(factor_.get())); }
+  [[nodiscard]] auto a() const& { return congruence(B_, inverse(factor_.get())); }
+  auto a() const&& = delete;
   /// The dual problem; refers to this object.
-  [[nodiscard]] auto qp() const { return separable_qp{a(), b_, set_}; }
+  [[nodiscard]] auto qp() const& { return separable_qp{a(), b_, set_}; }
+  auto qp() const&& = delete;
   /// The linear term b = B K⁻¹ f − c.
-  [[nodiscard]] vector_type const& b() const { return b_; }
+  [[nodiscard]] vector_type const& b() const& { return b_; }
+  vector_type const& b() const&& = delete;
   /// The feasible set Λ.
-  [[nodiscard]] auto const& set() const { return set_; }
+  [[nodiscard]] auto const& set() const& { return set_; }
+  auto const& set() const&& = delete;
   /// B = [N; T].
-  [[nodiscard]] sparse_type const& constraints() const { return B_; }
+  [[nodiscard]] sparse_type const& constraints() const& { return B_; }
+  sparse_type const& constraints() const&& = delete;
   /// λ = 0, the start that costs nothing.
   [[nodiscard]] vector_type zero() const { return vector_type::Zero(b_.size()); }
 
@@ -137,13 +143,19 @@ class dual {
     return b;
   }
 
-  /// b −= c; a node with an infinite gap gets a negative load, which keeps its multiplier at 0 and
-  /// is small enough not to show in ‖b‖.
-  void close_infinite_gaps(data<S> const& c) {
+  /// b −= c. A node with an infinite gap, whose row of B is empty, gets a negative load instead: it
+  /// keeps the multiplier at 0 and is small enough not to show in ‖b‖. Its size is that of the
+  /// other entries, which are lengths too; without any, λ = 0 is the solution and no length is
+  /// needed.
+  void subtract_gaps(data<S> const& c) {
+    auto const closes = [&](index i) { return slant::detail::is_finite(c.d(i)); };
+    for (index i = 0; i < c.nodes(); ++i) {
+      if (closes(i)) b_(i) -= c.d(i);
+    }
     auto const m = static_cast<S>(static_cast<double>(c.nodes()));
     S const size = b_.cwiseAbs().maxCoeff() / m;
     for (index i = 0; i < c.nodes(); ++i) {
-      b_(i) -= slant::detail::is_finite(c.d(i)) ? c.d(i) : (size > S(0) ? size : S(1));
+      if (!closes(i)) b_(i) = size > S(0) ? S(-size) : S(-1);
     }
   }
 

@@ -36,17 +36,25 @@ class history {
 /// A progress line on a terminal: "kprgp  step 120  products 133  residual 3.1e-05 → 1.0e-08".
 /// The bar is logarithmic in the relative accuracy. Prints at most every `every` states, and
 /// nothing at all if the stream is not `enabled` (decide with isatty in the program).
+/// Throws bad_input if the tolerance is not in [0, 1) or `every` < 1.
 class progress_bar {
  public:
   struct options {
     std::FILE* stream = stderr;  ///< where to draw
     bool enabled = true;         ///< false: stay silent
-    index every = 1;             ///< draw every n-th state
+    index every = 1;             ///< draw every n-th state, n >= 1
+
+    /// Throws bad_input naming the option, its value and what was expected.
+    void validate() const {
+      if (every < 1) throw bad_input("every", detail::show(every), "a number of states >= 1");
+    }
   };
   progress_bar(std::string title, double tolerance)
       : progress_bar(std::move(title), tolerance, {}) {}
   progress_bar(std::string title, double tolerance, options o)
-      : title_(std::move(title)), tolerance_(detail::checked_tolerance(tolerance)), options_(o) {}
+      : title_(std::move(title)), tolerance_(detail::checked_tolerance(tolerance)), options_(o) {
+    options_.validate();
+  }
   ~progress_bar() {
     if (drawn_) std::fputc('\n', options_.stream);
   }
@@ -67,15 +75,16 @@ class progress_bar {
   }
 
  private:
+  /// 0/0 is 0: nothing to solve, nothing left to do.
   template <class S>
   static double ratio(S value, S scale) {
-    return scale > S(0) ? static_cast<double>(value / scale) : 0.0;
+    return value == S(0) && scale == S(0) ? 0.0 : static_cast<double>(value / scale);
   }
   void draw(index step, double error) {
     constexpr int width = 30;
     // Full when log(error) has come all the way from 1 to the tolerance.
     double done = 1;
-    if (error > tolerance_) {
+    if (!(error <= tolerance_)) {  // also if it is NaN
       done = error < 1 && tolerance_ > 0 ? std::log(error) / std::log(tolerance_) : 0;
     }
     best_ = done > best_ ? done : best_;

@@ -38,6 +38,8 @@ template <class E>
 template <set_block Part, class Map>
 class image_block : public detail::inequality_count<Part> {
   static constexpr bool smooth = detail::all_smooth<Part>;
+  /// The image of a product is the product of the images.
+  static constexpr bool in_blocks = Map::separable && has_visit<Part>;
 
  public:
   using scalar = set_scalar_t<Part>;
@@ -68,8 +70,12 @@ class image_block : public detail::inequality_count<Part> {
   /// Membership, up to the rounding of T⁻¹x.
   template <class X>
   [[nodiscard]] bool contains(X const& x) const {
-    auto const z = map_.pull(x);
-    return detail::contains_within(part_, z, map_.slop(x, z));
+    if constexpr (in_blocks) {
+      return detail::blocks_contain(*this, x);
+    } else {
+      auto const z = map_.pull(x);
+      return detail::contains_within(part_, z, map_.slop(x, z));
+    }
   }
 
   /// State of x ∈ T(Part), up to the rounding of T⁻¹x.
@@ -127,7 +133,7 @@ class image_block : public detail::inequality_count<Part> {
   /// f(block, place) for every innermost block, if T does not mix them.
   template <class F>
   void visit(F&& f) const
-    requires(Map::separable && has_visit<Part>)
+    requires in_blocks
   {
     part_.visit([&](auto const& b, auto const& p) {
       f(image_block<std::remove_cvref_t<decltype(b)>, decltype(map_.at(p))>(b, map_.at(p)), p);

@@ -47,11 +47,7 @@ class image_product {
     auto const& entries = slant::local(x);
     if (entries.size() != size()) return false;
     if constexpr (has_visit<part_type>) {
-      bool inside = true;
-      visit([&](auto const& block, auto const& p) {
-        inside = inside && block.contains(detail::argument_of(block, p, entries));
-      });
-      return inside;
+      return detail::blocks_contain(*this, entries);
     } else {
       typename std::remove_cvref_t<decltype(entries)>::PlainObject const z = map_.pull(entries);
       return detail::contains_within(part(), z, map_.slop(entries, z));

@@ -5,11 +5,23 @@
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
+#include <slant/sets/blocks.hpp>
 #include <slant/sets/detail/scaling.hpp>
 
 #include <algorithm>
 
 namespace slant::detail {
+
+/// Every block of the set contains its part of x. The bound on the rounding error of a block knows
+/// its own components only: a large one elsewhere excuses nothing here.
+template <class C, class X>
+[[nodiscard]] bool blocks_contain(C const& set, X const& x) {
+  bool inside = true;
+  set.visit([&](auto const& block, auto const& p) {
+    inside = inside && block.contains(argument_of(block, p, x));
+  });
+  return inside;
+}
 
 /// Some point within the distance δ of z (sum of moduli) lies in the set, as far as the projection
 /// tells.
