@@ -8,6 +8,7 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/factorization.hpp>
 #include <slant/concepts/iterative_method.hpp>

@@ -3,8 +3,7 @@
 // Vectors: an Eigen object plus an inner product.
 //
 // Intuition. Elementwise work is done by Eigen on `local(x)`, the part of the vector that lives
-// here; only inner products (and operators) may communicate. A vector distributed over processes
-// differs from Eigen::VectorXd in exactly two places: `local` and `inner_product`.
+// here; only inner products, the two reductions of distributed.hpp, and operators may communicate.
 //
 // Minimal definition. Nothing for Eigen column vectors. Otherwise members
 //     local()            the local part, an Eigen column vector (lvalue, const and non-const),
@@ -109,18 +108,41 @@ struct norm_fn {
     using std::sqrt;
     using S = scalar_t<X>;
     S const square = slant::inner_product(x, x);
-    if constexpr (requires { slant::local(x).stableNorm(); } && !has_inner_product_member<X>) {
-      // The squares left the range in which they are accurate: scale first.
-      constexpr int margin = std::numeric_limits<S>::digits;
-      S const tiny = std::numeric_limits<S>::min() * S(slant::local(x).size() + 1);
-      if (!(square > tiny * pow2<S>(margin)) || !(square < std::numeric_limits<S>::max())) {
-        return scaled_norm<S>(slant::local(x));
-      }
+    if (in_range(square)) return sqrt(square);
+    if constexpr (has_inner_product_member<X>) {
+      return rescaled_norm(x, square);
+    } else {
+      return scaled_norm<S>(slant::local(x));
     }
-    return sqrt(square);
   }
 
  private:
+  /// Did squares neither overflow nor lose digits? The same answer on all processes.
+  template <class S>
+  static bool in_range(S const& square) {
+    using limits = std::numeric_limits<S>;
+    return square > limits::min() * pow2<S>(2 * limits::digits) && square < limits::max();
+  }
+  /// For a vector of which only the inner product is known: scaled by powers of two until it fits.
+  template <class X, class S>
+  static S rescaled_norm(X const& x, S square) {
+    using std::ldexp;
+    using std::sqrt;
+    if constexpr (requires { x.like(slant::local(x).size()); }) {
+      constexpr int stride =
+          std::numeric_limits<S>::max_exponent / 2 - std::numeric_limits<S>::digits;
+      auto y = x.like(slant::local(x).size());
+      int e = 0;
+      for (int attempt = 0; attempt < 3 && !in_range(square); ++attempt) {
+        e += square < S(1) ? stride : -stride;
+        slant::local(y).array() = slant::local(x).array() * pow2<S>(e / 2) * pow2<S>(e - e / 2);
+        square = slant::inner_product(y, y);
+      }
+      return ldexp(S(sqrt(square)), -e);
+    } else {
+      return sqrt(square);
+    }
+  }
   template <class S>
   static S pow2(int e) {
     using std::ldexp;

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/krylov/tridiagonal_eigenvalue.hpp>
 
@@ -36,10 +37,11 @@ struct spectral_bound {
 
 /// How hard to try.
 struct spectral_bound_options {
-  index steps = 30;                 ///< Lanczos steps; more if failure is so small that it takes
+  index steps = 60;                 ///< Lanczos steps; more if failure is so small that it takes
                                     ///< them, at most n; each is one product
   double failure = 1e-10;           ///< δ, probability that the bound is not one
-  unsigned long long seed = 20161;  ///< of the start vector; the same seed gives the same bound
+  unsigned long long seed = 20161;  ///< of the start vector; the same seed gives the same bound.
+                                    ///< A distributed vector wants another one on each process
 
   void validate() const {
     if (steps < 2) throw bad_input("steps", detail::show(steps), "at least 2 Lanczos steps");
@@ -59,14 +61,14 @@ template <class A, class V>
   using S = scalar_t<V>;
   using std::sqrt;
   options.validate();
-  auto const n = index(slant::local(prototype).size());
+  index const here = slant::local(prototype).size(), n = slant::global_size(prototype);
   if (n == 0) return {S(0), S(0), S(0), 0};
 
-  V q = like(prototype, n), w = like(prototype, n), previous = like(prototype, n);
+  V q = like(prototype, here), w = like(prototype, here), previous = like(prototype, here);
   auto temporaries = workspace(a, prototype);
   std::mt19937_64 generator(options.seed);
   std::normal_distribution<double> gaussian;
-  for (index i = 0; i < n; ++i) slant::local(q).coeffRef(i) = S(gaussian(generator));
+  for (index i = 0; i < here; ++i) slant::local(q).coeffRef(i) = S(gaussian(generator));
   slant::local(q) /= norm(q);
   slant::local(previous).setZero();
 

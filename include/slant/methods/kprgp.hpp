@@ -22,6 +22,7 @@
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
 #pragma once
 
+#include <slant/concepts/distributed.hpp>
 #include <slant/krylov/gradient_step.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -138,7 +139,8 @@ class kprgp<QP> {
     if (curved && try_step(s, slope / d.curvature)) return true;
 
     slant::local(s.trial) = -slant::local(d.p);
-    scalar const α_max = qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial));
+    scalar const α_max = slant::minimum(
+        s.x, qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial)));
     if (!(α_max < std::numeric_limits<scalar>::infinity())) {
       bool const descent = !definite && !curved && is_descent(slope, d.p, gradient_noise(s));
       s.status = descent ? status::unbounded : status::stalled;
@@ -156,7 +158,7 @@ class kprgp<QP> {
   bool try_step(state_type& s, scalar α) const {
     auto& d = s.directions;
     slant::local(s.trial) = slant::local(s.x) - (s.unit * α) * slant::local(d.p);
-    if (!qp_.get().set().contains(slant::local(s.trial))) return false;
+    if (!slant::everywhere(s.x, qp_.get().set().contains(slant::local(s.trial)))) return false;
     std::swap(s.x, s.trial);
     ++s.since_refresh;
     if (options_.refresh > 0 && s.since_refresh >= options_.refresh) {

@@ -8,6 +8,7 @@
 // In floating point: the curvature dᵀA d is below its own rounding error, the slope above its.
 #pragma once
 
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/vector.hpp>
 
 #include <limits>
@@ -24,7 +25,7 @@ template <class V, class S>
 /// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
 template <class V, class S>
 [[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {
-  auto const noise = S(slant::local(d).size()) * std::numeric_limits<S>::epsilon();
+  auto const noise = S(slant::global_size(d)) * std::numeric_limits<S>::epsilon();
   return slope > noise * norm(d) * gradient_size;
 }
 
@@ -49,7 +50,7 @@ class recession_watch {
       S const slope = -inner_product(s.trial, s.r);
       return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
              is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
-             !(set.step_to_boundary(slant::local(s.x), slant::local(s.trial)) <
+             !(slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
                std::numeric_limits<S>::infinity());
     }();
     if (yes) slant::local(s.directions.p) = -slant::local(s.trial);
