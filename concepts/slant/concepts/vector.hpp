@@ -128,20 +128,17 @@ struct norm_fn {
   static S rescaled_norm(X const& x, S square) {
     using std::ldexp;
     using std::sqrt;
-    if constexpr (requires { x.like(slant::local(x).size()); }) {
-      constexpr int stride =
-          std::numeric_limits<S>::max_exponent / 2 - std::numeric_limits<S>::digits;
-      auto y = x.like(slant::local(x).size());
-      int e = 0;
-      for (int attempt = 0; attempt < 3 && !in_range(square); ++attempt) {
-        e += square < S(1) ? stride : -stride;
-        slant::local(y).array() = slant::local(x).array() * pow2<S>(e / 2) * pow2<S>(e - e / 2);
-        square = slant::inner_product(y, y);
-      }
-      return ldexp(S(sqrt(square)), -e);
-    } else {
-      return sqrt(square);
+    constexpr int stride =
+        std::numeric_limits<S>::max_exponent / 2 - std::numeric_limits<S>::digits;
+    X y = x;
+    int e = 0;
+    for (int attempt = 0; attempt < 3 && !in_range(square); ++attempt) {
+      int const shift = square < S(1) ? stride : -stride;
+      e += shift;
+      slant::local(y) *= pow2<S>(shift);
+      square = slant::inner_product(y, y);
     }
+    return ldexp(S(sqrt(square)), -e);
   }
   template <class S>
   static S pow2(int e) {
