@@ -22,13 +22,13 @@ struct kprgp_state {
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
 
-  vector_type x;                                 ///< iterate, in Λ
-  vector_type r;                                 ///< gradient A x − b, in multiples of unit
-  vector_type projected;                         ///< P_Λ(x − α̃ r)
-  vector_type reduced;                           ///< reduced gradient r̃, in multiples of unit
-  vector_type φ;                                 ///< free gradient; between steps scratch
-  vector_type trial;                             ///< scratch
-  slant::face<scalar> face;                      ///< blocks that could move at the last restart
+  vector_type x;          ///< iterate, in Λ
+  vector_type r;          ///< gradient A x − b, in multiples of unit
+  vector_type projected;  ///< P_Λ(x − α̃ r)
+  vector_type reduced;    ///< reduced gradient r̃, in multiples of unit
+  vector_type φ;          ///< free gradient; between steps scratch
+  vector_type trial;      ///< scratch
+  face_t<typename QP::set_type, local_t<vector_type>> face;  ///< that of x at the last restart
   conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
   recession_watch<vector_type> recession;        ///< looks for descent without end
   workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A

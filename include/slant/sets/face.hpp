@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace slant {
@@ -137,10 +138,21 @@ class face {
   std::vector<index> components_;
 };
 
-/// The face of the point x of a set.
+template <class C, class X>
+concept has_own_face = requires(C const& set, X const& x) { set.face_of(x); };
+
+/// The face of the point x of a set: the set's own kind if it has face_of(x), else slant::face.
 template <class C, class X>
 [[nodiscard]] auto face_of(C const& set, X const& x) {
-  return face<scalar_t<X>>(set, x);
+  if constexpr (has_own_face<C, X>) {
+    return set.face_of(x);
+  } else {
+    return face<scalar_t<X>>(set, x);
+  }
 }
+
+/// The type of the faces of a set.
+template <class C, class X>
+using face_t = decltype(slant::face_of(std::declval<C const&>(), std::declval<X const&>()));
 
 }  // namespace slant

@@ -6,6 +6,7 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/face.hpp>
 
 #include <cstddef>
 #include <type_traits>
@@ -26,10 +27,13 @@ template <class C, class V, std::size_t... I>
       ...);
 }
 
-/// Powers tell their block_type, products the number and types of their parts, images their part.
+/// A set with faces of its own has them. Powers tell their block_type, products the number and
+/// types of their parts, images their part.
 template <class C, class V>
 consteval bool blocks_have_states() {
-  if constexpr (!has_visit<C> && has_static_dimension<C>) {
+  if constexpr (has_own_face<C, V>) {
+    return true;
+  } else if constexpr (!has_visit<C> && has_static_dimension<C>) {
     return whole_space<C> || has_state<C, point_t<C>>;
   } else if constexpr (!has_visit<C>) {
     return has_state<C, V>;
@@ -46,7 +50,8 @@ consteval bool blocks_have_states() {
 
 }  // namespace detail
 
-/// Every block of the set has state(x), as far as its type tells: its points have a face.
+/// The points of the set have a face: of the set's own kind, or because every block has state(x),
+/// as far as its type tells.
 template <class C, class V> concept has_block_states = detail::blocks_have_states<C, V>();
 
 }  // namespace slant

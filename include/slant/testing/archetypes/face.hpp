@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The least that is a face: it can cut vectors down to some components, here those in front.
+// The least that is a face: one block for each entry, free if the entry is positive.
 #pragma once
 
 #include <slant/concepts/face.hpp>
@@ -10,17 +10,25 @@ namespace slant::testing::archetype {
 
 class face {
  public:
-  explicit face(index free) : free_(free) {}
+  face() = default;
 
-  void keep(vector const& x, vector& y) const {
-    y.local() = x.local();
-    y.local().tail(y.local().size() - free_).setZero();
+  template <class C, class X>
+  void assign(C const&, X const& x) {
+    free_ = x.array() > 0;
+  }
+  [[nodiscard]] index size() const { return free_.size(); }
+  [[nodiscard]] block_state state(index i) const {
+    return free_(i) ? block_state::free : block_state::fixed;
+  }
+  void keep(vector const& x, vector& y) const { y.local() = free_.select(x.local().array(), 0.0); }
+  void keep_complement(vector const& x, vector& y) const {
+    y.local() = free_.select(0.0, x.local().array());
   }
 
  private:
-  index free_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> free_;
 };
 
-static_assert(has_keep<face, vector>);
+static_assert(block_partition<face, vector>);
 
 }  // namespace slant::testing::archetype
