@@ -24,11 +24,9 @@
 
 #include <slant/concepts/distributed.hpp>
 #include <slant/krylov/gradient_step.hpp>
-#include <slant/krylov/unit.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_problem.hpp>
 #include <slant/methods/kprgp_state.hpp>
-#include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/separable_qp.hpp>
 
 #include <algorithm>
@@ -70,20 +68,7 @@ class kprgp<QP> {
     detail::check_finite("x0", x0);
     state_type s(qp, x0);
     set_step_length(s);
-    // What ‖r̃‖ has to be small against: its value at the point of Λ next to 0, wherever the run
-    // starts. Not ‖b‖, much of which the constraints may absorb.
-    slant::local(s.trial).setZero();
-    place(s.trial, s);
-    s.gradient_scale = s.reduced_gradient_norm;
-    // That point may be the solution, up to rounding: then there is no better start.
-    bool const solved = s.gradient_scale <= epsilon() * norm(s.x) / s.step_length;
-    if (!solved && !at_projection(x0, s)) place(x0, s);
-    detail::check_finite("A x0 - b", s.r);
-
-    scalar const size_of_b = norm(qp.b());
-    s.unit = unit_near(std::max<scalar>(size_of_b, norm(s.r)));
-    s.size_of_b = size_of_b / s.unit;
-    slant::local(s.r) *= scalar(1) / s.unit;
+    bool const solved = s.begin(qp, x0);
     restart(s);
     if (solved) s.status = status::converged;
     return s;
@@ -106,7 +91,7 @@ class kprgp<QP> {
     if (s.since_refresh == 0) return false;
     s.status = status::running;
     s.directions.live = false;
-    gradient(s);
+    s.gradient(qp_.get());
     split(s);
     return true;
   }
@@ -162,7 +147,7 @@ class kprgp<QP> {
     std::swap(s.x, s.trial);
     ++s.since_refresh;
     if (options_.refresh > 0 && s.since_refresh >= options_.refresh) {
-      gradient(s);
+      s.gradient(qp_.get());
     } else {
       slant::local(s.r) -= α * slant::local(d.Ap);
     }
@@ -188,35 +173,9 @@ class kprgp<QP> {
   /// The blocks that move are in s.φ, the others in s.trial.
   void take_gradient_step(state_type& s, kprgp_step kind) const {
     slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
-    gradient(s);
+    s.gradient(qp_.get());
     restart(s);
     s.last_step = kind;
-  }
-
-  /// x = P_Λ(y) with its r and r̃.
-  void place(vector_type const& y, state_type& s) const {
-    slant::project(qp_.get().set(), slant::local(y), slant::local(s.x));
-    gradient(s);
-    reduce(s);
-  }
-  /// Is x = P_Λ(y)?
-  bool at_projection(vector_type const& y, state_type& s) const {
-    slant::project(qp_.get().set(), slant::local(y), slant::local(s.trial));
-    slant::local(s.trial) -= slant::local(s.x);
-    return norm(s.trial) == scalar(0);
-  }
-
-  /// r = (A x − b) / unit; one application, none at x = 0.
-  void gradient(state_type& s) const {
-    s.since_refresh = 0;
-    scalar const per_unit = scalar(1) / s.unit;
-    if (norm(s.x) == scalar(0)) {
-      slant::local(s.r) = -per_unit * slant::local(qp_.get().b());
-      return;
-    }
-    slant::apply(qp_.get().a(), s.x, s.r, s.a_workspace);
-    ++s.work.operator_applications;
-    slant::local(s.r) = per_unit * (slant::local(s.r) - slant::local(qp_.get().b()));
   }
 
   /// A new face at x; the next direction is φ itself.
@@ -230,16 +189,9 @@ class kprgp<QP> {
     }
   }
 
-  /// P_Λ(x − α̃ r) and r̃.
-  void reduce(state_type& s) const {
-    reduced_gradient(qp_.get().set(), s.x, s.r, s.step_length * s.unit, s.trial, s.projected,
-                     s.reduced);
-    s.reduced_gradient_norm = s.unit * norm(s.reduced);
-  }
-
   /// r̃ and what its two parts can gain.
   void split(state_type& s) const {
-    reduce(s);
+    s.reduce(qp_.get());
     scalar const rounding = epsilon() * norm(s.x) / (s.step_length * s.unit);  // of r̃
     scalar const noise = rounding * norm(s.r);
     s.face.keep(s.reduced, s.φ);
@@ -266,13 +218,7 @@ class kprgp<QP> {
 
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
-    // q / unit = ½ xᵀ(r − b) / unit
-    auto const energy = [&] {
-      slant::local(s.trial) =
-          slant::local(s.r) - slant::local(qp_.get().b()) * (scalar(1) / s.unit);
-      return std::pair<scalar, scalar>(inner_product(s.x, s.trial) / scalar(2),
-                                       scalar(16) * epsilon() * norm(s.x) * norm(s.trial));
-    };
+    auto const energy = [&] { return s.energy(qp_.get()); };
     if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy)) {
       s.status = status::stalled;
     }

@@ -5,6 +5,7 @@
 
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
+#include <slant/methods/gradient_point.hpp>
 #include <slant/methods/progress_watch.hpp>
 #include <slant/methods/recession.hpp>
 #include <slant/sets/face.hpp>
@@ -18,46 +19,28 @@ enum class kprgp_step : unsigned char { conjugate_gradient, expansion, proportio
 
 /// State of kprgp for a separable_qp of type QP.
 template <class QP>
-struct kprgp_state {
-  using vector_type = typename QP::vector_type;
-  using scalar = typename QP::scalar;
+struct kprgp_state : gradient_point<QP> {
+  using typename gradient_point<QP>::vector_type;
+  using typename gradient_point<QP>::scalar;
 
-  vector_type x;          ///< iterate, in Λ
-  vector_type r;          ///< gradient A x − b, in multiples of unit
-  vector_type projected;  ///< P_Λ(x − α̃ r)
-  vector_type reduced;    ///< reduced gradient r̃, in multiples of unit
-  vector_type φ;          ///< free gradient; between steps scratch
-  vector_type trial;      ///< scratch
-  face_t<typename QP::set_type, local_t<vector_type>> face;  ///< that of x at the last restart
+  vector_type φ;                                 ///< free gradient; between steps scratch
   conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
   recession_watch<vector_type> recession;        ///< looks for descent without end
-  workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A
+  progress_watch<scalar> progress;               ///< looks for steps that get nowhere
+  face_t<typename QP::set_type, local_t<vector_type>> face;  ///< that of x at the last restart
 
-  scalar unit{1};                   ///< of r and r̃, a power of two; see krylov/unit.hpp
-  scalar step_length{0};            ///< α̃ of the gradient steps
-  scalar φr{0};                     ///< φ̃ᵀr / unit², what the free set can still gain
-  scalar βr{0};                     ///< β̃ᵀr / unit², what the active set can still gain
-  scalar reduced_gradient_norm{0};  ///< ‖r̃‖
-  scalar gradient_scale{0};         ///< ‖r̃‖ at P_Λ(0): what ‖r̃‖ is small against
-  scalar size_of_b{0};              ///< ‖b‖ / unit
-  scalar σ{0};                      ///< σ_max to a few digits; known if A is not declared definite
-  progress_watch<scalar> progress;  ///< looks for steps that get nowhere
-  index since_refresh = 0;          ///< CG steps since r was computed from x
+  scalar φr{0};  ///< φ̃ᵀr / unit², what the free set can still gain
+  scalar βr{0};  ///< β̃ᵀr / unit², what the active set can still gain
+  scalar σ{0};   ///< σ_max to a few digits; known if A is not declared definite
   kprgp_step last_step = kprgp_step::conjugate_gradient;
   index iteration = 0;
   slant::status status = slant::status::running;
-  slant::work work{};
 
   kprgp_state(QP const& qp, vector_type const& x0)
-      : x(x0),
-        r(like(x0, qp.size())),
-        projected(like(x0, qp.size())),
-        reduced(like(x0, qp.size())),
+      : gradient_point<QP>(qp, x0),
         φ(like(x0, qp.size())),
-        trial(like(x0, qp.size())),
         directions(x0),
-        recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()),
-        a_workspace(workspace(qp.a(), x0)) {}
+        recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {

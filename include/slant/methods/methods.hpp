@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/gradient_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>

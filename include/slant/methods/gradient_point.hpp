@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// A point of Λ with its gradient and reduced gradient, and the units and scales that go with them:
+// what the states of projected gradient methods have in common.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/iteration/report.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/methods/reduced_gradient.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace slant {
+
+/// A point of the set of a quadratic program QP. Vectors have qp.size() entries.
+template <class QP>
+struct gradient_point {
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+
+  vector_type x;          ///< in Λ
+  vector_type r;          ///< gradient A x − b, in multiples of unit
+  vector_type projected;  ///< P_Λ(x − α̃ r)
+  vector_type reduced;    ///< reduced gradient r̃, in multiples of unit
+  vector_type trial;      ///< scratch
+  workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A
+
+  scalar unit{1};                   ///< of r and r̃, a power of two; see krylov/unit.hpp
+  scalar step_length{0};            ///< α̃ of the gradient steps
+  scalar size_of_b{0};              ///< ‖b‖ / unit
+  scalar reduced_gradient_norm{0};  ///< ‖r̃‖
+  scalar gradient_scale{0};         ///< ‖r̃‖ at P_Λ(0): what ‖r̃‖ is small against
+  index since_refresh = 0;          ///< steps since r was computed from x
+  slant::work work{};
+
+  gradient_point(QP const& qp, vector_type const& x0)
+      : x(x0),
+        r(like(x0, qp.size())),
+        projected(like(x0, qp.size())),
+        reduced(like(x0, qp.size())),
+        trial(like(x0, qp.size())),
+        a_workspace(workspace(qp.a(), x0)) {}
+
+  /// x = P_Λ(x0), r, r̃, units and scales; step_length is known. True if there is no need to go on:
+  /// x is then P_Λ(0), which solves the problem up to rounding.
+  /// Throws bad_input if A x0 − b is not finite.
+  bool begin(QP const& qp, vector_type const& x0) {
+    // What ‖r̃‖ has to be small against: its value at the point of Λ next to 0, wherever the run
+    // starts. Not ‖b‖, much of which the constraints may absorb.
+    slant::local(trial).setZero();
+    place(qp, trial);
+    gradient_scale = reduced_gradient_norm;
+    bool const solved =
+        gradient_scale <= std::numeric_limits<scalar>::epsilon() * norm(x) / step_length;
+    if (!solved && !at_projection(qp, x0)) place(qp, x0);
+    detail::check_finite("A x0 - b", r);
+
+    scalar const length_of_b = norm(qp.b());
+    unit = unit_near(std::max<scalar>(length_of_b, norm(r)));
+    size_of_b = length_of_b / unit;
+    slant::local(r) *= scalar(1) / unit;
+    return solved;
+  }
+
+  /// r = (A x − b) / unit; one application, none at x = 0.
+  void gradient(QP const& qp) {
+    since_refresh = 0;
+    scalar const per_unit = scalar(1) / unit;
+    if (norm(x) == scalar(0)) {
+      slant::local(r) = -per_unit * slant::local(qp.b());
+      return;
+    }
+    slant::apply(qp.a(), x, r, a_workspace);
+    ++work.operator_applications;
+    slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
+  }
+
+  /// P_Λ(x − α̃ r) and r̃.
+  void reduce(QP const& qp) {
+    reduced_gradient(qp.set(), x, r, step_length * unit, trial, projected, reduced);
+    reduced_gradient_norm = unit * norm(reduced);
+  }
+
+  /// q(x) / unit = ½ xᵀ(r − b) / unit, and a bound of its rounding error. No product is spent.
+  [[nodiscard]] std::pair<scalar, scalar> energy(QP const& qp) {
+    slant::local(trial) = slant::local(r) - slant::local(qp.b()) * (scalar(1) / unit);
+    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(x);
+    return {inner_product(x, trial) / scalar(2), noise * norm(trial)};
+  }
+
+ private:
+  /// x = P_Λ(y) with its r and r̃.
+  void place(QP const& qp, vector_type const& y) {
+    slant::project(qp.set(), slant::local(y), slant::local(x));
+    gradient(qp);
+    reduce(qp);
+  }
+  /// Is x = P_Λ(y)?
+  [[nodiscard]] bool at_projection(QP const& qp, vector_type const& y) {
+    slant::project(qp.set(), slant::local(y), slant::local(trial));
+    slant::local(trial) -= slant::local(x);
+    return norm(trial) == scalar(0);
+  }
+};
+
+}  // namespace slant

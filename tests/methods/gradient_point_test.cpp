@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "mixture.hpp"
+
+#include <slant/methods/gradient_point.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/counted.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+namespace gradient_point_test {
+
+using Eigen::VectorXd;
+
+TEST_CASE("begin: the projected start, a power-of-two unit, the scale of the point next to 0") {
+  test::mixture const p(30);
+  auto const A = slant::counted(test::spd(p.A));
+  auto const set = p.set();
+  slant::separable_qp const qp{A, p.b, set};
+  VectorXd const x0 = 3 * test::random_vector(20, 11);
+  slant::gradient_point<std::remove_cvref_t<decltype(qp)>> point(qp, x0);
+  point.step_length = 0.7;
+  CHECK_FALSE(point.begin(qp, x0));
+  CHECK(A.applications() == 2);  // at P_Λ(0) ≠ 0 and at P_Λ(x0)
+  CHECK(point.x == slant::project(set, x0));
+  CHECK((point.unit * point.r - (p.A * point.x - p.b)).norm() <= 1e-14 * p.b.norm());
+  CHECK(std::ldexp(1.0, std::ilogb(point.unit)) == point.unit);
+  VectorXd const origin = slant::project(set, VectorXd(VectorXd::Zero(20)));
+  VectorXd const there = slant::project(set, VectorXd(origin - 0.7 * (p.A * origin - p.b)));
+  CHECK(point.gradient_scale == doctest::Approx((origin - there).norm() / 0.7));
+}
+
+TEST_CASE("the energy, without a product") {
+  test::mixture const p(30);
+  auto const A = slant::counted(test::spd(p.A));
+  slant::separable_qp const qp{A, p.b, p.set()};
+  VectorXd const x0 = test::random_vector(20, 3);
+  slant::gradient_point<std::remove_cvref_t<decltype(qp)>> point(qp, x0);
+  point.step_length = 0.7;
+  static_cast<void>(point.begin(qp, x0));
+  auto const before = A.applications();
+  auto const [q, noise] = point.energy(qp);
+  CHECK(A.applications() == before);
+  double const exact = 0.5 * point.x.dot(p.A * point.x) - p.b.dot(point.x);
+  CHECK(std::abs(q * point.unit - exact) <= noise * point.unit);
+  CHECK(noise <= 1e-13 * (std::abs(q) + point.x.norm()));
+}
+
+}  // namespace gradient_point_test
