@@ -52,11 +52,15 @@ class ldlt {
   /// Entries of L below the diagonal.
   [[nodiscard]] index nonzeros() const { return factors_->lower().nonZeros(); }
 
-  /// Room for the permuted unknowns of a solve.
+  /// Room for the permuted unknowns of a solve; column after column, whichever order b has.
   template <class X>
     requires std::same_as<scalar_t<X>, S>
   [[nodiscard]] auto workspace(X const& b) const {
-    return slant::like(slant::local(b), rows());
+    using workspace_type =
+        Eigen::Matrix<S, Eigen::Dynamic, local_t<X>::ColsAtCompileTime, Eigen::ColMajor>;
+    workspace_type w;
+    w.resize(rows(), slant::local(b).cols());
+    return w;
   }
   /// x = K⁻¹ b for one or several right-hand sides. w is what workspace(b) made.
   template <class X, class Y, class W>
@@ -78,8 +82,6 @@ class ldlt {
 
   /// Eigen's factors, with the parts that it gives away only as copies (D) or protects kept apart.
   class factors : public Eigen::SimplicialLDLT<matrix_type, Eigen::Lower> {
-    using base = Eigen::SimplicialLDLT<matrix_type, Eigen::Lower>;
-
    public:
     explicit factors(matrix_type const& k) {
       // The ordering of an empty matrix is more than Eigen can do.

@@ -43,6 +43,7 @@ struct operator_probe {
   std::function<void(V&)> diagonal;
   std::function<void(index, matrix&)> columns;
   std::function<void(matrix const&, matrix&)> apply_to_many;
+  std::function<void(matrix const&, matrix&)> apply_to_many_by_rows;  ///< on row-major copies
   map inverse;
 };
 
@@ -84,6 +85,15 @@ template <class V, class A>
   }
   if constexpr (applies_to_many<A, matrix>) {
     probe.apply_to_many = [&a](matrix const& x, matrix& y) { slant::apply(a, x, y); };
+  }
+  using matrix_by_rows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  if constexpr (applies_to_many<A, matrix_by_rows>) {
+    probe.apply_to_many_by_rows = [&a](matrix const& x, matrix& y) {
+      matrix_by_rows const from = x;
+      matrix_by_rows to = y;
+      slant::apply(a, from, to);
+      y = to;
+    };
   }
   if constexpr (has_inverse<A, V>) {
     using inverse_type = std::remove_cvref_t<decltype(a.inverse())>;
