@@ -76,8 +76,7 @@ template <class F> concept factorization_like = has_rows<F> && !has_cols<F> && h
 
 /// A factorisation, or an operator with inverse().
 template <class F>
-concept invertible =
-    has_rows<F> && ((has_solve_member<F> && !has_cols<F>) || detail::knows_its_inverse<F>);
+concept invertible = detail::factorization_like<F> || (has_rows<F> && detail::knows_its_inverse<F>);
 
 /// The inverse of a factored matrix, or of an operator that knows it.
 template <class F>
