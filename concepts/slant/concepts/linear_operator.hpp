@@ -8,7 +8,7 @@
 // Minimal definition.
 //     rows(), cols()     sizes (of the local parts, if vectors are distributed)
 //     apply(x, y)        y = A x                                             (a leaf), or
-//     workspace(x)       a value that holds all temporaries for arguments like x, and
+//     workspace(x)       a copyable value that holds all temporaries for arguments like x, and
 //     apply(x, y, w)     y = A x with those temporaries                      (a composition)
 //
 // Laws.   A(αx + βy) = αAx + βAy,   apply into a y full of NaN gives the same as into zeros,
@@ -17,7 +17,8 @@
 // Models. everything in slant/operators, slant::testing::archetype::linear_operator.
 //
 // Why a workspace and not a mutable member: const would be a lie between threads. Why not let
-// apply return a vector: it would allocate in every iteration.
+// apply return a vector: it would allocate in every iteration. Why copyable: the states of methods
+// hold workspaces, and a state is saved by copying it.
 #pragma once
 
 #include <slant/concepts/laws.hpp>
@@ -65,6 +66,9 @@ using workspace_t = decltype(slant::workspace(std::declval<A const&>(), std::dec
 template <class A, class V>
 concept has_plain_apply = requires(A const& a, V const& x, V& y) { a.apply(x, y); };
 
+/// A workspace is a value. (What it holds between two applications need not be copied.)
+template <class A, class V> concept has_copyable_workspace = std::copyable<workspace_t<A, V>>;
+
 template <class A, class V>
 concept has_workspace_apply =
     requires(A const& a, V const& x, V& y, workspace_t<A, V>& w) { a.apply(x, y, w); };
@@ -102,8 +106,8 @@ inline constexpr detail::apply_fn apply{};
 
 /// An operator on vectors of type V (or on matrices of several right-hand sides, V = MatrixXd).
 template <class A, class V>
-concept linear_operator =
-    has_rows<A> && has_cols<A> && (has_plain_apply<A, V> || has_workspace_apply<A, V>);
+concept linear_operator = has_rows<A> && has_cols<A> && has_copyable_workspace<A, V> &&
+                          (has_plain_apply<A, V> || has_workspace_apply<A, V>);
 
 /// ⟨A x, y⟩ = ⟨x, A y⟩ is promised.
 template <class A, class V>
