@@ -54,6 +54,10 @@ TEST_CASE("both kinds of factors, one or several right-hand sides") {
   }
 }
 
+TEST_CASE("sizes of a solve") {
+  test::check_sizes_of_solve(slant::cholmod(test::grid_laplacian(3, 0.1)));
+}
+
 TEST_CASE("units do not matter") {
   test::check_units(factor, test::grid_laplacian(3, 0.1));
   test::check_units(factor, test::grid_laplacian(9, 0.1));

@@ -71,6 +71,10 @@ TEST_CASE("expressions and row-major matrices") {
   CHECK(test::residual(slant::ldlt(by_rows), k) < 1e-14);
 }
 
+TEST_CASE("sizes of a solve") {
+  test::check_sizes_of_solve(slant::ldlt(test::grid_laplacian(3, 0.1)));
+}
+
 TEST_CASE("units do not matter") {
   test::check_units(factor, test::grid_laplacian(3, 0.1));
 }

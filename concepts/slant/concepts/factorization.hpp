@@ -5,8 +5,8 @@
 // Intuition. Factor once, solve often. `inverse(factorization)` turns it into an operator.
 //
 // Minimal definition. rows(), and solve(b, x): x = A⁻¹ b, x overwritten, not aliasing b; or
-// workspace(b), which can be copied, and solve(b, x, w). A nonsymmetric one may add
-// solve_adjoint(b, x).
+// workspace(b), which can be copied, and solve(b, x, w). b and x have rows() rows, also on entry:
+// no factorisation resizes x. A nonsymmetric one may add solve_adjoint(b, x).
 // `laws` are those of the factored matrix.
 //
 // Laws.   A solve(b) = b up to κ(A) ε.

@@ -5,6 +5,9 @@
 // Intuition. An operator is two sizes and one function. It overwrites its result, never reads it,
 // and never aliases it with its argument. It is const: two threads may apply it at the same time.
 //
+// Sizes. x has cols() entries and y has rows(), on entry too: no operator resizes y. slant::apply
+// and its relatives (capabilities.hpp) check that; a member apply may rely on it.
+//
 // Minimal definition.
 //     rows(), cols()     sizes (of the local parts, if vectors are distributed)
 //     apply(x, y)        y = A x                                             (a leaf), or
@@ -21,6 +24,7 @@
 // hold workspaces, and a state is saved by copying it.
 #pragma once
 
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
 
@@ -75,9 +79,18 @@ concept has_workspace_apply =
 
 namespace detail {
 
+/// Throws bad_input unless x and y have the sizes of A x = y.
+template <class A, class X, class Y>
+void check_operands(A const& a, X const& x, Y const& y) {
+  check_rows("x", x, index(a.cols()), "cols() of the operator");
+  check_rows("y", y, index(a.rows()), "rows() of the operator");
+  check_same_columns("y", y, x, "one for each column of x");
+}
+
 struct apply_fn {
   template <class A, class X, class Y, class W>
   void operator()(A const& a, X const& x, Y& y, W& w) const {
+    check_operands(a, x, y);
     if constexpr (requires { a.apply(x, y, w); }) {
       a.apply(x, y, w);
     } else {
@@ -102,6 +115,7 @@ struct apply_fn {
 }  // namespace detail
 
 /// y = A x. y is overwritten and must not alias x.
+/// Throws bad_input if x has not cols() rows, or y not rows().
 inline constexpr detail::apply_fn apply{};
 
 /// An operator on vectors of type V (or on matrices of several right-hand sides, V = MatrixXd).

@@ -62,10 +62,12 @@ class ldlt {
     w.resize(rows(), slant::local(b).cols());
     return w;
   }
-  /// x = K⁻¹ b for one or several right-hand sides. w is what workspace(b) made.
+  /// x = K⁻¹ b for one or several right-hand sides. w is what workspace(b) made. Throws bad_input
+  /// if b or x has not rows() rows.
   template <class X, class Y, class W>
     requires std::same_as<scalar_t<X>, S>
   void solve(X const& b, Y& x, W& w) const {
+    detail::check_solve(rows(), b, x);
     w.noalias() = factors_->permutation() * slant::local(b);
     auto&& solution = slant::local(x);
     int const* const place = factors_->permutation().indices().data();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // An operator whose type is forgotten, for containers and interfaces that cannot be templates.
-// Each application costs one virtual call; no other operator has any. What is not forgotten: the
-// type of the vectors, and the laws, which methods ask for.
+// Each application costs three virtual calls, two of them for its sizes; no other operator has any.
+// What is not forgotten: the type of the vectors, and the laws, which methods ask for.
 //
 //     using spd = slant::any_operator<Eigen::VectorXd,
 //                                     slant::laws<slant::self_adjoint, slant::positive_definite>>;
