@@ -113,7 +113,8 @@ void check_sizes_of_solve(F const& factors) {
     }
     return "accepted";
   };
-  std::string const rest = " rows, expected " + std::to_string(n) + " (rows() of the factorisation)";
+  std::string const rest =
+      " rows, expected " + std::to_string(n) + " (rows() of the factorisation)";
   CHECK(message(n, n, 2) == "accepted");
   CHECK(message(n, 0, 2) == "x: got 0" + rest);
   CHECK(message(n - 1, n, 2) == "b: got " + std::to_string(n - 1) + rest);

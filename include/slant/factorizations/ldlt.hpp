@@ -98,8 +98,9 @@ class ldlt {
   };
 
   /// v ← L⁻ᵀ D⁻¹ L⁻¹ v. Plain loops over the arrays: Eigen's solveInPlace looks them up anew for
-  /// each column.
-  void solve_in_place(S* v) const {
+  /// each column. Not inlined: what surrounds them would take registers from the innermost loops,
+  /// which g++ 12 pays with 5 % more instructions.
+  [[gnu::noinline]] void solve_in_place(S* v) const {
     index const n = rows();
     int const* const begin = factors_->lower().outerIndexPtr();
     int const* const row = factors_->lower().innerIndexPtr();
