@@ -2,11 +2,16 @@
 #include <slant/factorizations/cholmod.hpp>
 
 #include <slant/factorizations/ldlt.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/krylov/cg.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>
 
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -47,6 +52,10 @@ TEST_CASE("both kinds of factors, one or several right-hand sides") {
       }
     }
   }
+}
+
+TEST_CASE("sizes of a solve") {
+  test::check_sizes_of_solve(slant::cholmod(test::grid_laplacian(3, 0.1)));
 }
 
 TEST_CASE("units do not matter") {
@@ -126,6 +135,56 @@ TEST_CASE("a solve with a workspace allocates nothing") {
     auto const allocations = guard.count();
     CHECK(allocations == 0);
   }
+}
+
+TEST_CASE("a copied or assigned workspace is as ready as the original, and independent of it") {
+  for (int const size : {3, 9}) {
+    sparse const k = test::grid_laplacian(size, 0.1);
+    slant::cholmod const factors(k);
+    for (int const columns : {1, 4, 7}) {
+      MatrixXd b(k.rows(), columns);
+      for (int j = 0; j < columns; ++j) b.col(j) = test::load(k.rows()).array() + j;
+      MatrixXd x(k.rows(), columns);
+      auto const allocations_of_a_solve = [&](auto& w) {
+        x.setConstant(std::numeric_limits<double>::quiet_NaN());
+        slant::testing::allocation_guard guard;
+        factors.solve(b, x, w);
+        return guard.count();
+      };
+      using workspace_type = slant::workspace_t<slant::cholmod, MatrixXd>;
+      auto original = std::make_unique<workspace_type>(factors.workspace(b));
+      auto const usual = allocations_of_a_solve(*original);  // of BLAS, for several columns
+      if (columns == 1) CHECK(usual == 0);
+      auto copy = *original;
+      auto assigned = factors.workspace(VectorXd(b.col(0)));
+      assigned = *original;
+      original.reset();
+      auto moved = std::move(copy);
+      copy = moved;  // one that was moved from
+      for (auto* w : {&copy, &assigned, &moved}) {
+        auto const allocations = allocations_of_a_solve(*w);
+        CHECK(allocations == usual);
+        CHECK((k * x - b).norm() < 1e-13 * b.norm());
+      }
+    }
+  }
+  slant::cholmod const empty(sparse(0, 0));
+  auto w = empty.workspace(VectorXd(0));
+  auto const copy = w;
+  w = copy;
+}
+
+TEST_CASE("states of a method over it are saved and assigned") {
+  sparse const k = test::grid_laplacian(3, 0.1);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(k);
+  auto const M = slant::inverse(slant::cholmod(sparse(2 * k)));
+  VectorXd const b = test::load(k.rows());
+  slant::cg const method{A, b, M};
+  auto r = slant::solve(method, VectorXd(VectorXd::Zero(k.rows())), slant::at_most(0));
+  auto const saved = r.state;
+  r = slant::solve(method, r.x(), slant::residual_below(1e-12) || slant::at_most(5));
+  CHECK(r.converged());
+  CHECK(saved.x == VectorXd::Zero(k.rows()));
 }
 
 TEST_CASE("two threads, two workspaces") {

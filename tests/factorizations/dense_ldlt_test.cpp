@@ -36,6 +36,10 @@ TEST_CASE_TEMPLATE("other scalars", S, float, long double) {
   CHECK(test::residual(slant::dense_ldlt(k), k) < S(100) * std::numeric_limits<S>::epsilon());
 }
 
+TEST_CASE("sizes of a solve") {
+  test::check_sizes_of_solve(slant::dense_ldlt(MatrixXd(test::grid_laplacian(3, 0.1))));
+}
+
 TEST_CASE("units do not matter") {
   test::check_units(factor, MatrixXd(test::grid_laplacian(3, 0.1)));
 }

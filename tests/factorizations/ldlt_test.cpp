@@ -43,6 +43,21 @@ TEST_CASE("solutions have small residuals, also for several right-hand sides") {
   CHECK((k * x - b).norm() < 1e-13 * b.norm());
 }
 
+TEST_CASE("right-hand sides stored by rows") {
+  using by_rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  sparse const k = test::grid_laplacian(4, 0.1);
+  slant::ldlt const factors(k);
+  by_rows b(k.rows(), 3);
+  b << test::load(k.rows()), VectorXd::Ones(k.rows()), VectorXd::Unit(k.rows(), 7);
+  by_rows x(k.rows(), 3);
+  auto w = factors.workspace(b);
+  slant::testing::allocation_guard guard;
+  factors.solve(b, x, w);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK((k * x - b).norm() < 1e-13 * b.norm());
+}
+
 TEST_CASE_TEMPLATE("other scalars", S, float, long double, multiprecision) {
   Eigen::SparseMatrix<S> const k = test::grid_laplacian<S>(3, 0.1);
   S const allowed = S(100) * std::numeric_limits<S>::epsilon();
@@ -54,6 +69,10 @@ TEST_CASE("expressions and row-major matrices") {
   CHECK(test::residual(slant::ldlt(k + k), sparse(2 * k)) < 1e-14);
   Eigen::SparseMatrix<double, Eigen::RowMajor> const by_rows(k);
   CHECK(test::residual(slant::ldlt(by_rows), k) < 1e-14);
+}
+
+TEST_CASE("sizes of a solve") {
+  test::check_sizes_of_solve(slant::ldlt(test::grid_laplacian(3, 0.1)));
 }
 
 TEST_CASE("units do not matter") {

@@ -94,6 +94,33 @@ void check_units(Factor factor, M const& k) {
   }
 }
 
+/// A solve names the argument whose size is wrong, and resizes nothing.
+template <class F>
+void check_sizes_of_solve(F const& factors) {
+  slant::index const n = factors.rows();
+  auto const message = [&](slant::index of_b, slant::index of_x, int columns) -> std::string {
+    Eigen::MatrixXd const b = Eigen::MatrixXd::Ones(of_b, 2);
+    Eigen::MatrixXd x(of_x, columns);
+    try {
+      auto w = slant::workspace(factors, b);
+      if constexpr (requires { factors.solve(b, x); }) {
+        factors.solve(b, x);
+      } else {
+        factors.solve(b, x, w);
+      }
+    } catch (slant::bad_input const& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  std::string const rest =
+      " rows, expected " + std::to_string(n) + " (rows() of the factorisation)";
+  CHECK(message(n, n, 2) == "accepted");
+  CHECK(message(n, 0, 2) == "x: got 0" + rest);
+  CHECK(message(n - 1, n, 2) == "b: got " + std::to_string(n - 1) + rest);
+  CHECK(message(n, n, 1) == "x: got 1 columns, expected 2 (one for each column of b)");
+}
+
 /// What is wrong with a matrix is said, with the entry or pivot and its value.
 template <class Factor, class M>
 void check_complaints(Factor factor, M const& definite, M const& singular) {

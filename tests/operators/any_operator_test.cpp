@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <memory>
 #include <vector>
 
 #include "operators/dense_oracle.hpp"
@@ -36,6 +37,22 @@ TEST_CASE("operators of different types in one container") {
   for (auto const& a : operators) slant::testing::check_operator_laws(a);
   CHECK(test::matches(slant::sum(operators[0], operators[1], operators[2]),
                       MatrixXd(m + MatrixXd::Identity(3, 3) + m * m)));
+}
+
+TEST_CASE("copies of a workspace have contents of their own") {
+  MatrixXd const m = test::random_dense(3, 3, 4);
+  any const a = slant::product(m, m);
+  VectorXd const x = test::random_column(3, 5);
+  VectorXd y(3);
+  auto w = std::make_unique<slant::any_workspace>(a.workspace(x));
+  auto copy = *w;
+  auto assigned = any(slant::identity(3)).workspace(x);
+  assigned = *w;
+  w.reset();
+  for (auto* own : {&copy, &assigned}) {
+    slant::apply(a, x, y, *own);
+    CHECK((y - m * m * x).norm() < 1e-14);
+  }
 }
 
 TEST_CASE("laws are part of the type and must be declared by what is put in") {

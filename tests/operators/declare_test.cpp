@@ -2,6 +2,7 @@
 #include <slant/operators/declare.hpp>
 
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/inverse.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/testing/operator_laws.hpp>
 
@@ -35,6 +36,20 @@ TEST_CASE("laws of the operator are kept, with what follows from both") {
   static_assert(laws_of<decltype(p)> == laws_of<decltype(d)>);
   static_assert(declares_firmly_nonexpansive<decltype(p)>);
   testing::check_operator_laws(p);
+}
+
+TEST_CASE("the inverse has what the declared laws imply") {
+  using namespace slant;
+  auto const d = diagonal<positive_definite>(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
+  auto const a = declare<self_adjoint, positive_definite>(product(d, d));
+  auto const b = inverse(a);
+  static_assert(spd_operator<decltype(b), VectorXd>);
+  static_assert(spd_operator<decltype(inverse(b)), VectorXd>);
+  static_assert(laws_of<decltype(inverse(declare<positive_semidefinite>(product(d, d))))> ==
+                laws<law::positive_semidefinite>);
+  static_assert(!has_inverse<decltype(declare<self_adjoint>(MatrixXd(3, 3))), VectorXd>);
+  testing::check_operator_laws(a);
+  testing::check_operator_laws(b);
 }
 
 TEST_CASE("a false declaration is found by the law check") {

@@ -41,6 +41,13 @@ TEST_CASE("definite ones have an inverse") {
   slant::testing::check_operator_laws(a);
 }
 
+TEST_CASE("an inverse that would not be finite is refused") {
+  VectorXd const d = Eigen::Vector3d(1, 1e-310, 2);
+  auto const a = slant::diagonal<slant::positive_definite>(d);
+  CHECK(test::message<slant::bad_input>([&] { (void)a.inverse(); }) ==
+        "d[1]: got 1e-310, expected a number with a finite reciprocal");
+}
+
 TEST_CASE("laws are verified") {
   using namespace slant;
   VectorXd d = VectorXd::Ones(3);

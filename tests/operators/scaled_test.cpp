@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <type_traits>
 
 #include "operators/dense_oracle.hpp"
 
@@ -57,6 +58,27 @@ TEST_CASE("the inverse, where the part knows its own") {
   static_assert(!slant::has_inverse<decltype(slant::scaled(4.0, slant::identity(3))), VectorXd>);
 }
 
+TEST_CASE("the factor of an inverse is rounded in the scalar of the vector") {
+  using S = long double;
+  auto const p = slant::scaled(slant::positive(3), slant::identity(2));
+  test::column<S> x(2);
+  x << S(1), S(2);
+  test::column<S> y(2);
+  slant::apply(p.inverse(), x, y);
+  CHECK(y[0] == S(1) / S(3));
+  auto const z = y;
+  auto const inverse = p.inverse();
+  auto w = slant::workspace(inverse, x);
+  slant::apply_add(inverse, S(-1), x, y, w);
+  CHECK(y == test::column<S>::Zero(2));
+  slant::apply(p.inverse().inverse(), x, y);
+  CHECK(y == test::column<S>(3 * x));
+  CHECK(z[1] == S(2) / S(3));
+  CHECK(test::message<slant::bad_input>([] {
+          (void)slant::scaled(slant::positive(1e-310), slant::identity(1)).inverse();
+        }) == "c: got 1e-310, expected a number with a finite reciprocal");
+}
+
 TEST_CASE("the archetype has nothing more when scaled") {
   slant::testing::archetype::linear_operator const a(test::random_dense(4, 4, 3));
   auto const s = slant::scaled(3.0, a);
@@ -74,6 +96,10 @@ TEST_CASE("the factor must be a number, and positive if that is claimed") {
         "c: got nan, expected a finite number");
   CHECK(test::message<bad_input>([&] { (void)slant::scaled(infinity, slant::identity(1)); }) ==
         "c: got inf, expected a finite number");
+  CHECK(test::message<bad_input>([] { (void)slant::positive_factor<double>{-1.0}; }) ==
+        "c: got -1, expected a finite number > 0");
+  static_assert(!std::is_aggregate_v<slant::positive_factor<double>>);
+  static_assert(!std::is_default_constructible_v<slant::positive_factor<double>>);
   CHECK(test::message<bad_input>([] { (void)slant::positive(0.0); }) ==
         "c: got 0, expected a finite number > 0");
   CHECK(test::message<bad_input>([] { (void)slant::positive(-1); }) ==

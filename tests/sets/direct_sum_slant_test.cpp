@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/capabilities.hpp>
+#include <slant/operators/sum.hpp>
 #include <slant/sets/block_diagonal_slant.hpp>
 #include <slant/sets/direct_sum_slant.hpp>
 
@@ -52,6 +53,39 @@ TEST_CASE("direct_sum_slant: keeps the laws that all parts have") {
   using free = slant::direct_sum_slant<identity, identity>;
   static_assert(slant::spd_operator<free, vec<>>);
   static_assert(slant::declares_projector<free>);
+}
+
+/// y = x on three components and nothing else: no apply_add, no diagonal.
+struct bare_slant {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+  [[nodiscard]] slant::index rows() const { return 3; }
+  [[nodiscard]] slant::index cols() const { return 3; }
+  void apply(auto const& x, auto& y) const { y = x; }
+};
+
+TEST_CASE("direct_sum_slant: can do what all parts can, and claims no more") {
+  using full = slant::direct_sum_slant<bounds, identity>;
+  static_assert(slant::has_accumulate<full, vec<>> && slant::has_diagonal<full, vec<>>);
+  using partial = slant::direct_sum_slant<bare_slant, bounds>;
+  static_assert(slant::linear_operator<partial, vec<>>);
+  static_assert(!slant::has_accumulate<partial, vec<>>);
+  static_assert(!slant::has_diagonal<partial, vec<>>);
+  struct whole_vectors_only : bare_slant {
+    void apply(vec<> const& x, vec<>& y) const { y = x; }
+  };
+  static_assert(slant::linear_operator<whole_vectors_only, vec<>>);
+  static_assert(
+      !slant::linear_operator<slant::direct_sum_slant<whole_vectors_only, bounds>, vec<>>);
+
+  // So compositions take the way that works.
+  auto const twice =
+      slant::sum(partial(bare_slant{}, zero_one()), partial(bare_slant{}, zero_one()));
+  vec<> const x = numbers(5, 1);
+  vec<> y(5);
+  slant::apply(twice, x, y);
+  vec<> expected = 2 * x;
+  expected[3] = 0;
+  CHECK(y == expected);
 }
 
 }  // namespace direct_sum_slant_test

@@ -113,6 +113,16 @@ struct wrong_for_many {
   }
 };
 
+/// Takes every storage order for that of MatrixXd.
+struct wrong_by_rows {
+  MatrixXd m;
+  [[nodiscard]] Eigen::Index rows() const { return m.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return m.cols(); }
+  void apply(auto const& x, auto& y) const {
+    Eigen::Map<MatrixXd>(y.data(), y.rows(), y.cols()) = m * x;
+  }
+};
+
 template <slant::law... L>
 struct declaring : honest {
   static constexpr auto laws = slant::laws<L...>;
@@ -159,6 +169,7 @@ TEST_CASE("liars about capabilities are found") {
   CHECK(finds(wrong_columns{{m}}, "columns"));
   CHECK(finds(wrong_inverse{{m}}, "inverse"));
   CHECK(finds(wrong_for_many{m}, "A [x1 x2 x3]"));
+  CHECK(finds(wrong_by_rows{m}, "stored by rows"));
 }
 
 TEST_CASE("liars about laws are found") {

@@ -63,9 +63,18 @@ concept has_adjoint =
 
 namespace detail {
 
+/// Throws bad_input unless x and y have the sizes of Aᵀx = y.
+template <class A, class X, class Y>
+void check_adjoint_operands(A const& a, X const& x, Y const& y) {
+  check_rows("x", x, index(a.rows()), "rows() of the operator, as the adjoint is applied");
+  check_rows("y", y, index(a.cols()), "cols() of the operator, as the adjoint is applied");
+  check_same_columns("y", y, x, "one for each column of x");
+}
+
 struct apply_adjoint_fn {
   template <class A, class X, class Y, class W>
   void operator()(A const& a, X const& x, Y& y, W& w) const {
+    check_adjoint_operands(a, x, y);
     if constexpr (requires { a.apply_adjoint(x, y, w); }) {
       a.apply_adjoint(x, y, w);
     } else if constexpr (requires { a.apply_adjoint(x, y); }) {
@@ -85,6 +94,7 @@ struct apply_adjoint_fn {
 }  // namespace detail
 
 /// y = Aᵀ x. y is overwritten and must not alias x.
+/// Throws bad_input if x has not rows() rows, or y not cols().
 inline constexpr detail::apply_adjoint_fn apply_adjoint{};
 
 template <class A, class V>
@@ -104,6 +114,7 @@ namespace detail {
 struct apply_add_fn {
   template <class A, class S, class X, class Y, class W>
   void operator()(A const& a, S α, X const& x, Y& y, W& w) const {
+    check_operands(a, x, y);
     if constexpr (requires { a.apply_add(α, x, y, w); }) {
       a.apply_add(α, x, y, w);
     } else {
@@ -114,7 +125,7 @@ struct apply_add_fn {
 
 }  // namespace detail
 
-/// y ← y + α A x. y must not alias x.
+/// y ← y + α A x. y must not alias x. Throws bad_input as apply does.
 inline constexpr detail::apply_add_fn apply_add{};
 
 template <class A, class V>
@@ -138,6 +149,7 @@ namespace detail {
 struct apply_adjoint_add_fn {
   template <class A, class S, class X, class Y, class W>
   void operator()(A const& a, S α, X const& x, Y& y, W& w) const {
+    check_adjoint_operands(a, x, y);
     if constexpr (requires { a.apply_adjoint_add(α, x, y, w); }) {
       a.apply_adjoint_add(α, x, y, w);
     } else if constexpr (requires { a.apply_adjoint_add(α, x, y); }) {
@@ -151,7 +163,7 @@ struct apply_adjoint_add_fn {
 
 }  // namespace detail
 
-/// y ← y + α Aᵀx. y must not alias x.
+/// y ← y + α Aᵀx. y must not alias x. Throws bad_input as apply_adjoint does.
 inline constexpr detail::apply_adjoint_add_fn apply_adjoint_add{};
 
 /// d = diag(A). For set-up: it may allocate.

@@ -7,7 +7,8 @@
 //
 // Minimal definition.
 //     dimension (static) or size()     number of components
-//     project(x) → value, or project(x, y) in place (y may alias x)
+//     project(x) → value, or project(x, y) in place (y may alias x; both have as many entries as
+//                the set has components, which slant::project checks)
 //     contains(x)                      membership, up to rounding
 //
 // Capabilities, each where it exists:
@@ -31,6 +32,7 @@
 // [K (49), (50)]; any choice is admissible, this one is the same everywhere.
 #pragma once
 
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/vector.hpp>
 
@@ -80,6 +82,8 @@ struct project_fn {
   /// y = P(x); y may alias x.
   template <class C, class X, class Y>
   void operator()(C const& c, X const& x, Y& y) const {
+    check_rows("x", x, index(slant::dimension_of(c)), "the dimension of the set");
+    check_rows("y", y, index(slant::dimension_of(c)), "the dimension of the set");
     if constexpr (requires { c.project(x, y); }) {
       c.project(x, y);
     } else {
@@ -88,6 +92,7 @@ struct project_fn {
   }
   template <class C, class X>
   [[nodiscard]] auto operator()(C const& c, X const& x) const {
+    check_rows("x", x, index(slant::dimension_of(c)), "the dimension of the set");
     if constexpr (requires { c.project(x); }) {
       return c.project(x);
     } else {
@@ -101,6 +106,7 @@ struct project_fn {
 }  // namespace detail
 
 /// Nearest point of the set: project(c, x) by value, project(c, x, y) in place.
+/// Throws bad_input if x or y has a wrong size.
 inline constexpr detail::project_fn project{};
 
 template <class C, class V> concept has_slant = requires(C const& c, V const& x) { c.slant(x); };

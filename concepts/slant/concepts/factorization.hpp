@@ -5,7 +5,8 @@
 // Intuition. Factor once, solve often. `inverse(factorization)` turns it into an operator.
 //
 // Minimal definition. rows(), and solve(b, x): x = A⁻¹ b, x overwritten, not aliasing b; or
-// workspace(b) and solve(b, x, w). A nonsymmetric one may add solve_adjoint(b, x).
+// workspace(b), which can be copied, and solve(b, x, w). b and x have rows() rows, also on entry:
+// no factorisation resizes x. A nonsymmetric one may add solve_adjoint(b, x).
 // `laws` are those of the factored matrix.
 //
 // Laws.   A solve(b) = b up to κ(A) ε.
@@ -29,6 +30,7 @@ concept has_workspace_solve =
 
 /// x = A⁻¹ b for vectors of type V; see the top of this file.
 template <class F, class V>
-concept factorization = has_rows<F> && (has_plain_solve<F, V> || has_workspace_solve<F, V>);
+concept factorization = has_rows<F> && has_copyable_workspace<F, V> &&
+                        (has_plain_solve<F, V> || has_workspace_solve<F, V>);
 
 }  // namespace slant

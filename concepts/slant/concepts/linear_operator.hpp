@@ -5,10 +5,13 @@
 // Intuition. An operator is two sizes and one function. It overwrites its result, never reads it,
 // and never aliases it with its argument. It is const: two threads may apply it at the same time.
 //
+// Sizes. x has cols() entries and y has rows(), on entry too: no operator resizes y. slant::apply
+// and its relatives (capabilities.hpp) check that; a member apply may rely on it.
+//
 // Minimal definition.
 //     rows(), cols()     sizes (of the local parts, if vectors are distributed)
 //     apply(x, y)        y = A x                                             (a leaf), or
-//     workspace(x)       a value that holds all temporaries for arguments like x, and
+//     workspace(x)       a copyable value that holds all temporaries for arguments like x, and
 //     apply(x, y, w)     y = A x with those temporaries                      (a composition)
 //
 // Laws.   A(αx + βy) = αAx + βAy,   apply into a y full of NaN gives the same as into zeros,
@@ -17,9 +20,11 @@
 // Models. everything in slant/operators, slant::testing::archetype::linear_operator.
 //
 // Why a workspace and not a mutable member: const would be a lie between threads. Why not let
-// apply return a vector: it would allocate in every iteration.
+// apply return a vector: it would allocate in every iteration. Why copyable: the states of methods
+// hold workspaces, and a state is saved by copying it.
 #pragma once
 
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
 
@@ -65,15 +70,27 @@ using workspace_t = decltype(slant::workspace(std::declval<A const&>(), std::dec
 template <class A, class V>
 concept has_plain_apply = requires(A const& a, V const& x, V& y) { a.apply(x, y); };
 
+/// A workspace is a value. (What it holds between two applications need not be copied.)
+template <class A, class V> concept has_copyable_workspace = std::copyable<workspace_t<A, V>>;
+
 template <class A, class V>
 concept has_workspace_apply =
     requires(A const& a, V const& x, V& y, workspace_t<A, V>& w) { a.apply(x, y, w); };
 
 namespace detail {
 
+/// Throws bad_input unless x and y have the sizes of A x = y.
+template <class A, class X, class Y>
+void check_operands(A const& a, X const& x, Y const& y) {
+  check_rows("x", x, index(a.cols()), "cols() of the operator");
+  check_rows("y", y, index(a.rows()), "rows() of the operator");
+  check_same_columns("y", y, x, "one for each column of x");
+}
+
 struct apply_fn {
   template <class A, class X, class Y, class W>
   void operator()(A const& a, X const& x, Y& y, W& w) const {
+    check_operands(a, x, y);
     if constexpr (requires { a.apply(x, y, w); }) {
       a.apply(x, y, w);
     } else {
@@ -98,12 +115,13 @@ struct apply_fn {
 }  // namespace detail
 
 /// y = A x. y is overwritten and must not alias x.
+/// Throws bad_input if x has not cols() rows, or y not rows().
 inline constexpr detail::apply_fn apply{};
 
 /// An operator on vectors of type V (or on matrices of several right-hand sides, V = MatrixXd).
 template <class A, class V>
-concept linear_operator =
-    has_rows<A> && has_cols<A> && (has_plain_apply<A, V> || has_workspace_apply<A, V>);
+concept linear_operator = has_rows<A> && has_cols<A> && has_copyable_workspace<A, V> &&
+                          (has_plain_apply<A, V> || has_workspace_apply<A, V>);
 
 /// ⟨A x, y⟩ = ⟨x, A y⟩ is promised.
 template <class A, class V>

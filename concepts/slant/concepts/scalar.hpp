@@ -8,7 +8,8 @@
 // std::numeric_limits is specialised and abs, sqrt, ldexp, frexp are found by argument-dependent
 // lookup. (Lengths are scaled by powers of two where their squares would leave the range: exact.)
 //
-// Laws (up to rounding).   a + b = b + a,   a (b + c) = a b + a c,   sqrt(a)² = |a| for a ≥ 0.
+// Laws (up to rounding).   a + b = b + a,   a (b + c) = a b + a c,   sqrt(a)² = |a| for a ≥ 0,
+//                          x − x is 0 for finite x and NaN otherwise (so no -ffast-math).
 //
 // Models. float, double, long double, boost::multiprecision::number,
 //         slant::testing::archetype::scalar.
@@ -16,6 +17,12 @@
 // Why numeric_limits and not a tolerance argument: every threshold in the library is a multiple of
 // epsilon() times a quantity of the data, so the scalar itself must be able to say what epsilon is.
 #pragma once
+
+// The compiler would then remove every check for NaN and infinity, and with them bad_input and the
+// statuses of breakdown: wrong answers that look right.
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "slant needs NaN and infinity: compile without -ffast-math, -Ofast and -ffinite-math-only"
+#endif
 
 #include <cmath>
 #include <concepts>

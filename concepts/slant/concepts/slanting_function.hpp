@@ -8,7 +8,8 @@
 //
 // Minimal definition.
 //     rows(), cols()      numbers of values and of arguments
-//     value(y, f)         f = F(y), overwritten, no aliasing; or value(y, f, w) with workspace(y)
+//     value(y, f)         f = F(y), overwritten, no aliasing; or value(y, f, w) with workspace(y);
+//                         y has cols() entries, f has rows(), which slant::evaluate checks
 //     slant(y)            F°(y), a linear operator rows() × cols()
 // Optional, for iterations without allocation:
 //     slant(y, G) or slant(y, G, w)   G = F°(y) into an operator that slant(y₀) made earlier
@@ -66,9 +67,17 @@ concept slanting_function =
 
 namespace detail {
 
+/// Throws bad_input unless F can be evaluated at y.
+template <class F, class X>
+void check_argument(F const& f, X const& y) {
+  check_rows("y", y, index(f.cols()), "cols() of the function");
+}
+
 struct evaluate_fn {
   template <class F, class X, class Y, class W>
   void operator()(F const& f, X const& y, Y& v, W& w) const {
+    check_argument(f, y);
+    check_rows("f", v, index(f.rows()), "rows() of the function");
     if constexpr (requires { f.value(y, v, w); }) {
       f.value(y, v, w);
     } else {
@@ -94,6 +103,7 @@ struct evaluate_fn {
 struct update_slant_fn {
   template <class F, class X, class G, class W>
   void operator()(F const& f, X const& y, G& g, W& w) const {
+    check_argument(f, y);
     if constexpr (requires { f.slant(y, g, w); }) {
       f.slant(y, g, w);
     } else if constexpr (requires { f.slant(y, g); }) {
@@ -107,6 +117,7 @@ struct update_slant_fn {
 struct update_slant_after_value_fn {
   template <class F, class X, class G, class W>
   void operator()(F const& f, X const& y, G& g, W& w) const {
+    check_argument(f, y);
     if constexpr (requires { f.slant_after_value(y, g, w); }) {
       f.slant_after_value(y, g, w);
     } else {
@@ -118,6 +129,7 @@ struct update_slant_after_value_fn {
 }  // namespace detail
 
 /// F(y): evaluate(f, y, v, w) in place, evaluate(f, y) as a new vector.
+/// Throws bad_input if y has not cols() rows, or v not rows().
 inline constexpr detail::evaluate_fn evaluate{};
 
 /// G = F°(y), in place if the function can.

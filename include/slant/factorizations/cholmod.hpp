@@ -61,10 +61,12 @@ class cholmod {
   [[nodiscard]] detail::cholmod_workspace workspace(X const& b) const {
     return detail::cholmod_workspace(factors_.get(), slant::local(b).cols());
   }
-  /// x = K⁻¹ b for as many right-hand sides as w was made for.
+  /// x = K⁻¹ b for as many right-hand sides as w was made for. Throws bad_input if b or x has not
+  /// rows() rows.
   template <class X, class Y>
     requires std::same_as<scalar_t<X>, double>
   void solve(X const& b, Y& x, detail::cholmod_workspace& w) const {
+    detail::check_solve(rows(), b, x);
     if (rows_ == 0) return;
     w.right_hand_side() = slant::local(b);
     slant::local(x).noalias() = unit_ * w.solve(*factors_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // An operator whose type is forgotten, for containers and interfaces that cannot be templates.
-// Each application costs one virtual call; no other operator has any. What is not forgotten: the
-// type of the vectors, and the laws, which methods ask for.
+// Each application costs three virtual calls, two of them for its sizes; no other operator has any.
+// What is not forgotten: the type of the vectors, and the laws, which methods ask for.
 //
 //     using spd = slant::any_operator<Eigen::VectorXd,
 //                                     slant::laws<slant::self_adjoint, slant::positive_definite>>;
@@ -15,12 +15,21 @@
 
 namespace slant {
 
-/// The workspace of an any_operator.
+/// The workspace of an any_operator. A copy has a content of its own.
 class any_workspace {
  public:
   template <class W>
   explicit any_workspace(std::in_place_t, W w)
       : content_(std::make_unique<holder<W>>(std::move(w))) {}
+
+  any_workspace(any_workspace const& other)
+      : content_(other.content_ ? other.content_->clone() : nullptr) {}
+  any_workspace(any_workspace&&) noexcept = default;
+  any_workspace& operator=(any_workspace other) noexcept {
+    content_ = std::move(other.content_);
+    return *this;
+  }
+  ~any_workspace() = default;
 
   /// The content, which has the type W.
   template <class W>
@@ -34,10 +43,14 @@ class any_workspace {
     base(base const&) = delete;
     base& operator=(base const&) = delete;
     virtual ~base() = default;
+    [[nodiscard]] virtual std::unique_ptr<base> clone() const = 0;
   };
   template <class W>
   struct holder final : base {
     explicit holder(W w) : value(std::move(w)) {}
+    [[nodiscard]] std::unique_ptr<base> clone() const override {
+      return std::make_unique<holder>(value);
+    }
     W value;
   };
 

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <slant/operators/as_operator.hpp>
+#include <slant/operators/detail/closure.hpp>
 #include <slant/operators/detail/decorator.hpp>
 
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -28,6 +30,15 @@ class declared_operator : public detail::decorator<A, detail::no_probe> {
  public:
   static constexpr law_set laws = laws_of<A> | L;
   using detail::decorator<A, detail::no_probe>::decorator;
+
+  /// The inverse of A, with what the laws of A imply for it.
+  [[nodiscard]] auto inverse() const
+    requires detail::knows_its_inverse<std::remove_cvref_t<A>>
+  {
+    using inverse_part = std::remove_cvref_t<decltype(this->get().inverse())>;
+    return declared_operator<inverse_part, detail::inverse_laws(laws)>{
+        held<inverse_part>(this->get().inverse())};
+  }
 };
 
 /// Asserts laws of A. Throws bad_input if A is not square: only square operators have laws.

@@ -55,12 +55,20 @@ class diagonal_operator {
       slant::local(y)(first + j, j) = entries()[first + j];
     }
   }
-  /// diag(1/d), where the laws exclude zeros.
+  /// diag(1/d), where the laws exclude zeros. Throws bad_input naming an entry so small that its
+  /// reciprocal is not finite.
   [[nodiscard]] auto inverse() const
     requires(laws.contains(law::positive_definite))
   {
     using plain = plain_t<local_t<vector_type>>;
     plain reciprocal = entries().cwiseInverse();
+    for (index i = 0; i < rows(); ++i) {
+      if (!detail::is_finite(scalar(reciprocal[i]))) {
+        throw bad_input("d", detail::show(scalar(entries()[i])),
+                        "a number with a finite reciprocal")
+            .at(i);
+      }
+    }
     return diagonal_operator<plain, slant::laws<slant::self_adjoint, slant::positive_definite>>{
         held<plain>(std::move(reciprocal))};
   }

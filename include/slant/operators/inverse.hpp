@@ -69,15 +69,17 @@ class inverse_operator {
 
 namespace detail {
 
-/// A factorisation has solve, which operators do not have, and need not have cols.
-template <class F> concept factorization_like = has_rows<F> && !has_cols<F> && has_solve_member<F>;
+/// What tells a factorisation from an operator. (The name is what g++ shows when it is missing.)
+template <class F> concept has_solve_member_and_no_cols = has_solve_member<F> && !has_cols<F>;
+
+template <class F> concept factorization_like = has_rows<F> && has_solve_member_and_no_cols<F>;
 
 }  // namespace detail
 
 /// A factorisation, or an operator with inverse().
 template <class F>
 concept invertible =
-    has_rows<F> && ((has_solve_member<F> && !has_cols<F>) || detail::knows_its_inverse<F>);
+    has_rows<F> && (detail::has_solve_member_and_no_cols<F> || detail::knows_its_inverse<F>);
 
 /// The inverse of a factored matrix, or of an operator that knows it.
 template <class F>

@@ -18,19 +18,61 @@ namespace slant {
 
 /// A number known to be positive.
 template <class S>
-struct positive_factor {
-  S value;
+class positive_factor {
+ public:
+  /// Throws bad_input unless 0 < c < ∞.
+  explicit positive_factor(S c) : value_(std::move(c)) {
+    if (!(value_ > S(0)) || !detail::is_finite(value_)) {
+      throw bad_input("c", detail::show(value_), "a finite number > 0");
+    }
+  }
+  [[nodiscard]] S const& value() const noexcept { return value_; }
+
+ private:
+  S value_;
 };
 
 /// Marks c as positive. Throws bad_input unless 0 < c < ∞.
 template <class S>
   requires scalar<S> || std::is_integral_v<S>
 [[nodiscard]] positive_factor<S> positive(S c) {
-  if (!(c > S(0)) || !detail::is_finite(c)) {
-    throw bad_input("c", detail::show(c), "a finite number > 0");
+  return positive_factor<S>(std::move(c));
+}
+
+/// The factor 1/c, which is rounded where it is used: in the scalar of the vectors.
+template <class S>
+struct reciprocal_factor {
+  S denominator;
+};
+
+namespace detail {
+
+/// A factor in the scalar T.
+template <class T, class S>
+[[nodiscard]] T factor_in(S const& c) {
+  return static_cast<T>(c);
+}
+template <class T, class S>
+[[nodiscard]] T factor_in(reciprocal_factor<S> const& c) {
+  return T(1) / static_cast<T>(c.denominator);
+}
+
+/// Throws bad_input if 1/c is not finite.
+template <class S>
+[[nodiscard]] reciprocal_factor<S> inverse_factor(S const& c) {
+  if constexpr (!std::is_integral_v<S>) {
+    if (!is_finite(S(S(1) / c))) {
+      throw bad_input("c", show(c), "a number with a finite reciprocal");
+    }
   }
   return {c};
 }
+template <class S>
+[[nodiscard]] S inverse_factor(reciprocal_factor<S> const& c) {
+  return c.denominator;
+}
+
+}  // namespace detail
 
 /// y = c A x. A is `Operator const&` (referenced) or an operator type (owned).
 template <class S, class A, bool Positive>
@@ -45,6 +87,7 @@ class scaled_operator {
 
   [[nodiscard]] index rows() const { return a_.get().rows(); }
   [[nodiscard]] index cols() const { return a_.get().cols(); }
+  /// c, a number or (of an inverse) a reciprocal_factor.
   [[nodiscard]] S const& factor() const noexcept { return c_; }
 
   template <class X>
@@ -93,19 +136,20 @@ class scaled_operator {
     a_.get().columns(first, y);
     slant::local(y) *= factor_as<Y>();
   }
+  /// c⁻¹A⁻¹. Throws bad_input if c is so small that 1/c is not finite.
   [[nodiscard]] auto inverse() const
     requires(Positive && detail::knows_its_inverse<part>)
   {
     using inverse_part = std::remove_cvref_t<decltype(a_.get().inverse())>;
-    using factor_type = std::conditional_t<std::is_integral_v<S>, double, S>;
-    return scaled_operator<factor_type, inverse_part, true>{factor_type(1) / factor_type(c_),
+    using factor_type = decltype(detail::inverse_factor(c_));
+    return scaled_operator<factor_type, inverse_part, true>{detail::inverse_factor(c_),
                                                             held<inverse_part>(a_.get().inverse())};
   }
 
  private:
   template <class X>
   [[nodiscard]] scalar_t<X> factor_as() const {
-    return static_cast<scalar_t<X>>(c_);
+    return detail::factor_in<scalar_t<X>>(c_);
   }
 
   S c_;
@@ -116,7 +160,7 @@ class scaled_operator {
 template <class S, operand A>
 [[nodiscard]] auto scaled(positive_factor<S> c, A&& a) {
   return scaled_operator<S, part_t<A>, true>{
-      c.value, held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+      c.value(), held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
 }
 
 /// c A. Throws bad_input if c is NaN or infinite.

@@ -14,8 +14,29 @@
 
 namespace slant {
 
-/// diag(P₁, …, P_k) for operators P_i that apply without a workspace. Every law that all parts
-/// declare holds for the direct sum.
+namespace detail {
+
+template <class X>
+using rows_of_t = decltype(slant::local(std::declval<X&>()).middleRows(index{}, index{}));
+
+/// P applies to its rows of X, into its rows of Y.
+template <class P, class X, class Y>
+concept applies_to_rows =
+    requires(P const& part, rows_of_t<X const> const x, rows_of_t<Y> y) { part.apply(x, y); };
+
+/// P adds to its rows of Y.
+template <class P, class X, class Y>
+concept accumulates_rows = requires(P const& part, scalar_t<X> α, rows_of_t<X const> const x,
+                                    rows_of_t<Y> y) { part.apply_add(α, x, y); };
+
+/// P writes its diagonal into its rows of V.
+template <class P, class V>
+concept writes_diagonal_rows = requires(P const& part, rows_of_t<V> d) { part.diagonal(d); };
+
+}  // namespace detail
+
+/// diag(P₁, …, P_k) for operators P_i that apply without a workspace to segments of a vector. Every
+/// law that all parts declare holds for the direct sum, and it can do what all parts can.
 template <class... Parts>
 class direct_sum_slant {
  public:
@@ -42,6 +63,7 @@ class direct_sum_slant {
 
   /// y = G x.
   template <class X, class Y>
+    requires(detail::applies_to_rows<Parts, X, Y> && ...)
   void apply(X const& x, Y& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
@@ -53,8 +75,9 @@ class direct_sum_slant {
   }
 
   /// y ← y + α G x.
-  template <class S, class X, class Y>
-  void apply_add(S const& α, X const& x, Y& y) const {
+  template <class X, class Y>
+    requires(detail::accumulates_rows<Parts, X, Y> && ...)
+  void apply_add(scalar_t<X> const& α, X const& x, Y& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
     for_each([&](auto const& part, index first) {
@@ -66,10 +89,11 @@ class direct_sum_slant {
 
   /// d = diag(G).
   template <class V>
+    requires(detail::writes_diagonal_rows<Parts, V> && ...)
   void diagonal(V& d) const {
     auto& entries = slant::local(d);
     for_each([&](auto const& part, index first) {
-      auto ds = entries.segment(first, part.rows());
+      auto ds = entries.middleRows(first, part.rows());
       part.diagonal(ds);
     });
   }

@@ -86,7 +86,7 @@ template <class S, slanting_part F>
 /// y ↦ c F(y) for a factor known to be positive: scale(positive(ρ), f).
 template <class S, slanting_part F>
 [[nodiscard]] auto scale(positive_factor<S> c, F&& f) {
-  return scaled_map<S, kept_t<F>, true>(std::move(c.value), std::forward<F>(f));
+  return scaled_map<S, kept_t<F>, true>(c.value(), std::forward<F>(f));
 }
 
 }  // namespace slant

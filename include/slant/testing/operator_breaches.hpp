@@ -2,8 +2,8 @@
 //
 // The laws of linear operators, sampled; needs no test framework (operator_laws.hpp does).
 //
-//     A(αx + βy) = αAx + βAy,   A x into a y full of NaN,   A x with a used workspace, or beside
-//     another thread,   the laws that the type declares,   and of each capability that it has:
+//     A(αx + βy) = αAx + βAy,   A x into a y full of NaN,   A x with a used or copied workspace, or
+//     beside another thread,   the laws that the type declares,   and of each capability it has:
 //     adjoint, accumulation, diagonal, columns, several right-hand sides, inverse.
 //
 // Sampling proves nothing, but it looks in the right places: laws about ⟨Ax, x⟩ are also tried in
@@ -91,6 +91,13 @@ void check_repeatability(operator_sampler<V>& sampler, operator_probe<V> const& 
   apply(other, y);
   apply(x, y);
   sampler.expect_close("repeatability, with a used workspace", y, expected, S(size * length));
+  auto const apply_copied = apply;
+  apply(other, y);
+  apply_copied(x, y);
+  sampler.expect_close("repeatability, with a copied workspace", y, expected, S(size * length));
+  apply(x, y);
+  sampler.expect_close("repeatability, with a workspace whose copy was used", y, expected,
+                       S(size * length));
 
   constexpr int rounds = 50;
   V z = sampler.garbage(a.rows);

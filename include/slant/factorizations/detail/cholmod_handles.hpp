@@ -145,7 +145,8 @@ class cholmod_factors {
   cholmod_factor* factor_ = nullptr;
 };
 
-/// State and vectors of the solves of one thread, for a fixed number of right-hand sides.
+/// State and vectors of the solves of one thread, for a fixed number of right-hand sides. What it
+/// holds between two solves is scratch: a copy is as much room, and as ready for a solve.
 class cholmod_workspace {
  public:
   /// For solves with these factors; null for an empty matrix, with which nothing is solved.
@@ -156,8 +157,26 @@ class cholmod_workspace {
     right_.setZero(factors->size(), columns);
     (void)solve(*factors);
   }
-  cholmod_workspace(cholmod_workspace&&) noexcept = default;
-  cholmod_workspace& operator=(cholmod_workspace&&) = delete;
+  cholmod_workspace(cholmod_workspace const& other) : cholmod_workspace(nullptr, 0) {
+    right_.setZero(other.right_.rows(), other.right_.cols());
+    solution_ = room_like(other.solution_);
+    y_ = room_like(other.y_);
+    e_ = room_like(other.e_);
+  }
+  cholmod_workspace(cholmod_workspace&& other) noexcept
+      : state_(std::move(other.state_)),
+        right_(std::move(other.right_)),
+        solution_(std::exchange(other.solution_, nullptr)),
+        y_(std::exchange(other.y_, nullptr)),
+        e_(std::exchange(other.e_, nullptr)) {}
+  cholmod_workspace& operator=(cholmod_workspace other) noexcept {
+    std::swap(state_, other.state_);
+    right_.swap(other.right_);
+    std::swap(solution_, other.solution_);
+    std::swap(y_, other.y_);
+    std::swap(e_, other.e_);
+    return *this;
+  }
   ~cholmod_workspace() {
     if (state_ == nullptr) return;
     for (cholmod_dense** vectors : {&solution_, &y_, &e_}) {
@@ -191,6 +210,17 @@ class cholmod_workspace {
   }
 
  private:
+  /// A matrix of the same width that can hold as many numbers; null for null.
+  [[nodiscard]] cholmod_dense* room_like(cholmod_dense const* vectors) {
+    if (vectors == nullptr) return nullptr;
+    std::size_t const width = vectors->ncol;
+    std::size_t const height = width > 0 ? vectors->nzmax / width : 0;
+    cholmod_dense* room =
+        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, state_->get());
+    if (room == nullptr) throw std::bad_alloc();
+    return room;
+  }
+
   std::unique_ptr<cholmod_state> state_;
   Eigen::MatrixXd right_;
   cholmod_dense* solution_ = nullptr;

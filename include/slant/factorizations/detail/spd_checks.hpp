@@ -29,6 +29,14 @@ void require_symmetric_matrix(std::string_view name, M const& k) {
   require_symmetric_entries(name, k);
 }
 
+/// Throws bad_input unless b and x have the sizes of right-hand sides and solutions.
+template <class X, class Y>
+void check_solve(index n, X const& b, Y const& x) {
+  check_rows("b", b, n, "rows() of the factorisation");
+  check_rows("x", x, n, "rows() of the factorisation");
+  check_same_columns("x", x, b, "one for each column of b");
+}
+
 /// The smallest pivot of a row with that diagonal entry that can be told from zero.
 template <class S>
 [[nodiscard]] S smallest_pivot(index n, S const& diagonal) {

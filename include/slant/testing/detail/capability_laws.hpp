@@ -89,7 +89,8 @@ void expect_images(operator_sampler<V>& sampler, char const* law, operator_probe
   }
 }
 
-/// columns(first, Y)_k = A e_{first + k}, and A [x₁ … x_k] = [A x₁ … A x_k].
+/// columns(first, Y)_k = A e_{first + k}, and A [x₁ … x_k] = [A x₁ … A x_k] in either storage
+/// order.
 template <class V>
 void check_columns(operator_sampler<V>& sampler, operator_probe<V> const& a,
                    scalar_t<V> const& size) {
@@ -105,13 +106,16 @@ void check_columns(operator_sampler<V>& sampler, operator_probe<V> const& a,
       expect_images(sampler, "columns(j)_k = A e_{j+k}", a, units, y, size);
     }
   }
-  if (a.apply_to_many) {
+  auto const check_many = [&](char const* law, auto const& apply_to_many) {
+    if (!apply_to_many) return;
     matrix x(a.cols, 3);
     for (index j = 0; j < x.cols(); ++j) x.col(j) = slant::local(sampler.random(a.cols));
     matrix y = matrix::Constant(a.rows, x.cols(), nan);
-    a.apply_to_many(x, y);
-    expect_images(sampler, "A [x1 x2 x3] = [A x1, A x2, A x3]", a, x, y, size);
-  }
+    apply_to_many(x, y);
+    expect_images(sampler, law, a, x, y, size);
+  };
+  check_many("A [x1 x2 x3] = [A x1, A x2, A x3]", a.apply_to_many);
+  check_many("stored by rows, A [x1 x2 x3] = [A x1, A x2, A x3]", a.apply_to_many_by_rows);
 }
 
 /// inverse()(A x) = x, up to the condition of A.

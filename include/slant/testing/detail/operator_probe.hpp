@@ -35,14 +35,16 @@ struct operator_probe {
   law_set laws;
   operator_law_options options;
 
-  map apply;                                        ///< with a new workspace each time
-  std::function<map(V const&)> with_one_workspace;  ///< apply with one workspace for many calls
+  map apply;  ///< with a new workspace each time
+  /// apply with one workspace for many calls; a copy of this map has a copy of the workspace
+  std::function<map(V const&)> with_one_workspace;
   map apply_adjoint;
   scaled_map apply_add;
   scaled_map apply_adjoint_add;
   std::function<void(V&)> diagonal;
   std::function<void(index, matrix&)> columns;
   std::function<void(matrix const&, matrix&)> apply_to_many;
+  std::function<void(matrix const&, matrix&)> apply_to_many_by_rows;  ///< on row-major copies
   map inverse;
 };
 
@@ -58,8 +60,8 @@ template <class V, class A>
   probe.options = options;
   probe.apply = [&a](V const& x, V& y) { slant::apply(a, x, y); };
   probe.with_one_workspace = [&a](V const& like) -> typename operator_probe<V>::map {
-    auto w = std::make_shared<workspace_t<A, V>>(slant::workspace(a, like));
-    return [&a, w](V const& x, V& y) { slant::apply(a, x, y, *w); };
+    return
+        [&a, w = slant::workspace(a, like)](V const& x, V& y) mutable { slant::apply(a, x, y, w); };
   };
   if constexpr (has_adjoint<A, V>) {
     probe.apply_adjoint = [&a](V const& x, V& y) { slant::apply_adjoint(a, x, y); };
@@ -84,6 +86,15 @@ template <class V, class A>
   }
   if constexpr (applies_to_many<A, matrix>) {
     probe.apply_to_many = [&a](matrix const& x, matrix& y) { slant::apply(a, x, y); };
+  }
+  using matrix_by_rows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  if constexpr (applies_to_many<A, matrix_by_rows>) {
+    probe.apply_to_many_by_rows = [&a](matrix const& x, matrix& y) {
+      matrix_by_rows const from = x;
+      matrix_by_rows to = y;
+      slant::apply(a, from, to);
+      y = to;
+    };
   }
   if constexpr (has_inverse<A, V>) {
     using inverse_type = std::remove_cvref_t<decltype(a.inverse())>;
