@@ -100,13 +100,14 @@ inline int refuse(std::string_view program, std::string_view message) {
   return refused;
 }
 
-/// Has all that was printed arrived?
-inline bool printed() {
-  std::cout.flush();
-  return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-}
-
 }  // namespace detail
+
+/// Throws slant::bad_input unless all that was printed has arrived.
+inline void require_printed() {
+  std::cout.flush();
+  if (!std::cout.good() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw slant::bad_input("standard output", "an error", "room for the result");
+}
 
 /// Parses the command line and calls body() → exit_status. Whatever either of them throws becomes
 /// one line on standard error and the status `refused`.
@@ -116,8 +117,8 @@ template <class Body>
   try {
     app.parse(argc, argv);
     int const status = body();
-    if (detail::printed()) return status;
-    return detail::refuse(name, "standard output: got an error, expected room for the result");
+    require_printed();
+    return status;
   } catch (CLI::ParseError const& failure) {
     if (failure.get_exit_code() == 0) return app.exit(failure);  // --help
     std::string message = failure.what();

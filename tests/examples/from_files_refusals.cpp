@@ -10,6 +10,7 @@
 
 namespace {
 
+namespace fs = std::filesystem;
 using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
@@ -228,4 +229,38 @@ TEST_CASE("from_files notices that its result did not arrive") {
       examples_test::run_command(examples_test::program("from_files") + " " +
                                  examples_test::word(files.input().string()) + " >/dev/full");
   check_refusal(ran, "standard output: got an error");
+}
+
+TEST_CASE("from_files: refused is refused, no file or folder comes of it") {
+  auto const files = examples_test::small_brick();
+  auto const with_output = [&](fs::path const& output, std::string const& rest) {
+    return examples_test::run_command(examples_test::program("from_files") + " " +
+                                      examples_test::word(files.input().string()) + " --output " +
+                                      examples_test::word(output.string()) + rest);
+  };
+  fs::path const deep = files.output() / "new/folder/";
+  SUBCASE("the report has no room") {
+    check_refusal(with_output(deep, " >/dev/full"), "standard output: got an error");
+    CHECK(!fs::exists(files.output()));
+  }
+  SUBCASE("the report has no room, and there are earlier results") {
+    fs::create_directories(files.output());
+    io_test::put(files.output() / "u.txt", "earlier\n");
+    check_refusal(with_output(files.output(), " >/dev/full"), "standard output: got an error");
+    CHECK(files.files_written() == 1);
+    CHECK(io_test::get(files.output() / "u.txt") == "earlier\n");
+  }
+  SUBCASE("K^-1 f overflows") {
+    files.put("f.txt", numbers(36, "1e308"));
+    check_refusal(with_output(deep, ""), "expected");
+    CHECK(!fs::exists(files.output()));
+    fs::create_directories(files.output());
+    check_refusal(with_output(deep, ""), "expected");
+    CHECK(fs::exists(files.output()));
+    CHECK(files.files_written() == 0);
+  }
+  SUBCASE("the folder can be created in part only") {
+    check_refusal(with_output(deep / std::string(300, 'x'), ""), "--output: got ");
+    CHECK(!fs::exists(files.output()));
+  }
 }
