@@ -93,6 +93,14 @@ TEST_CASE("from_files refuses NaN and infinity") {
       "got '1e999', expected a number within the range of the scalar type");
 }
 
+TEST_CASE("from_files refuses a row of N that cannot be met") {
+  auto const files = examples_test::small_brick();
+  files.put("N.mtx", coordinate + "6 36 1\n1 1 1\n");
+  files.put("d.txt", numbers(4, "0") + "-0.25\n0\n");
+  check_refusal(files.solve(), "d[4]: got -0.25, expected a number >= 0, since row 4 of N is zero");
+  CHECK(files.files_written() == 0);
+}
+
 TEST_CASE("from_files refuses a negative radius") {
   check_file("g.txt", numbers(3, "1") + "-0.25\n1\n1\n",
              "g[3]: got -0.25, expected a number >= 0 or +inf");

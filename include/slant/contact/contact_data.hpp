@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include <string>
+#include <vector>
 
 namespace slant::contact {
 
@@ -42,6 +43,7 @@ struct data {
         throw bad_input(named("d", i), slant::detail::show(d(i)), "a number or +inf");
       }
     }
+    check_reach();
     if (T.rows() == 0) {
       check_size("g", g.size(), 0, "no slip bounds without T,");
       return;
@@ -63,6 +65,22 @@ struct data {
  private:
   static std::string named(char const* what, index i) {
     return std::string(what) + "[" + slant::detail::show(i) + "]";
+  }
+  /// A row of zeros says 0 ≤ dᵢ, whatever u is.
+  void check_reach() const {
+    std::vector<bool> is_zero(static_cast<std::size_t>(nodes()), true);
+    for (index j = 0; j < N.outerSize(); ++j) {
+      for (typename sparse_type::InnerIterator e(N, j); e; ++e) {
+        if (e.value() != S(0)) is_zero[static_cast<std::size_t>(e.row())] = false;
+      }
+    }
+    for (index i = 0; i < nodes(); ++i) {
+      if (is_zero[static_cast<std::size_t>(i)] && d(i) < S(0)) {
+        throw bad_input(named("d", i), slant::detail::show(d(i)),
+                        "a number >= 0, since row " + slant::detail::show(i) +
+                            " of N is zero: no displacement opens this gap");
+      }
+    }
   }
   static void check_entries(char const* what, sparse_type const& m) {
     for (index j = 0; j < m.outerSize(); ++j) {

@@ -81,7 +81,8 @@ class dual {
 
   /// A = B K⁻¹ Bᵀ, never formed.
   [[nodiscard]] auto a() const { return congruence(B_, inverse(factor_.get())); }
-  /// The dual problem; refers to this object.
+  /// The dual problem; refers to this object. It has no minimum (status `unbounded`) exactly if no
+  /// u satisfies N u ≤ d with (T u)ᵢ = 0 where gᵢ = ∞.
   [[nodiscard]] auto qp() const { return separable_qp{a(), b_, set_}; }
   /// The linear term b = B K⁻¹ f − c.
   [[nodiscard]] vector_type const& b() const { return b_; }
