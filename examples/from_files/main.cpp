@@ -91,8 +91,10 @@ int main(int argc, char** argv) {
   app.add_option("DIR", a.folder, "folder with the problem");
   app.add_option("--method", a.method, "name of a method; see --list-methods")
       ->capture_default_str();
-  app.add_option("--tolerance", a.settings.tolerance,
-                 "relative norm of the reduced gradient at which the method stops")
+  app.add_option(
+         "--tolerance", a.settings.tolerance,
+         "relative norm of the reduced gradient at which the method stops; 0: when rounding "
+         "lets it get no further, which is status \"stalled\" and exit status 1")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")

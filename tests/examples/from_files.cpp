@@ -229,6 +229,17 @@ TEST_CASE("from_files: other units, the same digits") {
     }
 }
 
+TEST_CASE("from_files: numbers may have a plus sign; tolerance 0 ends where rounding does") {
+  auto const files = examples_test::small_brick();
+  json const result = json::parse(files.solve("--tolerance +1e-3 --max-iterations +500").out);
+  CHECK(result["status"] == "converged");
+  CHECK(result["tolerance"] == 1e-3);
+  auto const ran = files.solve("--tolerance 0");
+  CHECK(ran.status == 1);
+  CHECK(json::parse(ran.out)["status"] == "stalled");
+  CHECK(json::parse(ran.out)["kkt_residual"].get<double>() < 1e-10);
+}
+
 TEST_CASE("from_files: help and the list of methods need no folder") {
   auto const list = run("from_files", "--list-methods");
   CHECK(list.status == 0);
