@@ -29,6 +29,11 @@
 //
 // Kinks. The slanting operator takes the value from inside: 1 for x ≥ l, I for ‖x‖ ≤ g
 // [K (49), (50)]; any choice is admissible, this one is the same everywhere.
+//
+// Rounding. contains(P(x)) holds, and P(y) of a y outside is not free: so both need a band around
+// the boundary that is wider than the error of project. Twice the number of roundings, times ε,
+// times the largest number that enters is enough; the law checks accept some 60 ε from `contains`
+// and far more from `state`.
 #pragma once
 
 #include <slant/concepts/face.hpp>
