@@ -18,6 +18,8 @@
 //     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
 //                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
+//     with(parameters…)         a block: the same shape with other parameters, for power(block, …)
+//     scalar (a type)           a block: that of its points, for products; without it double
 //
 // Laws.   P(P(x)) = P(x),   ‖P(x) − P(y)‖ ≤ ‖x − y‖,   ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
 //         contains(P(x)),   ‖P(x+h) − P(x) − G(x+h) h‖ = o(‖h‖),   support(y) = sup over Λ,
