@@ -76,9 +76,10 @@ struct data {
     }
     for (index i = 0; i < nodes(); ++i) {
       if (is_zero[static_cast<std::size_t>(i)] && d(i) < S(0)) {
-        throw bad_input(named("d", i), slant::detail::show(d(i)),
+        throw bad_input("d", slant::detail::show(d(i)),
                         "a number >= 0, since row " + slant::detail::show(i) +
-                            " of N is zero: no displacement opens this gap");
+                            " of N is zero: no displacement opens this gap")
+            .at(i);
       }
     }
   }
