@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <slant/io/atomic_file.hpp>
-#include <slant/io/text_vector.hpp>
+#include <optional>
 #include <string>
 #include <support/command_line.hpp>
 
+#include "result_files.hpp"
 #include "solution.hpp"
 
 namespace {
@@ -30,22 +30,6 @@ int list_methods() {
                 method.name == from_files::recommended_method ? " (recommended)" : "");
   });
   return examples::succeeded;
-}
-
-/// Both files or none.
-void write(fs::path const& folder, from_files::solution const& s) {
-  slant::atomic_files files;
-  slant::write_text_vector(files.add(folder / "u.txt"), s.u);
-  slant::write_text_vector(files.add(folder / "lambda.txt"), s.run.λ);
-  files.commit();
-}
-
-/// Finds out before the computation whether the results will find a place.
-void prepare_output(fs::path const& folder) {
-  examples::make_folder("--output", folder);
-  slant::atomic_files probe;
-  probe.add(folder / "u.txt");
-  probe.add(folder / "lambda.txt");
 }
 
 /// One line; what is not finite becomes null.
@@ -78,11 +62,15 @@ int solve_folder(arguments const& a) {
     throw slant::bad_input("DIR", "nothing", "the folder with the matrices of the problem");
   from_files::with_method(a.method, [](auto const&) {});
   auto const problem = from_files::read_problem_folder(a.folder);
-  if (!a.output.empty()) prepare_output(a.output);
+  std::optional<from_files::result_files> files;
+  if (!a.output.empty()) files.emplace(a.output);
   auto const solution = from_files::solve(problem, a.method, a.settings);
-  bool const written = !a.output.empty() && solution.is_finite();
-  if (written) write(a.output, solution);
-  std::printf("%s\n", json_text(a, problem, solution, written).c_str());
+  if (!solution.is_finite()) files.reset();
+  // No result counts before all of it can arrive: files appear only after the report was printed.
+  if (files) files->write(solution);
+  std::printf("%s\n", json_text(a, problem, solution, files.has_value()).c_str());
+  examples::require_printed();
+  if (files) files->commit();
   return solution.converged() ? examples::succeeded : examples::not_converged;
 }
 
@@ -98,13 +86,15 @@ int main(int argc, char** argv) {
       "\"operator_applications\" includes \"setup_applications\".\n"
       "Exit status: 0 converged; 1 not converged, for the reason in the JSON object; 2 input "
       "that cannot be used or\noutput that cannot be written, named in one line on standard "
-      "error; nothing is printed and no file written then.");
+      "error; no file is written then.");
   arguments a;
   app.add_option("DIR", a.folder, "folder with the problem");
   app.add_option("--method", a.method, "name of a method; see --list-methods")
       ->capture_default_str();
-  app.add_option("--tolerance", a.settings.tolerance,
-                 "relative norm of the reduced gradient at which the method stops")
+  app.add_option(
+         "--tolerance", a.settings.tolerance,
+         "relative norm of the reduced gradient at which the method stops; 0: when rounding "
+         "lets it get no further, which is status \"stalled\" and exit status 1")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")

@@ -3,6 +3,7 @@
 // From the problem of a folder to its solution, with the time and the work that it took.
 #pragma once
 
+#include <limits>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
@@ -29,6 +30,13 @@ struct solution {
 
 namespace detail {
 
+/// What it means for u that the dual problem has no minimum.
+[[nodiscard]] inline std::string contradiction(slant::contact::data<double> const& c) {
+  bool const sticks = (c.g.array() == std::numeric_limits<double>::infinity()).any();
+  return std::string("no u satisfies N u <= d") + (sticks ? " and T u = 0 where g is inf" : "") +
+         ", so the multipliers grow without bound";
+}
+
 template <class Friction>
 [[nodiscard]] solution solve_with(Friction friction, problem const& p, std::string_view method,
                                   settings const& s) {
@@ -37,6 +45,7 @@ template <class Friction>
   slant::contact::dual const dual(friction, factor, p.contact);
   solution result;
   with_method(method, [&](auto const& chosen) { result.run = chosen.run(dual, s); });
+  if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
   result.u = dual.displacement(result.run.λ);
   auto const end = clock::now();
 

@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/io/text_scanner.hpp>
@@ -35,17 +36,30 @@ inline constexpr std::string_view exit_status_help =
 
 namespace detail {
 
-/// The whole text as a number, or as it is.
+/// The whole text as a number, or as it is; errc::result_out_of_range for a number that T cannot
+/// hold.
 template <class T>
-[[nodiscard]] bool parse(std::string const& text, T& value) {
+[[nodiscard]] std::errc parse(std::string const& text, T& value) {
   if constexpr (std::is_same_v<T, std::string>) {
     value = text;
-    return true;
+    return {};
   } else {
     // Not CLI11's own conversion, which takes what overflows for the largest number.
-    char const* const end = text.data() + text.size();
-    auto const [rest, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && rest == end;
+    char const* begin = text.data();
+    char const* const end = begin + text.size();
+    if (text.starts_with('+') && !text.starts_with("+-")) ++begin;  // not known to from_chars
+    auto const [rest, error] = std::from_chars(begin, end, value);
+    return rest == end ? error : std::errc::invalid_argument;
+  }
+}
+
+/// What a T can hold.
+template <class T>
+[[nodiscard]] std::string range() {
+  if constexpr (std::is_integral_v<T>) {
+    return "at most " + std::to_string(std::numeric_limits<T>::max());
+  } else {
+    return "within the range of double precision";
   }
 }
 
@@ -57,8 +71,11 @@ template <class T, class Condition>
 [[nodiscard]] CLI::Validator expects(std::string expectation, Condition holds) {
   auto const check = [expectation = std::move(expectation), holds](std::string& text) {
     T value{};
-    if (detail::parse(text, value) && holds(value)) return std::string{};
-    return "got " + (text.empty() ? "nothing" : text) + ", expected " + expectation;
+    auto const error = detail::parse(text, value);
+    if (error == std::errc{} && holds(value)) return std::string{};
+    std::string said = "got " + (text.empty() ? "nothing" : text) + ", expected " + expectation;
+    if (error == std::errc::result_out_of_range) said += ", " + detail::range<T>();
+    return said;
   };
   return CLI::Validator(check, "", "");
 }
@@ -100,13 +117,30 @@ inline int refuse(std::string_view program, std::string_view message) {
   return refused;
 }
 
-/// Has all that was printed arrived?
-inline bool printed() {
-  std::cout.flush();
-  return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+/// What CLI11 says, in the words of this project.
+inline std::string explanation(CLI::App const& app, CLI::ParseError const& failure) {
+  std::string said = failure.what();
+  if (auto const extra = app.remaining();
+      dynamic_cast<CLI::ExtrasError const*>(&failure) && !extra.empty())
+    return "argument: got " + extra.back() + ", expected one of those that --help lists";
+  if (dynamic_cast<CLI::ArgumentMismatch const*>(&failure)) {
+    std::string const option = said.substr(0, said.find(':'));
+    if (auto const* const found = app.get_option_no_throw(option))
+      return option + ": got " +
+             (found->count() == 0 ? "nothing" : std::to_string(found->count()) + " values") +
+             ", expected one";
+  }
+  return said;
 }
 
 }  // namespace detail
+
+/// Throws slant::bad_input unless all that was printed has arrived.
+inline void require_printed() {
+  std::cout.flush();
+  if (!std::cout.good() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw slant::bad_input("standard output", "an error", "room for the result");
+}
 
 /// Parses the command line and calls body() → exit_status. Whatever either of them throws becomes
 /// one line on standard error and the status `refused`.
@@ -116,15 +150,11 @@ template <class Body>
   try {
     app.parse(argc, argv);
     int const status = body();
-    if (detail::printed()) return status;
-    return detail::refuse(name, "standard output: got an error, expected room for the result");
+    require_printed();
+    return status;
   } catch (CLI::ParseError const& failure) {
     if (failure.get_exit_code() == 0) return app.exit(failure);  // --help
-    std::string message = failure.what();
-    if (auto const extra = app.remaining();
-        dynamic_cast<CLI::ExtrasError const*>(&failure) && !extra.empty())
-      message = "argument: got " + extra.back() + ", expected one of those that --help lists";
-    return detail::refuse(name, message);
+    return detail::refuse(name, detail::explanation(app, failure));
   } catch (std::bad_alloc const&) {
     return detail::refuse(name, "memory: got too little, expected enough for this problem");
   } catch (std::exception const& failure) {

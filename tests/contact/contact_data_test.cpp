@@ -54,6 +54,26 @@ TEST_CASE("each number that is none is named") {
   CHECK(complaint([](auto& c) { c.T.valuePtr()[0] = std::nan(""); }).starts_with("T("));
 }
 
+TEST_CASE("a row of N that moves nothing cannot open a gap") {
+  auto const erase_row_2 = [](auto& c) {
+    c.N.prune([](auto row, auto, double) { return row != 2; });
+  };
+  CHECK(complaint([&](auto& c) {
+          erase_row_2(c);
+          c.d(2) = -0.5;
+        }) ==
+        "d[2]: got -0.5, expected a number >= 0, since row 2 of N is zero: no displacement opens "
+        "this gap");
+  CHECK(complaint([&](auto& c) {
+          for (int k = 0; k < c.N.nonZeros(); ++k) c.N.valuePtr()[k] = 0;  // stored zeros
+          c.d(3) = -1;
+        }).starts_with("d[3]: got -1"));
+  CHECK(complaint([&](auto& c) {
+          erase_row_2(c);
+          c.d(2) = 0;
+        }) == "");
+}
+
 TEST_CASE("each size that does not fit is named") {
   CHECK(complaint([](auto& c) { c.f.conservativeResize(5); }).starts_with("columns of N"));
   CHECK(complaint([](auto& c) { c.d.conservativeResize(5); }).starts_with("d: got 5"));

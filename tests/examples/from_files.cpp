@@ -170,14 +170,25 @@ TEST_CASE("from_files: penetration without any force is not taken for a solution
 }
 
 TEST_CASE("from_files: a problem without solution is not solved") {
-  // No displacement opens the gap of −1: the row of N is empty, and the multiplier grows for ever.
+  // u <= 0.5 and -u <= -0.6: the multipliers grow for ever.
   one_spring const files;
-  files.put("N.mtx", coordinate + "2 1 1\n1 1 1\n");
-  files.put("d.txt", "0.25\n-1\n");
+  files.put("N.mtx", coordinate + "2 1 2\n1 1 1\n2 1 -1\n");
+  files.put("d.txt", "0.5\n-0.6\n");
   auto const ran = files.solve();
   CHECK(ran.status == 1);
   REQUIRE(is_one_line(ran.out));
-  CHECK(json::parse(ran.out)["status"] == "unbounded");
+  json const result = json::parse(ran.out);
+  CHECK(result["status"] == "unbounded");
+  CHECK(result["reason"].get<std::string>().starts_with("no u satisfies N u <= d, "));
+
+  // u = 0 by friction, and -u <= -0.6.
+  files.put("N.mtx", coordinate + "1 1 1\n1 1 -1\n");
+  files.put("T.mtx", coordinate + "1 1 1\n1 1 1\n");
+  files.put("d.txt", "-0.6\n");
+  files.put("g.txt", "inf\n");
+  json const stuck = json::parse(files.solve().out);
+  CHECK(stuck["status"] == "unbounded");
+  CHECK(contains(stuck["reason"].get<std::string>(), "N u <= d and T u = 0 where g is inf"));
 }
 
 TEST_CASE("from_files: numbers at the end of their range give valid JSON and no wrong answer") {
@@ -216,6 +227,17 @@ TEST_CASE("from_files: other units, the same digits") {
       CHECK(scaled.read("u.txt") == (t / s) * files.read("u.txt"));
       CHECK(scaled.read("lambda.txt") == t * files.read("lambda.txt"));
     }
+}
+
+TEST_CASE("from_files: numbers may have a plus sign; tolerance 0 ends where rounding does") {
+  auto const files = examples_test::small_brick();
+  json const result = json::parse(files.solve("--tolerance +1e-3 --max-iterations +500").out);
+  CHECK(result["status"] == "converged");
+  CHECK(result["tolerance"] == 1e-3);
+  auto const ran = files.solve("--tolerance 0");
+  CHECK(ran.status == 1);
+  CHECK(json::parse(ran.out)["status"] == "stalled");
+  CHECK(json::parse(ran.out)["kkt_residual"].get<double>() < 1e-10);
 }
 
 TEST_CASE("from_files: help and the list of methods need no folder") {

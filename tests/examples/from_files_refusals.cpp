@@ -10,6 +10,7 @@
 
 namespace {
 
+namespace fs = std::filesystem;
 using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
@@ -53,6 +54,16 @@ std::string numbers(int count, std::string const& number) {
   return text;
 }
 
+/// The entries of 0.125 I of size 36.
+std::string diagonal() {
+  std::string text;
+  for (int i = 1; i <= 36; ++i) {
+    auto const place = std::to_string(i);
+    text.append(place).append(" ").append(place).append(" 0.125\n");
+  }
+  return text;
+}
+
 /// The first line of a text that begins so gets another ending.
 void replace_line(std::string& text, std::string const& beginning, std::string const& line) {
   auto const at = text.find("\n" + beginning) + 1;
@@ -90,6 +101,14 @@ TEST_CASE("from_files refuses NaN and infinity") {
   check_change(
       "K.mtx", [](std::string& text) { replace_line(text, "1 1 ", "1 1 1e999"); },
       "got '1e999', expected a number within the range of the scalar type");
+}
+
+TEST_CASE("from_files refuses a row of N that cannot be met") {
+  auto const files = examples_test::small_brick();
+  files.put("N.mtx", coordinate + "6 36 1\n1 1 1\n");
+  files.put("d.txt", numbers(4, "0") + "-0.25\n0\n");
+  check_refusal(files.solve(), "d[4]: got -0.25, expected a number >= 0, since row 4 of N is zero");
+  CHECK(files.files_written() == 0);
 }
 
 TEST_CASE("from_files refuses a negative radius") {
@@ -177,14 +196,19 @@ TEST_CASE("from_files refuses options that make no sense") {
   };
   for (std::string const value : {"1", "-1e-3", "nan", "inf", "abc", "''"})
     with("--tolerance=" + value, "expected a relative accuracy in [0, 1)");
-  for (std::string const value : {"-1", "1.5", "many", "99999999999999999999"})
+  for (std::string const value : {"-1", "1.5", "many", "+-1", "+"})
     with("--max-iterations=" + value, "expected a whole number >= 0");
+  with("--max-iterations 99999999999999999999",
+       "got 99999999999999999999, expected a whole number >= 0, at most 9223372036854775807");
+  with("--tolerance 1e-4000", "expected a relative accuracy in [0, 1), within the range of double");
   with("--method newton", "--method: got newton, expected one of kprgp");
   with("--no-such-option", "argument: got --no-such-option, expected one of those that --help");
   with("another_folder", "argument: got another_folder, expected one of those that --help lists");
-  with("--tolerance 1e-3 --tolerance 1e-4", "--tolerance");
+  with("--tolerance 1e-3 --tolerance 1e-4", "--tolerance: got 2 values, expected one");
+  with("--method kprgp --method kprgp", "--method: got 2 values, expected one");
   check_refusal(examples_test::run("from_files", ""), "DIR: got nothing, expected the folder");
-  check_refusal(examples_test::run("from_files", ". --tolerance"), "--tolerance");
+  check_refusal(examples_test::run("from_files", ". --tolerance"),
+                "--tolerance: got nothing, expected one");
 }
 
 TEST_CASE("from_files refuses an output that cannot be written") {
@@ -228,4 +252,40 @@ TEST_CASE("from_files notices that its result did not arrive") {
       examples_test::run_command(examples_test::program("from_files") + " " +
                                  examples_test::word(files.input().string()) + " >/dev/full");
   check_refusal(ran, "standard output: got an error");
+}
+
+TEST_CASE("from_files: refused is refused, no file or folder comes of it") {
+  auto const files = examples_test::small_brick();
+  auto const with_output = [&](fs::path const& output, std::string const& rest) {
+    return examples_test::run_command(examples_test::program("from_files") + " " +
+                                      examples_test::word(files.input().string()) + " --output " +
+                                      examples_test::word(output.string()) + rest);
+  };
+  fs::path const deep = files.output() / "new/folder/";
+  SUBCASE("the report has no room") {
+    check_refusal(with_output(deep, " >/dev/full"), "standard output: got an error");
+    CHECK(!fs::exists(files.output()));
+  }
+  SUBCASE("the report has no room, and there are earlier results") {
+    fs::create_directories(files.output());
+    io_test::put(files.output() / "u.txt", "earlier\n");
+    check_refusal(with_output(files.output(), " >/dev/full"), "standard output: got an error");
+    CHECK(files.files_written() == 1);
+    CHECK(io_test::get(files.output() / "u.txt") == "earlier\n");
+  }
+  SUBCASE("K^-1 f overflows") {
+    files.put("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n36 36 36\n" + diagonal());
+    files.put("f.txt", numbers(36, "1e308"));
+    check_refusal(with_output(deep, ""),
+                  "f: got a load under which u[0] of K u = f is inf, expected");
+    CHECK(!fs::exists(files.output()));
+    fs::create_directories(files.output());
+    check_refusal(with_output(deep, ""), "expected");
+    CHECK(fs::exists(files.output()));
+    CHECK(files.files_written() == 0);
+  }
+  SUBCASE("the folder can be created in part only") {
+    check_refusal(with_output(deep / std::string(300, 'x'), ""), "--output: got ");
+    CHECK(!fs::exists(files.output()));
+  }
 }

@@ -190,6 +190,9 @@ TEST_CASE("atomic files: all or none") {
   u.write("new u");
   lambda.write("new lambda");
   CHECK(folder.entries() == 3);
+  files.seal();
+  CHECK(get(folder / "u.txt") == "old u");
+  CHECK(folder.entries() == 3);
   files.commit();
   CHECK(get(folder / "u.txt") == "new u");
   CHECK(get(folder / "lambda.txt") == "new lambda");

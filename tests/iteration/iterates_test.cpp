@@ -32,6 +32,36 @@ TEST_CASE("iterates goes through range-v3 pipelines") {
   CHECK(seen == std::vector<double>{2, 1, 0.5, 0.25});
 }
 
+TEST_CASE("a temporary method lives in the range, which may outlive the scope of its making") {
+  struct by_own_factor {
+    std::vector<double> factor;  // on the heap: a dangling method would show
+    toy::state start(double x0) const { return {.x = x0}; }
+    void step(toy::state& s) {
+      s.x *= factor.front();
+      if (++s.iteration == 3) s.status = slant::status::converged;
+    }
+  };
+  auto const make = [] { return slant::iterates(by_own_factor{{0.25}}, 1.0); };
+  auto run = make();
+  std::vector<double> seen;
+  for (auto const& s : run) seen.push_back(s.x);
+  CHECK(seen == std::vector<double>{1, 0.25, 0.0625, 0.015625});
+
+  struct unmoved : toy::halving {  // its states refer to it
+    struct pointing : toy::state {
+      unmoved const* maker = nullptr;
+    };
+    pointing start(double x0) const { return {toy::state{.x = x0}, this}; }
+    void step(pointing& s) {
+      CHECK(s.maker == this);
+      s.status = slant::status::converged;
+    }
+  };
+  int states = 0;
+  for ([[maybe_unused]] auto const& s : slant::iterates(unmoved{}, 1.0)) ++states;
+  CHECK(states == 2);
+}
+
 TEST_CASE("taking n states performs n - 1 steps") {
   struct counting : toy::halving {
     int steps = 0;

@@ -23,6 +23,7 @@ struct half_plane {  // { x ∈ R² : x₀ + x₁ <= offset }
     double const excess = std::max(0.0, x.sum() - offset);
     return x - Eigen::Vector2d::Constant(excess / 2);
   }
+  // A band of 8 ε around the line: wider than what rounding leaves P(x) off it.
   bool contains(auto const& x) const { return x.sum() - offset <= 8 * ε * x.norm(); }
   slant::block_state state(auto const& x) const {
     return x.sum() - offset < -8 * ε * x.norm() ? slant::block_state::free

@@ -113,8 +113,8 @@ class liar : public disc {
   }
   double support(vector const& y) const {
     double const s = disc::support(y);
-    if (lie_ == lie::support_too_small) return 0.99 * s;
-    if (lie_ == lie::support_too_large) return 1.01 * s;
+    if (lie_ == lie::support_too_small) return 0.999999 * s;
+    if (lie_ == lie::support_too_large) return 1.000001 * s;
     if (lie_ == lie::support_infinite && !y.isZero(0)) return infinity;
     return lie_ == lie::support_with_offset ? s + 1e-3 : s;
   }

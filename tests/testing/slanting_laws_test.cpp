@@ -125,6 +125,31 @@ TEST_CASE("sqrt|y| sign(y) is not slantly differentiable at 0") {
   CHECK(slanting_breaches(root, VectorXd{{3.0, -2.0, 1.0}}).empty() == false);  // by its search
 }
 
+TEST_CASE("a huge slope at one point hides neither growth nor errors elsewhere") {
+  for (double const huge : {1e8, 1e20, 0.5 / std::sqrt(1e-300)}) {
+    CAPTURE(huge);
+    auto const root =
+        pointwise{3, [](double a) { return std::copysign(std::sqrt(std::abs(a)), a); },
+                  [huge](double a) { return a == 0 ? huge : 0.5 / std::sqrt(std::abs(a)); }};
+    CHECK(finds("slanting limit", root, zero));
+    CHECK(finds("slant bounded", root, zero));
+    CHECK(finds("slant bounded", root, VectorXd{{0.0, 1.0, -2.0}}));
+
+    struct wrong_in_one : square_base {  // (max(0, y₀), y₁²/2), with 2 y₁ in place of y₁
+      double at_kink = 0;
+      void value(VectorXd const& y, VectorXd& v) const {
+        v = VectorXd{{std::max(0.0, y[0]), y[1] * y[1] / 2}};
+      }
+      [[nodiscard]] auto slant(VectorXd const& y) const {
+        return slant::diagonal(VectorXd{{y[0] == 0 ? at_kink : double(y[0] > 0), 2 * y[1]}});
+      }
+    };
+    wrong_in_one f;
+    f.at_kink = huge;
+    CHECK(finds("slanting limit", f, VectorXd{{0.0, 1.0}}));
+  }
+}
+
 TEST_CASE("y log|y| is not slantly differentiable at 0: its derivative grows slowly") {
   auto const f = pointwise{3, [](double a) { return a == 0 ? 0.0 : a * std::log(std::abs(a)); },
                            [](double a) { return a == 0 ? 0.0 : std::log(std::abs(a)) + 1; }};

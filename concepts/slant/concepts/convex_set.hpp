@@ -19,6 +19,8 @@
 //     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
 //                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
+//     with(parameters…)         a block: the same shape with other parameters, for power(block, …)
+//     scalar (a type)           a block: that of its points, for products; without it double
 //
 // Laws.   P(P(x)) = P(x),   ‖P(x) − P(y)‖ ≤ ‖x − y‖,   ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
 //         contains(P(x)),   ‖P(x+h) − P(x) − G(x+h) h‖ = o(‖h‖),   support(y) = sup over Λ,
@@ -30,6 +32,11 @@
 //
 // Kinks. The slanting operator takes the value from inside: 1 for x ≥ l, I for ‖x‖ ≤ g
 // [K (49), (50)]; any choice is admissible, this one is the same everywhere.
+//
+// Rounding. contains(P(x)) holds, and P(y) of a y outside is not free: so both need a band around
+// the boundary that is wider than the error of project. Twice the number of roundings, times ε,
+// times the largest number that enters is enough; the law checks accept some 60 ε from `contains`
+// and far more from `state`.
 #pragma once
 
 #include <slant/concepts/checks.hpp>

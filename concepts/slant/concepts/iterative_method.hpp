@@ -9,7 +9,8 @@
 //     method    start(x0) → state,   step(state)
 //     state     x, iteration, status (running until the method itself cannot or need not go on)
 //     rule      rule(state) → status: running to go on, anything else is the reason to stop,
-//               reason(state) → std::string, asked only after it has fired
+//               reason(state) → std::string, asked only after it has fired;
+//               derived from slant::rule (slant/iteration/stopping.hpp) to combine by || and &&
 //     observer  observer(state)
 // and, for methods that update a residual where it could be computed from x,
 //     method    refresh(state) → bool: computes it; whether there was anything to do

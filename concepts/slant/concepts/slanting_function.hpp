@@ -16,6 +16,12 @@
 //     slant_after_value(y, G, w)      the same where w comes from value(y, f, w) at this very y:
 //                                     what value left in w (G(y) of a composition F∘G) is reused
 //
+// Formulas. Types derived from slant::slanting_base (slant/slanting/slanting_base.hpp) take part in
+// f + g, f * g, A * f, …; for others there are the named add, subtract, scale, compose.
+//
+// Lifetime. slant(y) returns an operator that owns what depends on y: diagonal(std::move(d)), since
+// diagonal(d) would refer to a local d.
+//
 // Laws.   ‖F(y+h) − F(y) − F°(y+h) h‖ = o(‖h‖),   ‖F°‖ bounded near y.
 //
 // Models. everything in slant/slanting, slant::testing::archetype::slanting_function.

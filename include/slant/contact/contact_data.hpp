@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include <limits>
+#include <vector>
 
 namespace slant::contact {
 
@@ -43,6 +44,7 @@ struct data {
         throw bad_input("d", slant::detail::show(d(i)), "a number or +inf").at(i);
       }
     }
+    check_reach();
     if (T.rows() == 0) {
       check_size("g", g.size(), 0, "no slip bounds without T,");
       return;
@@ -57,6 +59,25 @@ struct data {
     for (index i = 0; i < g.size(); ++i) {
       if (!(g(i) >= S(0))) {
         throw bad_input("g", slant::detail::show(g(i)), "a number >= 0 or +inf").at(i);
+      }
+    }
+  }
+
+ private:
+  /// A row of zeros says 0 ≤ dᵢ, whatever u is.
+  void check_reach() const {
+    std::vector<bool> is_zero(static_cast<std::size_t>(nodes()), true);
+    for (index j = 0; j < N.outerSize(); ++j) {
+      for (typename sparse_type::InnerIterator e(N, j); e; ++e) {
+        if (e.value() != S(0)) is_zero[static_cast<std::size_t>(e.row())] = false;
+      }
+    }
+    for (index i = 0; i < nodes(); ++i) {
+      if (is_zero[static_cast<std::size_t>(i)] && d(i) < S(0)) {
+        throw bad_input("d", slant::detail::show(d(i)),
+                        "a number >= 0, since row " + slant::detail::show(i) +
+                            " of N is zero: no displacement opens this gap")
+            .at(i);
       }
     }
   }

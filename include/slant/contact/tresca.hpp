@@ -63,7 +63,7 @@ class dual {
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// One solve with K, for b. Throws bad_input if the data do not fit (see
-  /// contact::data::validate).
+  /// contact::data::validate), or if K⁻¹f overflows.
   dual(Friction friction, held<Factorization> factor, data<S> const& c)
       : factor_(std::move(factor)),
         f_(validated(friction, c, factor_.get().rows()).f),
@@ -73,7 +73,7 @@ class dual {
         b_(B_.rows()) {
     auto const Kinv = inverse(factor_.get());
     slant::apply(Kinv, f_, free_displacement_);
-    slant::detail::check_finite("K^-1 f", free_displacement_);
+    check_range(free_displacement_);
     b_.noalias() = B_ * free_displacement_;
     subtract_gaps(c);
   }
@@ -83,7 +83,8 @@ class dual {
   /// A = B K⁻¹ Bᵀ, never formed.
   [[nodiscard]] auto a() const& { return congruence(B_, inverse(factor_.get())); }
   auto a() const&& = delete;
-  /// The dual problem; refers to this object.
+  /// The dual problem; refers to this object. It has no minimum (status `unbounded`) exactly if no
+  /// u satisfies N u ≤ d with (T u)ᵢ = 0 where gᵢ = ∞.
   [[nodiscard]] auto qp() const& { return separable_qp{a(), b_, set_}; }
   auto qp() const&& = delete;
   /// The linear term b = B K⁻¹ f − c.
@@ -120,6 +121,18 @@ class dual {
                       slant::detail::show(tangents) + " for this friction law");
     }
     return c;
+  }
+
+  /// u without contact, about which the user has only f to look at.
+  static void check_range(vector_type const& u) {
+    for (index i = 0; i < u.size(); ++i) {
+      if (!slant::detail::is_finite(u(i))) {
+        throw bad_input("f",
+                        "a load under which u[" + slant::detail::show(i) + "] of K u = f is " +
+                            slant::detail::show(u(i)),
+                        "displacements within the range of the scalar type");
+      }
+    }
   }
 
   static sparse_type stacked(data<S> const& c) {

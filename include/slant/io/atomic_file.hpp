@@ -144,19 +144,30 @@ class atomic_files {
     return files_.emplace_back(std::move(file));
   }
 
+  /// Forces all contents to the disk; it only remains to rename. If one cannot be written all
+  /// temporary files are removed. Throws std::system_error.
+  void seal() {
+    all([](atomic_file& file) { file.seal(); });
+  }
+
   /// Seals all, then renames all. If one cannot be written no target changes; all temporary files
   /// are removed. Throws std::system_error.
   void commit() {
+    seal();
+    all([](atomic_file& file) { file.commit(); });
+  }
+
+ private:
+  template <class Action>
+  void all(Action act) {
     try {
-      for (atomic_file& file : files_) file.seal();
-      for (atomic_file& file : files_) file.commit();
+      for (atomic_file& file : files_) act(file);
     } catch (...) {
       for (atomic_file& file : files_) file.discard();
       throw;
     }
   }
 
- private:
   std::deque<atomic_file> files_{};
 };
 

@@ -13,34 +13,40 @@
 #include <range/v3/view/facade.hpp>
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
 
-/// View of the states of a method; see the top of this file. Created by `iterates`.
+/// View of the states of a method; see the top of this file. Created by `iterates`. `Method` is M&
+/// if the method is referenced, M if it is owned.
 template <class Method, class State>
 class iterates_view
     : public ranges::view_facade<iterates_view<Method, State>, ranges::cardinality::unknown> {
  public:
   iterates_view() = default;
-  iterates_view(Method& method, State first)
-      : run_(std::make_shared<run>(run{&method, std::move(first), false})) {}
+  template <class V>
+  iterates_view(Method&& method, V const& x0)
+      : run_(std::make_shared<run>(std::forward<Method>(method), x0)) {}
 
  private:
   friend ranges::range_access;
 
-  // Copies of a single-pass view share the run, as copies of an input stream do.
+  // Copies of a single-pass view share the run, as copies of an input stream do. The method is in
+  // its place before it makes a state, which may refer to it.
   struct run {
-    Method* method;
+    template <class V>
+    run(Method&& m, V const& x0) : method(std::forward<Method>(m)), state(method.start(x0)) {}
+    Method method;
     State state;
-    bool over;
+    bool over = false;
   };
   struct cursor {
     run* r = nullptr;
     State const& read() const { return r->state; }
     void next() {
       if (r->state.status == status::running) {
-        r->method->step(r->state);
+        r->method.step(r->state);
       } else {
         r->over = true;
       }
@@ -52,11 +58,13 @@ class iterates_view
   std::shared_ptr<run> run_;
 };
 
-/// The states of `method` from x0 on. The method must outlive the range.
+/// The states of `method` from x0 on. A method passed as an lvalue is referenced and must outlive
+/// the range; an rvalue is owned.
 template <class Method, class V>
-  requires iterative_method<Method, V>
-[[nodiscard]] auto iterates(Method& method, V const& x0) {
-  return iterates_view<Method, state_t<Method, V>>(method, method.start(x0));
+  requires iterative_method<std::remove_reference_t<Method>, V>
+[[nodiscard]] auto iterates(Method&& method, V const& x0) {
+  return iterates_view<Method, state_t<std::remove_reference_t<Method>, V>>(
+      std::forward<Method>(method), x0);
 }
 
 }  // namespace slant

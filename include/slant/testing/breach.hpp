@@ -20,9 +20,10 @@ struct breach {
 class breach_log {
  public:
   void operator()(std::string const& law, std::string evidence) {
-    bool const known =
-        std::any_of(found_.begin(), found_.end(), [&](breach const& b) { return b.law == law; });
-    if (!known) found_.push_back({law, std::move(evidence)});
+    if (!has(law)) found_.push_back({law, std::move(evidence)});
+  }
+  [[nodiscard]] bool has(std::string const& law) const {
+    return std::any_of(found_.begin(), found_.end(), [&](breach const& b) { return b.law == law; });
   }
   [[nodiscard]] std::vector<breach> const& found() const { return found_; }
 

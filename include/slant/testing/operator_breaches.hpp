@@ -13,12 +13,12 @@
 #pragma once
 
 #include <slant/testing/detail/capability_laws.hpp>
+#include <slant/testing/detail/concurrency.hpp>
 #include <slant/testing/detail/declared_laws.hpp>
 #include <slant/testing/detail/operator_sampler.hpp>
 
 #include <algorithm>
 #include <limits>
-#include <thread>
 #include <vector>
 
 namespace slant::testing {
@@ -77,7 +77,7 @@ void check_linearity(operator_sampler<V>& sampler, operator_probe<V> const& a,
   }
 }
 
-/// The result depends on x alone: not on earlier uses of the workspace, nor on another thread.
+/// The result depends on x alone, not on earlier uses of the workspace.
 template <class V>
 void check_repeatability(operator_sampler<V>& sampler, operator_probe<V> const& a,
                          scalar_t<V> const& size) {
@@ -98,20 +98,6 @@ void check_repeatability(operator_sampler<V>& sampler, operator_probe<V> const& 
   apply(x, y);
   sampler.expect_close("repeatability, with a workspace whose copy was used", y, expected,
                        S(size * length));
-
-  constexpr int rounds = 50;
-  V z = sampler.garbage(a.rows);
-  std::thread beside([&] {
-    auto const apply_beside = a.with_one_workspace(other);
-    for (int k = 0; k < rounds; ++k) apply_beside(other, z);
-  });
-  std::vector<V> results(rounds, y);
-  for (V& result : results) apply(x, result);
-  beside.join();
-  for (V const& result : results) {
-    sampler.expect_close("repeatability, beside another thread with its own workspace", result,
-                         expected, S(size * length));
-  }
 }
 
 template <class V>
@@ -130,6 +116,7 @@ template <class V>
   if (size != size) return sampler.found();  // NaN: reported already
   check_linearity(sampler, a, size);
   check_repeatability(sampler, a, size);
+  check_concurrency(sampler, a, size);
   check_declared_laws(sampler, a, size);
   check_adjoint(sampler, a, size);
   check_accumulation(sampler, a, size);

@@ -4,6 +4,10 @@
 //     x + α d ∈ Λ for α a little below the step, x + β d ∉ Λ for β a little above;
 //     yᵀz ≤ support(y) for z ∈ Λ, and points P(t y) come arbitrarily close to it;
 //     support(0) = 0.
+//
+// What sampling cannot see: a step that is too short by a few ε^¼ of the size of the set, or by a
+// thousandth, and a support that is too large by √(rounding ε), which is 1e-7 in double precision
+// with the usual set_options. From y far off, P(y) is known no better.
 #pragma once
 
 #include <slant/testing/detail/set_sampler.hpp>
@@ -81,22 +85,27 @@ void check_support(set_probe<S> const& probe, typename set_probe<S>::dense const
   // P(t y) maximises yᵀz − ‖z‖²/(2 t): it falls short of the support by at most ‖z*‖²/(2 t).
   auto const far = [&](S const& t) { return dense(probe.project((t / length) * y)); };
   S const unit = probe.magnitude(dense::Zero(y.size()));
-  S const reach = S(1000) * (slant::norm(far(S(1000) * unit)) + unit);
-  dense const z = far(reach);
   if (value < std::numeric_limits<S>::infinity()) {
-    S const missing = value - y.dot(z);
-    S const radius = slant::norm(z) + unit;
-    S const allowed = length * radius * radius / reach + probe.rounding(reach * length);
+    using std::sqrt;
+    // From this many radii away, rounding of P(t y) is as large as what t y falls short by.
+    S const radii = S(1) / S(sqrt(probe.rounding(S(1))));
+    S radius = slant::norm(far(S(1000) * unit)) + unit;
+    for (int k = 0; k < 3; ++k) radius = slant::norm(far(radii * radius)) + unit;
+    S const reach = radii * radius;
+    S const missing = value - y.dot(far(reach));
+    S const allowed = length * radius * (radius / reach) + probe.rounding(reach * length);
     if (!(missing <= allowed)) log("support is attained", claim + ", missing " + text_of(missing));
   } else {
     // Where an unbounded set begins to be unbounded in the direction y is a matter of rounding, so
     // directions nearby may show it as well.
+    S const reach = S(1000) * (slant::norm(far(S(1000) * unit)) + unit);
+    S const farthest = slant::norm(far(reach)) + unit;
     bool unbounded = false;
     for (int k = 0; k < 24 && !unbounded; ++k) {
       dense const v = y + S(k == 0 ? 0 : 1) / S(8) * length * sample.box();
       auto const along = [&](S const& t) { return S(v.dot(probe.project((t / length) * v))); };
       S const gain = along(S(1000) * reach) - along(reach);
-      unbounded = gain > length * (slant::norm(z) + unit) / S(100);
+      unbounded = gain > length * farthest / S(100);
     }
     if (!unbounded) log("support is infinite only if unbounded", claim);
   }

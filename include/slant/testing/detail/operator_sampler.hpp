@@ -103,6 +103,7 @@ class operator_sampler {
   }
 
   [[nodiscard]] std::vector<breach> const& found() const noexcept { return log_.found(); }
+  [[nodiscard]] bool has_found(std::string const& law) const { return log_.has(law); }
 
  private:
   operator_probe<V> const& a_;

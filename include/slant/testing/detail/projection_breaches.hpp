@@ -5,6 +5,8 @@
 //     ‖P(x) − P(y)‖² ≤ ⟨x − y, P(x) − P(y)⟩  (so P is nonexpansive),
 //     ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
 //     project(x, x) in place and project(x, y) into a y full of NaN give the same as P(x).
+// contains(P(x)) must hold exactly, whatever rounding left of P(x); what else `contains` accepts
+// may be off the set by the rounding that set_options allows.
 #pragma once
 
 #include <slant/testing/detail/set_sampler.hpp>

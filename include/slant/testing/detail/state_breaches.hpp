@@ -4,7 +4,9 @@
 //     free      in the interior; not for P(y), y outside
 //     sliding   P moves at every point near y, where x = P(y), y outside
 //     fixed     P is constant near some point next to y (y itself may be at a kink of P)
-// and a point with a whole neighbourhood in Λ is free.
+// and a point with a whole neighbourhood in Λ is free: one that reaches 1/256 of the size of
+// things. So the band around the boundary that is not free may be as wide as that, and must be as
+// wide as the rounding error of P.
 #pragma once
 
 #include <slant/testing/detail/set_sampler.hpp>
