@@ -79,15 +79,26 @@ namespace detail {
 
 template <class X, class Y> concept has_dot = requires(X const& x, Y const& y) { x.dot(y); };
 
+/// What the vectors themselves return, whatever its type. An own vector answers for itself: a dot
+/// that it inherits is not asked.
+template <class X, class Y>
+  requires has_inner_product_member<X> || has_dot<X, Y>
+[[nodiscard]] decltype(auto) own_inner_product(X const& x, Y const& y) {
+  if constexpr (has_inner_product_member<X>) {
+    return x.inner_product(y);
+  } else {
+    return x.dot(y);
+  }
+}
+
 struct inner_product_fn {
   template <class X, class Y>
-    requires has_inner_product_member<X> || has_dot<X, Y>
-  [[nodiscard]] auto operator()(X const& x, Y const& y) const -> scalar_t<X> {
-    if constexpr (has_inner_product_member<X>) {
-      return x.inner_product(y);
-    } else {
-      return x.dot(y);
+  [[nodiscard]] auto operator()(X const& x, Y const& y) const -> scalar_t<X>
+    requires requires {
+      { detail::own_inner_product(x, y) } -> std::convertible_to<scalar_t<X>>;
     }
+  {
+    return detail::own_inner_product(x, y);
   }
 };
 
@@ -96,9 +107,10 @@ struct inner_product_fn {
 /// Global inner product xᵀy. Both vectors have the same number of entries.
 inline constexpr detail::inner_product_fn inner_product{};
 
+/// inner_product(x, x) is a number that the vector's own scalar can hold.
 template <class V>
 concept has_inner_product = requires(V const& x) {
-  { slant::inner_product(x, x) } -> std::convertible_to<scalar_t<V>>;
+  { detail::own_inner_product(x, x) } -> std::convertible_to<scalar_t<V>>;
 };
 
 namespace detail {
