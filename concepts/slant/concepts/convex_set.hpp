@@ -32,6 +32,8 @@
 #pragma once
 
 #include <slant/concepts/face.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/numbers_like.hpp>
 #include <slant/concepts/vector.hpp>
 
 namespace slant {
@@ -63,12 +65,47 @@ struct dimension_of_fn {
 /// Number of components of the points of a set.
 inline constexpr detail::dimension_of_fn dimension_of{};
 
+namespace detail {
+
+/// The same as far as the type tells.
+template <class C>
+[[nodiscard]] consteval index dimension_of_type() {
+  if constexpr (has_static_dimension<C>) {
+    return C::dimension;
+  } else {
+    return unknown_size;
+  }
+}
+
+}  // namespace detail
+
 template <class C, class V>
 concept has_project_value = requires(C const& c, V const& x) { c.project(x); };
 template <class C, class V>
 concept has_project_in_place = requires(C const& c, V const& x, V& y) { c.project(x, y); };
 template <class C, class V>
 concept has_project = has_project_value<C, V> || has_project_in_place<C, V>;
+
+namespace detail {
+
+/// What project(x) returns; V if there is only project(x, y).
+template <class C, class V>
+struct projected {
+  using type = V;
+};
+template <class C, class V>
+  requires has_project_value<C, V>
+struct projected<C, V> {
+  using type = decltype(std::declval<C const&>().project(std::declval<V const&>()));
+};
+
+}  // namespace detail
+
+/// What project(x) returns, if there is such a member, is a point of the set's dimension.
+template <class C, class V>
+concept projects_to_points =
+    numbers_like<typename detail::projected<C, V>::type, V, detail::dimension_of_type<C>(), 1>;
+
 template <class C, class V>
 concept has_contains = requires(C const& c, V const& x) {
   { c.contains(x) } -> std::convertible_to<bool>;
@@ -103,7 +140,14 @@ struct project_fn {
 /// Nearest point of the set: project(c, x) by value, project(c, x, y) in place.
 inline constexpr detail::project_fn project{};
 
-template <class C, class V> concept has_slant = requires(C const& c, V const& x) { c.slant(x); };
+/// An operator on vectors like V, or an N × N matrix of the same scalar.
+template <class R, class V, index N>
+concept slant_like = numbers_like<R, V, N, N> || linear_operator<std::remove_cvref_t<R>, V>;
+
+template <class C, class V>
+concept has_slant = requires(C const& c, V const& x) {
+  { c.slant(x) } -> slant_like<V, detail::dimension_of_type<C>()>;
+};
 template <class C, class V>
 concept has_step_to_boundary = requires(C const& c, V const& x) {
   { c.step_to_boundary(x, x) } -> std::convertible_to<scalar_t<V>>;
@@ -119,9 +163,12 @@ concept has_state = requires(C const& c, V const& x) {
 template <class C, class V>
 concept has_inequality_form = requires(C const& c, V const& x) {
   { C::inequalities } -> std::convertible_to<int>;
-  c.inequality(x);
-  c.inequality_gradient(x);
-  c.inequality_hessian(x, c.inequality(x));
+  requires C::inequalities >= 0;
+  { c.inequality(x) } -> numbers_like<V, C::inequalities, 1>;
+  { c.inequality_gradient(x) } -> numbers_like<V, detail::dimension_of_type<C>(), C::inequalities>;
+  {
+    c.inequality_hessian(x, c.inequality(x))
+  } -> numbers_like<V, detail::dimension_of_type<C>(), detail::dimension_of_type<C>()>;
 };
 
 namespace detail {
@@ -135,8 +182,8 @@ template <class C> concept has_visit = requires(C const& c) { c.visit(detail::vi
 
 /// A closed convex set of points of type V; see the top of this file.
 template <class C, class V>
-concept convex_set =
-    (has_static_dimension<C> || has_size<C>)&&has_project<C, V> && has_contains<C, V>;
+concept convex_set = (has_static_dimension<C> || has_size<C>)&&has_project<C, V> &&
+                     projects_to_points<C, V> && has_contains<C, V>;
 
 /// A convex set whose points can be classified: one block, or a product of blocks.
 template <class C, class V>
