@@ -17,6 +17,7 @@
 //     state(x)                  a block: free, sliding or fixed (face.hpp)
 //     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
 //                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
+//     whole_space = true (static)   a block without any constraint, which products pass over
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
 //
 // Laws.   P(P(x)) = P(x),   ‖P(x) − P(y)‖ ≤ ‖x − y‖,   ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
