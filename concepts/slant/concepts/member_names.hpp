@@ -66,6 +66,14 @@ inline constexpr bool names_slant = !requires {
   &beside<A, other_slant>::slant;
 };
 
+struct other_laws {
+  int laws;
+};
+/// Not believed of a final class: there are no laws of its own unless it shows them.
+template <class A>
+inline constexpr bool names_laws =
+    requires { A::laws; } || (can_be_base<A> && !requires { &beside<A, other_laws>::laws; });
+
 }  // namespace detail
 
 /// A has something called apply.
