@@ -199,7 +199,7 @@ template <class X>
 using plain_t = decltype(slant::like(std::declval<X const&>(), index{}));
 
 /// An expression such as 2 * x, or a view, refers to entries of others: a state cannot keep it.
-template <class V> concept owns_its_entries = std::same_as<plain_t<V>, V>;
+template <class V> concept owns_its_entries = std::is_same_v<plain_t<V>, V>;
 
 /// A vector; see the top of this file.
 template <class V>
