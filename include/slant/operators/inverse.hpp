@@ -69,15 +69,19 @@ class inverse_operator {
 
 namespace detail {
 
-/// A factorisation has solve, which operators do not have, and need not have cols.
-template <class F> concept factorization_like = has_rows<F> && !has_cols<F> && has_solve_member<F>;
+/// What makes an operator, though it may have solve as well.
+template <class F> concept operator_like = has_cols<F> && has_apply_member<F>;
+
+/// A factorisation has solve, and is no operator: it may have cols, but not apply.
+template <class F>
+concept factorization_like = has_rows<F> && has_solve_member<F> && !operator_like<F>;
 
 }  // namespace detail
 
 /// A factorisation, or an operator with inverse().
 template <class F>
-concept invertible =
-    has_rows<F> && ((has_solve_member<F> && !has_cols<F>) || detail::knows_its_inverse<F>);
+concept invertible = has_rows<F> && ((has_solve_member<F> && !detail::operator_like<F>) ||
+                                     detail::knows_its_inverse<F>);
 
 /// The inverse of a factored matrix, or of an operator that knows it.
 template <class F>
