@@ -10,6 +10,8 @@
 //     local()            the local part, an Eigen column vector (lvalue, const and non-const),
 //     inner_product(y)   the global inner product, the same value on every process,
 //     like(n)            a vector of the same kind with n local entries (contents arbitrary).
+// Entries that live elsewhere: keep an Eigen::Map of them beside and return that; copies need a Map
+// of their own.
 //
 // Laws.   inner_product(x, y) = inner_product(y, x),   inner_product(x, x) ≥ 0,   linear in x,
 //         norm(x)² = inner_product(x, x).
@@ -72,6 +74,13 @@ concept has_local = requires(V& v, V const& c) {
   typename local_t<V>::Scalar;
   slant::local(v).setZero();
 };
+
+/// local(x) is an object that stays, not a view made for the occasion: what is passed on by
+/// reference can be written to.
+template <class V>
+concept local_is_lvalue =
+    std::is_lvalue_reference_v<decltype(slant::local(std::declval<V&>()))> &&
+    std::is_lvalue_reference_v<decltype(slant::local(std::declval<V const&>()))>;
 
 template <class V> concept has_inner_product_member = requires(V const& x) { x.inner_product(x); };
 
@@ -203,7 +212,7 @@ template <class V> concept owns_its_entries = std::is_same_v<plain_t<V>, V>;
 
 /// A vector; see the top of this file.
 template <class V>
-concept vector = has_local<V> && has_like<V> && owns_its_entries<V> && std::copyable<V> &&
-                 has_inner_product<V> && scalar<scalar_t<V>>;
+concept vector = has_local<V> && local_is_lvalue<V> && has_like<V> && owns_its_entries<V> &&
+                 std::copyable<V> && has_inner_product<V> && scalar<scalar_t<V>>;
 
 }  // namespace slant
