@@ -59,4 +59,27 @@ TEST_CASE("each name is asked for itself") {
   CHECK_FALSE(slant::has_slant_member<plain>);
 }
 
+struct with_laws {
+  static constexpr int laws = 1;
+};
+struct with_own_laws {
+  int laws = 1;
+};
+class with_hidden_laws {
+  static constexpr int laws = 1;
+};
+struct sealed_with_laws final {
+  static constexpr int laws = 1;
+};
+
+TEST_CASE("laws are found in whatever form; a final class without them has none") {
+  CHECK(slant::detail::names_laws<with_laws>);
+  CHECK(slant::detail::names_laws<with_own_laws>);
+  CHECK(slant::detail::names_laws<with_hidden_laws>);
+  CHECK(slant::detail::names_laws<sealed_with_laws>);
+  CHECK_FALSE(slant::detail::names_laws<plain>);
+  CHECK_FALSE(slant::detail::names_laws<sealed>);
+  CHECK_FALSE(slant::detail::names_laws<double>);
+}
+
 }  // namespace member_names_test

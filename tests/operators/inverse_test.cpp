@@ -4,6 +4,7 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/schur_complement.hpp>
 #include <slant/testing/archetypes/factorization.hpp>
 #include <slant/testing/operator_laws.hpp>
 
@@ -51,6 +52,27 @@ TEST_CASE("archetypes: a solve is enough, and promises nothing") {
 }
 
 /// A nonsymmetric factorisation that can also solve with the transposed matrix.
+/// A factorisation that tells its columns, too.
+struct half {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  [[nodiscard]] Eigen::Index rows() const { return 2; }
+  [[nodiscard]] Eigen::Index cols() const { return 2; }
+  void solve(VectorXd const& b, VectorXd& x) const { x = b / 2; }
+};
+
+TEST_CASE("a factorisation may have cols") {
+  static_assert(slant::factorization<half, VectorXd>);
+  auto const a = slant::inverse(half{});
+  static_assert(slant::spd_operator<decltype(a), VectorXd>);
+  VectorXd y(2);
+  slant::apply(a, VectorXd(Eigen::Vector2d(2, 4)), y);
+  CHECK(y == Eigen::Vector2d(1, 2));
+  auto const s =
+      slant::schur_complement(half{}, slant::identity_operator(2), slant::identity_operator(2));
+  slant::apply(s, VectorXd(Eigen::Vector2d(2, 4)), y);
+  CHECK(y == Eigen::Vector2d(3, 6));
+}
+
 struct lu {
   Eigen::PartialPivLU<MatrixXd> factors;
   [[nodiscard]] slant::index rows() const { return factors.rows(); }

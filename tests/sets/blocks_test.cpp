@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
@@ -31,6 +32,26 @@ TEST_CASE("blocks: what types tell about a set") {
   static_assert(!slant::set_part<slant::testing::archetype::convex_set>);  // not for Eigen vectors
   static_assert(slant::whole_space<slant::free_space<2>>);
   static_assert(!slant::whole_space<slant::ball<2>> && !slant::whole_space<nameless>);
+}
+
+/// A client's block that has no smooth inequality form, and says so.
+struct without_form {
+  static constexpr int dimension = 1;
+  static constexpr int inequalities = 0;
+  using point = Eigen::Matrix<double, 1, 1>;
+  point project(point const& x) const { return x.cwiseMax(0.0); }
+  bool contains(point const& x) const { return x[0] >= 0; }
+  slant::block_state state(point const& x) const {
+    return x[0] > 0 ? slant::block_state::free : slant::block_state::fixed;
+  }
+};
+
+TEST_CASE("blocks: only a block that says whole_space is passed over") {
+  static_assert(!slant::whole_space<without_form>);
+  Eigen::Vector3d x(-1, 1, -2);
+  slant::project(slant::power(without_form{}, 3), x, x);
+  CHECK(x == Eigen::Vector3d(0, 1, 0));
+  CHECK(slant::face_of(slant::power(without_form{}, 3), x).free_count() == 1);
 }
 
 TEST_CASE("blocks: a set that is no product is its own only block") {

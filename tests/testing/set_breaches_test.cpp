@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Sets that lie about one thing each: a law check that finds none of them would be worthless.
+#include <slant/sets/power.hpp>
 #include <slant/testing/archetypes/convex_set.hpp>
 #include <slant/testing/set_breaches.hpp>
 
@@ -46,6 +47,22 @@ TEST_CASE("set_breaches: projections that are none") {
   CHECK(breaks(liar(lie::forgets_aliasing), "in place"));
   CHECK(breaks(liar(lie::contains_interior_only), "contains(P(x))"));
   CHECK(breaks(liar(lie::contains_all), "contains(x) implies P(x) = x"));
+}
+
+/// A half line that says it were the whole line.
+struct no_space {
+  static constexpr int dimension = 1;
+  static constexpr bool whole_space = true;
+  using point = Eigen::Matrix<double, 1, 1>;
+  [[nodiscard]] point project(point const& x) const { return x.cwiseMax(0.0); }
+  [[nodiscard]] bool contains(point const& x) const { return x[0] >= 0; }
+};
+
+TEST_CASE("set_breaches: a whole space that is none") {
+  CHECK(breaks(no_space{}, "whole_space implies P(x) = x"));
+  CHECK(breaks(no_space{}, "whole_space implies contains(x)"));
+  // The product passes over its blocks: that they would do something else shows there, too.
+  CHECK_FALSE(slant::testing::set_breaches(slant::power(no_space{}, 3), few).empty());
 }
 
 TEST_CASE("set_breaches: slanting operators that are none") {

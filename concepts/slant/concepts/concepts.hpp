@@ -15,6 +15,7 @@
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/member_names.hpp>
+#include <slant/concepts/numbers_like.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/concepts/slanting_function.hpp>
 #include <slant/concepts/vector.hpp>

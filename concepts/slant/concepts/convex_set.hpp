@@ -18,6 +18,7 @@
 //     state(x)                  a block: free, sliding or fixed (face.hpp)
 //     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
 //                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
+//     whole_space = true (static)   a block without any constraint, which products pass over
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
 //     with(parameters…)         a block: the same shape with other parameters, for power(block, …)
 //     scalar (a type)           a block: that of its points, for products; without it double
@@ -41,6 +42,8 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/face.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/numbers_like.hpp>
 #include <slant/concepts/vector.hpp>
 
 namespace slant {
@@ -72,12 +75,47 @@ struct dimension_of_fn {
 /// Number of components of the points of a set.
 inline constexpr detail::dimension_of_fn dimension_of{};
 
+namespace detail {
+
+/// The same as far as the type tells.
+template <class C>
+[[nodiscard]] consteval index dimension_of_type() {
+  if constexpr (has_static_dimension<C>) {
+    return C::dimension;
+  } else {
+    return unknown_size;
+  }
+}
+
+}  // namespace detail
+
 template <class C, class V>
 concept has_project_value = requires(C const& c, V const& x) { c.project(x); };
 template <class C, class V>
 concept has_project_in_place = requires(C const& c, V const& x, V& y) { c.project(x, y); };
 template <class C, class V>
 concept has_project = has_project_value<C, V> || has_project_in_place<C, V>;
+
+namespace detail {
+
+/// What project(x) returns; V if there is only project(x, y).
+template <class C, class V>
+struct projected {
+  using type = V;
+};
+template <class C, class V>
+  requires has_project_value<C, V>
+struct projected<C, V> {
+  using type = decltype(std::declval<C const&>().project(std::declval<V const&>()));
+};
+
+}  // namespace detail
+
+/// What project(x) returns, if there is such a member, is a point of the set's dimension.
+template <class C, class V>
+concept projects_to_points =
+    numbers_like<typename detail::projected<C, V>::type, V, detail::dimension_of_type<C>(), 1>;
+
 template <class C, class V>
 concept has_contains = requires(C const& c, V const& x) {
   { c.contains(x) } -> std::convertible_to<bool>;
@@ -116,7 +154,14 @@ struct project_fn {
 /// Throws bad_input if x or y has a wrong size.
 inline constexpr detail::project_fn project{};
 
-template <class C, class V> concept has_slant = requires(C const& c, V const& x) { c.slant(x); };
+/// An operator on vectors like V, or an N × N matrix of the same scalar.
+template <class R, class V, index N>
+concept slant_like = numbers_like<R, V, N, N> || linear_operator<std::remove_cvref_t<R>, V>;
+
+template <class C, class V>
+concept has_slant = requires(C const& c, V const& x) {
+  { c.slant(x) } -> slant_like<V, detail::dimension_of_type<C>()>;
+};
 template <class C, class V>
 concept has_step_to_boundary = requires(C const& c, V const& x) {
   { c.step_to_boundary(x, x) } -> std::convertible_to<scalar_t<V>>;
@@ -132,9 +177,12 @@ concept has_state = requires(C const& c, V const& x) {
 template <class C, class V>
 concept has_inequality_form = requires(C const& c, V const& x) {
   { C::inequalities } -> std::convertible_to<int>;
-  c.inequality(x);
-  c.inequality_gradient(x);
-  c.inequality_hessian(x, c.inequality(x));
+  requires C::inequalities >= 0;
+  { c.inequality(x) } -> numbers_like<V, C::inequalities, 1>;
+  { c.inequality_gradient(x) } -> numbers_like<V, detail::dimension_of_type<C>(), C::inequalities>;
+  {
+    c.inequality_hessian(x, c.inequality(x))
+  } -> numbers_like<V, detail::dimension_of_type<C>(), detail::dimension_of_type<C>()>;
 };
 
 namespace detail {
@@ -148,8 +196,8 @@ template <class C> concept has_visit = requires(C const& c) { c.visit(detail::vi
 
 /// A closed convex set of points of type V; see the top of this file.
 template <class C, class V>
-concept convex_set =
-    (has_static_dimension<C> || has_size<C>)&&has_project<C, V> && has_contains<C, V>;
+concept convex_set = (has_static_dimension<C> || has_size<C>)&&has_project<C, V> &&
+                     projects_to_points<C, V> && has_contains<C, V>;
 
 /// A convex set whose points can be classified: one block, or a product of blocks.
 template <class C, class V>

@@ -6,7 +6,8 @@
 // gradients cannot be called with an operator that nobody has promised to be positive definite.
 //
 // Minimal definition.  static constexpr auto laws = slant::laws<slant::self_adjoint, …>;
-// An operator without the member promises nothing.
+// An operator without the member promises nothing; a member of that name that is something else
+// (one enumerator, not static, private) is an error.
 //
 // Laws (of laws).   definite ⇒ semidefinite,   firmly nonexpansive ⇒ semidefinite,
 //                   self-adjoint projector ⇒ firmly nonexpansive.
@@ -18,7 +19,8 @@
 // Every declared law is sampled by slant::testing::check_operator_laws.
 #pragma once
 
-#include <concepts>
+#include <slant/concepts/member_names.hpp>
+
 #include <type_traits>
 
 namespace slant {
@@ -82,10 +84,21 @@ struct law_set {
 template <law... L>
 inline constexpr law_set laws{(0U | ... | static_cast<unsigned>(L))};
 
+namespace detail {
+
+template <law_set>
+struct constant_laws {};
+
+/// Asked first: the next question, put to a non-static member, is a hard error of g++ 12.
 template <class A>
-concept declares_laws = requires {
-  { A::laws } -> std::convertible_to<law_set>;
-};
+concept has_static_laws = requires { requires std::is_pointer_v<decltype(&A::laws)>; };
+
+}  // namespace detail
+
+/// A::laws is a set of laws, known at compile time.
+template <class A>
+concept declares_laws =
+    detail::has_static_laws<A> && requires { typename detail::constant_laws<law_set(A::laws)>; };
 
 namespace detail {
 
@@ -93,6 +106,9 @@ template <class A>
 [[nodiscard]] consteval law_set laws_of_type() {
   if constexpr (declares_laws<A>) {
     return A::laws;
+  } else if constexpr (names_laws<A>) {
+    static_assert(!names_laws<A>, "laws must be a public static constexpr slant::laws<...>");
+    return law_set{~0U};  // what was complained of once is not also found missing
   } else {
     return {};
   }

@@ -66,6 +66,13 @@ inline constexpr bool names_slant = !requires {
   &beside<A, other_slant>::slant;
 };
 
+struct other_laws {
+  int laws;
+};
+template <class A> concept lacks_laws = requires { &beside<A, other_laws>::laws; };
+/// Not believed of a final class: there are no laws of its own unless it shows them.
+template <class A> concept names_laws = requires { A::laws; } || (can_be_base<A> && !lacks_laws<A>);
+
 }  // namespace detail
 
 /// A has something called apply.

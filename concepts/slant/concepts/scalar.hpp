@@ -4,9 +4,15 @@
 //
 // Intuition. A scalar is a totally ordered field with a square root, up to rounding.
 //
-// Minimal definition. Regular type with + - * / and < <= ==, constructible from int, for which
-// std::numeric_limits is specialised and abs, sqrt, ldexp, frexp are found by argument-dependent
-// lookup. (Lengths are scaled by powers of two where their squares would leave the range: exact.)
+// Minimal definition.
+//     regular type (default, copy, ==), constructible from int, index and double
+//     + - * / and unary −, += −= *= /=,   < <= > >=,   std::ostream << (for bad_input)
+//     abs, sqrt, ldexp, frexp, found by argument-dependent lookup
+//     std::numeric_limits: digits, max_exponent; epsilon, min, max, denorm_min, infinity, quiet_NaN
+// Conversions may be explicit; results of operations may be expressions that convert to the scalar.
+// Lengths are scaled by powers of two where their squares would leave the range: exactly, if ldexp
+// is exact. Where vectors are Eigen's, Eigen asks for its Eigen::NumTraits<S> as well; the law
+// checks and progress_bar convert to double by static_cast.
 //
 // Laws (up to rounding).   a + b = b + a,   a (b + c) = a b + a c,   sqrt(a)² = |a| for a ≥ 0,
 //                          x − x is 0 for finite x and NaN otherwise (so no -ffast-math).
@@ -28,6 +34,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <ostream>
 
 namespace slant {
 
@@ -44,11 +51,28 @@ concept has_field_arithmetic = requires(S const a, S const b) {
 };
 
 template <class S>
+concept has_compound_assignment = requires(S a, S const b) {
+  a += b;
+  a -= b;
+  a *= b;
+  a /= b;
+};
+
+template <class S>
 concept has_order = requires(S const a, S const b) {
   bool(a < b);
   bool(a <= b);
+  bool(a > b);
+  bool(a >= b);
   bool(a == b);
 };
+
+/// Numbers of the code: counts, sizes, and constants such as 1.9.
+template <class S>
+concept has_constants = std::constructible_from<S, int> && std::constructible_from<S, index> &&
+                        std::constructible_from<S, double>;
+
+template <class S> concept has_text = requires(S const a, std::ostream& out) { out << a; };
 
 namespace detail::by_argument {
 using std::abs;
@@ -71,15 +95,26 @@ template <class S> concept has_square_root = detail::by_argument::has_abs_and_sq
 template <class S> concept has_binary_exponent = detail::by_argument::has_ldexp_and_frexp<S>;
 
 template <class S>
-concept has_epsilon = std::numeric_limits<S>::is_specialized && requires {
-  S(std::numeric_limits<S>::epsilon());
+concept has_epsilon =
+    std::numeric_limits<S>::is_specialized && requires { S(std::numeric_limits<S>::epsilon()); };
+
+/// The ends of the range of numbers, and what lies beyond.
+template <class S>
+concept has_range = requires {
+  requires std::numeric_limits<S>::digits > 0;
+  requires std::numeric_limits<S>::max_exponent > 0;
+  S(std::numeric_limits<S>::min());
+  S(std::numeric_limits<S>::max());
+  S(std::numeric_limits<S>::denorm_min());
   S(std::numeric_limits<S>::infinity());
+  S(std::numeric_limits<S>::quiet_NaN());
 };
 
 /// A real number type; see the top of this file.
 template <class S>
-concept scalar = std::regular<S> && std::constructible_from<S, int> && has_field_arithmetic<S> &&
-                 has_order<S> && has_square_root<S> && has_binary_exponent<S> && has_epsilon<S>;
+concept scalar = std::regular<S> && has_constants<S> && has_field_arithmetic<S> &&
+                 has_compound_assignment<S> && has_order<S> && has_square_root<S> &&
+                 has_binary_exponent<S> && has_epsilon<S> && has_range<S> && has_text<S>;
 
 namespace detail {
 

@@ -9,6 +9,8 @@
 //     local()            the local part, an Eigen column vector (lvalue, const and non-const),
 //     inner_product(y)   the global inner product, the same value on every process,
 //     like(n)            a vector of the same kind with n local entries (contents arbitrary).
+// Entries that live elsewhere: keep an Eigen::Map of them beside and return that; copies need a Map
+// of their own.
 //
 // Laws.   inner_product(x, y) = inner_product(y, x),   inner_product(x, x) ≥ 0,   linear in x,
 //         norm(x)² = inner_product(x, x).
@@ -72,21 +74,39 @@ concept has_local = requires(V& v, V const& c) {
   slant::local(v).setZero();
 };
 
+/// local(x) is an object that stays, not a view made for the occasion: what is passed on by
+/// reference can be written to.
+template <class V>
+concept local_is_lvalue =
+    std::is_lvalue_reference_v<decltype(slant::local(std::declval<V&>()))> &&
+    std::is_lvalue_reference_v<decltype(slant::local(std::declval<V const&>()))>;
+
 template <class V> concept has_inner_product_member = requires(V const& x) { x.inner_product(x); };
 
 namespace detail {
 
 template <class X, class Y> concept has_dot = requires(X const& x, Y const& y) { x.dot(y); };
 
+/// What the vectors themselves return, whatever its type. An own vector answers for itself: a dot
+/// that it inherits is not asked.
+template <class X, class Y>
+  requires has_inner_product_member<X> || has_dot<X, Y>
+[[nodiscard]] decltype(auto) own_inner_product(X const& x, Y const& y) {
+  if constexpr (has_inner_product_member<X>) {
+    return x.inner_product(y);
+  } else {
+    return x.dot(y);
+  }
+}
+
 struct inner_product_fn {
   template <class X, class Y>
-    requires has_inner_product_member<X> || has_dot<X, Y>
-  [[nodiscard]] auto operator()(X const& x, Y const& y) const -> scalar_t<X> {
-    if constexpr (has_inner_product_member<X>) {
-      return x.inner_product(y);
-    } else {
-      return x.dot(y);
+  [[nodiscard]] auto operator()(X const& x, Y const& y) const -> scalar_t<X>
+    requires requires {
+      { detail::own_inner_product(x, y) } -> std::convertible_to<scalar_t<X>>;
     }
+  {
+    return detail::own_inner_product(x, y);
   }
 };
 
@@ -95,9 +115,10 @@ struct inner_product_fn {
 /// Global inner product xᵀy. Both vectors have the same number of entries.
 inline constexpr detail::inner_product_fn inner_product{};
 
+/// inner_product(x, x) is a number that the vector's own scalar can hold.
 template <class V>
 concept has_inner_product = requires(V const& x) {
-  { slant::inner_product(x, x) } -> std::convertible_to<scalar_t<V>>;
+  { detail::own_inner_product(x, x) } -> std::convertible_to<scalar_t<V>>;
 };
 
 namespace detail {
@@ -206,11 +227,11 @@ template <class X>
 using plain_t = decltype(slant::like(std::declval<X const&>(), index{}));
 
 /// An expression such as 2 * x, or a view, refers to entries of others: a state cannot keep it.
-template <class V> concept owns_its_entries = std::same_as<plain_t<V>, V>;
+template <class V> concept owns_its_entries = std::is_same_v<plain_t<V>, V>;
 
 /// A vector; see the top of this file.
 template <class V>
-concept vector = has_local<V> && has_like<V> && owns_its_entries<V> && std::copyable<V> &&
-                 has_inner_product<V> && scalar<scalar_t<V>>;
+concept vector = has_local<V> && local_is_lvalue<V> && has_like<V> && owns_its_entries<V> &&
+                 std::copyable<V> && has_inner_product<V> && scalar<scalar_t<V>>;
 
 }  // namespace slant

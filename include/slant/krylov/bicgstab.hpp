@@ -11,6 +11,7 @@
 // residual is renewed (r̂ = r); when that does not help either, the status is breakdown: never NaN.
 #pragma once
 
+#include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/linear_system.hpp>
@@ -48,11 +49,19 @@ struct bicgstab_state {
 /// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
 template <class A, class V, class M = identity_operator>
 class bicgstab : public detail::refused_method<std::remove_cvref_t<V>> {
-  static_assert(vector<std::remove_cvref_t<V>>, "bicgstab: b must be a vector, not an expression");
-  static_assert(linear_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>>,
+  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
+  using m = detail::questions_about<std::remove_cvref_t<M>, std::remove_cvref_t<V>>;
+
+  static_assert(vector<std::remove_cvref_t<V>>,
+                "bicgstab: b must be a slant::vector; an expression or a view is none");
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
                 "bicgstab: A must be a linear operator on vectors like b");
-  static_assert(linear_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>,
+  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
+                "bicgstab: a part of A cannot be used on vectors like b");
+  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
                 "bicgstab: the preconditioner must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename m::part, typename m::vector_type>,
+                "bicgstab: a part of the preconditioner cannot be used on vectors like b");
 
  public:
   using bicgstab::refused_method::refused_method;

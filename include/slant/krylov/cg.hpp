@@ -11,6 +11,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
+#include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
@@ -47,10 +48,22 @@ struct cg_state {
 /// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
 template <class A, class V, class M = identity_operator>
 class cg : public detail::refused_method<std::remove_cvref_t<V>> {
-  static_assert(vector<std::remove_cvref_t<V>>, "cg: b must be a vector, not an expression");
-  static_assert(spd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>>,
-                "cg: A must be an operator that declares self_adjoint and positive_definite");
-  static_assert(spd_operator<std::remove_cvref_t<M>, std::remove_cvref_t<V>>,
+  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
+  using m = detail::questions_about<std::remove_cvref_t<M>, std::remove_cvref_t<V>>;
+
+  static_assert(vector<std::remove_cvref_t<V>>,
+                "cg: b must be a slant::vector; an expression or a view is none");
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "cg: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
+                "cg: a part of A cannot be used on vectors like b");
+  static_assert(spd_operator<typename a::promise, typename a::vector_type>,
+                "cg: A must declare self_adjoint and positive_definite");
+  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
+                "cg: the preconditioner must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename m::part, typename m::vector_type>,
+                "cg: a part of the preconditioner cannot be used on vectors like b");
+  static_assert(spd_operator<typename m::promise, typename m::vector_type>,
                 "cg: the preconditioner must declare self_adjoint and positive_definite");
 
  public:

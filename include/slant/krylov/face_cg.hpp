@@ -11,6 +11,7 @@
 #pragma once
 
 #include <slant/concepts/face.hpp>
+#include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
@@ -44,11 +45,18 @@ struct face_cg_state {
 /// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
 template <class A, class V, class F>
 class face_cg : public detail::refused_method<std::remove_cvref_t<V>> {
-  static_assert(vector<std::remove_cvref_t<V>>, "face_cg: b must be a vector, not an expression");
-  static_assert(
-      psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>>,
-      "face_cg: A must be an operator that declares self_adjoint and positive_semidefinite");
-  static_assert(has_keep<std::remove_cvref_t<F>, std::remove_cvref_t<V>>,
+  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
+
+  static_assert(vector<std::remove_cvref_t<V>>,
+                "face_cg: b must be a slant::vector; an expression or a view is none");
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "face_cg: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
+                "face_cg: a part of A cannot be used on vectors like b");
+  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
+                "face_cg: A must declare self_adjoint and positive_semidefinite");
+  static_assert(has_keep<detail::asked_t<vector<std::remove_cvref_t<V>>, std::remove_cvref_t<F>>,
+                         typename a::vector_type>,
                 "face_cg: the face must cut vectors down to it by keep(x, y)");
 
  public:

@@ -5,6 +5,7 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/methods/detail/block_states.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -56,7 +57,13 @@ using refused_kprgp =
 template <class QP>
 class kprgp : public detail::refused_kprgp<std::remove_cvref_t<QP>> {
   using problem = std::remove_cvref_t<QP>;
-  static_assert(psd_operator<typename problem::operator_type, typename problem::vector_type>,
+  using a = detail::questions_about<typename problem::operator_type, typename problem::vector_type>;
+
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "kprgp: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
+                "kprgp: a part of A cannot be used on vectors like b");
+  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
                 "kprgp: A must declare that it is self-adjoint and positive semidefinite");
   static_assert(
       active_set_domain<typename problem::set_type, local_t<typename problem::vector_type>>,

@@ -69,17 +69,20 @@ class inverse_operator {
 
 namespace detail {
 
-/// What tells a factorisation from an operator. (The name is what g++ shows when it is missing.)
-template <class F> concept has_solve_member_and_no_cols = has_solve_member<F> && !has_cols<F>;
+/// What makes an operator, though it may have solve as well.
+template <class F> concept operator_like = has_cols<F> && has_apply_member<F>;
 
-template <class F> concept factorization_like = has_rows<F> && has_solve_member_and_no_cols<F>;
+/// What tells a factorisation from an operator. (The name is what g++ shows when it is missing.)
+template <class F> concept has_solve_member_and_no_apply = has_solve_member<F> && !operator_like<F>;
+
+template <class F> concept factorization_like = has_rows<F> && has_solve_member_and_no_apply<F>;
 
 }  // namespace detail
 
 /// A factorisation, or an operator with inverse().
 template <class F>
 concept invertible =
-    has_rows<F> && (detail::has_solve_member_and_no_cols<F> || detail::knows_its_inverse<F>);
+    has_rows<F> && (detail::has_solve_member_and_no_apply<F> || detail::knows_its_inverse<F>);
 
 /// The inverse of a factored matrix, or of an operator that knows it.
 template <class F>

@@ -25,6 +25,7 @@ class block_product : public detail::cartesian_base<Parts...>,
 
  public:
   static constexpr int dimension = (Parts::dimension + ...);
+  static constexpr bool whole_space = (slant::whole_space<Parts> && ...);
   using scalar = set_scalar_t<first_type>;
   using vector_type = Eigen::Matrix<scalar, dimension, 1>;
   using matrix_type = Eigen::Matrix<scalar, dimension, dimension>;

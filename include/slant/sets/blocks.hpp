@@ -55,8 +55,9 @@ template <class C> concept set_part = convex_set<C, point_t<C>>;
 /// A set of fixed dimension: a block of a power.
 template <class C> concept set_block = has_static_dimension<C> && set_part<C>;
 
-/// A block without any constraint: its products do nothing with it, not even look at it.
-template <class C> concept whole_space = requires { requires C::inequalities == 0; };
+/// A block without any constraint, which says so: `static constexpr bool whole_space = true`. Its
+/// products do nothing with it, not even look at it.
+template <class C> concept whole_space = requires { requires C::whole_space; };
 
 namespace detail {
 

@@ -19,6 +19,7 @@ class free_space {
   using scalar = S;
   static constexpr int dimension = N;
   static constexpr int inequalities = 0;
+  static constexpr bool whole_space = true;
   using vector_type = Eigen::Matrix<S, N, 1>;
   using matrix_type = Eigen::Matrix<S, N, N>;
 

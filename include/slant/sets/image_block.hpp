@@ -44,6 +44,7 @@ class image_block : public detail::inequality_count<Part> {
  public:
   using scalar = set_scalar_t<Part>;
   static constexpr int dimension = Part::dimension;
+  static constexpr bool whole_space = slant::whole_space<Part>;
   using vector_type = Eigen::Matrix<scalar, dimension, 1>;
   using matrix_type = Eigen::Matrix<scalar, dimension, dimension>;
 

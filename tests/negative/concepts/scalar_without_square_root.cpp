@@ -7,6 +7,8 @@
 // A complete scalar minus its square root.
 #include <slant/concepts/scalar.hpp>
 
+#include <ostream>
+
 struct fixed_point {
   fixed_point() = default;
   fixed_point(int v) : value(v) {}
@@ -21,6 +23,11 @@ struct fixed_point {
 #ifdef SLANT_COMPLETE
   friend fixed_point sqrt(fixed_point a) { return a; }
 #endif
+  fixed_point& operator+=(fixed_point) { return *this; }
+  fixed_point& operator-=(fixed_point) { return *this; }
+  fixed_point& operator*=(fixed_point) { return *this; }
+  fixed_point& operator/=(fixed_point) { return *this; }
+  friend std::ostream& operator<<(std::ostream& out, fixed_point a) { return out << a.value; }
   friend auto operator<=>(fixed_point const&, fixed_point const&) = default;
   int value = 0;
 };
@@ -29,7 +36,13 @@ template <>
 struct std::numeric_limits<fixed_point> {
   static constexpr bool is_specialized = true;
   static fixed_point epsilon() { return 1; }
+  static constexpr int digits = 1;
+  static constexpr int max_exponent = 1;
+  static fixed_point min() { return 1; }
+  static fixed_point max() { return 1; }
+  static fixed_point denorm_min() { return 1; }
   static fixed_point infinity() { return 1; }
+  static fixed_point quiet_NaN() { return 1; }
 };
 
 static_assert(slant::scalar<fixed_point>);

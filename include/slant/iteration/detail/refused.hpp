@@ -10,7 +10,7 @@
 // that one out.
 #pragma once
 
-#include <slant/concepts/vector.hpp>
+#include <slant/concepts/linear_operator.hpp>
 #include <slant/iteration/report.hpp>
 
 #include <concepts>
@@ -23,6 +23,25 @@ struct refused {};
 
 /// The complaint was made already.
 template <class T> concept was_refused = std::derived_from<T, refused>;
+
+/// Operator, vector, set or face of which nothing is asked. Nothing of it is defined.
+struct beyond_question {
+  static constexpr law_set laws{~0U};
+  index rows() const;
+  index cols() const;
+  index size() const;
+  void apply(auto const& x, auto& y) const;
+  void apply_adjoint(auto const& x, auto& y) const;
+  void solve(auto const& b, auto& x) const;
+  void project(auto const& x, auto& y) const;
+  bool contains(auto const& x) const;
+  void keep(auto const& x, auto& y) const;
+};
+
+/// The argument T if it is to be asked, else one that has every answer: what depends on an argument
+/// that was refused already is not refused as well.
+template <bool Asked, class T>
+using asked_t = std::conditional_t<Asked, T, beyond_question>;
 
 /// The scalar of V as a member; of what is no vector, double.
 template <class V>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The least that is a scalar: a double that converts from and to other numbers only where the code
-// says so. What compiles with it mixes no number types silently: an `int` or `double` that slips
-// into an expression of scalars is an error, as it would be a loss with a multiprecision scalar.
+// The least that is a scalar: a double that converts from other numbers only where the code says
+// so, and to none. What compiles with it mixes no number types silently: an `int` or `double` that
+// slips into an expression of scalars is an error, as it would be a loss with a multiprecision
+// scalar.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
@@ -22,7 +23,8 @@ class scalar {
   constexpr explicit scalar(index value) : value_(static_cast<double>(value)) {}
   constexpr explicit scalar(double value) : value_(value) {}
   scalar(bool) = delete;
-  constexpr explicit operator double() const { return value_; }
+  /// For tests to compare.
+  [[nodiscard]] constexpr double value() const { return value_; }
 
   friend constexpr scalar operator+(scalar a, scalar b) { return scalar(a.value_ + b.value_); }
   friend constexpr scalar operator-(scalar a, scalar b) { return scalar(a.value_ - b.value_); }
@@ -58,26 +60,17 @@ class std::numeric_limits<slant::testing::archetype::scalar> {
 
  public:
   static constexpr bool is_specialized = true;
-  static constexpr bool is_signed = true;
-  static constexpr bool is_integer = false;
-  static constexpr bool is_exact = false;
-  static constexpr bool has_infinity = true;
-  static constexpr bool has_quiet_NaN = true;
-  static constexpr int radix = 2;
   static constexpr int digits = base::digits;
-  static constexpr int digits10 = base::digits10;
-  static constexpr int max_digits10 = base::max_digits10;
-  static constexpr int min_exponent = base::min_exponent;
   static constexpr int max_exponent = base::max_exponent;
   static constexpr scalar epsilon() { return scalar(base::epsilon()); }
   static constexpr scalar min() { return scalar(base::min()); }
   static constexpr scalar max() { return scalar(base::max()); }
-  static constexpr scalar lowest() { return scalar(base::lowest()); }
   static constexpr scalar denorm_min() { return scalar(base::denorm_min()); }
   static constexpr scalar infinity() { return scalar(base::infinity()); }
   static constexpr scalar quiet_NaN() { return scalar(base::quiet_NaN()); }
 };
 
+/// What Eigen asks for.
 template <>
 struct Eigen::NumTraits<slant::testing::archetype::scalar> : Eigen::GenericNumTraits<double> {
   using Real = slant::testing::archetype::scalar;
@@ -87,7 +80,7 @@ struct Eigen::NumTraits<slant::testing::archetype::scalar> : Eigen::GenericNumTr
   static constexpr Real epsilon() { return std::numeric_limits<Real>::epsilon(); }
   static constexpr Real dummy_precision() { return Real(1e-12); }
   static constexpr Real highest() { return std::numeric_limits<Real>::max(); }
-  static constexpr Real lowest() { return std::numeric_limits<Real>::lowest(); }
+  static constexpr Real lowest() { return -std::numeric_limits<Real>::max(); }
   static constexpr Real infinity() { return std::numeric_limits<Real>::infinity(); }
   static constexpr Real quiet_NaN() { return std::numeric_limits<Real>::quiet_NaN(); }
 };
@@ -96,6 +89,6 @@ namespace slant::testing::archetype {
 
 static_assert(slant::scalar<scalar>);
 static_assert(!std::convertible_to<double, scalar> && !std::convertible_to<int, scalar> &&
-              !std::convertible_to<scalar, double>);
+              !std::constructible_from<double, scalar>);
 
 }  // namespace slant::testing::archetype

@@ -4,6 +4,7 @@
 //     P(P(x)) = P(x),   contains(P(x)),   contains(x) ⇒ P(x) = x,
 //     ‖P(x) − P(y)‖² ≤ ⟨x − y, P(x) − P(y)⟩  (so P is nonexpansive),
 //     ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
+//     P(x) = x and contains(x) for every x, if the set says that it is the whole space,
 //     project(x, x) in place and project(x, y) into a y full of NaN give the same as P(x).
 // contains(P(x)) must hold exactly, whatever rounding left of P(x); what else `contains` accepts
 // may be off the set by the rounding that set_options allows.
@@ -31,6 +32,13 @@ void check_single_points(set_probe<S> const& probe,
     if (probe.contains(x) && !(slant::norm(dense(p - x)) <= allowed)) {
       log("contains(x) implies P(x) = x",
           "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
+    }
+    if (probe.unconstrained && !(slant::norm(dense(p - x)) <= allowed)) {
+      log("whole_space implies P(x) = x",
+          "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
+    }
+    if (probe.unconstrained && !probe.contains(x)) {
+      log("whole_space implies contains(x)", "false at x = " + text_of(x));
     }
     if (!(probe.project_in_place(x) == p)) log("in place", "differs at x = " + text_of(x));
     if (!(probe.project_over_nan(x) == p)) log("overwriting", "differs at x = " + text_of(x));

@@ -6,6 +6,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/sets/blocks.hpp>
 #include <slant/testing/breach.hpp>
 
 #include <Eigen/Core>
@@ -39,7 +40,8 @@ struct set_probe {
   index size = 0;
   index block_count = 1;
   set_options options;
-  S origin{0};  ///< ‖P(0)‖: how far off the set is
+  S origin{0};                 ///< ‖P(0)‖: how far off the set is
+  bool unconstrained = false;  ///< says that it is the whole space
 
   std::function<dense(dense const&)> project;
   std::function<dense(dense const&)> project_in_place;  ///< project(x, x)
@@ -123,6 +125,7 @@ template <class C, class V>
   index const n = slant::dimension_of(set);
   probe.size = n;
   probe.options = options;
+  probe.unconstrained = whole_space<C>;
   auto const in = [prototype, n](dense const& p) {
     V v = slant::like(prototype, n);
     copy_entries(p, slant::local(v));

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// expect: satisfaction of 'has_range<S>' .with S = fixed_point.
+// expect-clang: 'fixed_point' does not satisfy 'has_range'
+// max-lines-gcc: 20
+// max-lines-clang: 20
+//
+// A complete scalar minus its largest number: norms could not be scaled into its range.
+#include <slant/concepts/scalar.hpp>
+
+#include <ostream>
+
+struct fixed_point {
+  fixed_point() = default;
+  fixed_point(int v) : value(v) {}
+  friend fixed_point operator+(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator-(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator*(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator/(fixed_point, fixed_point) { return {}; }
+  friend fixed_point operator-(fixed_point a) { return a; }
+  friend fixed_point abs(fixed_point a) { return a; }
+  friend fixed_point ldexp(fixed_point a, int) { return a; }
+  friend fixed_point frexp(fixed_point a, int*) { return a; }
+  friend fixed_point sqrt(fixed_point a) { return a; }
+  fixed_point& operator+=(fixed_point) { return *this; }
+  fixed_point& operator-=(fixed_point) { return *this; }
+  fixed_point& operator*=(fixed_point) { return *this; }
+  fixed_point& operator/=(fixed_point) { return *this; }
+  friend std::ostream& operator<<(std::ostream& out, fixed_point a) { return out << a.value; }
+  friend auto operator<=>(fixed_point const&, fixed_point const&) = default;
+  int value = 0;
+};
+
+template <>
+struct std::numeric_limits<fixed_point> {
+  static constexpr bool is_specialized = true;
+  static fixed_point epsilon() { return 1; }
+  static constexpr int digits = 1;
+  static constexpr int max_exponent = 1;
+  static fixed_point min() { return 1; }
+#ifdef SLANT_COMPLETE
+  static fixed_point max() { return 1; }
+#endif
+  static fixed_point denorm_min() { return 1; }
+  static fixed_point infinity() { return 1; }
+  static fixed_point quiet_NaN() { return 1; }
+};
+
+static_assert(slant::scalar<fixed_point>);
