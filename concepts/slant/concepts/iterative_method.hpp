@@ -9,7 +9,8 @@
 //     method    start(x0) → state,   step(state)
 //     state     x, iteration, status (running until the method itself cannot or need not go on)
 //     rule      rule(state) → status: running to go on, anything else is the reason to stop,
-//               reason(state) → std::string, asked only after it has fired
+//               reason(state) → std::string, asked only after it has fired; derived from
+//               slant::rule (iteration/stopping.hpp) if it is to be combined by || and &&
 //     observer  observer(state)
 //
 // Laws.   start gives iteration 0; step adds 1 to it, or sets a status other than running;
