@@ -23,6 +23,26 @@ std::string own_words(State const& s) {
   }
 }
 
+/// What solve asks of its arguments.
+template <class Method, class V, class Rule, class... Observers>
+concept solvable = iterative_method<Method, V> && stopping_rule<Rule, state_t<Method, V>> &&
+                   (observer<Observers, state_t<Method, V>> && ...);
+
+template <class Observer, class State>
+void check_observer() {
+  static_assert(observer<Observer, State>, "solve: an observer must take states of this method");
+}
+
+/// What solve returns after a static_assert has refused its arguments; nothing of it is defined.
+template <class V>
+struct refused_report {
+  slant::status status;
+  std::string reason;
+  V const& x() const;
+  index iterations() const;
+  bool converged() const;
+};
+
 }  // namespace detail
 
 /// Runs a method from x0 until its state leaves `running` or the rule fires; every observer sees
@@ -30,8 +50,7 @@ std::string own_words(State const& s) {
 /// numerical trouble, which is report.status. A method that updates its residual has to show
 /// success by a residual computed from x: has_refresh, one application more.
 template <class Method, class V, class Rule, class... Observers>
-  requires iterative_method<Method, V> && stopping_rule<Rule, state_t<Method, V>> &&
-           (observer<Observers, state_t<Method, V>> && ...)
+  requires detail::solvable<Method, V, Rule, Observers...>
 [[nodiscard]] auto solve(Method&& method, V const& x0, Rule stop, Observers&&... observers)
     -> report<state_t<Method, V>> {
   using state_type = state_t<Method, V>;
@@ -54,6 +73,21 @@ template <class Method, class V, class Rule, class... Observers>
     if (verdict != status::running) return end(verdict, stop.reason(state));
     method.step(state);
   }
+}
+
+/// Arguments that lack something end here and are told so.
+template <class Method, class V, class Rule, class... Observers>
+  requires(!detail::solvable<Method, V, Rule, Observers...>)
+[[nodiscard]] auto solve(Method&&, V const&, Rule, Observers&&...) -> detail::refused_report<V> {
+  static_assert(
+      iterative_method<Method, V>,
+      "solve: the method must have start(x0), step(state), and states with x, iteration, status");
+  if constexpr (iterative_method<Method, V>) {
+    using state = state_t<Method, V>;
+    static_assert(stopping_rule<Rule, state>, "solve: the rule must judge states of this method");
+    (detail::check_observer<Observers, state>(), ...);
+  }
+  return {};
 }
 
 }  // namespace slant

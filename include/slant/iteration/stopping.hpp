@@ -13,6 +13,7 @@
 #include <slant/concepts/iterative_method.hpp>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -191,6 +192,37 @@ struct both_rule : rule {
 };
 
 }  // namespace detail
+
+namespace detail {
+
+/// One of the two is a rule and the other is none.
+template <class A, class B> concept halfway_combinable = combinable_rule<A> != combinable_rule<B>;
+
+/// The sentence about it; the rest of the program sees the one that is a rule.
+template <class A, class B>
+[[nodiscard]] auto refused_combination(A a, B b) {
+  using other = std::conditional_t<combinable_rule<A>, B, A>;
+  static_assert(combinable_rule<other>,
+                "an own stopping rule must derive from slant::rule to be combined by || and &&");
+  if constexpr (combinable_rule<A>) {
+    return a;
+  } else {
+    return b;
+  }
+}
+
+}  // namespace detail
+
+template <class A, class B>
+  requires detail::halfway_combinable<A, B>
+[[nodiscard]] auto operator||(A a, B b) {
+  return detail::refused_combination(std::move(a), std::move(b));
+}
+template <class A, class B>
+  requires detail::halfway_combinable<A, B>
+[[nodiscard]] auto operator&&(A a, B b) {
+  return detail::refused_combination(std::move(a), std::move(b));
+}
 
 /// Stops when one of the two does.
 template <combinable_rule A, combinable_rule B>

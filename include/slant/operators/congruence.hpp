@@ -10,6 +10,7 @@
 #include <slant/operators/as_operator.hpp>
 #include <slant/operators/detail/applicable.hpp>
 #include <slant/operators/detail/closure.hpp>
+#include <slant/operators/detail/refused_operator.hpp>
 
 #include <utility>
 
@@ -134,10 +135,15 @@ template <bool FullRowRank, class B, class A>
 }  // namespace detail
 
 /// B A Bᵀ. Throws bad_input unless A is square with as many rows as B has columns.
-template <adjoint_operand B, operand A>
+template <operand B, operand A>
 [[nodiscard]] auto congruence(B&& b, A&& a) {
-  return detail::make_congruence<false>(held<part_t<B>>(slant::as_operator(std::forward<B>(b))),
-                                        held<part_t<A>>(slant::as_operator(std::forward<A>(a))));
+  if constexpr (!adjoint_operand<B>) {
+    static_assert(adjoint_operand<B>, "congruence: B must have apply_adjoint(x, y)");
+    return detail::refused_operator{};
+  } else {
+    return detail::make_congruence<false>(held<part_t<B>>(slant::as_operator(std::forward<B>(b))),
+                                          held<part_t<A>>(slant::as_operator(std::forward<A>(a))));
+  }
 }
 
 /// B A Bᵀ with independent rows of B: definite if A is.

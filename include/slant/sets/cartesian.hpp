@@ -8,6 +8,7 @@
 #include <slant/sets/block_product.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/detail/cartesian_base.hpp>
+#include <slant/sets/detail/refused_set.hpp>
 #include <slant/sets/direct_sum_slant.hpp>
 #include <slant/sets/projection_slant.hpp>
 
@@ -98,7 +99,8 @@ template <class... Parts>
   requires(sizeof...(Parts) > 0)
 [[nodiscard]] auto cartesian(Parts&&... parts) {
   if constexpr (!(set_part<std::remove_cvref_t<Parts>> && ...)) {
-    return (detail::check_part<std::remove_cvref_t<Parts>>() && ...);
+    static_cast<void>((detail::check_part<std::remove_cvref_t<Parts>>() && ...));
+    return detail::refused_set{};
   } else if constexpr ((has_static_dimension<std::remove_cvref_t<Parts>> && ...)) {
     return block_product<std::remove_cvref_t<Parts>...>(std::remove_cvref_t<Parts>(parts)...);
   } else {

@@ -141,18 +141,33 @@ class face {
 template <class C, class X>
 concept has_own_face = requires(C const& set, X const& x) { set.face_of(x); };
 
-/// The face of the point x of a set: the set's own kind if it has face_of(x), else slant::face.
+namespace detail {
+
 template <class C, class X>
-[[nodiscard]] auto face_of(C const& set, X const& x) {
+struct face_type {
+  using type = face<scalar_t<X>>;
+};
+template <class C, class X>
+  requires has_own_face<C, X>
+struct face_type<C, X> {
+  using type = decltype(std::declval<C const&>().face_of(std::declval<X const&>()));
+};
+
+}  // namespace detail
+
+/// The type of the faces of a set for points of type X: the set's own if it has face_of(x), else
+/// slant::face.
+template <class C, class X>
+using face_t = typename detail::face_type<C, X>::type;
+
+/// The face of the point x of a set.
+template <class C, class X>
+[[nodiscard]] face_t<C, X> face_of(C const& set, X const& x) {
   if constexpr (has_own_face<C, X>) {
     return set.face_of(x);
   } else {
-    return face<scalar_t<X>>(set, x);
+    return face_t<C, X>(set, x);
   }
 }
-
-/// The type of the faces of a set.
-template <class C, class X>
-using face_t = decltype(slant::face_of(std::declval<C const&>(), std::declval<X const&>()));
 
 }  // namespace slant

@@ -8,6 +8,7 @@
 #include <slant/sets/block_diagonal_slant.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/detail/block_list.hpp>
+#include <slant/sets/detail/refused_set.hpp>
 #include <slant/sets/place.hpp>
 
 #include <type_traits>
@@ -165,10 +166,13 @@ class power_product {
 ///                                  stands for all blocks): power<planar>(ball<2>{}, radii),
 ///                                  power(interval<>{}, 0.0, upper)
 /// @throws bad_input naming parameter and block, "radius[3]: got -1, expected a number >= 0".
-template <class Layout = consecutive, set_block Block, class... Params>
+template <class Layout = consecutive, class Block, class... Params>
   requires detail::power_parameters<Block, Params...>
 [[nodiscard]] auto power(Block const& shape, Params const&... params) {
-  if constexpr (detail::is_count<Params...>) {
+  if constexpr (!set_block<Block>) {
+    static_assert(set_block<Block>, "power: the shape must be a convex set of fixed dimension");
+    return detail::refused_set{};
+  } else if constexpr (detail::is_count<Params...>) {
     return power_product<Block, Layout, detail::identical_blocks<Block>>(
         detail::identical_blocks<Block>(shape, static_cast<index>(params)...));
   } else {

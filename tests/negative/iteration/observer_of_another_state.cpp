@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: observer<.*progress_bar
-// max-lines-gcc: 25
+// expect: solve: an observer must take states of this method.*observer<.*progress_bar
+// max-lines-gcc: 20
 // max-lines-clang: 30
 //
 // A progress bar for a method whose state has no measure of accuracy.

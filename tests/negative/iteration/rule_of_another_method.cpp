@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: 'has_verdict['<]
-// max-lines-gcc: 25
+// expect: solve: the rule must judge states of this method.*'has_verdict['<]
+// max-lines-gcc: 20
 // max-lines-clang: 30
 //
 // The rule of KPRGP for conjugate gradients, whose state has a residual and no reduced gradient.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: 'has_step['<]
-// max-lines-gcc: 25
+// expect: solve: the method must have start.x0., step.state..*'has_step['<]
+// max-lines-gcc: 20
 // max-lines-clang: 30
 //
 // A method minus its step.

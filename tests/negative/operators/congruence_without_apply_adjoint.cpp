@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// expect: has_apply_adjoint_member
+// expect: congruence: B must have apply_adjoint.*has_apply_adjoint_member
 // expect-clang: 'has_apply_adjoint_member['<]
-// max-lines-gcc: 30
+// max-lines-gcc: 20
 // max-lines-clang: 35
 //
 // The outer factor of B A Bᵀ minus apply_adjoint.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// expect: 'same_scalar<.*'projects_to_points<
+// expect: power: the shape must.*'same_scalar<.*'projects_to_points<
 // expect-clang: 'projects_to_points<.*'same_scalar<
-// max-lines-gcc: 30
+// max-lines-gcc: 20
 // max-lines-clang: 30
 //
 // A block that computes in float and does not say so: its product would be one of doubles.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: has_contains
-// max-lines-gcc: 25
+// expect: power: the shape must be a convex set of fixed dimension.*has_contains
+// max-lines-gcc: 20
 // max-lines-clang: 30
 //
 // A block minus the test of membership.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: has_static_dimension
-// max-lines-gcc: 25
+// expect: power: the shape must be a convex set of fixed dimension.*has_static_dimension
+// max-lines-gcc: 20
 // max-lines-clang: 25
 //
 // A block minus its dimension: a power could not know where the next block begins.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: takes_parameters
-// max-lines-gcc: 25
+// max-lines-gcc: 20
 // max-lines-clang: 30
 //
 // A block with a parameter, but without a way to give each copy its own: with(parameter).
