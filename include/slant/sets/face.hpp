@@ -39,13 +39,15 @@ class face {
       using block_type = std::remove_cvref_t<decltype(block)>;
       if constexpr (whole_space<block_type>) {
         return block_state::free;
-      } else if constexpr (has_visit<C> || has_static_dimension<C>) {
+      } else if constexpr (has_state<block_type, point_t<block_type>> &&
+                           (has_visit<C> || has_static_dimension<C>)) {
+        return block.state(detail::argument_of(block, p, slant::local(x)));
+      } else if constexpr (has_state<C, X> && !has_visit<C>) {
+        return block.state(x);  // a set with one block and vectors of its own kind
+      } else {
         static_assert(has_state<block_type, point_t<block_type>>,
                       "a block of this set has no state(x), so its points have no face");
-        return block.state(detail::argument_of(block, p, slant::local(x)));
-      } else {
-        static_assert(has_state<C, X>, "this set has no state(x), so its points have no face");
-        return block.state(x);  // a set with one block and vectors of its own kind
+        return block_state::free;
       }
     });
   }
