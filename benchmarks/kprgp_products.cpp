@@ -61,8 +61,8 @@ bool example_one() {
   bool good = true;
   std::printf("gamma,step_length_times_sigma_max,products,printed,ratio,relative_error\n");
   for (auto const& row : example_1::printed) {
-    auto const r =
-        slant::solve(slant::kprgp{qp, {.proportioning = row.Γ, .step_length = 1 / σ_max}}, zero(12), stop);
+    auto const r = slant::solve(
+        slant::kprgp{qp, {.proportioning = row.Γ, .step_length = 1 / σ_max}}, zero(12), stop);
     good = good && r.converged();
     auto const products = r.state.work.operator_applications;
     std::printf("%g,1,%td,%d,%.2f,%.1e\n", row.Γ, products, row.products,
