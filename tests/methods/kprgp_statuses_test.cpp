@@ -72,6 +72,18 @@ TEST_CASE("a solution next to the origin is found there, wherever the run starts
   CHECK(r.x() == VectorXd::Ones(2));
 }
 
+TEST_CASE("a huge bound elsewhere, or a tiny step, does not make the first point the solution") {
+  VectorXd const b{{0.0, 1.0}}, one = VectorXd::Ones(2);
+  slant::separable_qp const qp{spd(one), b, slant::half_lines(VectorXd{{1e20, 0.0}})};
+  auto const stop = slant::reduced_gradient_below(1e-8) || slant::at_most(100);
+  for (auto const& options :
+       {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.step_length = 1e-12}}) {
+    auto const r = slant::solve(slant::kprgp{qp, options}, VectorXd(VectorXd::Zero(2)), stop);
+    CHECK(r.converged());
+    CHECK(r.x()(1) == doctest::Approx(1));
+  }
+}
+
 TEST_CASE("an operator that declares to be definite is never called unbounded") {
   for (double κ : {1e14, 1e16, 1e20}) {
     VectorXd const b = VectorXd::Ones(2);
