@@ -11,5 +11,6 @@
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/globalisation.hpp>
+#include <slant/newton/slant_preconditioner.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 // IWYU pragma: end_exports
