@@ -131,6 +131,13 @@ struct direct_solver {
     });
   }
 
+  /// The complaint about operators that it cannot handle.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(solved_directly<G, V>,
+                  "direct_solver: F°(y) must be a matrix, or have columns or an inverse");
+  }
+
  private:
   template <class G, class V>
   [[nodiscard]] static auto factors_for(G const& g, V const& f) {

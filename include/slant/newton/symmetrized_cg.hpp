@@ -82,6 +82,13 @@ struct symmetrized_cg {
     return {detail::verdict_on(p.s, target), p.s.residual_norm, p.s.iteration,
             p.s.work.operator_applications + 1, 0};
   }
+
+  /// The complaint about operators that it cannot handle.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(symmetrizable<G>,
+                  "symmetrized_cg: F°(y) must be I − P° (I − ρA), A self-adjoint and definite");
+  }
 };
 
 }  // namespace slant
