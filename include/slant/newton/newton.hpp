@@ -12,5 +12,6 @@
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/globalisation.hpp>
 #include <slant/newton/slant_preconditioner.hpp>
+#include <slant/newton/sparse_direct_solver.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 // IWYU pragma: end_exports
