@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+//
+// Symmetric semismooth Newton method with the curvature of the constraints, for
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m                      [K (29)]
+//
+// It is Newton's method for the natural residual F(y) = y − P_Λ(z), z = y − ρ r(y), r(y) = A y − b.
+// With G = P_Λ°(z), x = P_Λ(z) and dy = x + t − y the Newton equation (I − G(I − ρA)) dy = −F
+// becomes
+//
+//     (Π A Π + C/ρ) t = −Π r(x),     t ∈ range(G),  C = G⁺ − I on it ⪰ 0,  Π onto range(G),
+//
+// self-adjoint and positive definite, so that conjugate gradients solve it where [K (54)] needs
+// BiCGSTAB; and it keeps the term C that MSSN drops [K (55)], without which a sliding disc creeps.
+//
+//     project     x ← P_Λ(z), r ← A x − b                        one product
+//     classify    G, Π, C at z                                   sets/curved_face.hpp
+//     solve       t and A t                                      one product a step of CG
+//     shorten     β = 1, ½, … until ‖F(y + β dy)‖ ≤ (1 − c β) ‖F(y)‖       no product:
+//                 y and r(y) are linear in β
+//     accept      y ← y + β dy
+//
+// x ∈ Λ with a gradient computed from x is what others see; y is a private matter.
+//
+// Convergence, for positive definite A. Near a solution with an invertible Newton operator the
+// steps are full and superlinear [T Theorem 1.2]: of order min(forcing.exponent, that of the set).
+// Far from it each accepted step lowers ‖F‖ by the factor 1 − c 2⁻ʰ at least, h = halvings. If none
+// is accepted, KPRGP takes over at x until ‖F‖ is a tenth below its value when Newton failed; this
+// happens after finitely many of its steps, because they converge to the solution from every x ∈ Λ
+// [K Theorem 1]. So between two failures ‖F‖ falls, from failure to failure it falls by a factor,
+// and the values of ‖F‖ tend to zero whatever the start and ρ are.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/methods/symmetric_newton_problem.hpp>
+#include <slant/methods/symmetric_newton_state.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// The method at the top of this file: solve(symmetric_newton{qp}, x0, reduced_gradient_below(1e-8)
+/// || at_most(100)); symmetric_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last.
+/// Requires of the problem what kprgp does, and blocks with slant(x); of M psd_operator. The start
+/// need not lie in Λ: the iteration begins at P_Λ(x0). Statuses of its own: converged (r̃ = 0);
+/// stalled (the precision is exhausted); unbounded (only if A is not declared definite); breakdown.
+template <class QP, class M>
+  requires symmetric_newton_problem<std::remove_cvref_t<QP>> &&
+           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class symmetric_newton<QP, M> {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = symmetric_newton_options<scalar>;
+  using state_type = symmetric_newton_state<problem, preconditioner>;
+
+  /// Throws bad_input for options out of range.
+  explicit symmetric_newton(held<QP> qp, options o = {})
+    requires std::is_same_v<preconditioner, identity_operator>
+      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
+    options_.validate();
+  }
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  symmetric_newton(held<QP> qp, held<M> m, options o = {})
+      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
+    detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
+    detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
+    options_.validate();
+  }
+
+  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
+  /// ρ is not a finite number.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
+    detail::check_finite("x0", x0);
+    state_type s(qp, m_.get(), x0);
+    set_sizes(s);
+    bool const solved = s.begin(qp, x0);
+    restart(s);
+    s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
+    s.forcing.first_error = s.gradient_scale;
+    if (solved || s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    return s;
+  }
+
+  /// One Newton step, or one step of KPRGP where Newton's method has failed.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    if (s.descending) {
+      descend(s);
+    } else {
+      project(s);
+      if (s.status == status::running) newton_step(s);
+    }
+    ++s.iteration;
+    note_progress(s);
+  }
+
+ private:
+  /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
+  void project(state_type& s) const {
+    if (s.at_projection) return;
+    std::swap(s.x, s.projected);
+    s.at_projection = true;
+    measure(s);
+  }
+
+  void newton_step(state_type& s) const {
+    auto const& qp = qp_.get();
+    s.face.assign(qp.set(), slant::local(s.z), s.preconditioner_size / s.step_length);
+    scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
+    auto const inner = s.inner.minimise(qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
+                                        s.preconditioner_size, target, options_.inner_steps);
+    s.inner_iterations = inner.iterations;
+    s.work.inner_iterations += inner.iterations;
+    s.work.operator_applications += inner.iterations;
+    if (!inner.finite) {
+      s.status = status::breakdown;
+      return;
+    }
+    // Steps of y and of its gradient; the latter is needed only within dz until one is accepted.
+    slant::local(s.dy) = slant::local(s.x) - slant::local(s.y) + s.unit * slant::local(s.inner.t);
+    slant::local(s.inner.image) += slant::local(s.r) - slant::local(s.y_r);
+    slant::local(s.dz) = slant::local(s.dy) - ρ(s) * slant::local(s.inner.image);
+    if (shorten(s)) {
+      accept(s);
+    } else {
+      start_descent(s);
+    }
+  }
+
+  /// ‖F(y + β dy)‖/ρ, P_Λ(z + β dz) in s.projected.
+  scalar residual_at(state_type& s, scalar const& β) const {
+    slant::local(s.trial) = slant::local(s.z) + β * slant::local(s.dz);
+    slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.projected));
+    slant::local(s.trial) = slant::local(s.y) + β * slant::local(s.dy) - slant::local(s.projected);
+    return norm(s.trial) / s.step_length;
+  }
+
+  /// The longest β = 2⁻ʲ that lowers ‖F‖ enough; false if there is none. Spends no product.
+  bool shorten(state_type& s) const {
+    scalar β(1);
+    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
+      scalar const size = residual_at(s, β);
+      if (size <= (scalar(1) - options_.sufficient * β) * s.residual_norm) {
+        s.step_fraction = β;
+        s.residual_norm = size;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void accept(state_type& s) const {
+    scalar const& β = s.step_fraction;
+    slant::local(s.y) += β * slant::local(s.dy);
+    slant::local(s.y_r) += β * slant::local(s.inner.image);
+    slant::local(s.z) += β * slant::local(s.dz);
+    std::swap(s.x, s.projected);
+    measure(s);
+    s.forcing.record(s.residual_norm);
+    s.last_step = β == scalar(1) ? symmetric_newton_step::full : symmetric_newton_step::damped;
+  }
+
+  /// r and r̃ of x; one product.
+  void measure(state_type& s) const {
+    s.gradient(qp_.get());
+    s.reduce(qp_.get());
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+  }
+
+  /// Newton's method from x.
+  void restart(state_type& s) const {
+    slant::local(s.y) = slant::local(s.x);
+    slant::local(s.y_r) = slant::local(s.r);
+    slant::local(s.z) = slant::local(s.x) - ρ(s) * slant::local(s.r);
+    s.residual_norm = s.reduced_gradient_norm;
+    s.at_projection = false;
+  }
+
+  // --- where Newton's method fails ------------------------------------------------------------
+
+  void start_descent(state_type& s) const {
+    if (s.residual_norm <= noise(s)) {
+      s.status = status::stalled;
+      return;
+    }
+    auto o = options_.descent;
+    if (s.descent) o.step_length = s.descent->step_length;  // σ_max is known by now
+    s.descent.emplace(kprgp<problem const&>{qp_.get(), std::move(o)}.start(s.x));
+    s.work.setup_applications += s.descent->work.setup_applications;
+    s.work.operator_applications += s.descent->work.operator_applications;
+    s.resume_below = scalar(0.9) * std::min(s.residual_norm, s.reduced_gradient_norm);
+    s.descending = true;
+    ++s.descents;
+    follow_descent(s);
+  }
+
+  void descend(state_type& s) const {
+    auto& d = *s.descent;
+    index const before = d.work.operator_applications;
+    kprgp<problem const&>{qp_.get(), options_.descent}.step(d);
+    s.work.operator_applications += d.work.operator_applications - before;
+    follow_descent(s);
+  }
+
+  /// x, r and r̃ of KPRGP's iterate; back to Newton's method if that is good enough.
+  void follow_descent(state_type& s) const {
+    auto& d = *s.descent;
+    slant::local(s.x) = slant::local(d.x);
+    slant::local(s.r) = (d.unit / s.unit) * slant::local(d.r);
+    s.since_refresh = d.since_refresh;
+    s.reduce(qp_.get());
+    s.last_step = symmetric_newton_step::descent;
+    s.status = d.status;
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (s.status != status::running || s.reduced_gradient_norm > s.resume_below) return;
+    s.descending = false;
+    restart(s);
+    s.forcing.record(s.residual_norm);
+  }
+
+ public:
+  /// r from x where KPRGP has been updating it; whether it has. One product.
+  bool refresh(state_type& s) const {
+    if (s.since_refresh == 0) return false;
+    s.status = status::running;
+    measure(s);
+    return true;
+  }
+
+ private:
+  /// ρ per unit of the gradient: z = y − ρ r.
+  static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
+
+  /// Rounding errors of F(y)/ρ.
+  static scalar noise(state_type const& s) {
+    scalar const ε = std::numeric_limits<scalar>::epsilon();
+    return scalar(32) * ε * (s.unit * (s.size_of_b + norm(s.r)) + norm(s.x) / s.step_length);
+  }
+
+  void note_progress(state_type& s) const {
+    if (s.status != status::running || s.descending) return;
+    auto const no_energy = [] {
+      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
+    };
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
+      s.status = status::stalled;
+    }
+  }
+
+  /// ρ, and s = mean(diag M).
+  void set_sizes(state_type& s) const {
+    if (options_.step_length) {
+      s.step_length = *options_.step_length;
+    } else {
+      auto const mean = mean_diagonal(qp_.get().a(), s.x, options_.mean_diagonal);
+      s.work.setup_applications += mean.applications;
+      s.step_length =
+          mean.value > scalar(0) ? scalar(options_.step_factor / mean.value) : scalar(1);
+      if (!detail::is_finite(s.step_length) || !(s.step_length > scalar(0))) {
+        throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
+                        "one whose reciprocal is a finite number > 0");
+      }
+    }
+    if constexpr (std::is_same_v<preconditioner, identity_operator>) {
+      s.preconditioner_size = s.step_length / options_.step_factor;
+    } else {
+      s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
+    }
+  }
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
+};
+
+template <class QP>
+symmetric_newton(QP&&) -> symmetric_newton<kept_t<QP>, identity_operator>;
+template <class QP>
+symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> symmetric_newton<kept_t<QP>, identity_operator>;
+template <class QP, class M>
+symmetric_newton(QP&&, M&&) -> symmetric_newton<kept_t<QP>, kept_t<M>>;
+template <class QP, class M>
+symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> symmetric_newton<kept_t<QP>, kept_t<M>>;
+
+}  // namespace slant
