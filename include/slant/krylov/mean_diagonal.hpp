@@ -76,4 +76,27 @@ template <class A, class V>
   return {mean, applications};
 }
 
+/// Result of mean_step.
+template <class S>
+struct mean_step_length {
+  S length;            ///< in units of 1/A
+  index applications;  ///< products spent
+};
+
+/// factor / mean(diag A), 1 if that is zero. Throws bad_input if it is not a finite number > 0, or
+/// as mean_diagonal does.
+template <class A, class V>
+[[nodiscard]] auto mean_step(A const& a, V const& prototype, scalar_t<V> const& factor,
+                             mean_diagonal_options const& options = {})
+    -> mean_step_length<scalar_t<V>> {
+  using S = scalar_t<V>;
+  auto const mean = mean_diagonal(a, prototype, options);
+  S const length = mean.value > S(0) ? S(factor / mean.value) : S(1);
+  if (!(length > S(0)) || !detail::is_finite(length)) {
+    throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
+                    "one whose reciprocal is a finite number > 0");
+  }
+  return {length, mean.applications};
+}
+
 }  // namespace slant

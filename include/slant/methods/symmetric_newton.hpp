@@ -17,7 +17,7 @@
 //     classify    G, Π, C at z                                   sets/curved_face.hpp
 //     solve       t and A t                                      one product a step of CG
 //     shorten     β = 1, ½, … until ‖F(y + β dy)‖ ≤ (1 − c β) ‖F(y)‖       no product:
-//                 y and r(y) are linear in β
+//                 y and z are linear in β
 //     accept      y ← y + β dy
 //
 // x ∈ Λ with a gradient computed from x is what others see; y is a private matter.
@@ -33,7 +33,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/methods/kprgp.hpp>
+#include <slant/methods/descent_takeover.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_problem.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
@@ -96,7 +96,7 @@ class symmetric_newton<QP, M> {
   /// One Newton step, or one step of KPRGP where Newton's method has failed.
   void step(state_type& s) const {
     if (s.status != status::running) return;
-    if (s.descending) {
+    if (s.descent.at_work()) {
       descend(s);
     } else {
       project(s);
@@ -104,6 +104,14 @@ class symmetric_newton<QP, M> {
     }
     ++s.iteration;
     note_progress(s);
+  }
+
+  /// r from x where KPRGP has been updating it; whether it has. One product.
+  bool refresh(state_type& s) const {
+    if (s.since_refresh == 0) return false;
+    s.status = status::running;
+    measure(s);
+    return true;
   }
 
  private:
@@ -117,7 +125,7 @@ class symmetric_newton<QP, M> {
 
   void newton_step(state_type& s) const {
     auto const& qp = qp_.get();
-    s.face.assign(qp.set(), slant::local(s.z), s.preconditioner_size / s.step_length);
+    s.face.assign(qp.set(), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
     auto const inner = s.inner.minimise(qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
                                         s.preconditioner_size, target, options_.inner_steps);
@@ -128,30 +136,23 @@ class symmetric_newton<QP, M> {
       s.status = status::breakdown;
       return;
     }
-    // Steps of y and of its gradient; the latter is needed only within dz until one is accepted.
-    slant::local(s.dy) = slant::local(s.x) - slant::local(s.y) + s.unit * slant::local(s.inner.t);
-    slant::local(s.inner.image) += slant::local(s.r) - slant::local(s.y_r);
-    slant::local(s.dz) = slant::local(s.dy) - ρ(s) * slant::local(s.inner.image);
+    slant::local(s.segment.target_y) = slant::local(s.x) + s.unit * slant::local(s.inner.t);
+    slant::local(s.inner.image) += slant::local(s.r);
+    slant::local(s.segment.target_z) =
+        slant::local(s.segment.target_y) - ρ(s) * slant::local(s.inner.image);
     if (shorten(s)) {
       accept(s);
     } else {
-      start_descent(s);
+      begin_descent(s);
     }
-  }
-
-  /// ‖F(y + β dy)‖/ρ, P_Λ(z + β dz) in s.projected.
-  scalar residual_at(state_type& s, scalar const& β) const {
-    slant::local(s.trial) = slant::local(s.z) + β * slant::local(s.dz);
-    slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.projected));
-    slant::local(s.trial) = slant::local(s.y) + β * slant::local(s.dy) - slant::local(s.projected);
-    return norm(s.trial) / s.step_length;
   }
 
   /// The longest β = 2⁻ʲ that lowers ‖F‖ enough; false if there is none. Spends no product.
   bool shorten(state_type& s) const {
     scalar β(1);
     for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
-      scalar const size = residual_at(s, β);
+      scalar const size =
+          s.segment.residual_at(qp_.get().set(), β, s.projected, s.trial) / s.step_length;
       if (size <= (scalar(1) - options_.sufficient * β) * s.residual_norm) {
         s.step_fraction = β;
         s.residual_norm = size;
@@ -163,9 +164,7 @@ class symmetric_newton<QP, M> {
 
   void accept(state_type& s) const {
     scalar const& β = s.step_fraction;
-    slant::local(s.y) += β * slant::local(s.dy);
-    slant::local(s.y_r) += β * slant::local(s.inner.image);
-    slant::local(s.z) += β * slant::local(s.dz);
+    s.segment.advance(β);
     std::swap(s.x, s.projected);
     measure(s);
     s.forcing.record(s.residual_norm);
@@ -182,65 +181,36 @@ class symmetric_newton<QP, M> {
 
   /// Newton's method from x.
   void restart(state_type& s) const {
-    slant::local(s.y) = slant::local(s.x);
-    slant::local(s.y_r) = slant::local(s.r);
-    slant::local(s.z) = slant::local(s.x) - ρ(s) * slant::local(s.r);
+    slant::local(s.segment.y) = slant::local(s.x);
+    slant::local(s.segment.z) = slant::local(s.x) - ρ(s) * slant::local(s.r);
     s.residual_norm = s.reduced_gradient_norm;
     s.at_projection = false;
   }
 
-  // --- where Newton's method fails ------------------------------------------------------------
-
-  void start_descent(state_type& s) const {
+  /// Where no length is accepted: the other method takes over, unless there are no digits left.
+  void begin_descent(state_type& s) const {
     if (s.residual_norm <= noise(s)) {
       s.status = status::stalled;
       return;
     }
-    auto o = options_.descent;
-    if (s.descent) o.step_length = s.descent->step_length;  // σ_max is known by now
-    s.descent.emplace(kprgp<problem const&>{qp_.get(), std::move(o)}.start(s.x));
-    s.work.setup_applications += s.descent->work.setup_applications;
-    s.work.operator_applications += s.descent->work.operator_applications;
-    s.resume_below = scalar(0.9) * std::min(s.residual_norm, s.reduced_gradient_norm);
-    s.descending = true;
-    ++s.descents;
-    follow_descent(s);
+    scalar const goal = scalar(0.9) * std::min(s.residual_norm, s.reduced_gradient_norm);
+    s.status = s.descent.begin(qp_.get(), options_.descent, s, goal);
+    end_descent(s);
   }
 
   void descend(state_type& s) const {
-    auto& d = *s.descent;
-    index const before = d.work.operator_applications;
-    kprgp<problem const&>{qp_.get(), options_.descent}.step(d);
-    s.work.operator_applications += d.work.operator_applications - before;
-    follow_descent(s);
+    s.status = s.descent.step(qp_.get(), options_.descent, s);
+    end_descent(s);
   }
 
-  /// x, r and r̃ of KPRGP's iterate; back to Newton's method if that is good enough.
-  void follow_descent(state_type& s) const {
-    auto& d = *s.descent;
-    slant::local(s.x) = slant::local(d.x);
-    slant::local(s.r) = (d.unit / s.unit) * slant::local(d.r);
-    s.since_refresh = d.since_refresh;
-    s.reduce(qp_.get());
+  /// Back to Newton's method if the other one has done its work.
+  void end_descent(state_type& s) const {
     s.last_step = symmetric_newton_step::descent;
-    s.status = d.status;
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (s.status != status::running || s.reduced_gradient_norm > s.resume_below) return;
-    s.descending = false;
+    if (s.descent.at_work() || s.status != status::running) return;
     restart(s);
     s.forcing.record(s.residual_norm);
   }
 
- public:
-  /// r from x where KPRGP has been updating it; whether it has. One product.
-  bool refresh(state_type& s) const {
-    if (s.since_refresh == 0) return false;
-    s.status = status::running;
-    measure(s);
-    return true;
-  }
-
- private:
   /// ρ per unit of the gradient: z = y − ρ r.
   static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
 
@@ -251,7 +221,7 @@ class symmetric_newton<QP, M> {
   }
 
   void note_progress(state_type& s) const {
-    if (s.status != status::running || s.descending) return;
+    if (s.status != status::running || s.descent.at_work()) return;
     auto const no_energy = [] {
       return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
     };
@@ -265,14 +235,9 @@ class symmetric_newton<QP, M> {
     if (options_.step_length) {
       s.step_length = *options_.step_length;
     } else {
-      auto const mean = mean_diagonal(qp_.get().a(), s.x, options_.mean_diagonal);
-      s.work.setup_applications += mean.applications;
-      s.step_length =
-          mean.value > scalar(0) ? scalar(options_.step_factor / mean.value) : scalar(1);
-      if (!detail::is_finite(s.step_length) || !(s.step_length > scalar(0))) {
-        throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
-                        "one whose reciprocal is a finite number > 0");
-      }
+      auto const step = mean_step(qp_.get().a(), s.x, options_.step_factor, options_.mean_diagonal);
+      s.step_length = step.length;
+      s.work.setup_applications += step.applications;
     }
     if constexpr (std::is_same_v<preconditioner, identity_operator>) {
       s.preconditioner_size = s.step_length / options_.step_factor;

@@ -5,13 +5,13 @@
 
 #include <slant/iteration/report.hpp>
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/descent_takeover.hpp>
 #include <slant/methods/gradient_point.hpp>
-#include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/newton_segment.hpp>
 #include <slant/methods/progress_watch.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/sets/curved_face.hpp>
 
-#include <optional>
 #include <string>
 
 namespace slant {
@@ -26,36 +26,25 @@ struct symmetric_newton_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
 
-  vector_type y;    ///< iterate of Newton's method; it may leave Λ by terms of second order
-  vector_type y_r;  ///< A y − b, in multiples of unit
-  vector_type z;    ///< y − ρ (A y − b); x = P_Λ(z) after the first step
-  vector_type dy;   ///< direction: y, z ← y + β dy, z + β dz
-  vector_type dz;   ///< dy − ρ A dy
-  curved_face<scalar> face;                ///< range(G) and C at z
-  curved_minimum<vector_type, M> inner;    ///< the step t on it
-  forcing_history<scalar> forcing{};       ///< errors and inner tolerances so far
-  progress_watch<scalar> progress;         ///< looks for steps that get nowhere
-  std::optional<kprgp_state<QP>> descent;  ///< of the method that takes over where Newton fails
+  newton_segment<vector_type> segment;   ///< y, z of Newton's iterate; x = P_Λ(z) after a step
+  curved_face<scalar> face;              ///< range(G) and C at z
+  curved_minimum<vector_type, M> inner;  ///< the step t on it
+  forcing_history<scalar> forcing{};     ///< errors and inner tolerances so far
+  progress_watch<scalar> progress;       ///< looks for steps that get nowhere
+  descent_takeover<QP> descent;          ///< the method that takes over where Newton's fails
 
   scalar residual_norm{0};  ///< ‖F(y)‖/ρ = ‖y − P_Λ(z)‖/ρ, in units of the gradient
   scalar preconditioner_size{1};  ///< s = mean(diag M)
-  scalar resume_below{0};         ///< ‖F(x)‖/ρ at which Newton's method takes over again
   bool at_projection = false;     ///< x = P_Λ(z)
-  bool descending = false;        ///< the other method is at work
   symmetric_newton_step last_step = symmetric_newton_step::none;
   scalar step_fraction{1};     ///< β of the last Newton step
   index inner_iterations = 0;  ///< of the last Newton step
-  index descents = 0;          ///< how often the other method had to take over
   index iteration = 0;
   slant::status status = slant::status::running;
 
   symmetric_newton_state(QP const& qp, M const& m, vector_type const& x0)
       : gradient_point<QP>(qp, x0),
-        y(like(x0, qp.size())),
-        y_r(like(x0, qp.size())),
-        z(like(x0, qp.size())),
-        dy(like(x0, qp.size())),
-        dz(like(x0, qp.size())),
+        segment(x0, qp.size()),
         face(qp.set()),
         inner(x0, qp.size(), m) {}
 
@@ -69,7 +58,7 @@ struct symmetric_newton_state : gradient_point<QP> {
       case slant::status::breakdown:
         return "a number left the range of the scalar, or A is not semidefinite";
       case slant::status::unbounded:
-        return "the function decreases for ever along -descent->directions.p";
+        return "the function decreases for ever along −descent.state()->directions.p";
       default:
         return std::string(to_string(status));
     }
