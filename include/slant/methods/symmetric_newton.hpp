@@ -62,15 +62,22 @@ class symmetric_newton<QP, M> {
   using scalar = typename problem::scalar;
   using options = symmetric_newton_options<scalar>;
   using state_type = symmetric_newton_state<problem, preconditioner>;
+  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
+  explicit symmetric_newton(held<QP> qp)
+    requires(!preconditioned)
+      : symmetric_newton(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  explicit symmetric_newton(held<QP> qp, options o = {})
-    requires std::is_same_v<preconditioner, identity_operator>
+  symmetric_newton(held<QP> qp, options o)
+    requires(!preconditioned)
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
+  /// Throws bad_input if the size of M is not that of the problem.
+  symmetric_newton(held<QP> qp, held<M> m)
+      : symmetric_newton(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  symmetric_newton(held<QP> qp, held<M> m, options o = {})
+  symmetric_newton(held<QP> qp, held<M> m, options o)
       : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
     detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
     detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
@@ -230,8 +237,8 @@ class symmetric_newton<QP, M> {
     }
   }
 
-  /// ρ, and s = mean(diag M).
-  void set_sizes(state_type& s) const {
+  /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
+  [[gnu::noinline]] void set_sizes(state_type& s) const {
     if (options_.step_length) {
       s.step_length = *options_.step_length;
     } else {
@@ -239,7 +246,7 @@ class symmetric_newton<QP, M> {
       s.step_length = step.length;
       s.work.setup_applications += step.applications;
     }
-    if constexpr (std::is_same_v<preconditioner, identity_operator>) {
+    if constexpr (!preconditioned) {
       s.preconditioner_size = s.step_length / options_.step_factor;
     } else {
       s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;

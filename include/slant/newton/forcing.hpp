@@ -134,7 +134,7 @@ struct eisenstat_walker {
   }
   template <class S>
   [[nodiscard]] S operator()(forcing_history<S> const& h) const {
-    S η(η_first);
+    auto η = S(η_first);
     if (h.iteration > 0) {
       η = S(γ) * detail::power_of(S(h.error / h.previous_error), exponent);
       S const last = S(γ) * detail::power_of(h.last_tolerance, exponent);
