@@ -66,10 +66,10 @@ template <class A, class V>
         slant::local(v).coeffRef(i) = (generator() >> 63) != 0 ? S(1) : S(-1);
       }
       slant::apply(a, v, image, temporaries);
-      sum += inner_product(v, image) / S(options.samples);
+      sum += inner_product(v, image);
     }
   }
-  S const mean = sum / S(n);
+  S const mean = sum / S(applications > 0 ? applications * n : n);
   if (!(mean >= S(0)) || !detail::is_finite(mean)) {
     throw bad_input("A", "mean of the diagonal " + detail::show(mean), "a finite number >= 0");
   }

@@ -196,7 +196,7 @@ class symmetric_newton<QP, M> {
 
   /// Where no length is accepted: the other method takes over, unless there are no digits left.
   void begin_descent(state_type& s) const {
-    if (s.residual_norm <= noise(s)) {
+    if (s.residual_norm <= s.rounding()) {
       s.status = status::stalled;
       return;
     }
@@ -220,12 +220,6 @@ class symmetric_newton<QP, M> {
 
   /// ρ per unit of the gradient: z = y − ρ r.
   static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
-
-  /// Rounding errors of F(y)/ρ.
-  static scalar noise(state_type const& s) {
-    scalar const ε = std::numeric_limits<scalar>::epsilon();
-    return scalar(32) * ε * (s.unit * (s.size_of_b + norm(s.r)) + norm(s.x) / s.step_length);
-  }
 
   void note_progress(state_type& s) const {
     if (s.status != status::running || s.descent.at_work()) return;
@@ -257,16 +251,5 @@ class symmetric_newton<QP, M> {
   held<M> m_;
   options options_;
 };
-
-template <class QP>
-symmetric_newton(QP&&) -> symmetric_newton<kept_t<QP>, identity_operator>;
-template <class QP>
-symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<kept_t<QP>, identity_operator>;
-template <class QP, class M>
-symmetric_newton(QP&&, M&&) -> symmetric_newton<kept_t<QP>, kept_t<M>>;
-template <class QP, class M>
-symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<kept_t<QP>, kept_t<M>>;
 
 }  // namespace slant

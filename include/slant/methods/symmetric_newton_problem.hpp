@@ -10,6 +10,7 @@
 #include <slant/methods/kprgp_problem.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
+#include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <type_traits>
@@ -88,5 +89,16 @@ class symmetric_newton<QP, M> : public detail::refused_method<void, void> {
  public:
   using symmetric_newton::refused_method::refused_method;
 };
+
+template <class QP>
+symmetric_newton(QP&&) -> symmetric_newton<kept_t<QP>, identity_operator>;
+template <class QP>
+symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> symmetric_newton<kept_t<QP>, identity_operator>;
+template <class QP, class M>
+symmetric_newton(QP&&, M&&) -> symmetric_newton<kept_t<QP>, kept_t<M>>;
+template <class QP, class M>
+symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> symmetric_newton<kept_t<QP>, kept_t<M>>;
 
 }  // namespace slant
