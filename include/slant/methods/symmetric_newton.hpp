@@ -5,8 +5,7 @@
 //     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m                      [K (29)]
 //
 // It is Newton's method for the natural residual F(y) = y − P_Λ(z), z = y − ρ r(y), r(y) = A y − b.
-// With G = P_Λ°(z), x = P_Λ(z) and dy = x + t − y the Newton equation (I − G(I − ρA)) dy = −F
-// becomes
+// With G = P_Λ°(z), x = P_Λ(z), dy = x + t − y the equation (I − G(I − ρA)) dy = −F becomes
 //
 //     (Π A Π + C/ρ) t = −Π r(x),     t ∈ range(G),  C = G⁺ − I on it ⪰ 0,  Π onto range(G),
 //
@@ -16,8 +15,7 @@
 //     project     x ← P_Λ(z), r ← A x − b                        one product
 //     classify    G, Π, C at z                                   sets/curved_face.hpp
 //     solve       t and A t                                      one product a step of CG
-//     shorten     β = 1, ½, … until ‖F(y + β dy)‖ ≤ (1 − c β) ‖F(y)‖       no product:
-//                 y and z are linear in β
+//     shorten     β = 1, ½, … until ‖F(y + β dy)‖ ≤ (1 − c β) ‖F(y)‖    no product
 //     accept      y ← y + β dy
 //
 // x ∈ Λ with a gradient computed from x is what others see; y is a private matter.
@@ -47,10 +45,10 @@
 namespace slant {
 
 /// The method at the top of this file: solve(symmetric_newton{qp}, x0, reduced_gradient_below(1e-8)
-/// || at_most(100)); symmetric_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last.
-/// Requires of the problem what kprgp does, and blocks with slant(x); of M psd_operator. The start
-/// need not lie in Λ: the iteration begins at P_Λ(x0). Statuses of its own: converged (r̃ = 0);
-/// stalled (the precision is exhausted); unbounded (only if A is not declared definite); breakdown.
+/// || at_most(100)); symmetric_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Requires
+/// of the problem what kprgp does, and blocks with slant(x); of M psd_operator. Begins at P_Λ(x0).
+/// Statuses of its own: converged (r̃ = 0); stalled (the precision is exhausted); unbounded (only if
+/// A is not declared definite); breakdown.
 template <class QP, class M>
   requires symmetric_newton_problem<std::remove_cvref_t<QP>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
@@ -73,7 +71,6 @@ class symmetric_newton<QP, M> {
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
-  /// Throws bad_input if the size of M is not that of the problem.
   symmetric_newton(held<QP> qp, held<M> m)
       : symmetric_newton(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
@@ -186,7 +183,6 @@ class symmetric_newton<QP, M> {
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
   }
 
-  /// Newton's method from x.
   void restart(state_type& s) const {
     slant::local(s.segment.y) = slant::local(s.x);
     slant::local(s.segment.z) = slant::local(s.x) - ρ(s) * slant::local(s.r);
