@@ -10,6 +10,7 @@
 #include <slant/krylov/face_cg.hpp>
 #include <slant/krylov/gradient_step.hpp>
 #include <slant/krylov/linear_system.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 #include <slant/krylov/unit.hpp>
 // IWYU pragma: end_exports

@@ -4,10 +4,20 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/descent_takeover.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/newton_options.hpp>
+#include <slant/methods/newton_parts.hpp>
+#include <slant/methods/newton_segment.hpp>
+#include <slant/methods/newton_state.hpp>
 #include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/methods/symmetric_newton_state.hpp>
 // IWYU pragma: end_exports
