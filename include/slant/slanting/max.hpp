@@ -6,6 +6,7 @@
 // max(F, G) = G + max(0, F − G): where F(y)_i = G(y)_i the row is that of F°.
 #pragma once
 
+#include <slant/operators/diagonal.hpp>
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/detail/pointwise_pair.hpp>
 

@@ -8,11 +8,9 @@
 // The maximum, the minimum and the Fischer–Burmeister function are three choices of κ.
 #pragma once
 
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/sum.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
 #include <slant/slanting/detail/function_pair.hpp>
+#include <slant/slanting/detail/weighted_sum_operator.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -21,18 +19,9 @@ namespace slant::detail {
 
 /// diag(p) A + diag(q) B.
 struct weighted_sum_rule {
-  template <class P, class A>
-  using term = product_operator<diagonal_operator<P const&>, A const&>;
-
   template <class P, class Q, class A, class B>
   [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
-    return sum_operator<term<P, A>, term<Q, B>>(weighted(p, a), weighted(q, b));
-  }
-
- private:
-  template <class P, class A>
-  [[nodiscard]] static term<P, A> weighted(P const& p, A const& a) {
-    return term<P, A>(diagonal_operator<P const&>(held<P const&>(p)), a);
+    return weighted_sum_operator<P, Q, A, B>(p, q, a, b);
   }
 };
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Where the gradients of the smooth inequalities of a product of blocks stand in the matrix
+// J = ∇f(x)ᵀ, one row per inequality. Equal blocks that follow one another form a run, which a few
+// numbers describe: no list of components is read when J or Jᵀ is applied.
+#pragma once
+
+#include <slant/sets/blocks.hpp>
+
+#include <type_traits>
+#include <vector>
+
+namespace slant::detail {
+
+/// `blocks` equal blocks. Component j of block i is entry first + i·step + j·stride of the vector.
+struct inequality_run {
+  index blocks;
+  index dimension;
+  index inequalities;  ///< per block
+  index first;
+  index step;
+  index stride;
+  index row;       ///< first row of J
+  index gradient;  ///< first of the entries of J, `dimension` per row
+  index hessian;   ///< first of the entries of the Hessians, dimension² per block
+};
+
+/// Every block says how many smooth inequalities it is made of (perhaps none), and what they are.
+template <class Set> concept smooth_blocks = requires(Set const& set) {
+  slant::visit_blocks(set, [](auto const& block, auto const& place) {
+    using block_type = std::remove_cvref_t<decltype(block)>;
+    static_assert(std::is_class_v<std::remove_cvref_t<decltype(place)>>);
+    static_cast<void>(block_type::inequalities);
+  });
+};
+
+/// The runs of a set, in the order of its blocks.
+class inequality_layout {
+ public:
+  template <class Set>
+  explicit inequality_layout(Set const& set) : cols_(slant::dimension_of(set)) {
+    slant::visit_blocks(set, [this](auto const& block, auto const& place) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      constexpr index n = block_type::dimension;
+      constexpr index k = block_type::inequalities;
+      if constexpr (k > 0) {
+        append(n, k, place.component(0), n > 1 ? place.component(1) - place.component(0) : 1);
+      }
+    });
+  }
+
+  /// Number of inequalities.
+  [[nodiscard]] index rows() const noexcept { return rows_; }
+  /// Number of components of the set.
+  [[nodiscard]] index cols() const noexcept { return cols_; }
+  [[nodiscard]] index gradients() const noexcept { return gradients_; }
+  [[nodiscard]] index hessians() const noexcept { return hessians_; }
+  [[nodiscard]] std::vector<inequality_run> const& runs() const noexcept { return runs_; }
+
+ private:
+  void append(index n, index k, index first, index stride) {
+    if (runs_.empty() || !continues(runs_.back(), n, k, first, stride)) {
+      runs_.push_back({0, n, k, first, n * stride, stride, rows_, gradients_, hessians_});
+    }
+    ++runs_.back().blocks;
+    rows_ += k;
+    gradients_ += k * n;
+    hessians_ += n * n;
+  }
+  /// The second block of a run sets its step.
+  static bool continues(inequality_run& run, index n, index k, index first, index stride) {
+    if (run.dimension != n || run.inequalities != k || run.stride != stride) return false;
+    if (run.blocks == 1) run.step = first - run.first;
+    return first == run.first + run.blocks * run.step;
+  }
+
+  index rows_ = 0;
+  index cols_;
+  index gradients_ = 0;
+  index hessians_ = 0;
+  std::vector<inequality_run> runs_;
+};
+
+/// f(dimension, inequalities), as constants where the blocks are of the usual kinds, so that the
+/// loops over them are unrolled.
+template <class F>
+void with_block_size(inequality_run const& run, F const& f) {
+  using one = std::integral_constant<index, 1>;
+  using two = std::integral_constant<index, 2>;
+  if (run.dimension == 1 && run.inequalities == 1) {
+    f(one{}, one{});
+  } else if (run.dimension == 2 && run.inequalities == 1 && run.stride == 1) {
+    f(two{}, one{});
+  } else if (run.dimension == 1 && run.inequalities == 2) {
+    f(one{}, two{});
+  } else {
+    f(run.dimension, run.inequalities);
+  }
+}
+
+}  // namespace slant::detail
