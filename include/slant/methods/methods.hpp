@@ -8,6 +8,9 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/newton_options.hpp>
+#include <slant/methods/newton_state.hpp>
 #include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
 // IWYU pragma: end_exports
