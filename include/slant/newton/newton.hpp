@@ -11,5 +11,8 @@
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/globalisation.hpp>
+#include <slant/newton/saddle_direct.hpp>
+#include <slant/newton/schur_bicgstab.hpp>
+#include <slant/newton/schur_cg.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 // IWYU pragma: end_exports

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <slanting/slanting_support.hpp>
+#include "slanting_support.hpp"
 
-#include <slant/methods/kkt_function.hpp>
+#include <slant/slanting/kkt_function.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>

@@ -27,6 +27,15 @@
 
 namespace slant {
 
+/// F°(y) of kkt_function. Its parts are those of the generalised saddle-point system [T (3.1)].
+template <class Composed>
+class kkt_operator;
+
+template <class G>
+inline constexpr bool is_kkt_operator = false;
+template <class Composed>
+inline constexpr bool is_kkt_operator<kkt_operator<Composed>> = true;
+
 namespace detail {
 
 /// F, made of A (or a reference), b and the set (or a reference).
@@ -67,7 +76,7 @@ template <class A, class V, class C, class S>
 
 }  // namespace detail
 
-/// F°(y) of kkt_function, with its parts by name. Composed is what the composition made.
+/// What the composition made, with its parts by name.
 template <class Composed>
 class kkt_operator : public Composed {
  public:
@@ -82,6 +91,14 @@ class kkt_operator : public Composed {
   /// 1 for the inequalities in 𝒜, 0 for those in ℐ.
   [[nodiscard]] auto const& active() const noexcept {
     return this->template part<1>().template part<0>();
+  }
+  /// A.
+  [[nodiscard]] auto const& hessian() const noexcept {
+    return this->template part<0>().template part<0>().template part<0>().underlying();
+  }
+  /// ρ.
+  [[nodiscard]] auto rho() const noexcept {
+    return -this->template part<1>().template part<2>().rule().factor;
   }
   /// The composition itself.
   [[nodiscard]] Composed& composed() noexcept { return *this; }
