@@ -3,7 +3,7 @@
 // The smooth inequalities f(x) ≤ 0 that describe a product of blocks, as slanting functions, and the
 // forces that multipliers z of them exert:
 //
-//     inequalities(Λ)          x ↦ f(x),                    derivative J = ∇f(x)ᵀ
+//     inequalities(Λ, c)       x ↦ c f(x),                  derivative c J,  J = ∇f(x)ᵀ
 //     inequality_forces(Λ)     (x, z) ↦ Σ zᵢ ∇fᵢ(x),        derivative (Σ zᵢ ∇²fᵢ(x), Jᵀ)
 //
 // For bounds x₁ ≥ l and circles x₂² + x₃² ≤ g² these are l − x₁, x₂² + x₃² − g² and the multiplier
@@ -31,14 +31,14 @@ struct inequality_form_check {
 
 }  // namespace detail
 
-/// x ↦ f(x). C is `Set const&` (referenced) or a set type (owned).
-template <class C>
+/// x ↦ c f(x). C is `Set const&` (referenced) or a set type (owned).
+template <class C, class S>
 class inequality_map : public slanting_base {
   using set_type = std::remove_cvref_t<C>;
 
  public:
-  inequality_map(held<C> set, std::shared_ptr<detail::inequality_layout const> layout)
-      : set_(std::move(set)), layout_(std::move(layout)) {}
+  inequality_map(held<C> set, std::shared_ptr<detail::inequality_layout const> layout, S c)
+      : set_(std::move(set)), layout_(std::move(layout)), c_(std::move(c)) {}
 
   [[nodiscard]] index rows() const noexcept { return layout_->rows(); }
   [[nodiscard]] index cols() const noexcept { return layout_->cols(); }
@@ -50,7 +50,7 @@ class inequality_map : public slanting_base {
     slant::visit_blocks(set_.get(), [&](auto const& block, auto const& place) {
       constexpr int k = std::remove_cvref_t<decltype(block)>::inequalities;
       if constexpr (k > 0) {
-        f.template segment<k>(row) = block.inequality(place.value(x));
+        f.template segment<k>(row) = scalar_t<X>(c_) * block.inequality(place.value(x));
         row += k;
       }
     });
@@ -58,17 +58,20 @@ class inequality_map : public slanting_base {
   template <has_local X>
   [[nodiscard]] auto slant(X const& x) const {
     inequality_jacobian<scalar_t<X>> j(layout_);
-    j.renew(set_.get(), x);
+    slant(x, j);
     return j;
   }
   template <has_local X>
   void slant(X const& x, inequality_jacobian<scalar_t<X>>& j) const {
-    j.renew(set_.get(), x);
+    j.renew(set_.get(), x, scalar_t<X>(c_));
   }
+  /// c.
+  [[nodiscard]] S const& factor() const noexcept { return c_; }
 
  private:
   held<C> set_;
   std::shared_ptr<detail::inequality_layout const> layout_;
+  S c_;
 };
 
 /// (x, z) ↦ Σ zᵢ ∇fᵢ(x). C is `Set const&` (referenced) or a set type (owned).
@@ -114,12 +117,15 @@ class inequality_force_map : public slanting_base {
   std::shared_ptr<detail::inequality_layout const> layout_;
 };
 
-/// x ↦ f(x), one value per smooth inequality, block after block. An lvalue is referenced.
-template <class C>
-[[nodiscard]] auto inequalities(C&& set) {
+/// x ↦ c f(x), one value per smooth inequality, block after block. An lvalue is referenced. The factor
+/// is part of the entries, other than with scale(), which costs a pass over the values.
+/// @throws bad_input if c is NaN or infinite.
+template <class C, class S = int>
+[[nodiscard]] auto inequalities(C&& set, S c = S(1)) {
   slant::visit_blocks(set, detail::inequality_form_check{});
+  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
   auto layout = std::make_shared<detail::inequality_layout const>(set);
-  return inequality_map<kept_t<C>>(std::forward<C>(set), std::move(layout));
+  return inequality_map<kept_t<C>, S>(std::forward<C>(set), std::move(layout), std::move(c));
 }
 
 /// (x, z) ↦ Σ zᵢ ∇fᵢ(x) with one multiplier per inequality. An lvalue is referenced.

@@ -13,8 +13,11 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace slant {
 
@@ -31,9 +34,9 @@ class inequality_jacobian {
   [[nodiscard]] index rows() const noexcept { return layout_->rows(); }
   [[nodiscard]] index cols() const noexcept { return layout_->cols(); }
 
-  /// J at x.
+  /// c J at x.
   template <class Set, class X>
-  void renew(Set const& set, X const& x) {
+  void renew(Set const& set, X const& x, S const& c = S(1)) {
     index at = 0;
     slant::visit_blocks(set, [&](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
@@ -42,7 +45,7 @@ class inequality_jacobian {
       if constexpr (k > 0) {
         Eigen::Matrix<S, n, k> const g = block.inequality_gradient(place.value(x));
         for (int i = 0; i < k; ++i) {
-          for (int j = 0; j < n; ++j) gradients_[at++] = g.coeff(j, i);
+          for (int j = 0; j < n; ++j) gradients_[at++] = c * g.coeff(j, i);
         }
       }
     });
@@ -50,12 +53,12 @@ class inequality_jacobian {
 
   template <class X, class Y>
   void apply(X const& x, Y& y) const {
-    each(slant::local(x), slant::local(y), [](S const&, S const& sum) { return sum; });
+    each(slant::local(x), slant::local(y), [](auto&& target, auto const& sum) { target = sum; });
   }
   template <class X, class Y>
   void apply_add(S const& α, X const& x, Y& y) const {
     each(slant::local(x), slant::local(y),
-         [&α](S const& before, S const& sum) { return S(before + α * sum); });
+         [&α](auto&& target, auto const& sum) { target += α * sum; });
   }
   template <class X, class Y>
   void apply_adjoint(X const& x, Y& y) const {
@@ -75,17 +78,15 @@ class inequality_jacobian {
   template <class F>
   void visit(F const& f) const {
     for (auto const& run : layout_->runs()) {
-      detail::with_block_size(run, [&](auto n, auto k) {
-        S const* g = gradients_.data() + run.gradient;
-        for (index i = 0; i < run.blocks; ++i, g += n * k) {
-          index const first = run.first + i * run.step;
-          for (index r = 0; r < k; ++r) {
-            for (index j = 0; j < n; ++j) {
-              f(run.row + i * k + r, first + j * stride(n, run), g[r * n + j]);
-            }
+      S const* entry = gradients_.data() + run.gradient;
+      for (index i = 0; i < run.blocks; ++i) {
+        for (index r = 0; r < run.inequalities; ++r) {
+          for (index j = 0; j < run.dimension; ++j) {
+            f(run.row + i * run.inequalities + r, run.first + i * run.step + j * run.stride,
+              *entry++);
           }
         }
-      });
+      }
     }
   }
 
@@ -93,28 +94,26 @@ class inequality_jacobian {
   template <class S2>
   friend class inequality_curvature;
 
-  /// 1, as a constant, for the blocks whose size is one.
-  template <class N>
-  static index stride(N const&, detail::inequality_run const& run) {
-    if constexpr (std::is_same_v<N, index>) {
-      return run.stride;
-    } else {
-      return 1;
-    }
-  }
-  /// y_row = result(y_row, (J x)_row).
-  template <class X, class Y, class Result>
-  void each(X const& x, Y& y, Result const& result) const {
+  /// put(y_row, (J x)_row), rows of blocks of one number all at once.
+  template <class X, class Y, class Put>
+  void each(X const& x, Y& y, Put const& put) const {
     for (auto const& run : layout_->runs()) {
-      detail::with_block_size(run, [&](auto n, auto k) {
-        S const* g = gradients_.data() + run.gradient;
-        index first = run.first;
-        index row = run.row;
-        for (index i = 0; i < run.blocks; ++i, first += run.step) {
-          for (index r = 0; r < k; ++r, g += n, ++row) {
-            S sum = g[0] * x.coeff(first);
-            for (index j = 1; j < n; ++j) sum += g[j] * x.coeff(first + j * stride(n, run));
-            y.coeffRef(row) = result(y.coeff(row), sum);
+      detail::with_block_size(run, [&](auto n, auto k, auto stride, auto step) {
+        if constexpr (detail::is_one<decltype(n)> && detail::is_one<decltype(k)>) {
+          put(y.segment(run.row, run.blocks),
+              gradients_.segment(run.gradient, run.blocks)
+                  .cwiseProduct(x.segment(run.first, run.blocks)));
+        } else {
+          S const* const g = gradients_.data() + run.gradient;
+          for (index i = 0; i < run.blocks; ++i) {
+            for (index r = 0; r < k; ++r) {
+              index const own = (i * k + r) * n;
+              S sum = g[own] * x.coeff(run.first + i * step);
+              for (index j = 1; j < n; ++j) {
+                sum += g[own + j] * x.coeff(run.first + i * step + j * stride);
+              }
+              put(y.coeffRef(run.row + i * k + r), sum);
+            }
           }
         }
       });
@@ -171,21 +170,31 @@ class inequality_curvature {
   void apply_add(S const& α, X const& x, Y& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
-    index const n_all = jacobian_.cols();
-    for_each_block(jacobian_, [&](auto const& run, auto n, auto k, auto curved, S const* g,
-                                  S const* h, index first, index row) {
-      for (index j = 0; j < n; ++j) {
-        index const at = first + j * inequality_jacobian<S>::stride(n, run);
-        S sum = g[j] * from.coeff(n_all + row);
-        for (index r = 1; r < k; ++r) sum += g[r * n + j] * from.coeff(n_all + row + r);
-        if constexpr (curved == diagonal) sum += h[j * n + j] * from.coeff(at);
-        if constexpr (curved == full) {
-          for (index l = 0; l < n; ++l) {
-            sum += h[l * n + j] *
-                   from.coeff(first + l * inequality_jacobian<S>::stride(n, run));
+    for_each_run([&](auto const& run, auto curved, auto n, auto k, auto stride, auto step) {
+      S const* const g = jacobian_.gradients_.data() + run.gradient;
+      S const* const h = hessians_.data() + run.hessian;
+      index const z = jacobian_.cols() + run.row;
+      if constexpr (detail::is_one<decltype(n)> && detail::is_one<decltype(k)> && curved == zero) {
+        to.segment(run.first, run.blocks) +=
+            α * jacobian_.gradients_.segment(run.gradient, run.blocks)
+                    .cwiseProduct(from.segment(z, run.blocks));
+        return;
+      }
+      for (index i = 0; i < run.blocks; ++i) {
+        index const first = run.first + i * step;
+        detail::repeat(n, [&](auto j) {
+          S sum = g[i * k * n + j] * from.coeff(z + i * k);
+          for (index r = 1; r < k; ++r) sum += g[(i * k + r) * n + j] * from.coeff(z + i * k + r);
+          if constexpr (curved == diagonal) {
+            sum += h[(i * n + j) * n + j] * from.coeff(first + j * stride);
           }
-        }
-        to.coeffRef(at) += α * sum;
+          if constexpr (curved == full) {
+            for (index l = 0; l < n; ++l) {
+              sum += h[(i * n + l) * n + j] * from.coeff(first + l * stride);
+            }
+          }
+          to.coeffRef(first + j * stride) += α * sum;
+        });
       }
     });
   }
@@ -235,33 +244,20 @@ class inequality_curvature {
       }
     }
   }
-  /// f(run, dimension, inequalities, curvature, J's entries, H's entries, component, row).
+  /// f(run, curvature, dimension, inequalities, stride, step), constants where they can be.
   template <class F>
-  void for_each_block(inequality_jacobian<S> const& jacobian, F const& f) const {
-    auto const& runs = jacobian.layout_->runs();
+  void for_each_run(F const& f) const {
+    auto const& runs = jacobian_.layout_->runs();
     for (std::size_t number = 0; number < runs.size(); ++number) {
       auto const& run = runs[number];
-      detail::with_block_size(run, [&](auto n, auto k) {
-        auto const loop = [&](auto curved) {
-          S const* g = jacobian.gradients_.data() + run.gradient;
-          S const* h = hessians_.data() + run.hessian;
-          index first = run.first;
-          index row = run.row;
-          for (index i = 0; i < run.blocks; ++i) {
-            f(run, n, k, curved, g, h, first, row);
-            g += n * k;
-            h += n * n;
-            first += run.step;
-            row += k;
-          }
-        };
+      detail::with_block_size(run, [&](auto n, auto k, auto stride, auto step) {
         switch (curved_[number]) {
           case zero:
-            return loop(std::integral_constant<int, zero>{});
+            return f(run, std::integral_constant<int, zero>{}, n, k, stride, step);
           case diagonal:
-            return loop(std::integral_constant<int, diagonal>{});
+            return f(run, std::integral_constant<int, diagonal>{}, n, k, stride, step);
           default:
-            return loop(std::integral_constant<int, full>{});
+            return f(run, std::integral_constant<int, full>{}, n, k, stride, step);
         }
       });
     }

@@ -28,13 +28,13 @@
 namespace slant {
 
 /// F°(y) of kkt_function. Its parts are those of the generalised saddle-point system [T (3.1)].
-template <class Composed>
+template <class Composed, class S>
 class kkt_operator;
 
 template <class G>
 inline constexpr bool is_kkt_operator = false;
-template <class Composed>
-inline constexpr bool is_kkt_operator<kkt_operator<Composed>> = true;
+template <class Composed, class S>
+inline constexpr bool is_kkt_operator<kkt_operator<Composed, S>> = true;
 
 namespace detail {
 
@@ -43,9 +43,9 @@ template <class A, class V, class C, class S>
 [[nodiscard]] auto compose_kkt(held<A> const& a, V const& b, held<C> const& set, S const& ρ) {
   auto constraints = [&] {
     if constexpr (std::is_reference_v<C>) {
-      return slant::inequalities(set.get());
+      return slant::inequalities(set.get(), S(-ρ));
     } else {
-      return slant::inequalities(C(set.get()));
+      return slant::inequalities(C(set.get()), S(-ρ));
     }
   }();
   auto forces = [&] {
@@ -69,18 +69,17 @@ template <class A, class V, class C, class S>
   auto const x = [&] { return slant::linear(slant::slice(n + p, 0, n)); };  // to be owned twice
   auto z = slant::linear(slant::slice(n + p, n, p));
   auto equilibrium = slant::compose(std::move(gradient), x()) + std::move(forces);
-  auto complementarity =
-      slant::min(slant::scale(S(-ρ), slant::compose(std::move(constraints), x())), std::move(z));
+  auto complementarity = slant::min(slant::compose(std::move(constraints), x()), std::move(z));
   return slant::stack(std::move(equilibrium), std::move(complementarity));
 }
 
 }  // namespace detail
 
 /// What the composition made, with its parts by name.
-template <class Composed>
+template <class Composed, class S>
 class kkt_operator : public Composed {
  public:
-  explicit kkt_operator(Composed composed) : Composed(std::move(composed)) {}
+  kkt_operator(Composed composed, S ρ) : Composed(std::move(composed)), ρ_(std::move(ρ)) {}
 
   /// (H, Jᵀ), with jacobian() = J.
   [[nodiscard]] auto const& curvature() const noexcept {
@@ -96,12 +95,13 @@ class kkt_operator : public Composed {
   [[nodiscard]] auto const& hessian() const noexcept {
     return this->template part<0>().template part<0>().template part<0>().underlying();
   }
-  /// ρ.
-  [[nodiscard]] auto rho() const noexcept {
-    return -this->template part<1>().template part<2>().rule().factor;
-  }
   /// The composition itself.
   [[nodiscard]] Composed& composed() noexcept { return *this; }
+  /// ρ.
+  [[nodiscard]] S const& rho() const noexcept { return ρ_; }
+
+ private:
+  S ρ_;
 };
 
 /// F of [T (2.11)] for A, b and a set made of blocks with smooth inequalities. A and the set are
@@ -138,14 +138,14 @@ class kkt_function : public slanting_base {
   template <class Y>
     requires slanting_function<composed, plain_t<Y>>
   [[nodiscard]] auto slant(Y const& y) const {
-    return kkt_operator(f_.slant(y));
+    return kkt_operator(f_.slant(y), ρ_);
   }
   template <class Y, class G, class W>
-  void slant(Y const& y, kkt_operator<G>& g, W& w) const {
+  void slant(Y const& y, kkt_operator<G, scalar>& g, W& w) const {
     f_.slant(y, g.composed(), w);
   }
   template <class Y, class G, class W>
-  void slant_after_value(Y const& y, kkt_operator<G>& g, W& w) const {
+  void slant_after_value(Y const& y, kkt_operator<G, scalar>& g, W& w) const {
     f_.slant_after_value(y, g.composed(), w);
   }
 

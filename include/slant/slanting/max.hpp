@@ -18,6 +18,8 @@ namespace slant {
 namespace detail {
 
 struct max_kernel {
+  static constexpr bool chooses = true;
+
   /// The larger one; NaN if either is.
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {

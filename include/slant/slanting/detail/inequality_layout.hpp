@@ -8,6 +8,7 @@
 #include <slant/sets/blocks.hpp>
 
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace slant::detail {
@@ -81,20 +82,37 @@ class inequality_layout {
   std::vector<inequality_run> runs_;
 };
 
-/// f(dimension, inequalities), as constants where the blocks are of the usual kinds, so that the
-/// loops over them are unrolled.
+/// f(0), …, f(n − 1), written out where n is a constant: compilers that optimise for size as well do
+/// not unroll a loop of two.
+template <class N, class F>
+void repeat(N n, F const& f) {
+  if constexpr (std::is_same_v<N, index>) {
+    for (index j = 0; j < n; ++j) f(j);
+  } else {
+    [&]<index... J>(std::integer_sequence<index, J...>) {
+      (f(std::integral_constant<index, J>{}), ...);
+    }(std::make_integer_sequence<index, N::value>{});
+  }
+}
+
+template <class N>
+inline constexpr bool is_one = std::is_same_v<N, std::integral_constant<index, 1>>;
+
+/// f(dimension, inequalities, stride, step), as constants where the blocks are of the usual kinds and
+/// lie one behind the other, so that the loops over them are unrolled.
 template <class F>
 void with_block_size(inequality_run const& run, F const& f) {
   using one = std::integral_constant<index, 1>;
   using two = std::integral_constant<index, 2>;
-  if (run.dimension == 1 && run.inequalities == 1) {
-    f(one{}, one{});
-  } else if (run.dimension == 2 && run.inequalities == 1 && run.stride == 1) {
-    f(two{}, one{});
-  } else if (run.dimension == 1 && run.inequalities == 2) {
-    f(one{}, two{});
+  bool const dense = run.stride == 1 && run.step == run.dimension;
+  if (dense && run.dimension == 1 && run.inequalities == 1) {
+    f(one{}, one{}, one{}, one{});
+  } else if (dense && run.dimension == 2 && run.inequalities == 1) {
+    f(two{}, one{}, one{}, two{});
+  } else if (dense && run.dimension == 1 && run.inequalities == 2) {
+    f(one{}, two{}, one{}, one{});
   } else {
-    f(run.dimension, run.inequalities);
+    f(run.dimension, run.inequalities, run.stride, run.step);
   }
 }
 

@@ -17,11 +17,12 @@
 
 namespace slant::detail {
 
-/// diag(p) A + diag(q) B.
+/// diag(p) A + diag(q) B; Chooses: each row is that of A or that of B.
+template <bool Chooses>
 struct weighted_sum_rule {
   template <class P, class Q, class A, class B>
   [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
-    return weighted_sum_operator<P, Q, A, B>(p, q, a, b);
+    return weighted_sum_operator<Chooses, P, Q, A, B>(p, q, a, b);
   }
 };
 
@@ -34,7 +35,8 @@ struct pointwise_pair_workspace {
   Vector g;
 };
 
-/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}.
+/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that the
+/// slopes are always (1, 0) or (0, 1), or NaN.
 template <class Kernel, class F, class G>
 class pointwise_pair : public function_pair<F, G> {
   using pair = function_pair<F, G>;
@@ -65,7 +67,7 @@ class pointwise_pair : public function_pair<F, G> {
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
-    assembled_operator s(weighted_sum_rule{}, slant::like(y, rows()), slant::like(y, rows()),
+    assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()), slant::like(y, rows()),
                          left().slant(y), right().slant(y));
     set_slopes(s, w);
     return s;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // diag(p) A + diag(q) B, the slanting operator of a function of two functions, componentwise. A
-// writes the result, B a temporary, and one pass over both weighs and adds: as a sum of products
-// with diagonal operators it would take two temporaries and four passes.
+// writes the result, B a temporary (or nothing, if it is a slice), and one pass over both weighs and
+// adds: as a sum of products with diagonal operators it would take two temporaries and four passes.
+// Of a maximum or minimum each row is that of A or that of B, and the pass only copies the latter.
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
@@ -20,8 +21,9 @@ struct weighted_sum_workspace {
   Vector product;
 };
 
-/// y = p∘(A x) + q∘(B x). Refers to all four.
-template <class P, class Q, class A, class B>
+/// y = p∘(A x) + q∘(B x). Refers to all four. With Chooses all pᵢ are 0 or 1, qᵢ = 1 − pᵢ, or both
+/// are NaN.
+template <bool Chooses, class P, class Q, class A, class B>
 class weighted_sum_operator {
  public:
   static constexpr law_set laws{};
@@ -42,11 +44,21 @@ class weighted_sum_operator {
     requires applies<A, X, Y> && applies<B, X, plain_t<X>>
   void apply(X const& x, Y& y, W& w) const {
     slant::apply(*a_, x, y, w.first);
-    slant::apply(*b_, x, w.product, w.second);
     auto& result = slant::local(y);
-    auto const& product = slant::local(w.product);
-    for (index j = 0; j < result.cols(); ++j) {
-      result.col(j) = p().cwiseProduct(result.col(j)) + q().cwiseProduct(product.col(j));
+    auto const add = [&](auto const& product) {
+      for (index j = 0; j < result.cols(); ++j) {
+        if constexpr (Chooses) {
+          choose(result.col(j), product.col(j));
+        } else {
+          result.col(j) = p().cwiseProduct(result.col(j)) + q().cwiseProduct(product.col(j));
+        }
+      }
+    };
+    if constexpr (shows_segment<B, X>) {
+      add(b_->segment(x));
+    } else {
+      slant::apply(*b_, x, w.product, w.second);
+      add(slant::local(w.product));
     }
   }
   template <class X, class Y, class W>
@@ -84,6 +96,16 @@ class weighted_sum_operator {
  private:
   [[nodiscard]] decltype(auto) p() const { return slant::local(*p_); }
   [[nodiscard]] decltype(auto) q() const { return slant::local(*q_); }
+
+  /// yᵢ = bᵢ where pᵢ = 0; NaN where pᵢ is.
+  template <class Column, class B2>
+  void choose(Column&& y, B2 const& b) const {
+    using S = typename B2::Scalar;
+    for (index i = 0; i < index(y.size()); ++i) {
+      S const weight = p().coeff(i);
+      if (!(weight > S(0))) y.coeffRef(i) = weight == S(0) ? b.coeff(i) : weight;
+    }
+  }
 
   template <class First, class Second, class Vector>
   static weighted_sum_workspace<First, Second, Vector> make_workspace(First first, Second second,
