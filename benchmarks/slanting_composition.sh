@@ -29,7 +29,7 @@ for name in wire brick; do
   hand=$(per_application "$name-hand")
   composed=$(per_application "$name-slant")
   agree=$(awk -v a="$("$program" "$name-hand" 10)" -v b="$("$program" "$name-slant" 10)" \
-    'BEGIN { d = a - b; if (d < 0) d = -d; if (a < 0) a = -a; print (d <= 1e-12 * a) ? "yes" : "no" }')
+    'BEGIN { d = a - b; if (d < 0) d = -d; if (a < 0) a = -a; print (a > 0 && d <= 1e-12 * a) ? "yes" : "no" }')
   ratio=$(awk -v a="$composed" -v b="$hand" 'BEGIN { printf "%.4f", a / b }')
   echo "$name,$hand,$composed,$ratio,$agree"
   awk -v r="$ratio" 'BEGIN { exit !(r <= 1.05) }' || status=1
