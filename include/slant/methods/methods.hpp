@@ -9,6 +9,7 @@
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
 #include <slant/methods/newton_options.hpp>
+#include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_state.hpp>
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/semismooth_newton.hpp>

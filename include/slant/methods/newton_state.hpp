@@ -29,6 +29,7 @@ enum class newton_failure : unsigned char {
 /// refers to F, so it must not be applied after F is gone; all the rest may be used.
 template <class F, class V, class Solver>
 struct newton_state {
+  using vector_type = V;
   using scalar = scalar_t<V>;
   using slant_type = slant_operator_t<F, V>;
 

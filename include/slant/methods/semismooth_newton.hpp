@@ -20,6 +20,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/methods/newton_options.hpp>
+#include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_state.hpp>
 #include <slant/newton/by_laws.hpp>
 #include <slant/newton/globalisation.hpp>
@@ -38,9 +39,9 @@ namespace slant {
 /// handle F°(y). Statuses of its own, with state.failure and state.reason(): converged (F(y) = 0);
 /// breakdown (no direction, as where F°(y) is singular; F not finite); stalled (no length is
 /// acceptable, or ‖F‖ falls no more). F is referenced if it is an lvalue.
-template <class F, class LinearSolver = by_laws, class Globalisation = full_step,
-          class Forcing = eisenstat_walker>
-class semismooth_newton {
+template <class F, class LinearSolver, class Globalisation, class Forcing>
+  requires slanting_part<F>
+class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
  public:
   using function_type = std::remove_cvref_t<F>;
   /// The linear solver for vectors V: LinearSolver, or what it leaves to the laws of F°(y).
@@ -50,23 +51,25 @@ class semismooth_newton {
   using state_for = newton_state<function_type, V, solver_for<V>>;
 
   /// Throws bad_input if F has not as many values as arguments, or for options out of range.
-  explicit semismooth_newton(held<F> f, LinearSolver solver = {}, Globalisation globalisation = {},
+  explicit semismooth_newton(held<F> f, LinearSolver linear_solver = {}, Globalisation search = {},
                              Forcing forcing = {}, newton_options options = {})
       : f_(std::move(f)),
-        solver_(std::move(solver)),
-        globalisation_(std::move(globalisation)),
+        linear_solver_(std::move(linear_solver)),
+        search_(std::move(search)),
         forcing_(std::move(forcing)),
         options_(options) {
     detail::check_size("F.rows()", index(this->f().rows()), index(this->f().cols()), "F.cols()");
-    validate(solver_);
-    validate(globalisation_);
+    validate(linear_solver_);
+    validate(search_);
     validate(forcing_);
     options_.validate();
   }
 
   /// Throws bad_input if x0 or F(x0) is not finite or of the wrong size.
   template <class V>
+    requires newton_parts<function_type, V, LinearSolver, Globalisation, Forcing>
   [[nodiscard]] state_for<V> start(V const& x0) const {
+    using S = scalar_t<V>;
     detail::check_size("x0", index(slant::local(x0).size()), index(f().cols()), "F.cols()");
     detail::check_finite("x0", x0);
     auto blank = [&] { return like(x0, f().rows()); };
@@ -74,8 +77,8 @@ class semismooth_newton {
     auto residual = blank();
     slant::evaluate(f(), x0, residual, f_workspace);
     detail::check_finite("F(x0)", residual);
-    auto g = f().slant(x0);
-    auto prepared = static_cast<solver_for<V>>(solver_).prepare(g, residual);
+    auto g = slant::slant_from_value(f(), x0, f_workspace);
+    auto prepared = solver<V>().prepare(std::as_const(g), std::as_const(residual));
     state_for<V> s{x0,
                    std::move(residual),
                    blank(),
@@ -88,14 +91,24 @@ class semismooth_newton {
     s.residual_norm = norm(s.residual);
     s.x_norm = norm(s.x);
     set_scale(s);
-    s.forcing = forcing_history<scalar_t<V>>::starting_at(
-        options_.error == newton_error::residual ? s.residual_norm : scalar_t<V>(1));
-    if (s.residual_norm == scalar_t<V>(0)) s.status = status::converged;
+    s.forcing = forcing_history<S>::starting_at(
+        options_.error == newton_error::residual ? s.residual_norm : S(1));
+    if (s.residual_norm == S(0)) s.status = status::converged;
     return s;
   }
 
-  template <class State>
-  void step(State& s) const {
+  /// Parts that cannot work together are told so here.
+  template <class V>
+  [[nodiscard]] detail::refused_newton_state<V> start(V const&) const {
+    detail::refuse_newton_parts<function_type, V, LinearSolver, Globalisation, Forcing>();
+    return {};
+  }
+  template <class V>
+  void step(detail::refused_newton_state<V>&) const {}
+
+  /// One step, as at the top of this file.
+  template <class V, class Solver>
+  void step(newton_state<function_type, V, Solver>& s) const {
     if (s.status != status::running) return;
     if (!solve(s) || !shorten(s)) return;
     accept(s);
@@ -104,16 +117,20 @@ class semismooth_newton {
 
  private:
   [[nodiscard]] function_type const& f() const { return f_.get(); }
+  template <class V>
+  [[nodiscard]] solver_for<V> solver() const {
+    return static_cast<solver_for<V>>(linear_solver_);
+  }
 
   /// dy with ‖F + F° dy‖ ≤ η ‖F‖; false if there is none that is of use.
   template <class State>
   bool solve(State& s) const {
     using S = typename State::scalar;
-    using solver = solver_for<std::remove_cvref_t<decltype(s.x)>>;
+    using V = typename State::vector_type;
     S const leftover = s.length < S(1) && s.iteration > 0 ? S(1) - s.length : S(0);
-    auto const r = static_cast<solver>(solver_).solve(
-        s.slant_operator, s.residual, {s.forcing.next(forcing_), s.residual_norm, leftover},
-        s.direction, s.prepared);
+    auto const r = solver<V>().solve(std::as_const(s.slant_operator), std::as_const(s.residual),
+                                     {s.forcing.next(forcing_), s.residual_norm, leftover},
+                                     s.direction, s.prepared);
     s.linear_residual = r.residual_norm;
     s.solver_status = r.status;
     s.inner_iterations = r.iterations;
@@ -134,8 +151,8 @@ class semismooth_newton {
     p.residual_before = s.residual_norm;
     p.linear_residual = s.linear_residual;
     p.best_residual = std::numeric_limits<S>::infinity();
-    for (p.length = S(globalisation_.first_length()); p.length > S(0);
-         p.length = S(globalisation_.next_length(p)), ++p.trial) {
+    for (p.length = S(search_.first_length()); p.length > S(0);
+         p.length = S(search_.next_length(p)), ++p.trial) {
       slant::local(s.trial) = slant::local(s.x) + p.length * slant::local(s.direction);
       slant::evaluate(f(), s.trial, s.trial_residual, s.f_workspace);
       ++s.work.operator_applications;
@@ -146,7 +163,7 @@ class semismooth_newton {
       }
       s.length = p.length;
       s.trials = p.trial + 1;
-      if (globalisation_.accepts(std::as_const(p))) {
+      if (search_.accepts(std::as_const(p))) {
         s.residual_norm = p.residual;
         return true;
       }
@@ -216,24 +233,15 @@ class semismooth_newton {
   }
 
   held<F> f_;
-  LinearSolver solver_;
-  Globalisation globalisation_;
+  LinearSolver linear_solver_;
+  Globalisation search_;
   Forcing forcing_;
   newton_options options_;
 };
 
-template <class F>
-semismooth_newton(F&&) -> semismooth_newton<kept_t<F>>;
-template <class F, class LinearSolver>
-semismooth_newton(F&&, LinearSolver) -> semismooth_newton<kept_t<F>, LinearSolver>;
-template <class F, class LinearSolver, class Globalisation>
-semismooth_newton(F&&, LinearSolver, Globalisation)
-    -> semismooth_newton<kept_t<F>, LinearSolver, Globalisation>;
-template <class F, class LinearSolver, class Globalisation, class Forcing>
-semismooth_newton(F&&, LinearSolver, Globalisation, Forcing)
-    -> semismooth_newton<kept_t<F>, LinearSolver, Globalisation, Forcing>;
-template <class F, class LinearSolver, class Globalisation, class Forcing>
-semismooth_newton(F&&, LinearSolver, Globalisation, Forcing, newton_options)
+template <class F, class LinearSolver = by_laws, class Globalisation = halving_line_search,
+          class Forcing = eisenstat_walker>
+semismooth_newton(F&&, LinearSolver = {}, Globalisation = {}, Forcing = {}, newton_options = {})
     -> semismooth_newton<kept_t<F>, LinearSolver, Globalisation, Forcing>;
 
 }  // namespace slant

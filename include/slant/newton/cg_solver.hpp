@@ -42,6 +42,13 @@ struct cg_solver {
     return {detail::verdict_on(s, target), s.residual_norm, s.iteration,
             s.work.operator_applications, 0};
   }
+
+  /// The complaint about operators that it cannot handle.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(spd_operator<G, V>,
+                  "cg_solver: F°(y) must declare self_adjoint and positive_definite");
+  }
 };
 
 }  // namespace slant

@@ -41,6 +41,8 @@ using dense_matrix_t = Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, Eigen::Dynamic
 template <class W>
 class known_inverse {
  public:
+  static constexpr index factorizations = 0;
+
   explicit known_inverse(W w) : w_(std::move(w)) {}
 
   template <class G, class V>
@@ -60,18 +62,23 @@ struct direct_workspace {
   W g_workspace;  ///< temporaries of G
 };
 
-/// factors(dy) → success makes dy = G⁻¹ F; what comes of it.
+/// solve(dy) makes dy = G⁻¹ F and says whether it could; what comes of it.
 template <class G, class V, class P, class Solve>
 [[nodiscard]] direction_report<scalar_t<V>> direct_direction(
     G const& g, V const& f, direction_request<scalar_t<V>> const& request, V& dy, P& p,
     Solve solve) {
   using S = scalar_t<V>;
-  direction_report<S> report{status::breakdown, request.residual_norm, 0, 0, 1};
-  bool solved = solve(dy);
+  constexpr index factored = std::remove_cvref_t<decltype(p.factors)>::factorizations;
+  direction_report<S> report{status::breakdown, request.residual_norm, 0, 1 - factored, factored};
+  bool const solved = solve(dy);
   slant::local(dy) = -slant::local(dy);
   if (solved && is_finite(S(norm(dy)))) {
-    slant::apply(g, dy, p.residual, p.g_workspace);
-    ++report.operator_applications;
+    if constexpr (requires { p.factors.multiply(dy, p.residual); }) {
+      p.factors.multiply(dy, p.residual);
+    } else {
+      slant::apply(g, dy, p.residual, p.g_workspace);
+      ++report.operator_applications;
+    }
     slant::local(p.residual) += slant::local(f);
     report.residual_norm = norm(p.residual);
     // LU is as accurate as this precision allows, if not as η wants.
@@ -129,6 +136,13 @@ struct direct_solver {
       }
       return true;
     });
+  }
+
+  /// The complaint about operators that it cannot handle.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(solved_directly<G, V>,
+                  "direct_solver: F°(y) must be a matrix, or have columns or an inverse");
   }
 
  private:

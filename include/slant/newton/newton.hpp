@@ -14,5 +14,7 @@
 #include <slant/newton/saddle_direct.hpp>
 #include <slant/newton/schur_bicgstab.hpp>
 #include <slant/newton/schur_cg.hpp>
+#include <slant/newton/slant_preconditioner.hpp>
+#include <slant/newton/sparse_direct_solver.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 // IWYU pragma: end_exports

@@ -16,6 +16,8 @@ class dense_lu {
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
  public:
+  static constexpr index factorizations = 1;
+
   explicit dense_lu(index n) : matrix_(n, n), factors_(n) {}
 
   /// False if a pivot is zero or not a number.
@@ -34,6 +36,11 @@ class dense_lu {
   template <class V>
   void solve(V const& b, V& x) const {
     if (matrix_.size() > 0) slant::local(x) = factors_.solve(slant::local(b));
+  }
+  /// y = G x, by the matrix.
+  template <class V>
+  void multiply(V const& x, V& y) const {
+    slant::local(y).noalias() = matrix_ * slant::local(x);
   }
 
  private:

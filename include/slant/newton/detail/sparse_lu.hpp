@@ -16,6 +16,7 @@ namespace slant::detail {
 template <class S>
 class sparse_lu {
  public:
+  static constexpr index factorizations = 1;
   using matrix_type = Eigen::SparseMatrix<S>;
 
   sparse_lu() : factors_(std::make_unique<factors_type>()) {}
