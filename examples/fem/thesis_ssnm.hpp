@@ -13,6 +13,7 @@
 #include <fem/string_1d.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/methods/ssnm.hpp>
