@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The runs behind the tables of the thesis: SSNM on the wire (Tables 4.1–4.8) and on the steel brick
-// (Table 4.9), with the parameters of [T], counted as [T] counts.
+// The runs behind the tables of the thesis: SSNM on the wire (Tables 4.1–4.8), with the parameters of
+// [T], counted as [T] counts. For the brick see thesis_ssnm_brick.hpp.
 //
 // [T] does not print its matrix. With A = tridiag(−1, 2, −1) and the load h² f, that is A and b of
 // string_1d.hpp times h, the printed iterations of Tables 4.1 and 4.2 come out; with other multiples
@@ -9,9 +9,7 @@
 #pragma once
 
 #include <fem/active_counts.hpp>
-#include <fem/steel_brick.hpp>
 #include <fem/string_1d.hpp>
-#include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>
@@ -85,41 +83,6 @@ template <class Solver>
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
   Eigen::VectorXd const zero = Eigen::VectorXd::Zero(4 * w.m);
   return run_ssnm(slant::separable_qp{A, w.b, set}, solver, options, x0 == nullptr ? zero : *x0);
-}
-
-/// The dual problem of the steel brick with its dense matrix A = B K⁻¹Bᵀ, as [T] forms it.
-struct dense_dual_brick {
-  Eigen::MatrixXd A;
-  Eigen::VectorXd b;
-  Eigen::VectorXd g;  ///< radii
-
-  explicit dense_dual_brick(contact_scene<3> const& s) : g(s.g) {
-    auto const factor = slant::factorize(s.K);
-    auto const m = s.d.size();
-    Eigen::MatrixXd Bt(s.f.size(), 3 * m);
-    Bt << Eigen::MatrixXd(s.N).transpose(), Eigen::MatrixXd(s.T).transpose();
-    Eigen::MatrixXd KinvBt(s.f.size(), 3 * m);
-    auto w = slant::workspace(factor, Bt);
-    factor.solve(Bt, KinvBt, w);
-    A = Bt.transpose() * KinvBt;
-    A = (0.5 * (A + A.transpose())).eval();
-    b = KinvBt.transpose() * s.f;
-    b.head(m) -= s.d;
-  }
-  /// λ_ν ≥ 0, ‖λ_t,i‖ ≤ gᵢ.
-  [[nodiscard]] auto set() const {
-    return slant::cartesian(slant::half_lines(g.size()), slant::discs(g));
-  }
-};
-
-/// SSNM on the dual problem of the brick [T Table 4.9], from zero.
-template <class Solver>
-[[nodiscard]] ssnm_run run_brick_ssnm(dense_dual_brick const& brick, Solver solver,
-                                      slant::ssnm_options<double> const& options) {
-  auto const set = brick.set();
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(brick.A);
-  return run_ssnm(slant::separable_qp{A, brick.b, set}, solver, options,
-                  Eigen::VectorXd::Zero(brick.b.size()).eval(), 1e-6, 300);
 }
 
 }  // namespace fem
