@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -14,4 +15,7 @@
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/ssnm.hpp>
+#include <slant/methods/ssnm_options.hpp>
+#include <slant/methods/ssnm_state.hpp>
 // IWYU pragma: end_exports
