@@ -137,9 +137,11 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     s.work.inner_iterations += r.iterations;
     s.work.operator_applications += r.operator_applications;
     s.work.factorizations += r.factorizations;
-    // However the solver ended: a direction that reduces the linear model is an inexact Newton
-    // direction, only a less accurate one.
-    bool const useful = r.residual_norm < s.residual_norm;
+    // However the solver ended: what reduces the linear model is an inexact Newton direction, only
+    // a less accurate one, if η stays away from 1. A gain near rounding level may come from a
+    // vector of any size in the kernel of F°.
+    bool const useful =
+        r.status == status::converged || r.residual_norm <= S(0.99) * s.residual_norm;
     return useful || give_up(s, status::breakdown, newton_failure::no_direction);
   }
 
@@ -180,7 +182,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     swap(s.x, s.trial);
     swap(s.residual, s.trial_residual);
     s.x_norm = norm(s.x);
-    s.step_norm = norm(s.direction) * (s.length > S(1) ? s.length : S(1));
+    if (s.length > S(1)) s.step_norm *= s.length;
     ++s.iteration;
     if (s.residual_norm == S(0)) {
       s.status = status::converged;

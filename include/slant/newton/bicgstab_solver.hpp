@@ -45,10 +45,16 @@ struct bicgstab_solver {
     direction_report<S> report;
 
     slant::local(s.x) *= warm_start ? request.leftover : S(0);
-    report.residual_norm = std::numeric_limits<S>::infinity();
+    report.residual_norm = request.residual_norm;
+    // Where G is nearly singular a vector of any size changes the residual in its last digits.
+    using std::sqrt;
+    S const noticeably = S(1) - sqrt(std::numeric_limits<S>::epsilon());
     auto const keep_best = [&](auto const& state) {
-      if (!(state.residual_norm < report.residual_norm)) return;
-      report.residual_norm = state.residual_norm;
+      S const now = state.residual_norm;
+      bool const enough = now <= target && now < report.residual_norm;
+      if (!enough && !(now <= noticeably * report.residual_norm)) return;
+      if (!detail::is_finite(S(norm(state.x)))) return;
+      report.residual_norm = now;
       slant::local(dy) = -slant::local(state.x);
     };
     slant::local(dy).setZero();
@@ -59,11 +65,21 @@ struct bicgstab_solver {
       detail::run_until(method, s, target, limit - report.iterations, keep_best);
       report.iterations += s.iteration;
       report.operator_applications += s.work.operator_applications;
-      report.status = detail::verdict_on(s, target);
+      report.status = report.residual_norm <= target ? status::converged : ended(s);
       bool const mendable = report.status == status::breakdown && report.residual_norm < before;
       if (!mendable) return report;
       slant::local(s.x) = -slant::local(dy);
     }
+  }
+
+ private:
+  /// A small residual that came with an infinite x is none.
+  template <class State>
+  static status ended(State const& s) {
+    if (s.status == status::running || s.status == status::converged) {
+      return detail::is_finite(norm(s.x)) ? status::iteration_limit : status::breakdown;
+    }
+    return s.status;
   }
 };
 

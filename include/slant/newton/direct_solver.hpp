@@ -11,6 +11,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/newton/detail/dense_lu.hpp>
 #include <slant/newton/detail/sparse_lu.hpp>
 #include <slant/newton/direction.hpp>
@@ -70,7 +71,7 @@ template <class G, class V, class P, class Solve>
   using S = scalar_t<V>;
   constexpr index factored = std::remove_cvref_t<decltype(p.factors)>::factorizations;
   direction_report<S> report{status::breakdown, request.residual_norm, 0, 1 - factored, factored};
-  bool const solved = solve(dy);
+  bool const solved = slant::everywhere(dy, solve(dy));
   slant::local(dy) = -slant::local(dy);
   if (solved && is_finite(S(norm(dy)))) {
     if constexpr (requires { p.factors.multiply(dy, p.residual); }) {
