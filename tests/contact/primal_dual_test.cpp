@@ -88,7 +88,7 @@ TEST_CASE("the operator of the lecture, to the last digit") {
 TEST_CASE("zero at the solution") {
   auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
   auto const c = test::contact_data(scene);
-  auto const reference = test::reference(scene.K, c);
+  auto const reference = test::reference(scene.K, c);  // of an oracle, not of the dual problem
   contact::primal_dual const problem(contact::friction_disc{}, scene.K, c);
   auto const G = problem.function(1e4);
   VectorXd y(G.cols());
