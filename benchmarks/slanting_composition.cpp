@@ -10,8 +10,8 @@
 //     brick     G° of [K] below (53), the steel brick with k = 4
 //
 // applies one version of one case that often and prints the sum of the result, so that the versions
-// can be seen to agree. benchmarks/slanting_composition.sh counts the instructions of an application
-// as the difference of two runs, in which the set-up cancels.
+// can be seen to agree. benchmarks/slanting_composition.sh counts the instructions of an
+// application as the difference of two runs, in which the set-up cancels.
 
 #include <slant/contact/primal_dual.hpp>
 #include <slant/sets/cartesian.hpp>
@@ -72,9 +72,9 @@ struct wire_case {
 
   double by_composition(long repetitions) const {
     auto const m = wire.m;
-    auto const set = slant::cartesian(slant::half_lines(vector::Constant(m, l).eval()),
-                                      slant::discs(vector::Constant(m, g).eval()),
-                                      slant::free_components(m));
+    auto const set =
+        slant::cartesian(slant::half_lines(vector::Constant(m, l).eval()),
+                         slant::discs(vector::Constant(m, g).eval()), slant::free_components(m));
     return composed(slant::kkt(wire.A, wire.b, set, ρ), at, repetitions);
   }
   double by_hand(long repetitions) const {
@@ -127,7 +127,8 @@ struct brick_case {
     sparse B(3 * m, n);
     std::vector<Eigen::Triplet<double>> entries;
     for (int j = 0; j < scene.N.outerSize(); ++j) {
-      for (sparse::InnerIterator e(scene.N, j); e; ++e) entries.emplace_back(int(e.row()), j, e.value());
+      for (sparse::InnerIterator e(scene.N, j); e; ++e)
+        entries.emplace_back(int(e.row()), j, e.value());
       for (sparse::InnerIterator e(scene.T, j); e; ++e) {
         entries.emplace_back(m + e.row(), j, e.value());
       }

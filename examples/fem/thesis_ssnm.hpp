@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The runs behind the tables of the thesis: SSNM on the wire (Tables 4.1–4.8), with the parameters of
-// [T], counted as [T] counts. For the brick see thesis_ssnm_brick.hpp.
+// The runs behind the tables of the thesis: SSNM on the wire (Tables 4.1–4.8), with the parameters
+// of [T], counted as [T] counts. For the brick see thesis_ssnm_brick.hpp.
 //
 // [T] does not print its matrix. With A = tridiag(−1, 2, −1) and the load h² f, that is A and b of
-// string_1d.hpp times h, the printed iterations of Tables 4.1 and 4.2 come out; with other multiples
-// they do not, since ρ = 1 and the absolute inner tolerances mean something else then.
+// string_1d.hpp times h, the printed iterations of Tables 4.1 and 4.2 come out; with other
+// multiples they do not, since ρ = 1 and the absolute inner tolerances mean something else then.
 #pragma once
 
 #include <fem/active_counts.hpp>
@@ -25,10 +25,10 @@ namespace fem {
 /// What one run of SSNM did.
 struct ssnm_run {
   slant::status status;
-  std::string reason;            ///< in words
-  slant::index iterations = 0;   ///< Newton steps
-  slant::index products = 0;     ///< "Hessian multiplications": K⁻¹ in A and C, F° in B
-  double residual = 0;           ///< ‖F(y)‖ at the end
+  std::string reason;           ///< in words
+  slant::index iterations = 0;  ///< Newton steps
+  slant::index products = 0;    ///< "Hessian multiplications": K⁻¹ in A and C, F° in B
+  double residual = 0;          ///< ‖F(y)‖ at the end
   Eigen::VectorXd x;
 
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
@@ -65,12 +65,9 @@ template <class QP, class Solver>
                                 slant::index most = 1000) {
   auto r = slant::solve(slant::ssnm{qp, solver, options}, x0,
                         slant::step_below(tolerance, 1.0) || slant::at_most(most));
-  return {r.status,
-          r.reason,
-          r.iterations(),
-          r.state.work.operator_applications,
-          r.state.residual_norm,
-          r.state.x};
+  return {
+      r.status, r.reason, r.iterations(), r.state.work.operator_applications, r.state.residual_norm,
+      r.state.x};
 }
 
 /// SSNM on the wire with n = 4m unknowns, from zero or from x0. Solver: slant::saddle_direct

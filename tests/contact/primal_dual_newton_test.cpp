@@ -52,8 +52,8 @@ TEST_CASE("with u eliminated: solved from zero under every load") {
     auto const A = slant::counted(p.dual.a());
     slant::separable_qp const qp{A, p.dual.b(), p.dual.set()};
     auto const method = fem::make_lecture_ssn(qp, p.rho());
-    auto const r = slant::solve(method, p.dual.zero(),
-                                slant::residual_below(1e-9) || slant::at_most(40));
+    auto const r =
+        slant::solve(method, p.dual.zero(), slant::residual_below(1e-9) || slant::at_most(40));
     REQUIRE(r.converged());
     auto const u = p.dual.displacement(r.x());
     CHECK(contact::check_optimality(p.scene.K, p.data, u, r.x()).residual() <= 1e-7);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The printed iterations of SSNM from zero [T Tables 4.1, 4.2] are reproduced, not only approximately.
+// The printed iterations of SSNM from zero [T Tables 4.1, 4.2] are reproduced, not only
+// approximately.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -72,7 +72,8 @@ TEST_CASE("estimated multipliers: a solution is recognised as one") {
   CHECK(method.start(x, z).multipliers == z);
 }
 
-TEST_CASE("circles of radius 0 have no gradient at the solution: linear convergence, each step halves") {
+TEST_CASE(
+    "circles of radius 0 have no gradient at the solution: linear convergence, each step halves") {
   auto const w = fem::make_thesis_wire(4);
   auto const r = fem::run_wire_ssnm(w, 0, 0, slant::saddle_direct{}, {});
   CHECK(r.converged());

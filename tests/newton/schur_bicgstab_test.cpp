@@ -14,8 +14,8 @@ TEST_CASE("variant A finds the solution of the wire; its work is that of Table 4
   for (row const& printed : {row{8, {7, 5}, 94, 10}, row{16, {13, 6}, 137, 11}}) {
     auto const w = fem::make_thesis_wire(printed.m);
     auto const reference = oracle::solve_wire(printed.m, 0, 0.5);
-    auto const r = fem::run_wire_ssnm(w, 0, 0.5, slant::schur_bicgstab{},
-                                      fem::thesis_options(1, 0.01, 0.9));
+    auto const r =
+        fem::run_wire_ssnm(w, 0, 0.5, slant::schur_bicgstab{}, fem::thesis_options(1, 0.01, 0.9));
     test::check_wire(r, reference, w, 0, 0.5, printed.counts);
     CHECK(r.iterations <= printed.iterations);
     CHECK(r.products <= 1.1 * static_cast<double>(printed.products));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
-#include <slant/slanting/kkt_function.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/slanting/identity.hpp>
+#include <slant/slanting/kkt_function.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
@@ -90,7 +90,7 @@ TEST_CASE("the function and the operator of the thesis, to the last digit") {
     CHECK(F.multipliers() == 2 * p.wire.m);
     for (unsigned seed = 1; seed <= 20; ++seed) {
       VectorXd y = random_vector(F.cols(), seed);
-      if (seed == 1) y.setZero();            // circles inactive
+      if (seed == 1) y.setZero();             // circles inactive
       if (seed == 2) y.tail(p.wire.m) *= 40;  // circles active
       VectorXd const hand = p.value(y, ρ);
       CHECK((slant::evaluate(F, y) - hand).cwiseAbs().maxCoeff() <=
@@ -109,7 +109,8 @@ TEST_CASE("ties are inactive, as in the thesis") {
 }
 
 TEST_CASE("the laws of slanting functions, also where the set is ellipses and intervals") {
-  auto const ellipses = slant::power(slant::ellipse<>{}, VectorXd{{1.0, 2.0}}, VectorXd{{0.5, 0.3}});
+  auto const ellipses =
+      slant::power(slant::ellipse<>{}, VectorXd{{1.0, 2.0}}, VectorXd{{0.5, 0.3}});
   auto const intervals = slant::intervals(VectorXd{{-1.0, 0.0}}, VectorXd{{0.5, 2.0}});
   auto const set = slant::cartesian(intervals, slant::free_components(1), ellipses);
   MatrixXd const A = slanting_support::random_spd(7, 5);

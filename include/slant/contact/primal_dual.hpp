@@ -53,8 +53,8 @@ class primal_dual {
   primal_dual(primal_dual const&) = delete;
   primal_dual& operator=(primal_dual const&) = delete;
 
-  /// G for this ρ, in units of forces per length: the mean of the diagonal of K, say. Refers to this
-  /// object. Throws bad_input unless 0 < ρ < ∞.
+  /// G for this ρ, in units of forces per length: the mean of the diagonal of K, say. Refers to
+  /// this object. Throws bad_input unless 0 < ρ < ∞.
   [[nodiscard]] auto function(S const& ρ) const& {
     if (!(ρ > S(0) && slant::detail::is_finite(ρ))) {
       throw bad_input("rho", slant::detail::show(ρ), "a finite number > 0");

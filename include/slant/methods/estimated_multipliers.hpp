@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Multipliers for a point that another method has found, so that SSNM can go on from there: [T Remark
-// 4.2] "appropriately modifies" λ and μ without saying how. Here, block by block, from
+// Multipliers for a point that another method has found, so that SSNM can go on from there: [T
+// Remark 4.2] "appropriately modifies" λ and μ without saying how. Here, block by block, from
 //
 //     r + Σ zᵢ ∇fᵢ(x) = 0,   zᵢ ≥ 0,   zᵢ = 0 in the interior;        r = A x − b
 //
-// zᵢ = max(0, −∇fᵢᵀr / ‖∇fᵢ‖²) for the blocks that x is not inside of, else 0: least squares for each
-// inequality by itself. At the solution these are the multipliers (of blocks with one inequality, or
-// of which one at a time can be active).
+// zᵢ = max(0, −∇fᵢᵀr / ‖∇fᵢ‖²) for the blocks that x is not inside of, else 0: least squares for
+// each inequality by itself. At the solution these are the multipliers (of blocks with one
+// inequality, or of which one at a time can be active).
 #pragma once
 
 #include <slant/sets/blocks.hpp>
@@ -17,8 +17,8 @@
 
 namespace slant {
 
-/// One multiplier per smooth inequality of the set, in its order; r is the gradient A x − b. z has as
-/// many entries as the set has inequalities and is overwritten.
+/// One multiplier per smooth inequality of the set, in its order; r is the gradient A x − b. z has
+/// as many entries as the set has inequalities and is overwritten.
 template <class Set, class V, class Z>
 void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
   using S = scalar_t<V>;
@@ -26,8 +26,8 @@ void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
   index row = 0;
   slant::visit_blocks(set, [&](auto const& block, auto const& place) {
     using block_type = std::remove_cvref_t<decltype(block)>;
-    constexpr int n = block_type::dimension;
-    constexpr int k = block_type::inequalities;
+    constexpr int n = static_dimension_of<block_type>;
+    constexpr int k = detail::inequalities_of<block_type>;
     if constexpr (k > 0) {
       Eigen::Matrix<S, n, 1> const point = place.value(x);
       Eigen::Matrix<S, n, 1> const force = place.value(r);

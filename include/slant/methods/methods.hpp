@@ -17,5 +17,6 @@
 #include <slant/methods/separable_qp.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/ssnm_options.hpp>
+#include <slant/methods/ssnm_problem.hpp>
 #include <slant/methods/ssnm_state.hpp>
 // IWYU pragma: end_exports

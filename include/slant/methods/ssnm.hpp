@@ -21,9 +21,8 @@
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/methods/ssnm_options.hpp>
+#include <slant/methods/ssnm_problem.hpp>
 #include <slant/methods/ssnm_state.hpp>
-#include <slant/newton/schur_bicgstab.hpp>
-#include <slant/slanting/kkt_function.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -34,18 +33,17 @@ namespace slant {
 
 /// SSNM: solve(ssnm{qp, solver, options}, x0, step_below(tol, 1.0) || at_most(1000)); step_below
 /// with the offset 1 is the rule of [T], in which 1 has the unit of x.
-/// Requires a separable_qp whose set is made of blocks with smooth inequalities and, for the solvers
-/// other than bicgstab_solver, whose A is a matrix.
-template <class QP, class LinearSolver = schur_bicgstab>
-class ssnm {
+/// Requires a separable_qp whose set is made of blocks with smooth inequalities and, for the
+/// solvers other than bicgstab_solver, whose A is a matrix.
+template <class QP, class LinearSolver>
+  requires ssnm_parts<std::remove_cvref_t<QP>, LinearSolver>
+class ssnm<QP, LinearSolver> {
   using problem_type = std::remove_cvref_t<QP>;
 
  public:
   using vector_type = typename problem_type::vector_type;
   using scalar = typename problem_type::scalar;
-  using function_type =
-      kkt_function<typename problem_type::operator_type const&, vector_type,
-                   typename problem_type::set_type const&>;
+  using function_type = ssnm_function<problem_type>;
   using state_type = ssnm_state<function_type, vector_type, LinearSolver>;
   using options = ssnm_options<scalar>;
 
@@ -58,7 +56,8 @@ class ssnm {
     solver_.validate();
   }
 
-  /// Multipliers as the option says. Throws bad_input if x0 or F is not finite or of the wrong size.
+  /// Multipliers as the option says. Throws bad_input if x0 or F is not finite or of the wrong
+  /// size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     check(x0);
     auto z = like(x0, f_.multipliers());
@@ -86,10 +85,14 @@ class ssnm {
     detail::check_finite("F(x0)", residual);
     auto g = f_.slant(y);
     auto prepared = solver_.prepare(g, residual);
-    state_type s{x0,      z0,
-                 y,       std::move(residual),
-                 blank(), std::move(g),
-                 std::move(f_workspace), std::move(prepared)};
+    state_type s{x0,
+                 z0,
+                 y,
+                 std::move(residual),
+                 blank(),
+                 std::move(g),
+                 std::move(f_workspace),
+                 std::move(prepared)};
     s.forcing = forcing_history<scalar>::starting_at(scalar(1));
     classify(s);
     return s;
@@ -152,8 +155,8 @@ class ssnm {
   }
   /// tol⁽ᵏ⁾, relative to ‖F(y)‖.
   [[nodiscard]] scalar inner_tolerance(state_type& s) const {
-    scalar const tol =
-        options_.inner_tolerance > scalar(0) ? options_.inner_tolerance : s.forcing.next(options_.precision);
+    scalar const tol = options_.inner_tolerance > scalar(0) ? options_.inner_tolerance
+                                                            : s.forcing.next(options_.precision);
     if (!options_.absolute_precision) return tol;
     // More than all of F cannot be asked to go: a direction that changes nothing helps nobody.
     return std::min<scalar>(tol / s.residual_norm, scalar(0.5));

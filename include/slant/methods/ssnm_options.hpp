@@ -17,8 +17,8 @@ enum class ssnm_multipliers : unsigned char {
 /// Options of ssnm.
 template <class S>
 struct ssnm_options {
-  /// ρ > 0 of [T (2.8)], in units of A for half lines and intervals, of A over length for balls: the
-  /// only place where the scale of A matters. [T] takes 1 with A = tridiag(−1, 2, −1).
+  /// ρ > 0 of [T (2.8)], in units of A for half lines and intervals, of A over length for balls:
+  /// the only place where the scale of A matters. [T] takes 1 with A = tridiag(−1, 2, −1).
   S rho = S(1);
   /// r_tol and c_fact of the adaptive precision [T §3.4]. Inner iterations of solvers that have any
   /// end where their residual is below tol⁽ᵏ⁾ times ‖F(y)‖.

@@ -28,7 +28,7 @@ struct ssnm_state {
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
 
-  scalar residual_norm{0};  ///< ‖F(y)‖
+  scalar residual_norm{0};                                     ///< ‖F(y)‖
   scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖x⁺ − x‖ of the last step
   scalar x_norm{0};                                            ///< ‖x‖
   scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
@@ -49,7 +49,8 @@ struct ssnm_state {
         return "the optimality conditions hold exactly";
       case slant::status::breakdown:
         return "the Newton system could not be solved (" + std::string(to_string(solver_status)) +
-               "): A + Σ z ∇²f is singular, or not definite where the solver needs it, or an active "
+               "): A + Σ z ∇²f is singular, or not definite where the solver needs it, or an "
+               "active "
                "gradient vanishes or depends on others";
       default:
         return std::string(to_string(status));

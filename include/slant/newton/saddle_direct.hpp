@@ -60,6 +60,13 @@ struct saddle_direct {
     return report;
   }
 
+  /// What is missing, in words.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(detail::factorable_saddle<G, V>,
+                  "saddle_direct: F°(y) must be that of slant::kkt with an Eigen matrix A");
+  }
+
  private:
   template <class S, class G>
   [[nodiscard]] static Eigen::SparseMatrix<S> assembled(G const& g,

@@ -43,7 +43,7 @@ struct schur_bicgstab {
     auto common = detail::make_schur_workspace(g, f);
     auto krylov = inner.prepare(schur(g, common), common.reduced);
     return schur_bicgstab_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                       std::move(krylov)};
+                                                                        std::move(krylov)};
   }
 
   template <class G, class V, class P>
@@ -76,6 +76,13 @@ struct schur_bicgstab {
     report.factorizations = 1;
     detail::finish_direction(g, f, request, dy, p, report);
     return report;
+  }
+
+  /// What is missing, in words.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(detail::factorable_saddle<G, V>,
+                  "schur_bicgstab: F°(y) must be that of slant::kkt with an Eigen matrix A");
   }
 
  private:

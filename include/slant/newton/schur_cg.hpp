@@ -46,7 +46,7 @@ struct schur_cg {
     auto common = detail::make_schur_workspace(g, f);
     auto krylov = inner.prepare(schur(g, common), common.reduced);
     return schur_cg_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                 std::move(krylov)};
+                                                                  std::move(krylov)};
   }
 
   template <class G, class V, class P>
@@ -87,6 +87,13 @@ struct schur_cg {
     report.factorizations = 1;
     detail::finish_direction(g, f, request, dy, p, report);
     return report;
+  }
+
+  /// What is missing, in words.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(detail::factorable_saddle<G, V>,
+                  "schur_cg: F°(y) must be that of slant::kkt with an Eigen matrix A");
   }
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The smooth inequalities f(x) ≤ 0 that describe a product of blocks, as slanting functions, and the
-// forces that multipliers z of them exert:
+// The smooth inequalities f(x) ≤ 0 that describe a product of blocks, as slanting functions, and
+// the forces that multipliers z of them exert:
 //
 //     inequalities(Λ, c)       x ↦ c f(x),                  derivative c J,  J = ∇f(x)ᵀ
 //     inequality_forces(Λ)     (x, z) ↦ Σ zᵢ ∇fᵢ(x),        derivative (Σ zᵢ ∇²fᵢ(x), Jᵀ)
@@ -48,7 +48,7 @@ class inequality_map : public slanting_base {
     auto& f = slant::local(v);
     index row = 0;
     slant::visit_blocks(set_.get(), [&](auto const& block, auto const& place) {
-      constexpr int k = std::remove_cvref_t<decltype(block)>::inequalities;
+      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
       if constexpr (k > 0) {
         f.template segment<k>(row) = scalar_t<X>(c_) * block.inequality(place.value(x));
         row += k;
@@ -93,7 +93,7 @@ class inequality_force_map : public slanting_base {
     auto const& z = slant::local(y);
     index row = cols() - layout_->rows();
     slant::visit_blocks(set_.get(), [&](auto const& block, auto const& place) {
-      constexpr int k = std::remove_cvref_t<decltype(block)>::inequalities;
+      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
       if constexpr (k > 0) {
         auto const g = block.inequality_gradient(place.value(y)).eval();
         place.put(force, (g * z.template segment<k>(row)).eval());
@@ -117,8 +117,8 @@ class inequality_force_map : public slanting_base {
   std::shared_ptr<detail::inequality_layout const> layout_;
 };
 
-/// x ↦ c f(x), one value per smooth inequality, block after block. An lvalue is referenced. The factor
-/// is part of the entries, other than with scale(), which costs a pass over the values.
+/// x ↦ c f(x), one value per smooth inequality, block after block. An lvalue is referenced. The
+/// factor is part of the entries, other than with scale(), which costs a pass over the values.
 /// @throws bad_input if c is NaN or infinite.
 template <class C, class S = int>
 [[nodiscard]] auto inequalities(C&& set, S c = S(1)) {

@@ -40,8 +40,8 @@ class inequality_jacobian {
     index at = 0;
     slant::visit_blocks(set, [&](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr int n = block_type::dimension;
-      constexpr int k = block_type::inequalities;
+      constexpr int n = static_dimension_of<block_type>;
+      constexpr int k = detail::inequalities_of<block_type>;
       if constexpr (k > 0) {
         Eigen::Matrix<S, n, k> const g = block.inequality_gradient(place.value(x));
         for (int i = 0; i < k; ++i) {
@@ -100,9 +100,8 @@ class inequality_jacobian {
     for (auto const& run : layout_->runs()) {
       detail::with_block_size(run, [&](auto n, auto k, auto stride, auto step) {
         if constexpr (detail::is_one<decltype(n)> && detail::is_one<decltype(k)>) {
-          put(y.segment(run.row, run.blocks),
-              gradients_.segment(run.gradient, run.blocks)
-                  .cwiseProduct(x.segment(run.first, run.blocks)));
+          put(y.segment(run.row, run.blocks), gradients_.segment(run.gradient, run.blocks)
+                                                  .cwiseProduct(x.segment(run.first, run.blocks)));
         } else {
           S const* const g = gradients_.data() + run.gradient;
           for (index i = 0; i < run.blocks; ++i) {
@@ -147,8 +146,8 @@ class inequality_curvature {
     index row = 0;
     slant::visit_blocks(set, [&](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr int n = block_type::dimension;
-      constexpr int k = block_type::inequalities;
+      constexpr int n = static_dimension_of<block_type>;
+      constexpr int k = detail::inequalities_of<block_type>;
       if constexpr (k > 0) {
         Eigen::Matrix<S, k, 1> const own = slant::local(z).template segment<k>(row);
         Eigen::Map<Eigen::Matrix<S, n, n>>(hessians_.data() + at) =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The optimality conditions of min ½xᵀA x − bᵀx over {x : f(x) ≤ 0} as one equation F(y) = 0 for the
-// unknowns and their multipliers, y = (x, z) [T (2.10), (2.11)]:
+// The optimality conditions of min ½xᵀA x − bᵀx over {x : f(x) ≤ 0} as one equation F(y) = 0 for
+// the unknowns and their multipliers, y = (x, z) [T (2.10), (2.11)]:
 //
 //     F(y) = ( A x − b + Σ zᵢ ∇fᵢ(x) ;  z − max(0, z + ρ f(x)) )
 //
@@ -109,9 +109,9 @@ class kkt_operator : public Composed {
 template <class A, class V, class C>
 class kkt_function : public slanting_base {
   using scalar = scalar_t<V>;
-  using composed = decltype(detail::compose_kkt(std::declval<held<A> const&>(),
-                                                std::declval<V const&>(),
-                                                std::declval<held<C> const&>(), scalar()));
+  using composed =
+      decltype(detail::compose_kkt(std::declval<held<A> const&>(), std::declval<V const&>(),
+                                   std::declval<held<C> const&>(), scalar()));
 
  public:
   /// See slant::kkt.

@@ -11,8 +11,8 @@
 
 namespace slant::detail {
 
-/// P K Pᵀ = L D Lᵀ of the lower triangle of K. With the parts that Eigen gives away only as copies (D)
-/// or protects.
+/// P K Pᵀ = L D Lᵀ of the lower triangle of K. With the parts that Eigen gives away only as copies
+/// (D) or protects.
 template <class S>
 class sparse_ldlt_factors : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>, Eigen::Lower> {
  public:
@@ -51,7 +51,6 @@ class sparse_ldlt_factors : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>,
       v[k] = t;
     }
   }
-
 };
 
 }  // namespace slant::detail

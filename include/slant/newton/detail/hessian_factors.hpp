@@ -125,10 +125,9 @@ class dense_hessian_factors {
 
 /// The factors for matrices like M.
 template <class M>
-using hessian_factors_t =
-    std::conditional_t<std::is_base_of_v<Eigen::SparseMatrixBase<M>, M>,
-                       sparse_hessian_factors<typename M::Scalar>,
-                       dense_hessian_factors<typename M::Scalar>>;
+using hessian_factors_t = std::conditional_t<std::is_base_of_v<Eigen::SparseMatrixBase<M>, M>,
+                                             sparse_hessian_factors<typename M::Scalar>,
+                                             dense_hessian_factors<typename M::Scalar>>;
 
 /// K⁻¹ as an operator.
 template <class Factors>

@@ -16,8 +16,9 @@
 namespace slant::detail {
 
 template <class G>
-concept has_hessian_matrix =
-    is_kkt_operator<G> && requires(G const& g) { requires eigen_matrix<decltype(g.hessian().get())>; };
+concept has_hessian_matrix = is_kkt_operator<G> && requires(G const& g) {
+  requires eigen_matrix<decltype(g.hessian().get())>;
+};
 
 /// F°(y) of a kkt_function whose A is a matrix.
 template <class G, class V>
@@ -26,16 +27,16 @@ concept factorable_saddle = has_hessian_matrix<G> && linear_operator<G, V>;
 /// Vectors and factors of a Schur complement solver, apart from what its inner iteration keeps.
 template <class V, class Factors, class W>
 struct schur_workspace {
-  Factors factors;                       ///< of K = A + H
-  V force;                               ///< n entries, right-hand side of K x = …
-  V x;                                   ///< n entries, K⁻¹ force
-  V reduced;                             ///< p entries, right-hand side of the Schur complement
-  V multipliers;                         ///< p entries, dz
-  V active;                              ///< p entries, 1 in 𝒜 (times ρ in variant A)
-  V inactive;                            ///< p entries, 1 in ℐ
-  V residual;                            ///< F + G dy
-  W g_workspace;                         ///< temporaries of G
-  typename Factors::vector_type w;       ///< temporaries of a solve
+  Factors factors;                  ///< of K = A + H
+  V force;                          ///< n entries, right-hand side of K x = …
+  V x;                              ///< n entries, K⁻¹ force
+  V reduced;                        ///< p entries, right-hand side of the Schur complement
+  V multipliers;                    ///< p entries, dz
+  V active;                         ///< p entries, 1 in 𝒜 (times ρ in variant A)
+  V inactive;                       ///< p entries, 1 in ℐ
+  V residual;                       ///< F + G dy
+  W g_workspace;                    ///< temporaries of G
+  typename Factors::vector_type w;  ///< temporaries of a solve
 };
 
 template <class G>
@@ -47,9 +48,16 @@ template <class G, class V>
   index const p = g.jacobian().rows();
   using factors = hessian_factors_t<hessian_matrix_t<G>>;
   auto g_workspace = slant::workspace(g, f);
-  schur_workspace<V, factors, decltype(g_workspace)> w{
-      {},         like(f, n), like(f, n), like(f, p),     like(f, p),
-      like(f, p), like(f, p), like(f, p), std::move(g_workspace), typename factors::vector_type(n)};
+  schur_workspace<V, factors, decltype(g_workspace)> w{{},
+                                                       like(f, n),
+                                                       like(f, n),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       std::move(g_workspace),
+                                                       typename factors::vector_type(n)};
   w.residual = like(f, n + p);
   for (V* v : {&w.reduced, &w.multipliers, &w.active, &w.inactive}) slant::local(*v).setZero();
   return w;

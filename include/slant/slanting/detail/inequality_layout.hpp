@@ -26,14 +26,16 @@ struct inequality_run {
   index hessian;   ///< first of the entries of the Hessians, dimension² per block
 };
 
-/// Every block says how many smooth inequalities it is made of (perhaps none), and what they are.
-template <class Set> concept smooth_blocks = requires(Set const& set) {
-  slant::visit_blocks(set, [](auto const& block, auto const& place) {
-    using block_type = std::remove_cvref_t<decltype(block)>;
-    static_assert(std::is_class_v<std::remove_cvref_t<decltype(place)>>);
-    static_cast<void>(block_type::inequalities);
-  });
-};
+/// Number of smooth inequalities of a block; 0 also of one without an inequality form, which
+/// slant::inequalities refuses in words.
+template <class Block>
+inline constexpr int inequalities_of = [] {
+  if constexpr (has_inequality_form<Block, point_t<Block>>) {
+    return int(Block::inequalities);
+  } else {
+    return 0;
+  }
+}();
 
 /// The runs of a set, in the order of its blocks.
 class inequality_layout {
@@ -42,8 +44,8 @@ class inequality_layout {
   explicit inequality_layout(Set const& set) : cols_(slant::dimension_of(set)) {
     slant::visit_blocks(set, [this](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr index n = block_type::dimension;
-      constexpr index k = block_type::inequalities;
+      constexpr index n = static_dimension_of<block_type>;
+      constexpr index k = inequalities_of<block_type>;
       if constexpr (k > 0) {
         append(n, k, place.component(0), n > 1 ? place.component(1) - place.component(0) : 1);
       }
@@ -82,8 +84,8 @@ class inequality_layout {
   std::vector<inequality_run> runs_;
 };
 
-/// f(0), …, f(n − 1), written out where n is a constant: compilers that optimise for size as well do
-/// not unroll a loop of two.
+/// f(0), …, f(n − 1), written out where n is a constant: compilers that optimise for size as well
+/// do not unroll a loop of two.
 template <class N, class F>
 void repeat(N n, F const& f) {
   if constexpr (std::is_same_v<N, index>) {
@@ -98,8 +100,8 @@ void repeat(N n, F const& f) {
 template <class N>
 inline constexpr bool is_one = std::is_same_v<N, std::integral_constant<index, 1>>;
 
-/// f(dimension, inequalities, stride, step), as constants where the blocks are of the usual kinds and
-/// lie one behind the other, so that the loops over them are unrolled.
+/// f(dimension, inequalities, stride, step), as constants where the blocks are of the usual kinds
+/// and lie one behind the other, so that the loops over them are unrolled.
 template <class F>
 void with_block_size(inequality_run const& run, F const& f) {
   using one = std::integral_constant<index, 1>;

@@ -35,8 +35,8 @@ struct pointwise_pair_workspace {
   Vector g;
 };
 
-/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that the
-/// slopes are always (1, 0) or (0, 1), or NaN.
+/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
+/// the slopes are always (1, 0) or (0, 1), or NaN.
 template <class Kernel, class F, class G>
 class pointwise_pair : public function_pair<F, G> {
   using pair = function_pair<F, G>;
@@ -67,8 +67,8 @@ class pointwise_pair : public function_pair<F, G> {
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
-    assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()), slant::like(y, rows()),
-                         left().slant(y), right().slant(y));
+    assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()),
+                         slant::like(y, rows()), left().slant(y), right().slant(y));
     set_slopes(s, w);
     return s;
   }

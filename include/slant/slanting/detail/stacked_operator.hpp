@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Operators of the same argument, one above the other: y = (A₁x; A₂x; …). The slanting operator of
-// a stack of functions. Each part writes into its rows of an Eigen vector; of another kind of vector
-// it writes all of one, whose entries are then copied.
+// a stack of functions. Each part writes into its rows of an Eigen vector; of another kind of
+// vector it writes all of one, whose entries are then copied.
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
@@ -39,9 +39,9 @@ using rows_view_t = decltype(slant::local(std::declval<Y&>()).middleRows(index{}
 
 /// A can write straight into rows of Y, where that is nothing but an Eigen object.
 template <class A, class X, class Y>
-concept writes_rows = std::is_same_v<local_t<X>, std::remove_cvref_t<X>> &&
-                      std::is_same_v<local_t<Y>, std::remove_cvref_t<Y>> &&
-                      applies<A, X, rows_view_t<Y>>;
+concept writes_rows =
+    std::is_same_v<local_t<X>, std::remove_cvref_t<X>> &&
+    std::is_same_v<local_t<Y>, std::remove_cvref_t<Y>> && applies<A, X, rows_view_t<Y>>;
 
 /// y = (A₁x; A₂x; …), all with the same number of columns.
 template <class... A>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // diag(p) A + diag(q) B, the slanting operator of a function of two functions, componentwise. A
-// writes the result, B a temporary (or nothing, if it is a slice), and one pass over both weighs and
-// adds: as a sum of products with diagonal operators it would take two temporaries and four passes.
-// Of a maximum or minimum each row is that of A or that of B, and the pass only copies the latter.
+// writes the result, B a temporary (or nothing, if it is a slice), and one pass over both weighs
+// and adds: as a sum of products with diagonal operators it would take two temporaries and four
+// passes. Of a maximum or minimum each row is that of A or that of B, and the pass only copies the
+// latter.
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
