@@ -186,6 +186,46 @@ TEST_CASE("the scale of the residual: ‖F(0)‖, so that a good start is not as
   CHECK(slant::semismooth_newton{F}.start(number(4)).residual_scale == 1.75);
 }
 
+TEST_CASE("the size of steps, for rules and forcing terms that go by it [T (SSNM)]") {
+  slant::semismooth_newton const method{curve(),
+                                        slant::by_laws{},
+                                        slant::halving_line_search{},
+                                        slant::adaptive_precision{.r_tol = 0.01},
+                                        {.error = slant::newton_error::step, .step_offset = 1}};
+  auto s = method.start(VectorXd{{2.0, 0.7}});
+  CHECK(!(s.step_norm < std::numeric_limits<double>::infinity()));
+  CHECK(s.forcing.error == 1);
+  double last_tolerance = 0.01 / 0.9;
+  while (s.status == slant::status::running && s.iteration < 4) {
+    VectorXd const before = s.x;
+    double const error = s.forcing.error;
+    method.step(s);
+    CHECK(s.step_norm == doctest::Approx((s.x - before).norm()));
+    CHECK(s.x_norm == s.x.norm());
+    CHECK(s.forcing.last_tolerance ==
+          doctest::Approx(std::min(0.01 * error, 0.9 * last_tolerance)));
+    CHECK(s.forcing.error == s.step_norm / (s.x_norm + 1));
+    last_tolerance = s.forcing.last_tolerance;
+  }
+  auto const r =
+      slant::solve(method, VectorXd{{2.0, 0.7}}, slant::step_below(1e-6) || slant::at_most(20));
+  CHECK(r.converged());
+  CHECK((r.x() - VectorXd::Ones(2)).norm() <= 1e-11);  // the error is the square of the step
+
+  // A shortened step says nothing: what counts is the whole one; of a longer one, what was gone.
+  auto const F =
+      equation([](double y) { return std::atan(y); }, [](double y) { return 1 / (1 + y * y); });
+  slant::semismooth_newton const damped{F};
+  auto t = damped.start(number(3));
+  damped.step(t);
+  REQUIRE(t.length < 1);
+  CHECK(t.step_norm == doctest::Approx(10 * std::atan(3.0)));
+  slant::semismooth_newton const twice{F, slant::by_laws{}, slant::multiple_root{}};
+  auto u = twice.start(number(0.5));
+  twice.step(u);
+  CHECK(u.step_norm == doctest::Approx(std::abs(u.x[0] - 0.5)));
+}
+
 TEST_CASE("a copied state goes on as the original does; a state at rest stays as it is") {
   slant::semismooth_newton const method{curve()};
   auto s = method.start(VectorXd{{2.0, 0.7}});

@@ -41,7 +41,8 @@ TEST_CASE("sparse matrices of both orders, and columns of a composition") {
   check(solve(slant::sparse_direct_solver{}, G, f, dy));  // 32 columns and 13
   CHECK(A.applications() == 0);
   check(solve(slant::direct_solver{}, slant::matrix(by_columns), f, dy));
-  check(solve(slant::direct_solver{}, slant::matrix(by_rows), f, dy));
+  auto const linear = slant::linear(by_rows);
+  check(solve(slant::direct_solver{}, linear.slant(x), f, dy));
 }
 
 TEST_CASE("singular matrices, and those that are not numbers, are breakdowns") {

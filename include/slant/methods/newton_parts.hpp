@@ -60,6 +60,12 @@ consteval void refuse_newton_parts() {
   }
 }
 
+/// Options of a part, if it has any, are checked.
+template <class Part>
+void validate_part(Part const& part) {
+  if constexpr (requires { part.validate(); }) part.validate();
+}
+
 /// What start returns then; nothing of it is defined.
 template <class V>
 struct refused_newton_state : refused_state<V> {};

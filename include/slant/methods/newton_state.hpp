@@ -62,6 +62,13 @@ struct newton_state {
   slant::work work{};  ///< operator_applications: evaluations of F and applications of F° or its
                        ///< parts; for a natural residual each is one product by A
 
+  /// Ends the run; false, for callers that return whether they succeeded.
+  bool give_up(slant::status how, newton_failure why) {
+    status = how;
+    failure = why;
+    return false;
+  }
+
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {
     switch (failure) {

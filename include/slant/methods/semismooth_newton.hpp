@@ -12,10 +12,11 @@
 // Locally superlinear if F°(y)⁻¹ is bounded near the solution, α = 1 and η → 0; quadratic if F is
 // smooth with a Lipschitz derivative and η = O(‖F‖).
 //
-// Work. One evaluation of F a step, and one more for each shortening; what the solver spends. With
-// a natural residual and symmetrized_cg these are 2 + (CG iterations) products by A a step: one for
-// F, one for the start of CG. (Products of the method that knows A, b and the set: 1 + iterations,
-// since A (x + α dx) follows from those of CG.)
+// Work. One evaluation of F a step and one more for each halving, the first of which is the next
+// residual; and what the linear solver spends. For a natural residual that is, in products by A,
+// 2 + (iterations of CG) with symmetrized_cg: F, the right-hand side, CG. A function knows nothing
+// of the products that a solver forms; a method that knows A, b and the set needs 1 + iterations,
+// however often it halves, since A (x + α dx) follows from those of CG.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -59,9 +60,9 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
         forcing_(std::move(forcing)),
         options_(options) {
     detail::check_size("F.rows()", index(this->f().rows()), index(this->f().cols()), "F.cols()");
-    validate(linear_solver_);
-    validate(search_);
-    validate(forcing_);
+    detail::validate_part(linear_solver_);
+    detail::validate_part(search_);
+    detail::validate_part(forcing_);
     options_.validate();
   }
 
@@ -87,6 +88,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
                    std::move(g),
                    std::move(f_workspace),
                    std::move(prepared)};
+    slant::local(s.direction).setZero();
     ++s.work.operator_applications;
     s.residual_norm = norm(s.residual);
     s.x_norm = norm(s.x);
@@ -140,9 +142,11 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     // However the solver ended: what reduces the linear model is an inexact Newton direction, only
     // a less accurate one, if η stays away from 1. A gain near rounding level may come from a
     // vector of any size in the kernel of F°.
+    s.step_norm = norm(s.direction);
     bool const useful =
-        r.status == status::converged || r.residual_norm <= S(0.99) * s.residual_norm;
-    return useful || give_up(s, status::breakdown, newton_failure::no_direction);
+        detail::is_finite(s.step_norm) &&
+        (r.status == status::converged || r.residual_norm <= S(0.99) * s.residual_norm);
+    return useful || s.give_up(status::breakdown, newton_failure::no_direction);
   }
 
   /// The trial point and its residual; false if no length is accepted.
@@ -170,8 +174,8 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
         return true;
       }
     }
-    return p.best_length > S(0) ? give_up(s, status::stalled, newton_failure::no_length)
-                                : give_up(s, status::breakdown, newton_failure::not_finite);
+    return p.best_length > S(0) ? s.give_up(status::stalled, newton_failure::no_length)
+                                : s.give_up(status::breakdown, newton_failure::not_finite);
   }
 
   /// The trial point becomes the iterate: its F is known, so F° is all that is to be computed.
@@ -202,18 +206,11 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     if (s.status != status::running) return;
     bool const last_digits = s.step_norm <= S(4) * std::numeric_limits<S>::epsilon() * s.x_norm;
     if (last_digits && !(s.residual_norm < before)) {
-      give_up(s, status::stalled, newton_failure::no_digits);
+      s.give_up(status::stalled, newton_failure::no_digits);
     } else if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience,
                                   [&] { return std::pair(infinity, S(0)); })) {
-      give_up(s, status::stalled, newton_failure::no_progress);
+      s.give_up(status::stalled, newton_failure::no_progress);
     }
-  }
-
-  template <class State>
-  static bool give_up(State& s, status how, newton_failure why) {
-    s.status = how;
-    s.failure = why;
-    return false;
   }
 
   template <class State>
@@ -227,11 +224,6 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     ++s.work.setup_applications;
     S const at_origin = norm(s.trial_residual);
     if (at_origin > S(0) && detail::is_finite(at_origin)) s.residual_scale = at_origin;
-  }
-
-  template <class Part>
-  static void validate(Part const& part) {
-    if constexpr (requires { part.validate(); }) part.validate();
   }
 
   held<F> f_;

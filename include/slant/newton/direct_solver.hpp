@@ -16,6 +16,7 @@
 #include <slant/newton/detail/sparse_lu.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/slanting/detail/assembled_operator.hpp>
 
 #include <limits>
 #include <type_traits>
@@ -25,15 +26,22 @@ namespace slant {
 
 namespace detail {
 
+/// The matrix that an operator is, perhaps behind the reference that a linear function hands out.
 template <class G>
-inline constexpr bool is_matrix_operator = false;
+struct stored_matrix {
+  static constexpr bool exists = false;
+  static constexpr bool sparse = false;
+};
 template <class M, law_set L>
-inline constexpr bool is_matrix_operator<matrix_operator<M, L>> = true;
-
-template <class G>
-inline constexpr bool is_sparse_operator = false;
-template <class M, law_set L>
-inline constexpr bool is_sparse_operator<matrix_operator<M, L>> = is_sparse_matrix<M>;
+struct stored_matrix<matrix_operator<M, L>> {
+  static constexpr bool exists = true;
+  static constexpr bool sparse = is_sparse_matrix<M>;
+  static auto const& of(matrix_operator<M, L> const& g) { return g.get(); }
+};
+template <class A>
+struct stored_matrix<operator_view<A>> : stored_matrix<A> {
+  static auto const& of(operator_view<A> const& g) { return stored_matrix<A>::of(g.underlying()); }
+};
 
 template <class V>
 using dense_matrix_t = Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, Eigen::Dynamic>;
@@ -99,7 +107,7 @@ template <class G, class V, class P, class Solve>
 /// A direct solution costs no more than the operator's own inverse, or the factors of its matrix.
 template <class G, class V>
 concept solved_cheaply =
-    linear_operator<G, V> && (has_inverse<G, V> || detail::is_matrix_operator<G>);
+    linear_operator<G, V> && (has_inverse<G, V> || detail::stored_matrix<G>::exists);
 
 /// A direct solution is possible.
 template <class G, class V>
@@ -153,7 +161,7 @@ struct direct_solver {
     if constexpr (has_inverse<G, V>) {
       auto w = slant::workspace(g.inverse(), f);
       return detail::known_inverse<decltype(w)>(std::move(w));
-    } else if constexpr (detail::is_sparse_operator<G>) {
+    } else if constexpr (detail::stored_matrix<G>::sparse) {
       return detail::sparse_lu<S>();
     } else {
       return detail::dense_lu<S>(g.rows());
@@ -161,12 +169,13 @@ struct direct_solver {
   }
   template <class G, class Factors>
   [[nodiscard]] static bool factor(G const& g, Factors& factors) {
-    if constexpr (detail::is_sparse_operator<G>) {
+    if constexpr (detail::stored_matrix<G>::sparse) {
+      auto const& m = detail::stored_matrix<G>::of(g);
       using matrix_type = typename Factors::matrix_type;
-      if constexpr (std::is_same_v<typename G::matrix_type, matrix_type>) {
-        return factors.factor(g.get());
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, matrix_type>) {
+        return factors.factor(m);
       } else {
-        return factors.factor(matrix_type(g.get()));
+        return factors.factor(matrix_type(m));
       }
     } else {
       return factors.factor(g);

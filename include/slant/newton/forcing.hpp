@@ -119,9 +119,9 @@ struct adaptive_precision {
 /// that one lucky step does not make the next one expensive [Eisenstat, Walker 1996, choice 2].
 struct eisenstat_walker {
   double γ = 0.9;        ///< in (0, 1]
-  double exponent = 2;   ///< in (1, 2]: the order of convergence, if γ < 1 or exponent < 2
+  double exponent = 2;   ///< in (1, 2]: the order of convergence, quadratic for 2 if γ < 1
   double η_max = 0.9;    ///< in (0, 1): never less accurate than this
-  double η_first = 0.1;  ///< in (0, η_max]: that of the first step
+  double η_first = 0.5;  ///< in (0, η_max]: that of the first step
   double goal = 0;  ///< in [0, 1): no step is solved beyond half of goal · err⁽⁰⁾; 0: no limit
 
   /// Throws bad_input naming the option, its value and what was expected.
