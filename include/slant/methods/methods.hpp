@@ -6,6 +6,7 @@
 // IWYU pragma: begin_exports
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/methods/descent_takeover.hpp>
+#include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -17,6 +18,10 @@
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/ssnm.hpp>
+#include <slant/methods/ssnm_options.hpp>
+#include <slant/methods/ssnm_problem.hpp>
+#include <slant/methods/ssnm_state.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>

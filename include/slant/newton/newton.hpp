@@ -11,6 +11,9 @@
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/globalisation.hpp>
+#include <slant/newton/saddle_direct.hpp>
+#include <slant/newton/schur_bicgstab.hpp>
+#include <slant/newton/schur_cg.hpp>
 #include <slant/newton/slant_preconditioner.hpp>
 #include <slant/newton/sparse_direct_solver.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
