@@ -6,7 +6,8 @@
 //
 //     r(x)  = A x − b                          gradient
 //     r̃(x)  = (x − P_Λ(x − α̃ r)) / α̃           reduced gradient, zero exactly at the solution
-//     F, 𝒜  = blocks with f_i < 0, f_i = 0       free and active set
+//     F, 𝒜  = blocks with f_i < 0, f_i = 0       free and active set; or, with the active sets of
+//                                                semismooth Newton, those of P_Λ(x − α̃ r)
 //     φ̃, β̃  = r̃ on F, r̃ on 𝒜;   φ = r on F
 //
 //     (1°) r̃ = 0:                     stop
@@ -23,6 +24,7 @@
 #pragma once
 
 #include <slant/concepts/distributed.hpp>
+#include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/gradient_step.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_problem.hpp>
@@ -109,51 +111,34 @@ class kprgp<QP> {
 
   /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
   bool conjugate_gradient_step(state_type& s) const {
-    auto& d = s.directions;
+    auto const& qp = qp_.get();
     s.face.keep(s.r, s.φ);
-    d.advance(s.φ);
-    d.image(qp_.get().a(), s.a_workspace);
-    ++s.work.operator_applications;
-    scalar const slope = inner_product(s.r, d.p);
-    scalar const noise = curvature_noise(s);
-    if (!(d.curvature >= -noise)) {  // A is not what it promised, or not a number
-      s.status = status::breakdown;
-      return true;
+    next_direction(qp.a(), s);
+    auto const step = step_within(
+        qp.set(), s,
+        kernel_curvature<definite>(s.directions, s.σ, options_.step_length.has_value()));
+    switch (step.end) {
+      case feasible_step_end::minimum:
+        if (options_.refresh > 0 && s.since_refresh >= options_.refresh) s.gradient(qp);
+        split(s);
+        s.last_step = kprgp_step::conjugate_gradient;
+        return true;
+      case feasible_step_end::boundary:
+        if (options_.half_step || step.flat) {
+          half_step(s, step);
+          split(s);
+        }
+        return false;
+      case feasible_step_end::endless: {
+        bool const descent =
+            !definite && step.flat && is_descent(step.slope, s.directions.p, gradient_noise(s));
+        s.status = descent ? status::unbounded : status::stalled;
+        return true;
+      }
+      default:  // A is not what it promised, or not a number
+        s.status = status::breakdown;
+        return true;
     }
-    bool const curved = d.curvature > noise;
-    if (curved && try_step(s, slope / d.curvature)) return true;
-
-    slant::local(s.trial) = -slant::local(d.p);
-    scalar const α_max = slant::minimum(
-        s.x, qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial)));
-    if (!(α_max < std::numeric_limits<scalar>::infinity())) {
-      bool const descent = !definite && !curved && is_descent(slope, d.p, gradient_noise(s));
-      s.status = descent ? status::unbounded : status::stalled;
-      return true;
-    }
-    if (options_.half_step || !curved) {
-      slant::local(s.x) += α_max * slant::local(s.trial);
-      slant::local(s.r) -= (α_max / s.unit) * slant::local(d.Ap);
-      split(s);
-    }
-    return false;
-  }
-
-  /// x − α p, p in multiples of unit, if it lies in Λ.
-  bool try_step(state_type& s, scalar α) const {
-    auto& d = s.directions;
-    slant::local(s.trial) = slant::local(s.x) - (s.unit * α) * slant::local(d.p);
-    if (!slant::everywhere(s.x, qp_.get().set().contains(slant::local(s.trial)))) return false;
-    std::swap(s.x, s.trial);
-    ++s.since_refresh;
-    if (options_.refresh > 0 && s.since_refresh >= options_.refresh) {
-      s.gradient(qp_.get());
-    } else {
-      slant::local(s.r) -= α * slant::local(d.Ap);
-    }
-    split(s);
-    s.last_step = kprgp_step::conjugate_gradient;
-    return true;
   }
 
   /// x ← x − α̃ φ̃: may add blocks to the active set.
@@ -178,11 +163,13 @@ class kprgp<QP> {
     s.last_step = kind;
   }
 
-  /// A new face at x; the next direction is φ itself.
+  /// A new face; the next direction is φ itself.
   void restart(state_type& s) const {
-    s.face.assign(qp_.get().set(), slant::local(s.x));
+    bool const semismooth = options_.active_sets == active_set_rule::semismooth;
+    s.reduce(qp_.get());
+    s.face.assign(qp_.get().set(), slant::local(semismooth ? s.projected : s.x));
     s.directions.live = false;
-    split(s);
+    weigh(s);
     if constexpr (!definite) {
       // Steps that leave Λ again and again may still sum up to a direction that never does.
       if (s.recession.found(qp_.get().set(), s)) s.status = status::unbounded;
@@ -192,6 +179,10 @@ class kprgp<QP> {
   /// r̃ and what its two parts can gain.
   void split(state_type& s) const {
     s.reduce(qp_.get());
+    weigh(s);
+  }
+
+  void weigh(state_type& s) const {
     scalar const rounding = epsilon() * norm(s.x) / (s.step_length * s.unit);  // of r̃
     scalar const noise = rounding * norm(s.r);
     s.face.keep(s.reduced, s.φ);
@@ -200,17 +191,6 @@ class kprgp<QP> {
     s.βr = gain(s.φ, s.r, noise);
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
-  }
-
-  /// Curvature of p below which p counts as a direction of the kernel; 0 if there is none.
-  scalar curvature_noise(state_type& s) const {
-    if constexpr (definite) {
-      return scalar(0);
-    } else {
-      auto const& d = s.directions;
-      if (options_.step_length) s.σ = std::max<scalar>(s.σ, d.curvature / inner_product(d.p, d.p));
-      return flatness(d.p, s.σ);
-    }
   }
 
   /// At least max(‖b‖, ‖A x‖) / unit.
