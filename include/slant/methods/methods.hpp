@@ -4,10 +4,24 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/as.hpp>
+#include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
+#include <slant/methods/imssn.hpp>
+#include <slant/methods/kkt_vector.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/modified_newton.hpp>
+#include <slant/methods/modified_newton_options.hpp>
+#include <slant/methods/modified_newton_parts.hpp>
+#include <slant/methods/modified_newton_state.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/methods/proportioning.hpp>
+#include <slant/methods/qpc.hpp>
+#include <slant/methods/qpc_options.hpp>
+#include <slant/methods/qpq.hpp>
 #include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/release_rules.hpp>
 #include <slant/methods/separable_qp.hpp>
 // IWYU pragma: end_exports

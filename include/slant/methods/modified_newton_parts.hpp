@@ -103,8 +103,8 @@ struct fixed_precision {
 /// tol^(k+1) = min(r_tol err^(k)/err^(0), c_fact tol^(k)),  tol^(0) = r_tol/c_fact.
 template <class S>
 struct adaptive_precision {
-  S r_tol = S(0.1);   ///< in (0, 1): accuracy relative to that of the last iterate
-  S c_fact = S(0.9);  ///< in (0, 1): what tol falls by at least
+  S r_tol = S(0.5);     ///< in (0, 1): accuracy relative to that of the last iterate
+  S c_fact = S(0.999);  ///< in (0, 1): what tol falls by at least, wanted or not
 
   void validate() const {
     if (!(r_tol > S(0) && r_tol < S(1))) {
