@@ -158,6 +158,13 @@ class modified_newton<QP, Start, Inner, Precision> {
       }
     }
     reduce(s);
+    if constexpr (!definite) {
+      // Steps that end at the boundary again and again may still sum up to a direction of descent
+      // that never does.
+      if (s.status == status::running && s.recession.found(qp_.get().set(), s)) {
+        s.status = status::unbounded;
+      }
+    }
   }
 
   static void exchange(state_type& s) {

@@ -9,6 +9,7 @@
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/modified_newton_parts.hpp>
 #include <slant/methods/progress_watch.hpp>
+#include <slant/methods/recession.hpp>
 #include <slant/sets/face.hpp>
 
 #include <string>
@@ -45,6 +46,7 @@ struct modified_newton_state : gradient_point<QP> {
   vector_type φ;                                 ///< r on the face; between steps scratch
   conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
   outside_type outside;                          ///< λ, where it is not x
+  recession_watch<vector_type> recession;        ///< looks for descent without end
   progress_watch<scalar> progress;               ///< looks for steps that get nowhere
   face_t<typename QP::set_type, local_t<vector_type>> face;  ///< of the last step; free blocks: 𝒜
 
@@ -57,7 +59,11 @@ struct modified_newton_state : gradient_point<QP> {
   slant::status status = slant::status::running;
 
   modified_newton_state(QP const& qp, vector_type const& x0)
-      : gradient_point<QP>(qp, x0), φ(like(x0, qp.size())), directions(x0), outside(x0) {}
+      : gradient_point<QP>(qp, x0),
+        φ(like(x0, qp.size())),
+        directions(x0),
+        outside(x0),
+        recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {
