@@ -101,6 +101,13 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     return s;
   }
 
+  /// start(s.x) in the place of s, which this method or one like it made earlier: for a sequence of
+  /// systems with other A and b of the same sizes. No allocation; breakdown if A x is not finite.
+  void restart(state_type& s) const {
+    s.restarted = true;
+    detail::restart_residual(this->a(), this->b(), s);
+  }
+
   void step(state_type& s) const {
     if (s.status != status::running) return;
     auto const ε = std::numeric_limits<scalar>::epsilon();
@@ -116,11 +123,11 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
         slant::local(s.p) = slant::local(s.r) + β * (slant::local(s.p) - s.ω * slant::local(s.v));
       }
     }
-    if (s.restarted) restart(s);
+    if (s.restarted) renew_shadow(s);
     image(s, s.p, s.v);
     scalar denominator = inner_product(s.shadow, s.v);
     if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) {
-      restart(s);
+      renew_shadow(s);
       image(s, s.p, s.v);
       denominator = inner_product(s.shadow, s.v);
       if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) return break_down(s);
@@ -154,7 +161,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     using std::abs;
     return abs(value) > noise && detail::is_finite(value);
   }
-  static void restart(state_type& s) {
+  static void renew_shadow(state_type& s) {
     slant::local(s.shadow) = slant::local(s.r);
     slant::local(s.p) = slant::local(s.r);
     s.ρ = inner_product(s.r, s.r);

@@ -17,11 +17,14 @@
 #include <slant/methods/modified_newton_parts.hpp>
 #include <slant/methods/modified_newton_state.hpp>
 #include <slant/methods/mssn.hpp>
+#include <slant/methods/newton_options.hpp>
+#include <slant/methods/newton_state.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/qpc.hpp>
 #include <slant/methods/qpc_options.hpp>
 #include <slant/methods/qpq.hpp>
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/release_rules.hpp>
+#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
 // IWYU pragma: end_exports
