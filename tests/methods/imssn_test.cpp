@@ -20,16 +20,19 @@ using Eigen::VectorXd;
 TEST_CASE("the inner accuracy is min(r_tol err/err⁰, c_fact tol), relative to err⁰") {
   test::example_one<double> const p;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
-  slant::imssn const method{qp, {.precision = {.r_tol = 0.1, .c_fact = 0.9}}};
+  slant::imssn const method{qp, {.forcing = {.r_tol = 0.1, .c_fact = 0.9}}};
   auto s = method.start(p.zero());
   double const err0 = s.reduced_gradient_norm;
-  CHECK(s.first_error == err0);
-  CHECK(s.tolerance == 0.1 / 0.9);
+  double tol = 0.1 / 0.9;
+  VectorXd φ(12);
   for (int k = 0; k < 8; ++k) {
-    double const expected = std::min(0.1 * (s.reduced_gradient_norm / err0), 0.9 * s.tolerance);
+    tol = std::min(0.1 * (s.reduced_gradient_norm / err0), 0.9 * tol);
     method.step(s);
-    CHECK(s.tolerance == expected);
+    CHECK(s.forcing.last_tolerance == doctest::Approx(tol).epsilon(1e-14));
     CHECK(s.last_inner == slant::inner_end::accurate);
+    if (s.outside.in_use) continue;
+    s.face.keep(s.r, φ);
+    CHECK(s.unit * φ.norm() <= tol * err0 * (1 + 1e-14));
   }
 }
 
@@ -88,11 +91,10 @@ TEST_CASE("active sets that recur end as stalled, with a reason") {
 
 TEST_CASE("options out of range are named") {
   slant::imssn_options<double> o;
-  o.precision.r_tol = 1;
-  CHECK_THROWS_WITH_AS(o.validate(), "precision.r_tol: got 1, expected a number in (0, 1)",
-                       slant::bad_input);
+  o.forcing.r_tol = 1;
+  CHECK_THROWS_WITH_AS(o.validate(), "r_tol: got 1, expected a number in (0, 1)", slant::bad_input);
   o = {};
-  o.precision.c_fact = 0;
+  o.forcing.c_fact = 0;
   CHECK_THROWS_AS(o.validate(), slant::bad_input);
   o = {};
   o.step_length = -1;

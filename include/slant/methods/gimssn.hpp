@@ -17,7 +17,7 @@
 namespace slant {
 
 template <class S>
-using gimssn_options = modified_newton_options<S, adaptive_precision<S>>;
+using gimssn_options = modified_newton_options<S, adaptive_precision>;
 
 /// GIMSSN for a separable_qp: solve(gimssn{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// All iterates are in Λ. Requires what kprgp does. ρ < 2/σ_max is insisted on, unless step_length

@@ -14,7 +14,7 @@
 namespace slant {
 
 template <class S>
-using imssn_options = modified_newton_options<S, adaptive_precision<S>>;
+using imssn_options = modified_newton_options<S, adaptive_precision>;
 
 /// IMSSN for a separable_qp: solve(imssn{qp}, x0, reduced_gradient_below(1e-8) || at_most(100)).
 /// Iterates may leave Λ; x is P_Λ of them. Requires what kprgp does. Statuses of its own: converged

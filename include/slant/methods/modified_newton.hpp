@@ -33,17 +33,17 @@
 
 namespace slant {
 
-/// The frame of mssn, imssn and gimssn. Start and Inner are parts of modified_newton_parts.hpp, as
-/// is Precision<S>. Requires: psd_operator (A positive definite on the faces that occur) and
-/// separable_set with step_to_boundary.
-template <class QP, class Start, class Inner, template <class> class Precision>
+/// The frame of mssn, imssn and gimssn. Start and Inner are parts of modified_newton_parts.hpp,
+/// Forcing is a rule of newton/forcing.hpp. Requires: psd_operator (A positive definite on the
+/// faces that occur) and separable_set with step_to_boundary.
+template <class QP, class Start, class Inner, class Forcing>
   requires kprgp_problem<std::remove_cvref_t<QP>>
-class modified_newton<QP, Start, Inner, Precision> {
+class modified_newton<QP, Start, Inner, Forcing> {
  public:
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
   using scalar = typename problem::scalar;
-  using options = modified_newton_options<scalar, Precision<scalar>>;
+  using options = modified_newton_options<scalar, Forcing>;
   using state_type = modified_newton_state<problem, Inner>;
 
   explicit modified_newton(held<QP> qp) : modified_newton(std::move(qp), options{}) {}
@@ -66,8 +66,7 @@ class modified_newton<QP, Start, Inner, Precision> {
     bool const solved = s.begin(qp, x0);
     s.face.assign(qp.set(), slant::local(s.x));
     reduce(s);
-    s.first_error = s.reduced_gradient_norm;
-    s.tolerance = options_.precision.first();
+    s.forcing = s.forcing.starting_at(s.reduced_gradient_norm);
     if (solved) s.status = status::converged;
     return s;
   }
@@ -77,10 +76,11 @@ class modified_newton<QP, Start, Inner, Precision> {
     if (s.status != status::running) return;
     return_to_iterate(s);
     s.face.assign(qp_.get().set(), slant::local(s.projected));
-    s.tolerance = options_.precision.next(s.reduced_gradient_norm / s.first_error, s.tolerance);
+    scalar const η = s.forcing.next(options_.forcing);
     start_on_face(s);
-    minimise(s, s.tolerance * s.first_error);
+    minimise(s, inner_accuracy(options_.forcing, η, s.forcing));
     measure(s);
+    s.forcing.record(s.reduced_gradient_norm);
     ++s.iteration;
     note_progress(s);
   }

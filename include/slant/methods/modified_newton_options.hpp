@@ -5,15 +5,16 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/modified_newton_parts.hpp>
 
 #include <optional>
 
 namespace slant {
 
-/// Options of mssn, imssn and gimssn. Precision says how accurately q is minimised on a face.
-template <class S, class Precision>
+/// Options of mssn, imssn and gimssn. Forcing is a rule of newton/forcing.hpp.
+template <class S, class Forcing>
 struct modified_newton_options {
-  Precision precision{};           ///< tol of the inner iterations
+  Forcing forcing = default_forcing<Forcing>;  ///< how accurately q is minimised on a face
   std::optional<S> step_length{};  ///< ρ > 0 of z = λ − ρ r; not given: β / σ_max
   S step_factor = S(1.9);          ///< β > 0; below 2 for gimssn, whose descent it guarantees
   index max_inner = 1000;          ///< inner iterations a step at most
@@ -24,7 +25,7 @@ struct modified_newton_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
-    precision.validate();
+    forcing.validate();
     if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
       throw bad_input("step_length", detail::show(*step_length), "a number > 0");
     }

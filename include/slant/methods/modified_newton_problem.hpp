@@ -13,18 +13,18 @@ namespace slant {
 
 namespace detail {
 
-template <class QP, class Inner, template <class> class Precision>
+template <class QP, class Inner, class Forcing>
 using refused_modified_newton =
     refused_method<typename QP::vector_type, modified_newton_state<QP, Inner>,
-                   modified_newton_options<typename QP::scalar, Precision<typename QP::scalar>>>;
+                   modified_newton_options<typename QP::scalar, Forcing>>;
 
 }  // namespace detail
 
 /// A problem that lacks something ends here and is told so; see iteration/detail/refused.hpp. The
 /// method itself is in modified_newton.hpp.
-template <class QP, class Start, class Inner, template <class> class Precision>
+template <class QP, class Start, class Inner, class Forcing>
 class modified_newton
-    : public detail::refused_modified_newton<std::remove_cvref_t<QP>, Inner, Precision> {
+    : public detail::refused_modified_newton<std::remove_cvref_t<QP>, Inner, Forcing> {
   using problem = std::remove_cvref_t<QP>;
   using a = detail::questions_about<typename problem::operator_type, typename problem::vector_type>;
 
@@ -45,19 +45,19 @@ class modified_newton
 };
 
 /// A problem that was told so already.
-template <class QP, class Start, class Inner, template <class> class Precision>
+template <class QP, class Start, class Inner, class Forcing>
   requires detail::was_refused<std::remove_cvref_t<QP>>
-class modified_newton<QP, Start, Inner, Precision>
-    : public detail::refused_modified_newton<std::remove_cvref_t<QP>, Inner, Precision> {
+class modified_newton<QP, Start, Inner, Forcing>
+    : public detail::refused_modified_newton<std::remove_cvref_t<QP>, Inner, Forcing> {
  public:
   using modified_newton::refused_method::refused_method;
 };
 
 /// No problem at all.
-template <class QP, class Start, class Inner, template <class> class Precision>
+template <class QP, class Start, class Inner, class Forcing>
   requires(!quadratic_program<std::remove_cvref_t<QP>> &&
            !detail::was_refused<std::remove_cvref_t<QP>>)
-class modified_newton<QP, Start, Inner, Precision> : public detail::refused_method<void, void> {
+class modified_newton<QP, Start, Inner, Forcing> : public detail::refused_method<void, void> {
   static_assert(quadratic_program<std::remove_cvref_t<QP>>,
                 "mssn, imssn, gimssn: expected a separable_qp");
 

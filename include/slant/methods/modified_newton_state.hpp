@@ -50,10 +50,9 @@ struct modified_newton_state : gradient_point<QP> {
   progress_watch<scalar> progress;               ///< looks for steps that get nowhere
   face_t<typename QP::set_type, local_t<vector_type>> face;  ///< of the last step; free blocks: 𝒜
 
-  scalar first_error{0};       ///< err^(0) = ‖r̃‖ at the start
-  scalar tolerance{0};         ///< tol^(k), relative to err^(0)
-  scalar σ{0};                 ///< σ_max to a few digits; known if ρ was not given
-  index inner_iterations = 0;  ///< of the last step; those of all steps are in work
+  forcing_history<scalar> forcing{};  ///< err^(k), err^(0), and the last tolerance η
+  scalar σ{0};                        ///< σ_max to a few digits; known if ρ was not given
+  index inner_iterations = 0;         ///< of the last step; those of all steps are in work
   inner_end last_inner = inner_end::going_on;  ///< how they ended
   index iteration = 0;
   slant::status status = slant::status::running;

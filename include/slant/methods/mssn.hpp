@@ -14,13 +14,13 @@
 namespace slant {
 
 template <class S>
-using mssn_options = modified_newton_options<S, fixed_precision<S>>;
+using mssn_options = modified_newton_options<S, fixed_forcing>;
 
 /// MSSN for a separable_qp: solve(mssn{qp}, x0, reduced_gradient_below(1e-8) || at_most(100)). The
 /// minimum on a face is computed to a fraction of err^(k), by default 1e-8. Iterates may leave Λ; x
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
-class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_precision> {
+class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
  public:
   using mssn::modified_newton::modified_newton;
 };
