@@ -22,6 +22,10 @@ namespace slant {
 
 namespace detail {
 
+/// A block that tells the inequalities it has.
+template <class Block, class X>
+concept has_inequalities = has_inequality_form<Block, X> && (Block::inequalities > 0);
+
 /// r + (‖r‖/‖∇f‖) ∇f with the constraint of a block that is the most active at x; `otherwise` where
 /// the boundary has no normal.
 template <class Block, class X>
@@ -54,7 +58,7 @@ void kkt_vector(Set const& set, Face const& face, V const& x, V const& r, V cons
       if constexpr (has_static_dimension<block_type>) {
         auto const x_i = place.value(slant::local(x));
         using point = std::remove_cvref_t<decltype(x_i)>;
-        if constexpr (has_inequality_form<block_type, point>) {
+        if constexpr (detail::has_inequalities<block_type, point>) {
           if (face.state(place.index()) == block_state::free) return;
           point const reduced_i = place.value(slant::local(reduced));
           if ((reduced_i.array() == scalar_t<V>(0)).all()) return;
