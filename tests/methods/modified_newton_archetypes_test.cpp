@@ -6,9 +6,9 @@
 
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg_feas.hpp>
-#include <slant/methods/as.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/qpc.hpp>
 #include <slant/methods/qpq.hpp>

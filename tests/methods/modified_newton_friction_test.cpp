@@ -5,9 +5,9 @@
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/as.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/qpq.hpp>
 

@@ -2,9 +2,9 @@
 //
 // MSSN, IMSSN, GIMSSN and AS-S on the wire.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/as.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>

@@ -68,8 +68,7 @@ class cg_feas : public detail::refused_method<std::remove_cvref_t<V>> {
                 "cg_feas: a part of A cannot be used on vectors like b");
   static_assert(psd_operator<typename a::promise, vector_type>,
                 "cg_feas: A must declare self_adjoint and positive_semidefinite");
-  static_assert(!vector<std::remove_cvref_t<V>> ||
-                    has_step_to_boundary<std::remove_cvref_t<C>, local_t<vector_type>>,
+  static_assert(has_step_to_boundary<asked<C>, local_t<vector_type>>,
                 "cg_feas: the set must tell its step_to_boundary(x, d)");
   static_assert(has_keep<asked<F>, vector_type>,
                 "cg_feas: the face must cut vectors down to it by keep(x, y)");

@@ -12,7 +12,10 @@
 // ‖λ^(k) − λ*‖² ≤ 2 (q(λ^(0)) − q(λ*)) η^k / σ_min for subsymmetric sets [K Theorem 7].
 #pragma once
 
+#include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/modified_newton.hpp>
+
+#include <type_traits>
 
 namespace slant {
 
@@ -26,6 +29,8 @@ using gimssn_options = modified_newton_options<S, adaptive_precision>;
 /// number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
+  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+
  public:
   using gimssn::modified_newton::modified_newton;
 };

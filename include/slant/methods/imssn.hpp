@@ -9,7 +9,10 @@
 // Nothing guarantees convergence: use gimssn where it stalls.
 #pragma once
 
+#include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/modified_newton.hpp>
+
+#include <type_traits>
 
 namespace slant {
 
@@ -23,6 +26,8 @@ using imssn_options = modified_newton_options<S, adaptive_precision>;
 /// definite on a face).
 template <class QP>
 class imssn : public modified_newton<QP, frozen_start, unlimited_cg, adaptive_precision> {
+  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+
  public:
   using imssn::modified_newton::modified_newton;
 };

@@ -23,10 +23,12 @@
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
 #pragma once
 
+#include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/release_rules.hpp>
 
 #include <type_traits>
+#include <utility>
 
 namespace slant {
 
@@ -40,6 +42,8 @@ namespace slant {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
+  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+
  public:
   using kprgp::proportioning::proportioning;
 };
@@ -48,5 +52,24 @@ template <class QP>
 kprgp(QP&&) -> kprgp<kept_t<QP>>;
 template <class QP>
 kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> kprgp<kept_t<QP>>;
+
+/// AS [K Ex 5], KPRGP by its name for the two-sided bounds of plane friction: solve(as(qp), x0,
+/// reduced_gradient_below(1e-6) || at_most(500)).
+template <class QP>
+[[nodiscard]] auto as(QP&& qp,
+                      kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
+  return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
+}
+
+/// AS-S [K Ex 5], KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i
+/// inside Λ_i instead of those with x_i inside. The decrease of q of [K Theorem 1] asks nothing of
+/// the partition, so it holds as well. Reported there: with steps far beyond 2/σ_max it is the
+/// stabler one. solve(as_s(qp), x0, reduced_gradient_below(1e-6) || at_most(500)).
+template <class QP>
+[[nodiscard]] auto as_s(QP&& qp,
+                        kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
+  options.active_sets = active_set_rule::semismooth;
+  return slant::as(std::forward<QP>(qp), std::move(options));
+}
 
 }  // namespace slant

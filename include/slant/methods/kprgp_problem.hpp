@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What KPRGP, QPQ and QPC ask of their problem, and the answer to a problem that lacks something.
+// What the active set methods ask of their problem, and the answer to a problem that lacks
+// something.
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/methods/detail/block_states.hpp>
 #include <slant/methods/kprgp_state.hpp>
@@ -52,33 +52,10 @@ using refused_proportioning = refused_method<typename QP::vector_type, kprgp_sta
 
 }  // namespace detail
 
-/// A problem that lacks something ends here and is told so; see iteration/detail/refused.hpp. The
+/// A problem that lacks something ends here; see methods/detail/active_set_complaint.hpp. The
 /// method itself is in proportioning.hpp.
 template <class QP, class Rule>
 class proportioning : public detail::refused_proportioning<std::remove_cvref_t<QP>, Rule> {
-  using problem = std::remove_cvref_t<QP>;
-  using a = detail::questions_about<typename problem::operator_type, typename problem::vector_type>;
-
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "qpc, qpq, kprgp: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "qpc, qpq, kprgp: a part of A cannot be used on vectors like b");
-  static_assert(
-      psd_operator<typename a::promise, typename a::vector_type>,
-      "qpc, qpq, kprgp: A must declare that it is self-adjoint and positive semidefinite");
-  static_assert(
-      active_set_domain<typename problem::set_type, local_t<typename problem::vector_type>>,
-      "qpc, qpq, kprgp: the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-
- public:
-  using proportioning::refused_method::refused_method;
-};
-
-/// A problem that was told so already.
-template <class QP, class Rule>
-  requires detail::was_refused<std::remove_cvref_t<QP>>
-class proportioning<QP, Rule>
-    : public detail::refused_proportioning<std::remove_cvref_t<QP>, Rule> {
  public:
   using proportioning::refused_method::refused_method;
 };
@@ -88,9 +65,6 @@ template <class QP, class Rule>
   requires(!quadratic_program<std::remove_cvref_t<QP>> &&
            !detail::was_refused<std::remove_cvref_t<QP>>)
 class proportioning<QP, Rule> : public detail::refused_method<void, void> {
-  static_assert(quadratic_program<std::remove_cvref_t<QP>>,
-                "qpc, qpq, kprgp: expected a separable_qp");
-
  public:
   using proportioning::refused_method::refused_method;
 };

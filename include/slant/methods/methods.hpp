@@ -4,7 +4,6 @@
 #pragma once
 
 // IWYU pragma: begin_exports
-#include <slant/methods/as.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>

@@ -9,7 +9,10 @@
 // sliding disc moves only by the fixed steps of (57).
 #pragma once
 
+#include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/modified_newton.hpp>
+
+#include <type_traits>
 
 namespace slant {
 
@@ -21,6 +24,8 @@ using mssn_options = modified_newton_options<S, fixed_forcing>;
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
 class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
+  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+
  public:
   using mssn::modified_newton::modified_newton;
 };

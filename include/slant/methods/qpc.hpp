@@ -10,6 +10,7 @@
 //     otherwise:      x ← x − α β,  α = rᵀβ / βᵀA β or what Λ allows of it
 #pragma once
 
+#include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/release_rules.hpp>
 
@@ -21,6 +22,8 @@ namespace slant {
 /// Requirements and statuses are those of kprgp. One application of A a step, two for an expansion.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
+  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+
  public:
   using qpc::proportioning::proportioning;
 };

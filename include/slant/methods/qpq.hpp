@@ -19,6 +19,7 @@
 // reduced gradient stands for β.
 #pragma once
 
+#include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/release_rules.hpp>
 
@@ -31,6 +32,8 @@ namespace slant {
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_proportioning> {
+  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+
  public:
   using qpq::proportioning::proportioning;
 };

@@ -4,7 +4,7 @@
 
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/as.hpp>
+#include <slant/methods/kprgp.hpp>
 
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@
 #include <oracle/dense_newton.hpp>
 #include <support/allocation_guard.hpp>
 
-namespace as_test {
+namespace kprgp_semismooth_test {
 
 using Eigen::VectorXd;
 
@@ -109,4 +109,4 @@ TEST_CASE("no allocation, and temporaries are owned") {
   CHECK(s.iteration > 50);
 }
 
-}  // namespace as_test
+}  // namespace kprgp_semismooth_test
