@@ -55,6 +55,19 @@ TEST_CASE("every step is that of the algorithm, done with dense algebra") {
   CHECK((s.x - solution.x).norm() <= 1e-3 * solution.x.norm());
 }
 
+TEST_CASE("the parts combine freely: a projected start, unlimited CG, another forcing rule") {
+  test::example_one<double> const p;
+  test::example_one_solution<double> const solution;
+  auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
+  using problem = decltype(qp);
+  slant::modified_newton<problem&, slant::projected_start, slant::unlimited_cg,
+                         slant::eisenstat_walker> const mixed{qp};
+  auto const r =
+      slant::solve(mixed, p.zero(), slant::reduced_gradient_below(1e-12) || slant::at_most(100));
+  REQUIRE(r.converged());
+  CHECK((r.x() - solution.x).norm() <= 1e-10 * solution.x.norm());
+}
+
 TEST_CASE("options out of range are named") {
   slant::mssn_options<double> o;
   o.forcing.tolerance = 1;

@@ -10,6 +10,8 @@
 // where CG_feas ends with a half step to the boundary when it would leave Λ. q falls in every step,
 // by the factor η = 1 − min(ρ, 2/σ_max − ρ) σ_min at least, and
 // ‖λ^(k) − λ*‖² ≤ 2 (q(λ^(0)) − q(λ*)) η^k / σ_min for subsymmetric sets [K Theorem 7].
+//
+// Known weakness: on a curved boundary a sliding block moves only by the gradient steps (3.2°).
 #pragma once
 
 #include <slant/methods/detail/active_set_complaint.hpp>

@@ -62,9 +62,9 @@ template <class QP>
 }
 
 /// AS-S [K Ex 5], KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i
-/// inside Λ_i instead of those with x_i inside. The decrease of q of [K Theorem 1] asks nothing of
-/// the partition, so it holds as well. Reported there: with steps far beyond 2/σ_max it is the
-/// stabler one. solve(as_s(qp), x0, reduced_gradient_below(1e-6) || at_most(500)).
+/// inside Λ_i instead of those with x_i inside. [K] states that Theorem 1 holds for it as
+/// well, and reports it as the stabler one with steps far beyond 2/σ_max. solve(as_s(qp), x0,
+/// reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
 [[nodiscard]] auto as_s(QP&& qp,
                         kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
