@@ -7,27 +7,12 @@
 // nodes are gᵢ = ωᵢ g [K (14)].
 #pragma once
 
-#include <array>
-
 #include <fem/two_bodies.hpp>
 
 namespace fem {
 
-/// A row of [K Table 6]: p × (p−1) × (p−1) cells per body give 6p³ unknowns and p² pairs of contact
-/// nodes, the printed n_u/m. (The last one is printed as 413536; 6 · 41³ is 413526.)
-struct printed_bricks {
-  int p;
-  int unknowns;
-  int contact_nodes;
-};
-inline constexpr std::array<printed_bricks, 6> printed_bricks_sizes{{{16, 24576, 256},
-                                                                     {21, 55566, 441},
-                                                                     {26, 105456, 676},
-                                                                     {31, 178746, 961},
-                                                                     {36, 279936, 1296},
-                                                                     {41, 413526, 1681}}};
-
-/// The discretised bricks of p × (p−1) × (p−1) cells each.
+/// The discretised bricks of p × (p−1) × (p−1) cells each: 6p³ unknowns and p² pairs of contact
+/// nodes, the n_u/m of [K Table 6] for p = 16, 21, …, 41.
 [[nodiscard]] inline contact_scene<3> make_two_bricks(int p) {
   require(p >= 2 && p <= 400, "p", p, "between 2 and 400 free nodes along each edge");
   auto const brick = [&](double height, double ν) {

@@ -9,26 +9,12 @@
 // The slip bounds of the nodes are gᵢ = ωᵢ g with trapezoidal weights ωᵢ [K (14)].
 #pragma once
 
-#include <array>
-
 #include <fem/two_bodies.hpp>
 
 namespace fem {
 
-/// A row of [K Table 5]: 3k × k cells per body give the printed numbers of unknowns n_u and of
-/// multipliers m, of which there are two per pair of nodes.
-struct printed_plates {
-  int k;
-  int unknowns;
-  int multipliers;
-};
-inline constexpr std::array<printed_plates, 5> printed_plates_sizes{{{60, 43920, 360},
-                                                                     {80, 77760, 480},
-                                                                     {100, 121200, 600},
-                                                                     {120, 174240, 720},
-                                                                     {130, 204360, 780}}};
-
-/// The discretised plates of 3k × k cells each: 12 k (k + 1) unknowns and 3k pairs of nodes.
+/// The discretised plates of 3k × k cells each: 12 k (k + 1) unknowns and 3k pairs of contact nodes
+/// with two multipliers each; k = 60, …, 130 gives the n_u/m of [K Table 5].
 [[nodiscard]] inline contact_scene<2> make_two_plates(int k) {
   require(k >= 1 && k <= 4000, "k", k, "between 1 and 4000 cells along the short edges");
   auto const plate = [&](double height) {
