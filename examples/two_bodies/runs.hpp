@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// One row of a table of two bodies, and the pictures of its runs.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <fem/contact_field.hpp>
+#include <fem/plots/contact_line_plot.hpp>
+#include <fem/plots/contact_plot.hpp>
+#include <fem/plots/history_plot.hpp>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <support/named_method.hpp>
+#include <support/problem_ladder.hpp>
+#include <support/run_recorder.hpp>
+#include <support/text_table.hpp>
+#include <vector>
+
+namespace two_bodies {
+
+using cells = std::vector<std::string>;
+
+[[nodiscard]] inline cells joined(cells a, cells const& b) {
+  std::copy(b.begin(), b.end(), std::back_inserter(a));
+  return a;
+}
+
+/// What each method does from zero and nested, as in [K]: steps/products.
+template <class Methods, class Ladder>
+[[nodiscard]] cells run_row(Methods const& methods, Ladder& problems, int size,
+                            examples::run_limits const& limits, bool& converged) {
+  cells result;
+  auto const add = [&](examples::measured const& run) {
+    result.push_back(steps_and_products(run));
+    converged = converged && run.converged();
+  };
+  examples::for_each_method(methods, [&](auto const& method) {
+    add(examples::measure(examples::run_from_zero(method.make, problems.at(size), limits)));
+    add(examples::measure(
+        examples::run_nested(method.make, problems.ladder(size), limits).finest()));
+  });
+  return result;
+}
+
+/// Draws the histories of all methods and the solution of the last one. For the least value of q
+/// that method goes on to an accuracy that no table asks for.
+template <class Methods, int D>
+void draw(Methods const& methods, examples::contact_problem<D> const& problem,
+          examples::run_limits const& limits, std::filesystem::path const& folder,
+          std::string const& name, std::string const& stress_unit) {
+  std::vector<fem::history_series> energy;
+  std::vector<fem::history_series> residual;
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd λ = problem.zero();
+  examples::for_each_method(methods, [&](auto const& method) {
+    examples::run_recorder recorder(problem.qp());
+    auto const report = examples::run_from_zero(method.make, problem, limits, recorder);
+    energy.push_back(recorder.energy(method.name));
+    residual.push_back(recorder.residual(method.name));
+
+    examples::run_recorder further(problem.qp());
+    examples::run_limits exact = limits;
+    exact.tolerance = 1e-6 * limits.tolerance;
+    auto const best =
+        slant::solve(method.make(problem.qp(), problem.sigma()), report.x(), exact.rule(), further);
+    for (auto const& point : further.energy("").points) least = std::fmin(least, point.residual);
+    λ = best.x();
+  });
+  for (auto& series : energy) fem::subtract(series, least);
+
+  auto const tell = [](fem::plot_result const& result) {
+    std::printf("%s\n", result.message.c_str());
+    return result.written;
+  };
+  bool const drawn = tell(fem::history_plot(folder / (name + "_residual.png"), residual,
+                                            {.title = name, .vertical = "relative residual"}));
+  if (!drawn) return;  // the others would fail for the same reason
+  tell(fem::history_plot(folder / (name + "_energy.png"), energy,
+                         {.title = name, .vertical = "q - min q"}));
+  auto const& scene = problem.scene();
+  Eigen::Index const m = scene.contact_count();
+  auto const field = fem::make_contact_field(scene, problem.displacement(λ), λ.head(m).eval(),
+                                             λ.tail((D - 1) * m).eval());
+  tell(fem::contact_plot(folder / (name + "_contact.png"), field,
+                         {.title = name, .stress_unit = stress_unit}));
+}
+
+}  // namespace two_bodies
