@@ -11,20 +11,12 @@
 #include <slant/iteration/nested.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 #include <support/measured.hpp>
+#include <support/named_method.hpp>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace examples {
-
-/// When a run of a table ends.
-struct run_limits {
-  double tolerance = 1e-6;
-  slant::index max_iterations = 20000;
-
-  [[nodiscard]] auto rule() const {
-    return slant::reduced_gradient_below(tolerance) || slant::at_most(max_iterations);
-  }
-};
 
 /// Tresca's law for bodies in D dimensions.
 template <int D>
@@ -62,44 +54,45 @@ class contact_problem {
   double σ_;
 };
 
-/// A problem as a level of nested iteration, for the method that `make` makes.
-template <class Make, int D>
+/// A problem as a level of nested iteration, for one of the methods.
+template <class Method, int D>
 class contact_level {
  public:
   /// `coarse` is the problem of the level before, or null.
-  contact_level(Make const& make, contact_problem<D> const& problem,
+  contact_level(Method const& method, contact_problem<D> const& problem,
                 contact_problem<D> const* coarse, run_limits const& limits)
-      : make_(&make), problem_(&problem), limits_(limits) {
+      : method_(&method), problem_(&problem), limits_(limits) {
     if (coarse != nullptr) P_ = fem::contact_prolongation(coarse->scene(), problem.scene());
   }
 
-  [[nodiscard]] auto method() const { return (*make_)(problem_->qp(), problem_->sigma()); }
-  [[nodiscard]] auto stop() const { return limits_.rule(); }
+  [[nodiscard]] auto method() const { return method_->make(problem_->qp(), problem_->sigma()); }
+  [[nodiscard]] auto stop() const { return method_->stop(limits_); }
   [[nodiscard]] auto prolongation() const { return slant::matrix(P_); }
 
  private:
-  Make const* make_;
+  Method const* method_;
   contact_problem<D> const* problem_;
   run_limits limits_;
   Eigen::SparseMatrix<double> P_{};
 };
 
 /// Solves a problem from zero.
-template <class Make, int D, class... Observers>
-[[nodiscard]] auto run_from_zero(Make const& make, contact_problem<D> const& problem,
+template <class Method, int D, class... Observers>
+[[nodiscard]] auto run_from_zero(Method const& method, contact_problem<D> const& problem,
                                  run_limits const& limits, Observers&&... observers) {
-  return slant::solve(make(problem.qp(), problem.sigma()), problem.zero(), limits.rule(),
-                      observers...);
+  return slant::solve(method.make(problem.qp(), problem.sigma()), problem.zero(),
+                      method.stop(limits), observers...);
 }
 
 /// Solves problem after problem, each from the prolonged solution of the one before.
-template <class Make, int D>
-[[nodiscard]] auto run_nested(Make const& make,
+template <class Method, int D>
+[[nodiscard]] auto run_nested(Method const& method,
                               std::vector<contact_problem<D> const*> const& ladder,
                               run_limits const& limits) {
   auto const levels =
       std::views::iota(std::size_t(0), ladder.size()) | std::views::transform([&](std::size_t l) {
-        return contact_level<Make, D>(make, *ladder[l], l == 0 ? nullptr : ladder[l - 1], limits);
+        return contact_level<Method, D>(method, *ladder[l], l == 0 ? nullptr : ladder[l - 1],
+                                        limits);
       });
   return slant::solve_nested(levels, ladder.front()->zero());
 }

@@ -4,7 +4,7 @@
 // is all that a further method takes.
 #pragma once
 
-#include <cstddef>
+#include <slant/iteration/stopping.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -12,16 +12,34 @@
 
 namespace examples {
 
-/// A name and how the method is made: make(qp, σ) with a separable_qp, which the method may keep,
-/// and σ ≥ σ_max(A).
-template <class Make>
+/// When a run of a table ends.
+struct run_limits {
+  double tolerance = 1e-6;  ///< relative
+  slant::index max_iterations = 20000;
+};
+
+/// The rule of most methods: the reduced gradient.
+struct reduced_gradient_rule {
+  [[nodiscard]] auto operator()(run_limits const& limits) const {
+    return slant::reduced_gradient_below(limits.tolerance) || slant::at_most(limits.max_iterations);
+  }
+};
+
+/// A method of a table.
+template <class Make, class Stop = reduced_gradient_rule>
 struct named_method {
   std::string name;
-  Make make;
+  Make make;  ///< make(qp, σ) with a separable_qp, which the method may keep, and σ ≥ σ_max(A)
+  Stop stop{};                ///< stop(limits): its stopping rule
+  bool must_converge = true;  ///< a document's own method may fail, as it does there
 };
 
 template <class Make>
 named_method(char const*, Make) -> named_method<Make>;
+template <class Make, class Stop>
+named_method(char const*, Make, Stop) -> named_method<Make, Stop>;
+template <class Make, class Stop>
+named_method(char const*, Make, Stop, bool) -> named_method<Make, Stop>;
 
 /// visit(method) for each of a tuple of methods, in order.
 template <class Methods, class Visit>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fem/contact_field.hpp>
 #include <fem/plots/contact_line_plot.hpp>
@@ -33,14 +34,13 @@ template <class Methods, class Ladder>
 [[nodiscard]] cells run_row(Methods const& methods, Ladder& problems, int size,
                             examples::run_limits const& limits, bool& converged) {
   cells result;
-  auto const add = [&](examples::measured const& run) {
-    result.push_back(steps_and_products(run));
-    converged = converged && run.converged();
-  };
   examples::for_each_method(methods, [&](auto const& method) {
-    add(examples::measure(examples::run_from_zero(method.make, problems.at(size), limits)));
-    add(examples::measure(
-        examples::run_nested(method.make, problems.ladder(size), limits).finest()));
+    auto const add = [&](examples::measured const& run) {
+      result.push_back(steps_and_products(run));
+      converged = converged && (run.converged() || !method.must_converge);
+    };
+    add(examples::measure(examples::run_from_zero(method, problems.at(size), limits)));
+    add(examples::measure(examples::run_nested(method, problems.ladder(size), limits).finest()));
   });
   return result;
 }
@@ -57,15 +57,15 @@ void draw(Methods const& methods, examples::contact_problem<D> const& problem,
   Eigen::VectorXd λ = problem.zero();
   examples::for_each_method(methods, [&](auto const& method) {
     examples::run_recorder recorder(problem.qp());
-    auto const report = examples::run_from_zero(method.make, problem, limits, recorder);
+    auto const report = examples::run_from_zero(method, problem, limits, recorder);
     energy.push_back(recorder.energy(method.name));
     residual.push_back(recorder.residual(method.name));
 
     examples::run_recorder further(problem.qp());
     examples::run_limits exact = limits;
     exact.tolerance = 1e-6 * limits.tolerance;
-    auto const best =
-        slant::solve(method.make(problem.qp(), problem.sigma()), report.x(), exact.rule(), further);
+    auto const best = slant::solve(method.make(problem.qp(), problem.sigma()), report.x(),
+                                   method.stop(exact), further);
     for (auto const& point : further.energy("").points) least = std::fmin(least, point.residual);
     λ = best.x();
   });

@@ -17,7 +17,7 @@ int print_tables(wire_tables::settings const& s, std::string const& only) {
   std::printf(
       "The wire of [T §4.1]; ours: products/steps to a relative accuracy of %g,\n"
       "from zero, and nested: on this mesh, from the solution on the mesh before\n",
-      s.tolerance);
+      s.limits.tolerance);
   if (wanted("4.1"))
     tables.ssnm("Table 4.1: g = 2, no circle is active; printed iterations of SSNM",
                 fem::thesis_table_4_1);
@@ -56,9 +56,9 @@ int main(int argc, char** argv) {
       ->check(examples::expects<std::string>("4.1 to 4.7, or all", [](std::string const& name) {
         return name == "all" || (name.size() == 3 && name >= "4.1" && name <= "4.7");
       }));
-  app.add_option("--tolerance", s.tolerance, "relative norm of the reduced gradient")
+  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
       ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.max_iterations, "steps at most")
+  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most")
       ->check(examples::expects_at_least(0));
   return examples::run_program(app, argc, argv, [&] { return print_tables(s, table); });
 }

@@ -148,13 +148,15 @@ class table_printer {
     cells result;
     for (auto const& method : runs_.of(l, g))
       for (auto const* runs : {&method.from_zero, &method.nested})
-        result.push_back(e < runs->size() ? judged((*runs)[e], l, g, e) : "-");
+        result.push_back(e < runs->size() ? judged((*runs)[e], method.must_converge, l, g, e)
+                                          : "-");
     return result;
   }
-  [[nodiscard]] std::string judged(counted_run const& entry, double l, double g, std::size_t e) {
+  [[nodiscard]] std::string judged(counted_run const& entry, bool must_converge, double l, double g,
+                                   std::size_t e) {
     bool const same = !has_counts(l, g, e) || entry.counts == counts(l, g, e);
-    right_ = right_ && entry.run.converged() && same;
-    return products_and_steps(entry.run) + (same ? "" : "!");
+    right_ = right_ && (!must_converge || (entry.run.converged() && same));
+    return products_and_steps(entry.run) + (same || !entry.run.converged() ? "" : "!");
   }
   /// Printed counts, ours, the printed entry, our columns.
   [[nodiscard]] cells with_counts(double l, double g, std::size_t e, std::string const& entry) {

@@ -25,8 +25,7 @@ namespace wire_tables {
 
 struct settings {
   int largest = 1024;  ///< unknowns of the finest mesh
-  double tolerance = 1e-9;
-  slant::index max_iterations = 1000000;
+  examples::run_limits limits{.tolerance = 1e-9, .max_iterations = 1000000};
 };
 
 /// Numbers of meshes n = 32, 64, … up to the largest.
@@ -37,12 +36,12 @@ struct settings {
 }
 
 /// The wire on one mesh as a level of nested iteration, for one of the methods.
-template <class Make>
+template <class Method>
 class wire_level {
  public:
-  wire_level(Make const& make, std::size_t entry, double l, double g, settings const& s)
-      : make_(make),
-        settings_(s),
+  wire_level(Method const& method, std::size_t entry, double l, double g, settings const& s)
+      : method_(method),
+        limits_(s.limits),
         wire_(fem::make_wire(fem::wire_sizes[entry] / 4)),
         set_(slant::cartesian(slant::half_lines(Eigen::VectorXd::Constant(wire_.m, l).eval()),
                               slant::discs(Eigen::VectorXd::Constant(wire_.m, g).eval()),
@@ -55,15 +54,12 @@ class wire_level {
 
   /// The eigenvalues of tridiag(−1, 2, −1)/h lie below 4/h.
   [[nodiscard]] auto method() const {
-    return make_(
+    return method_.make(
         slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(wire_.A),
                             wire_.b, set_},
         4 / wire_.h());
   }
-  [[nodiscard]] auto stop() const {
-    return slant::reduced_gradient_below(settings_.tolerance) ||
-           slant::at_most(settings_.max_iterations);
-  }
+  [[nodiscard]] auto stop() const { return method_.stop(limits_); }
   [[nodiscard]] auto prolongation() const { return slant::matrix(P_); }
 
   [[nodiscard]] Eigen::VectorXd zero() const { return Eigen::VectorXd::Zero(4 * wire_.m); }
@@ -75,8 +71,8 @@ class wire_level {
   using set_type =
       decltype(slant::cartesian(slant::half_lines(Eigen::VectorXd()),
                                 slant::discs(Eigen::VectorXd()), slant::free_components(1)));
-  Make const& make_;
-  settings settings_;
+  Method const& method_;
+  examples::run_limits limits_;
   fem::wire<> wire_;
   set_type set_;
   Eigen::SparseMatrix<double> P_;
@@ -90,16 +86,17 @@ struct counted_run {
 
 /// What one method does on one wire, an entry for each mesh.
 struct method_runs {
-  std::vector<counted_run> from_zero;
-  std::vector<counted_run> nested;
+  std::vector<counted_run> from_zero{};
+  std::vector<counted_run> nested{};
+  bool must_converge = true;
 };
 
-template <class Make>
-[[nodiscard]] method_runs run_method(Make const& make, double l, double g, settings const& s) {
-  method_runs runs;
+template <class Method>
+[[nodiscard]] method_runs run_method(Method const& method, double l, double g, settings const& s) {
+  method_runs runs{.must_converge = method.must_converge};
   auto const levels =
       std::views::iota(std::size_t(0), mesh_count(s)) |
-      std::views::transform([&](std::size_t e) { return wire_level<Make>(make, e, l, g, s); });
+      std::views::transform([&](std::size_t e) { return wire_level<Method>(method, e, l, g, s); });
   for (auto const& level : levels) {
     auto const report = slant::solve(level.method(), level.zero(), level.stop());
     runs.from_zero.push_back({examples::measure(report), level.count(report.x())});
@@ -122,7 +119,7 @@ class wire_runs {
     auto const [at, is_new] = runs_.try_emplace({l, g});
     if (is_new)
       examples::for_each_method(methods(), [&, &all = at->second](auto const& method) {
-        all.push_back(run_method(method.make, l, g, settings_));
+        all.push_back(run_method(method, l, g, settings_));
       });
     return at->second;
   }
