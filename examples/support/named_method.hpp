@@ -30,8 +30,8 @@ template <class Make, class Stop = reduced_gradient_rule>
 struct named_method {
   std::string name;
   Make make;  ///< make(qp, σ) with a separable_qp, which the method may keep, and σ ≥ σ_max(A)
-  Stop stop{};                ///< stop(limits): its stopping rule
-  bool must_converge = true;  ///< a document's own method may fail, as it does there
+  Stop stop{};       ///< stop(limits): its stopping rule
+  bool ours = true;  ///< must converge, and is shown nested too; a document's may fail, as there
 };
 
 template <class Make>
@@ -47,13 +47,13 @@ void for_each_method(Methods const& methods, Visit const& visit) {
   std::apply([&](auto const&... method) { (visit(method), ...); }, methods);
 }
 
-/// The names with something behind each.
+/// The names of the columns: each method from zero, and ours by nested iteration as well.
 template <class Methods>
-[[nodiscard]] std::vector<std::string> names_of(Methods const& methods,
-                                                std::vector<std::string> const& suffixes = {""}) {
+[[nodiscard]] std::vector<std::string> names_of(Methods const& methods) {
   std::vector<std::string> names;
   for_each_method(methods, [&](auto const& method) {
-    for (auto const& suffix : suffixes) names.push_back(method.name + suffix);
+    names.push_back(method.ours ? method.name + " from 0" : method.name);
+    if (method.ours) names.push_back(method.name + " nested");
   });
   return names;
 }

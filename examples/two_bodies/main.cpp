@@ -43,7 +43,7 @@ bool print_plates(settings const& s) {
   auto const methods = two_bodies::plane_methods();
   examples::text_table const table(
       joined({"n_u/m", "GIMSSN 1.9", "AS-S 1.9", "AS 1.9", "GIMSSN 15", "AS-S 20", "AS 15"},
-             examples::names_of(methods, {" from 0", " nested"})));
+             examples::names_of(methods)));
   table.print_head();
   auto problems = examples::make_ladder<2>(fem::make_two_plates);
   bool converged = true;
@@ -67,8 +67,8 @@ bool print_plates(settings const& s) {
 bool print_bricks(settings const& s) {
   std::printf("\nTable 6, two bricks in 3D; printed steps/products for step lengths 1.9/σ_max\n");
   auto const methods = two_bodies::space_methods();
-  examples::text_table const table(joined({"n_u/m", "SSN", "IMSSN", "GIMSSN"},
-                                          examples::names_of(methods, {" from 0", " nested"})));
+  examples::text_table const table(
+      joined({"n_u/m", "SSN", "IMSSN", "GIMSSN"}, examples::names_of(methods)));
   table.print_head();
   auto problems = examples::make_ladder<3>(fem::make_two_bricks);
   bool converged = true;

@@ -37,10 +37,11 @@ template <class Methods, class Ladder>
   examples::for_each_method(methods, [&](auto const& method) {
     auto const add = [&](examples::measured const& run) {
       result.push_back(steps_and_products(run));
-      converged = converged && (run.converged() || !method.must_converge);
+      converged = converged && (run.converged() || !method.ours);
     };
     add(examples::measure(examples::run_from_zero(method, problems.at(size), limits)));
-    add(examples::measure(examples::run_nested(method, problems.ladder(size), limits).finest()));
+    if (method.ours)
+      add(examples::measure(examples::run_nested(method, problems.ladder(size), limits).finest()));
   });
   return result;
 }

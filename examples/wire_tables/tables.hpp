@@ -140,28 +140,32 @@ class table_printer {
  private:
   static constexpr std::size_t row_size = 3;
 
-  [[nodiscard]] static cells our_names() {
-    return examples::names_of(methods(), {" from 0", " nested"});
-  }
+  [[nodiscard]] static cells our_names() { return examples::names_of(methods()); }
   /// What each method did, from zero and nested; also judges.
   [[nodiscard]] cells ours(double l, double g, std::size_t e) {
     cells result;
-    for (auto const& method : runs_.of(l, g))
-      for (auto const* runs : {&method.from_zero, &method.nested})
-        result.push_back(e < runs->size() ? judged((*runs)[e], method.must_converge, l, g, e)
-                                          : "-");
+    auto const add = [&](std::vector<counted_run> const& runs, bool ours) {
+      result.push_back(e < runs.size() ? judged(runs[e], ours, l, g, e) : "-");
+    };
+    for (auto const& method : runs_.of(l, g)) {
+      add(method.from_zero, method.ours);
+      if (method.ours) add(method.nested, true);
+    }
     return result;
   }
-  [[nodiscard]] std::string judged(counted_run const& entry, bool must_converge, double l, double g,
+  [[nodiscard]] std::string judged(counted_run const& entry, bool ours, double l, double g,
                                    std::size_t e) {
     bool const same = !has_counts(l, g, e) || entry.counts == counts(l, g, e);
-    right_ = right_ && (!must_converge || (entry.run.converged() && same));
+    right_ = right_ && (!ours || (entry.run.converged() && same));
     return products_and_steps(entry.run) + (same || !entry.run.converged() ? "" : "!");
   }
   /// Printed counts, ours, the printed entry, our columns.
   [[nodiscard]] cells with_counts(double l, double g, std::size_t e, std::string const& entry) {
     int const m = fem::wire_counts::m(e);
-    auto const& found = runs_.of(l, g).back().nested;
+    auto const& all = runs_.of(l, g);
+    auto const last =
+        std::find_if(all.rbegin(), all.rend(), [](auto const& method) { return method.ours; });
+    auto const& found = last->nested;
     return joined({has_counts(l, g, e) ? ratios(counts(l, g, e), m) : "-",
                    e < found.size() ? ratios(found[e].counts, m) : "-", entry},
                   ours(l, g, e));
