@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <fem/contact_field.hpp>
 #include <fem/plots/contact_line_plot.hpp>
@@ -12,12 +11,12 @@
 #include <fem/plots/history_plot.hpp>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <support/named_method.hpp>
 #include <support/problem_ladder.hpp>
 #include <support/run_recorder.hpp>
 #include <support/text_table.hpp>
+#include <tuple>
 #include <vector>
 
 namespace two_bodies {
@@ -46,31 +45,31 @@ template <class Methods, class Ladder>
   return result;
 }
 
-/// Draws the histories of all methods and the solution of the last one. For the least value of q
-/// that method goes on to an accuracy that no table asks for.
+/// Draws the histories of all methods and the solution of the last one, which goes on to an
+/// accuracy that no table asks for: its last q is taken for the least one.
 template <class Methods, int D>
 void draw(Methods const& methods, examples::contact_problem<D> const& problem,
           examples::run_limits const& limits, std::filesystem::path const& folder,
           std::string const& name, std::string const& stress_unit) {
   std::vector<fem::history_series> energy;
   std::vector<fem::history_series> residual;
-  double least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd λ = problem.zero();
   examples::for_each_method(methods, [&](auto const& method) {
     examples::run_recorder recorder(problem.qp());
     auto const report = examples::run_from_zero(method, problem, limits, recorder);
     energy.push_back(recorder.energy(method.name));
     residual.push_back(recorder.residual(method.name));
-
-    examples::run_recorder further(problem.qp());
-    examples::run_limits exact = limits;
-    exact.tolerance = 1e-6 * limits.tolerance;
-    auto const best = slant::solve(method.make(problem.qp(), problem.sigma()), report.x(),
-                                   method.stop(exact), further);
-    for (auto const& point : further.energy("").points) least = std::fmin(least, point.residual);
-    λ = best.x();
+    λ = report.x();
   });
-  for (auto& series : energy) fem::subtract(series, least);
+  auto const& best = std::get<std::tuple_size_v<Methods> - 1>(methods);
+  examples::run_limits further = limits;
+  further.tolerance = 1e-6 * limits.tolerance;
+  λ = slant::solve(best.make(problem.qp(), problem.sigma()), λ, best.stop(further)).x();
+  auto const qp = problem.qp();
+  Eigen::VectorXd r(λ.size());
+  slant::apply(qp.a(), λ, r);
+  r -= qp.b();
+  for (auto& series : energy) fem::subtract(series, slant::energy(qp, λ, r));
 
   auto const tell = [](fem::plot_result const& result) {
     std::printf("%s\n", result.message.c_str());
