@@ -27,9 +27,9 @@ inline void print_problem(fem::contact_scene<3> const& scene, fem::brick_load lo
   std::printf("Steel brick on a rigid foundation, load \"%s\"\n", fem::name_of(load).data());
   std::printf("  body           3 x 1 x 1, E = %g MPa, nu = %g; fixed at x = 0, contact on z = 0\n",
               defaults.E, defaults.nu);
-  for (auto const& [side, t] : loading.tractions)
-    std::printf("  traction       (%g, %g, %g) MPa on the %s\n", t[0], t[1], t[2],
-                side.axis == 2 ? "top" : "right end");
+  for (auto const& load : loading.tractions)
+    std::printf("  traction       (%g, %g, %g) MPa on the %s\n", load.traction[0], load.traction[1],
+                load.traction[2], load.side.axis == 2 ? "top" : "right end");
   std::printf("  slip bound     %g MPa (Tresca)\n", loading.slip_bound);
   std::printf("  mesh           %td tetrahedra, %td unknowns\n", scene.mesh.cell_count(),
               scene.unknowns.count);
@@ -43,7 +43,7 @@ inline void print_problem(fem::contact_scene<3> const& scene, fem::brick_load lo
 
 template <class State>
 void print_result(slant::report<State> const& report, double setup_seconds, double solve_seconds,
-                  fem::contact_field const& field, Eigen::Matrix3Xd const& displacement) {
+                  fem::contact_field<3> const& field, Eigen::Matrix3Xd const& displacement) {
   auto const& work = report.state.work;
   std::printf("Result\n");
   std::printf("  status         %s", slant::to_string(report.status).data());
@@ -81,7 +81,7 @@ struct named_history {
 
 /// brick.vtu, contact.png, history.png; a picture that cannot be drawn costs one line.
 inline void write_output(std::filesystem::path const& folder, fem::contact_scene<3> const& scene,
-                         fem::contact_field const& field, Eigen::VectorXd const& u,
+                         fem::contact_field<3> const& field, Eigen::VectorXd const& u,
                          named_history history) {
   if (!u.allFinite()) {
     std::printf("\nno files: the displacement is not finite\n");

@@ -16,13 +16,14 @@ namespace fem {
 /// open: no contact. stick: in contact and held by friction. slip: in contact and sliding.
 enum class contact_state : unsigned char { open, stick, slip };
 
-/// Stresses on the plane contact side of a body in space, one entry (or column) per contact node.
+/// Stresses on the contact side of a body in D dimensions, one entry (or column) per contact node.
+template <int D>
 struct contact_field {
-  surface_patch<3> side;                              ///< the whole contact side
-  std::vector<surface_patch<3>> patches;              ///< where: rectangles of the contact plane
-  Eigen::VectorXd normal;                             ///< pressure λ_ν/ω, force per area
-  Eigen::Matrix<double, 2, Eigen::Dynamic> friction;  ///< traction −λ_t/ω on the body
-  Eigen::VectorXd slip_bound;                         ///< g/ω, force per area
+  surface_patch<D> side;                  ///< the whole contact side
+  std::vector<surface_patch<D>> patches;  ///< where: rectangles or intervals of the contact side
+  Eigen::VectorXd normal;                 ///< pressure λ_ν/ω, force per area
+  Eigen::Matrix<double, D - 1, Eigen::Dynamic> friction;  ///< traction −λ_t/ω on the (first) body
+  Eigen::VectorXd slip_bound;                             ///< g/ω, force per area
   std::vector<contact_state> state;
   /// Friction has its largest value. In Tresca's law, where the bound is given, also at open nodes.
   std::vector<bool> at_slip_bound;
@@ -39,19 +40,21 @@ struct contact_field {
 /// and it slips when ‖λ_t + k T u‖ > g, where k is the stiffness K_ii of the node; at a solution
 /// one side of each comparison is zero, so a rounding error is compared with a quantity of the
 /// data. Throws std::invalid_argument when a size does not fit the scene.
-[[nodiscard]] inline contact_field make_contact_field(contact_scene<3> const& scene,
-                                                      Eigen::VectorXd const& u,
-                                                      Eigen::VectorXd const& normal,
-                                                      Eigen::VectorXd const& tangential) {
+template <int D>
+[[nodiscard]] contact_field<D> make_contact_field(contact_scene<D> const& scene,
+                                                  Eigen::VectorXd const& u,
+                                                  Eigen::VectorXd const& normal,
+                                                  Eigen::VectorXd const& tangential) {
   Eigen::Index const m = scene.contact_count();
   require(u.size() == scene.K.rows(), "u", u.size(), "one entry per unknown of the scene");
   require(normal.size() == m, "normal", normal.size(), "one entry per contact node");
-  require(tangential.size() == 2 * m, "tangential", tangential.size(), "two per contact node");
+  require(tangential.size() == (D - 1) * m, "tangential", tangential.size(),
+          D == 3 ? "two per contact node" : "one per contact node");
 
-  contact_field field;
+  contact_field<D> field;
   field.side = scene.contact_side;
   field.patches = scene.contact_patches;
-  field.friction.resize(2, m);
+  field.friction.resize(D - 1, m);
   field.state.resize(static_cast<std::size_t>(m));
   field.at_slip_bound.resize(static_cast<std::size_t>(m));
   field.normal = normal.cwiseQuotient(scene.contact_weights);
@@ -61,10 +64,10 @@ struct contact_field {
   Eigen::VectorXd const gap = scene.d - scene.N * u;
   Eigen::VectorXd const motion = scene.T * u;
   for (Eigen::Index i = 0; i < m; ++i) {
-    auto const λ_t = tangential.segment<2>(2 * i);
+    auto const λ_t = tangential.segment<D - 1>((D - 1) * i);
     field.friction.col(i) = -λ_t / scene.contact_weights[i];
     bool const closed = normal[i] / k[i] > gap[i];
-    bool const slips = (λ_t + k[i] * motion.segment<2>(2 * i)).norm() > scene.g[i];
+    bool const slips = (λ_t + k[i] * motion.segment<D - 1>((D - 1) * i)).norm() > scene.g[i];
     auto const at = static_cast<std::size_t>(i);
     field.state[at] = !closed ? contact_state::open
                       : slips ? contact_state::slip

@@ -9,6 +9,7 @@
 
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,16 +24,17 @@ namespace fem {
 /// of T belong to node i.
 template <int D>
 struct contact_scene {
-  Eigen::SparseMatrix<double> K;   ///< stiffness, n_u × n_u, both triangles
-  Eigen::SparseMatrix<double> N;   ///< normal displacement towards the obstacle, m × n_u
-  Eigen::SparseMatrix<double> T;   ///< tangential displacement, (D−1) m × n_u
-  Eigen::VectorXd f;               ///< load, n_u
-  Eigen::VectorXd d;               ///< initial gap of each contact node, m
-  Eigen::VectorXd g;               ///< slip bound of each contact node as a force, m
-  simplex_mesh<D> mesh;            ///< all bodies
-  unknown_map unknowns;            ///< node → unknowns
-  std::vector<int> contact_nodes;  ///< mesh node of each contact node, m
-  surface_patch<D> contact_side;   ///< the whole side, fixed nodes included
+  Eigen::SparseMatrix<double> K;      ///< stiffness, n_u × n_u, both triangles
+  Eigen::SparseMatrix<double> N;      ///< normal displacement towards the obstacle, m × n_u
+  Eigen::SparseMatrix<double> T;      ///< tangential displacement, (D−1) m × n_u
+  Eigen::VectorXd f;                  ///< load, n_u
+  Eigen::VectorXd d;                  ///< initial gap of each contact node, m
+  Eigen::VectorXd g;                  ///< slip bound of each contact node as a force, m
+  simplex_mesh<D> mesh;               ///< all bodies
+  unknown_map unknowns;               ///< node → unknowns
+  std::vector<int> contact_nodes;     ///< mesh node of each contact node, m; of the first body
+  std::vector<int> opposite_nodes{};  ///< that of the second body, m; none on a foundation
+  surface_patch<D> contact_side;      ///< the whole side, fixed nodes included
   std::vector<surface_patch<D>> contact_patches;  ///< part of the contact side of each of them, m
   Eigen::VectorXd contact_weights;                ///< ωᵢ, area of the patches, m
 
@@ -45,12 +47,30 @@ struct contact_scene {
   }
 };
 
-/// A constant traction (force per area) on one side.
+/// A traction (force per area) on one side, p(x) = traction + gradient x; constant without
+/// gradient.
 template <int D>
 struct side_traction {
   box_side side;
   Eigen::Matrix<double, D, 1> traction;
+  std::optional<Eigen::Matrix<double, D, D>> gradient{};
 };
+
+/// Adds the consistent load of all tractions to f.
+template <int D>
+void add_tractions(box_mesh<D> const& mesh, unknown_map const& unknowns,
+                   std::vector<side_traction<D>> const& loads, Eigen::VectorXd& f) {
+  for (auto const& load : loads) {
+    if (!load.gradient) {
+      add_traction(mesh, unknowns, load.side, load.traction, f);
+      continue;
+    }
+    auto const p = [&](Eigen::Matrix<double, D, 1> const& x) {
+      return Eigen::Matrix<double, D, 1>(load.traction + *load.gradient * x);
+    };
+    add_affine_traction<D>(mesh, unknowns, load.side, p, f);
+  }
+}
 
 /// What stands on the foundation and what acts on it.
 template <int D>
@@ -82,8 +102,7 @@ template <int D>
       number_unknowns(box.mesh, [&](Eigen::Index node) { return box.mesh.on(box.fixed, node); });
   scene.K = stiffness<D>(box.mesh, scene.unknowns, box.material);
   scene.f = Eigen::VectorXd::Zero(scene.unknowns.count);
-  for (auto const& load : box.loads)
-    add_traction(box.mesh, scene.unknowns, load.side, load.traction, scene.f);
+  add_tractions(box.mesh, scene.unknowns, box.loads, scene.f);
 
   auto const side_nodes = box.mesh.nodes_on(box.contact);
   for (int node : side_nodes)

@@ -15,10 +15,11 @@ namespace fem {
 inline constexpr int no_contact_node = -1;
 
 /// Writes the mesh with the point data displacement, contact_pressure, friction (force per area, 0
-/// off the contact nodes) and contact_state. Throws slant::bad_input for numbers that are not
-/// finite or a file that cannot be written, std::system_error if there is no room.
+/// off the contact nodes) and contact_state; of two bodies on both contact sides. Throws
+/// slant::bad_input for numbers that are not finite or a file that cannot be written,
+/// std::system_error if there is no room.
 inline void write_contact_vtu(std::filesystem::path const& file, contact_scene<3> const& scene,
-                              contact_field const& field, Eigen::VectorXd const& u,
+                              contact_field<3> const& field, Eigen::VectorXd const& u,
                               slant::vtu_encoding encoding = slant::vtu_encoding::base64) {
   Eigen::Index const points = scene.mesh.node_count();
   Eigen::VectorXd pressure = Eigen::VectorXd::Zero(points);
@@ -30,6 +31,11 @@ inline void write_contact_vtu(std::filesystem::path const& file, contact_scene<3
     pressure[node] = field.normal[i];
     friction.col(node).head<2>() = field.friction.col(i);  // the contact side is z = constant
     state[node] = static_cast<int>(field.state[at]);
+    if (scene.opposite_nodes.empty()) continue;
+    Eigen::Index const opposite = scene.opposite_nodes[at];  // feels the opposite friction
+    pressure[opposite] = pressure[node];
+    friction.col(opposite) = -friction.col(node);
+    state[opposite] = state[node];
   }
   slant::vtu_grid grid(scene.mesh.nodes, encoding);
   grid.add_cells(slant::vtu_cell::tetrahedron, scene.mesh.cells);

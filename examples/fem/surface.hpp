@@ -17,28 +17,43 @@ template <int D>
   return D * element.volume * element.gradients.col(a).norm();
 }
 
-/// Adds to f the consistent P1 load of a constant traction (force per area) on a side of the box:
-/// every vertex of a facet takes the D-th part of the facet's measure times the traction.
-template <int D>
-void add_traction(box_mesh<D> const& mesh, unknown_map const& unknowns, box_side side,
-                  Eigen::Matrix<double, D, 1> const& traction, Eigen::VectorXd& f) {
+/// Adds to f the consistent P1 load of a traction p(x) (force per area), constant or affine in x,
+/// on a side of the box: vertex a of a facet takes ∫φ_a p, which is the D-th part of the facet's
+/// measure times p at the centre of gravity of the hat function φ_a; exact for affine p.
+template <int D, class Traction>
+void add_affine_traction(box_mesh<D> const& mesh, unknown_map const& unknowns, box_side side,
+                         Traction const& p, Eigen::VectorXd& f) {
+  using point = Eigen::Matrix<double, D, 1>;
   for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
     int opposite = -1;
     int count = 0;
+    point sum = point::Zero();
     for (int a = 0; a <= D; ++a) {
-      if (mesh.on(side, mesh.cells(a, cell)))
+      int const node = mesh.cells(a, cell);
+      if (mesh.on(side, node)) {
         ++count;
-      else
+        sum += mesh.nodes.col(node);
+      } else {
         opposite = a;
+      }
     }
     if (count != D) continue;
     double const share = facet_measure(element_of<D>(mesh, cell), opposite) / D;
     for (int a = 0; a <= D; ++a) {
       int const node = mesh.cells(a, cell);
-      if (a != opposite && !unknowns.is_fixed(node))
-        f.template segment<D>(unknowns.first[node]) += share * traction;
+      if (a == opposite || unknowns.is_fixed(node)) continue;
+      point const centre = (sum + mesh.nodes.col(node)) / (D + 1);
+      f.template segment<D>(unknowns.first[node]) += share * p(centre);
     }
   }
+}
+
+/// The same for a constant traction.
+template <int D>
+void add_traction(box_mesh<D> const& mesh, unknown_map const& unknowns, box_side side,
+                  Eigen::Matrix<double, D, 1> const& traction, Eigen::VectorXd& f) {
+  add_affine_traction<D>(
+      mesh, unknowns, side, [&](auto const&) { return traction; }, f);
 }
 
 /// The part of a plane side that is nearer to a node than to any other: a box in the D − 1

@@ -5,6 +5,7 @@
 
 #include <fem/contact_vtu.hpp>
 #include <fem/steel_brick.hpp>
+#include <fem/two_bricks.hpp>
 #include <io/io_support.hpp>
 #include <pugixml.hpp>
 #include <sstream>
@@ -25,10 +26,8 @@ Eigen::MatrixXd point_data(pugi::xml_document const& file, char const* name) {
   return values;
 }
 
-}  // namespace
-
-TEST_CASE("a contact solution arrives at its points") {
-  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+/// Writes made-up numbers for a scene and reads them back.
+void check_points(fem::contact_scene<3> const& scene) {
   Eigen::Index const m = scene.contact_count();
   Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(scene.unknowns.count, -1, 1);
   Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(3 * m, 0, 1);
@@ -44,16 +43,29 @@ TEST_CASE("a contact solution arrives at its points") {
   Eigen::MatrixXd friction = point_data(file, "friction");
   Eigen::MatrixXd state = point_data(file, "contact_state");
   REQUIRE(friction.rows() == 3);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    auto const at = static_cast<std::size_t>(i);
-    int const node = scene.contact_nodes[at];
+  auto const check = [&](int node, std::size_t at, double sign) {
+    auto const i = static_cast<Eigen::Index>(at);
     CHECK(pressure(0, node) == doctest::Approx(field.normal[i]));
-    CHECK(friction.col(node).head(2).isApprox(field.friction.col(i), 1e-14));
+    CHECK(friction.col(node).head(2).isApprox(sign * field.friction.col(i), 1e-14));
     CHECK(state(0, node) == static_cast<int>(field.state[at]));
     pressure(0, node) = friction(0, node) = friction(1, node) = 0;
     state(0, node) = fem::no_contact_node;
+  };
+  for (std::size_t at = 0; at < scene.contact_nodes.size(); ++at) {
+    check(scene.contact_nodes[at], at, 1);
+    // The other body feels the opposite friction.
+    if (!scene.opposite_nodes.empty()) check(scene.opposite_nodes[at], at, -1);
   }
   CHECK(pressure.isZero(0));
   CHECK(friction.isZero(0));
   CHECK((state.array() == fem::no_contact_node).all());
+}
+
+}  // namespace
+
+TEST_CASE("a contact solution arrives at its points, of one body and of two") {
+  check_points(fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift}));
+  auto const bricks = fem::make_two_bricks(3);
+  CHECK(bricks.opposite_nodes.size() == 9);
+  check_points(bricks);
 }

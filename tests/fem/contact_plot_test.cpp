@@ -13,9 +13,9 @@ bool contains(std::string const& text, std::string const& part) {
 
 // Made up: the first node is open with friction, then one that sticks and one that slips; the
 // others are open. No matrix is needed for this.
-fem::contact_field some_field(int k) {
+fem::contact_field<3> some_field(int k) {
   auto const mesh = fem::make_brick_mesh(k);
-  fem::contact_field field;
+  fem::contact_field<3> field;
   field.side = {.centre = {1.5, 0.5}, .lower = {0, 0}, .upper = {3, 1}};
   for (int const node : mesh.nodes_on(fem::brick_side::bottom))
     if (!mesh.on(fem::brick_side::left, node))

@@ -31,6 +31,22 @@ TEST_CASE("a traction adds up to traction times area, about the right point") {
     }
 }
 
+TEST_CASE("an affine traction has the right resultant and the right moments") {
+  // p_x = 2 + y − 3z on the right end x = 2 of the box: ∫ p, ∫ y p and ∫ z p in closed form.
+  auto const mesh = fem::make_brick_mesh(2, {2, 1, 3});
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.node_count());
+  auto const p = [](Eigen::Vector3d const& x) {
+    return Eigen::Vector3d(2 + x[1] - 3 * x[2], 0, 0);
+  };
+  fem::add_affine_traction<3>(mesh, all_unknown(mesh), fem::brick_side::right, p, f);
+  auto const forces = f.reshaped(3, mesh.node_count());
+  CHECK(forces.row(0).sum() == doctest::Approx(3 * (2 + 0.5 - 4.5)).epsilon(1e-13));
+  Eigen::Vector3d const moment = mesh.nodes * forces.row(0).transpose();
+  CHECK(moment[1] == doctest::Approx(3 * (1 + 1.0 / 3 - 2.25)).epsilon(1e-13));
+  CHECK(moment[2] == doctest::Approx(9 + 2.25 - 27).epsilon(1e-13));
+  CHECK(forces.bottomRows(2).isZero(0));
+}
+
 TEST_CASE("fixed nodes take no load") {
   auto const mesh = fem::make_brick_mesh(1);
   auto const unknowns = fem::number_unknowns(

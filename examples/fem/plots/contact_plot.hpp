@@ -36,7 +36,7 @@ namespace detail {
 
 /// Nodes as rows  x y left right bottom top pressure friction state at_bound,  then the arrows as
 /// rows x y dx dy; points and arrows stand in the middle of the rectangles.
-inline void write_contact_data(std::ostream& out, contact_field const& field, double bound) {
+inline void write_contact_data(std::ostream& out, contact_field<3> const& field, double bound) {
   out << "$nodes << EOD\n";
   std::array<std::vector<double>, 2> coordinates;
   double spacing = INFINITY;
@@ -75,7 +75,7 @@ inline void write_contact_data(std::ostream& out, contact_field const& field, do
 
 /// The gnuplot script of the three panels.
 [[nodiscard]] inline std::string contact_script(std::filesystem::path const& picture,
-                                                contact_field const& field,
+                                                contact_field<3> const& field,
                                                 contact_labels const& labels) {
   struct panel {
     std::string title;
@@ -185,7 +185,7 @@ inline void write_contact_data(std::ostream& out, contact_field const& field, do
 
 /// Draws the three panels as a PNG.
 [[nodiscard]] inline plot_result contact_plot(std::filesystem::path const& picture,
-                                              contact_field const& field,
+                                              contact_field<3> const& field,
                                               contact_labels const& labels = {}) {
   if (field.size() == 0) return {false, "no picture: there are no contact nodes"};
   return run_gnuplot(picture, contact_script(picture, field, labels));

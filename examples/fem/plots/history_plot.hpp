@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Convergence histories: residual on a logarithmic scale against products with the operator.
+// Convergence histories: a residual, or q − min q, on a logarithmic scale against products with the
+// operator; steps of Newton's method as stars on the curve of their inner iterations, as in the
+// lecture's Figures 12 and 13.
 #pragma once
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <iterator>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace fem {
@@ -18,11 +19,19 @@ struct history_point {
   double residual;
 };
 
-/// One curve.
+/// One curve. Stars need not be points of it: if only Newton steps are known, the curve connects
+/// them.
 struct history_series {
   std::string label;
   std::vector<history_point> points;
+  std::vector<history_point> newton_steps{};
 };
+
+/// The values of all points less `least`: q − min q from values of q.
+inline void subtract(history_series& series, double least) {
+  for (auto* points : {&series.points, &series.newton_steps})
+    for (auto& point : *points) point.residual -= least;
+}
 
 /// Words on a history plot.
 struct history_labels {
@@ -45,22 +54,30 @@ struct history_labels {
   double smallest = INFINITY;
   double largest = 0;
   double last = 0;
-  std::vector<std::size_t> shown;
-  for (std::size_t s = 0; s < series.size(); ++s) {
-    out << "$series" << s << " << EOD\n";
-    double const largest_before = std::exchange(largest, 0);
-    for (auto const& [products, residual] : series[s].points) {
+  // Writes a block of data; whether anything is in it.
+  auto const block = [&](char const* name, std::size_t number,
+                         std::vector<history_point> const& points) {
+    out << '$' << name << number << " << EOD\n";
+    bool any = false;
+    for (auto const& [products, residual] : points) {
       if (!(residual > 0) || !std::isfinite(residual) || !std::isfinite(products)) continue;
       out << products << ' ' << residual << '\n';
       smallest = std::fmin(smallest, residual);
       largest = std::fmax(largest, residual);
       last = std::fmax(last, products);
+      any = true;
     }
     out << "EOD\n";
-    if (largest > 0) shown.push_back(s);
-    largest = std::fmax(largest, largest_before);
+    return any;
+  };
+  std::vector<std::size_t> shown;
+  std::vector<std::size_t> starred;
+  for (std::size_t s = 0; s < series.size(); ++s) {
+    if (block("series", s, series[s].points)) shown.push_back(s);
+    if (!series[s].newton_steps.empty() && block("stars", s, series[s].newton_steps))
+      starred.push_back(s);
   }
-  if (shown.empty()) return {};
+  if (shown.empty() && starred.empty()) return {};
   out << "set lmargin 12\nset rmargin 4\nset tmargin 5\nset bmargin 4.5\n"
       << "set label 1 " << gnuplot_string(labels.title)
       << " at graph 0, graph 1.075 left noenhanced font 'Sans Bold,16' tc rgb '#222222'\n"
@@ -77,14 +94,19 @@ struct history_labels {
       << std::ceil(std::log10(largest) + 0.05) << "]\n"
       << "set key top right Left reverse noenhanced samplen 2 spacing 1.3 tc rgb '#222222' "
          "opaque\n";
-  if (shown.size() < 2) out << "unset key\n";
+  if (shown.size() < 2 && starred.empty()) out << "unset key\n";
   char const* separator = "plot ";
-  for (std::size_t s : shown) {
-    out << separator << "$series" << s << " using 1:2 with lines lw 2.5 dt "
-        << 1 + s / std::size(colours) << " lc rgb '" << colours[s % std::size(colours)]
-        << "' title " << gnuplot_string(series[s].label);
+  auto const draw = [&](char const* name, std::size_t number, std::string const& style,
+                        std::string const& title) {
+    out << separator << '$' << name << number << " using 1:2 with " << style << " lc rgb '"
+        << colours[number % std::size(colours)] << "' title " << gnuplot_string(title);
     separator = ", \\\n     ";
-  }
+  };
+  for (std::size_t s : shown)
+    draw("series", s, "lines lw 2.5 dt " + std::to_string(1 + s / std::size(colours)),
+         series[s].label);
+  for (std::size_t s : starred)
+    draw("stars", s, "points pt 3 ps 1.6 lw 1.8", series[s].label + ": Newton steps");
   out << '\n';
   return out.str();
 }

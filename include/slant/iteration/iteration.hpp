@@ -5,6 +5,7 @@
 
 // IWYU pragma: begin_exports
 #include <slant/iteration/iterates.hpp>
+#include <slant/iteration/nested.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/iteration/solve.hpp>

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+//
+// wire_tables, brick_tables and two_bodies: printed numbers, ours beside them, and the right
+// status.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "run_program.hpp"
+
+namespace {
+
+using examples_test::contains;
+using examples_test::is_one_line;
+using examples_test::run;
+using examples_test::word;
+
+/// Is there a line with these words, in this order, at its beginning? Blanks do not count.
+bool has_line(std::string const& text, std::string const& words) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::istringstream wanted(words);
+    bool same = true;
+    for (std::string word, cell; same && wanted >> word;) same = (cells >> cell) && cell == word;
+    if (same) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("wire_tables: all tables of small meshes, and the printed active sets") {
+  auto const ran = run("wire_tables", "--unknowns 64");
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(contains(ran.out, "all runs converged, to the printed active sets\n"));
+  for (auto const* title : {"Table 4.1", "Table 4.2", "Table 4.3", "Table 4.4",
+                            "Tables 4.5 and 4.8", "Table 4.6", "Table 4.7"})
+    CHECK(contains(ran.out, title));
+  CHECK(has_line(ran.out, "0 0.1 64 16:0/13:3 16:0/13:3 ×"));  // l = 0, g = 0.1, n = 64
+  CHECK(has_line(ran.out, "0.3 64 14:2/9:7 14:2/9:7 5(6)"));   // g = 0.3 after QPC
+  CHECK(has_line(ran.out, "64 243/9 128/10 137/11 910/12 425/13"));
+}
+
+TEST_CASE("wire_tables: one table only; not converged is not success") {
+  auto const one = run("wire_tables", "--unknowns 32 --table 4.2");
+  CHECK(one.status == 0);
+  CHECK(contains(one.out, "Table 4.2"));
+  CHECK_FALSE(contains(one.out, "Table 4.1"));
+  auto const impatient = run("wire_tables", "--unknowns 32 --table 4.4 --max-iterations 3");
+  CHECK(impatient.status == 1);
+  CHECK(contains(impatient.out, "iteration_limit"));
+}
+
+TEST_CASE("brick_tables: sizes and printed numbers of both documents") {
+  auto const ran = run("brick_tables", "--cells 5 --load pull --tolerance 1e-3");
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(contains(ran.out, "load \"pull\""));
+  CHECK_FALSE(contains(ran.out, "load \"press\""));
+  CHECK(has_line(ran.out, "4 900/180 - - - 187 87/15"));
+  CHECK(has_line(ran.out, "5 1620/270 796/16 182/14 802/10 - -"));
+  CHECK(contains(ran.out, "all runs converged\n"));
+}
+
+TEST_CASE("two_bodies: both tables and their pictures") {
+  io_test::temporary_folder const folder;
+  auto const output = folder / "new";
+  auto const ran = run(
+      "two_bodies", "--plates 4 6 --bricks 3 --tolerance 1e-4 --output " + word(output.string()));
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  CHECK(has_line(ran.out, "240/24"));
+  CHECK(has_line(ran.out, "504/36"));
+  CHECK(has_line(ran.out, "162/9"));
+  CHECK(contains(ran.out, "all runs converged\n"));
+  bool const drawn = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  for (auto const* scene : {"plates", "bricks"})
+    for (auto const* picture : {"_residual.png", "_energy.png", "_contact.png"}) {
+      auto const file = output / (std::string(scene) + picture);
+      CHECK(io_test::get(file).starts_with("\x89PNG") == drawn);
+    }
+  CHECK(contains(ran.out, "no picture: ") == !drawn);
+}
+
+TEST_CASE("two_bodies: one scene only; not converged is not success") {
+  auto const ran = run("two_bodies", "--scene bricks --bricks 3 --max-iterations 2");
+  CHECK(ran.status == 1);
+  CHECK_FALSE(contains(ran.out, "Table 5"));
+  CHECK(contains(ran.out, "iteration_limit"));
+}
+
+TEST_CASE("the programs of tables refuse bad options in one line") {
+  auto const check = [](std::string const& name, std::string const& options,
+                        std::string const& expected) {
+    auto const ran = run(name, options);
+    CAPTURE(ran.err);
+    CHECK(ran.status == 2);
+    CHECK(ran.out == "");
+    CHECK(is_one_line(ran.err));
+    CHECK(contains(ran.err, expected));
+  };
+  check("wire_tables", "--unknowns 48", "--unknowns: got 48, expected 32, 64, 128");
+  check("wire_tables", "--table 4.9", "--table: got 4.9, expected 4.1 to 4.7, or all");
+  check("brick_tables", "--cells 3", "--cells: got 3, expected a whole number from 4 to 16");
+  check("brick_tables", "--load push", "--load: got push, expected press, pull, lift or all");
+  check("two_bodies", "--plates 4 1", "--plates: got 1, expected a whole number from 2 to 1000");
+  check("two_bodies", "--bricks x", "--bricks: got x, expected a whole number from 2 to 100");
+  check("two_bodies", "--scene beams", "--scene: got beams, expected plates, bricks or both");
+  check("two_bodies", "--output /dev/null", "--output: got /dev/null");
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <array>
+#include <fem/lecture_tables.hpp>
+#include <fem/two_bricks.hpp>
+#include <fem/two_plates.hpp>
+#include <utility>
+
+namespace two_bodies_test {
+
+/// The lower and the upper half of the box (0,3) × … × (0,2), with the same material.
+template <int D>
+fem::boxes_in_contact<D> halves(int k) {
+  std::array<int, D> cells;
+  cells.fill(k);
+  cells[0] = 3 * k;
+  Eigen::Matrix<double, D, 1> size = Eigen::Matrix<double, D, 1>::Ones();
+  size[0] = 3;
+  auto const material = D == 2 ? fem::lame_plane_stress(7, 0.3) : fem::lame(7, 0.3);
+  fem::loaded_box<D> const below{
+      .mesh = fem::make_box_mesh<D>(cells, size), .material = material, .fixed = {0, false}};
+  auto above = below;
+  above.mesh = fem::make_box_mesh<D>(cells, size, Eigen::Matrix<double, D, 1>::Unit(D - 1));
+  return {.first = above, .second = below, .contact = {D - 1, false}, .slip_bound = 0.5};
+}
+
+// Two halves that are held together at every contact node are one body: Zᵀ K Z is its stiffness,
+// where Z copies the displacement of a node of the whole to both nodes of its pair.
+template <int D>
+void check_glued(int k) {
+  auto const scene = fem::make_two_body_scene(halves<D>(k));
+  std::array<int, D> cells;
+  cells.fill(k);
+  cells[0] = 3 * k;
+  cells[D - 1] = 2 * k;
+  Eigen::Matrix<double, D, 1> size = Eigen::Matrix<double, D, 1>::Ones();
+  size[0] = 3;
+  size[D - 1] = 2;
+  auto const whole = fem::make_box_mesh<D>(cells, size);
+  auto const unknowns = fem::number_unknowns(whole, [&](Eigen::Index node) {
+    return whole.on({0, false}, node);
+  });
+  auto const material = D == 2 ? fem::lame_plane_stress(7, 0.3) : fem::lame(7, 0.3);
+  auto const K = fem::stiffness<D>(whole, unknowns, material);
+
+  Eigen::SparseMatrix<double> Z(scene.K.rows(), unknowns.count);
+  for (Eigen::Index node = 0; node < scene.mesh.node_count(); ++node) {
+    if (scene.unknowns.is_fixed(node)) continue;
+    Eigen::Index partner = 0;
+    (whole.nodes.colwise() - scene.mesh.nodes.col(node)).colwise().norm().minCoeff(&partner);
+    for (int i = 0; i < D; ++i)
+      Z.insert(scene.unknowns.first[node] + i, unknowns.first[partner] + i) = 1;
+  }
+  Eigen::SparseMatrix<double> const glued = Z.transpose() * scene.K * Z;
+  CHECK((glued - K).norm() < 1e-13 * K.norm());
+  // And a displacement of the whole opens no gap and slides nowhere.
+  CHECK((scene.N * Z).norm() == 0);
+  CHECK((scene.T * Z).norm() == 0);
+}
+
+TEST_CASE("two halves glued together are one body") {
+  check_glued<2>(3);
+  check_glued<3>(2);
+}
+
+TEST_CASE("rigid rotations of both bodies keep the contact closed, of one they open it") {
+  auto const scene = fem::make_two_plates(2);
+  Eigen::VectorXd both = Eigen::VectorXd::Zero(scene.K.rows());
+  Eigen::VectorXd upper = both;
+  Eigen::Index const nodes = scene.mesh.node_count();
+  for (Eigen::Index node = 0; node < nodes; ++node) {
+    if (scene.unknowns.is_fixed(node)) continue;
+    auto const x = scene.mesh.nodes.col(node);
+    Eigen::Vector2d const turned(-x[1], x[0]);
+    both.segment<2>(scene.unknowns.first[node]) = turned;
+    if (node < nodes / 2) upper.segment<2>(scene.unknowns.first[node]) = turned;
+  }
+  CHECK((scene.N * both).cwiseAbs().maxCoeff() == 0);
+  CHECK((scene.T * both).cwiseAbs().maxCoeff() == 0);
+  Eigen::VectorXd const gap = -(scene.N * upper);
+  for (Eigen::Index i = 0; i < scene.contact_count(); ++i) {
+    CHECK(gap[i] == scene.contact_patches[static_cast<std::size_t>(i)].centre[0]);
+    CHECK((scene.T * upper)[i] == -1);
+  }
+}
+
+TEST_CASE("action and reaction: contact forces sum to zero over both bodies") {
+  auto const scene = fem::make_two_bricks(3);
+  Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(9, 1, 2);
+  Eigen::VectorXd const μ = Eigen::VectorXd::LinSpaced(18, -1, 3);
+  Eigen::VectorXd const force = scene.N.transpose() * λ + scene.T.transpose() * μ;
+  auto const nodal = scene.displacement(force);
+  CHECK(nodal.rowwise().sum().norm() < 1e-14);
+  // What the upper body feels points up: against its outer normal (0, 0, −1).
+  CHECK(nodal.row(2).head(nodal.cols() / 2).sum() == doctest::Approx(-λ.sum()));
+}
+
+TEST_CASE("the stiffness is that of the bodies alone, each in its place") {
+  auto const pair = halves<3>(1);
+  auto const scene = fem::make_two_body_scene(pair);
+  auto const alone = [](fem::loaded_box<3> const& box) {
+    return fem::make_contact_scene<3>({.mesh = box.mesh,
+                                       .material = box.material,
+                                       .fixed = box.fixed,
+                                       .contact = {2, false}})
+        .K.toDense();
+  };
+  Eigen::MatrixXd const K1 = alone(pair.first);
+  Eigen::MatrixXd const K2 = alone(pair.second);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(scene.K.rows(), scene.K.rows());
+  expected.topLeftCorner(K1.rows(), K1.rows()) = K1;
+  expected.bottomRightCorner(K2.rows(), K2.rows()) = K2;
+  CHECK((scene.K.toDense() == expected));
+  CHECK(scene.K.isCompressed());
+}
+
+TEST_CASE("the printed numbers of unknowns and multipliers") {
+  for (auto const& row : fem::lecture_table_5) {
+    CHECK(12 * row.k * (row.k + 1) == row.unknowns);
+    CHECK(2 * 3 * row.k == row.multipliers);
+  }
+  auto const plates = fem::make_two_plates(5);
+  CHECK(plates.K.rows() == 12 * 5 * 6);
+  CHECK(plates.N.rows() + plates.T.rows() == 2 * 3 * 5);
+  for (auto const& row : fem::lecture_table_6) {
+    // The last number of unknowns is printed as 413536, which is no multiple of 6.
+    CHECK(6 * row.p * row.p * row.p == (row.p == 41 ? 413526 : row.unknowns));
+    CHECK(row.p * row.p == row.contact_nodes);
+  }
+  auto const bricks = fem::make_two_bricks(5);
+  CHECK(bricks.K.rows() == 6 * 5 * 5 * 5);
+  CHECK(bricks.contact_count() == 25);
+  CHECK(bricks.T.rows() == 50);
+}
+
+TEST_CASE("the loads of both scenes have the printed resultants") {
+  // Force and, for the plates, moment about the origin; fixed nodes would have taken the rest, so
+  // everything is summed on meshes so fine that their share is small and known.
+  int const k = 20;
+  auto const plates = fem::make_two_plates(k);
+  auto const nodal = plates.displacement(plates.f);
+  double const h = 1.0 / k;
+  // Fixed nodes: (0,2), which would take ∫φ over (0, h) of the pressure 6e7 + 1e7 s.
+  double const lost = 6e7 * h / 2 + 1e7 * h * h / 6;
+  double const top = 3 * 6e7 + 1e7 * 9 / 2 - lost;
+  CHECK(nodal.row(0).sum() == doctest::Approx(2e7).epsilon(1e-13));
+  CHECK(nodal.row(1).sum() == doctest::Approx(3e7 - top).epsilon(1e-13));
+  // ∫ s p_y: on the top −(6e7·9/2 + 1e7·27/3), at the end 3 ∫ (6 − 2s)e7 = 3·3e7.
+  auto const& x = plates.mesh.nodes;
+  double const moment = (x.row(0).array() * nodal.row(1).array()).sum();
+  CHECK(moment == doctest::Approx(-(6e7 * 4.5 + 9e7) + 9e7).epsilon(1e-13));
+  // ∫ y p_x at the end: 2e7 · 1.5.
+  CHECK((x.row(1).array() * nodal.row(0).array()).sum() == doctest::Approx(3e7).epsilon(1e-13));
+  // ∫ y p_y at the end: ∫ (6 − 2s) s over (1, 2) = 9 − 14/3; on the top y = 2.
+  double const at_end = (9 - 14.0 / 3) * 1e7;
+  CHECK((x.row(1).array() * nodal.row(1).array()).sum() ==
+        doctest::Approx(at_end - 2 * top).epsilon(1e-13));
+
+  auto const bricks = fem::make_two_bricks(4);
+  auto const forces = bricks.displacement(bricks.f);
+  CHECK(forces.topRows(2).norm() == 0);
+  Eigen::Index const upper = forces.cols() / 2;
+  CHECK(forces.row(2).head(upper).sum() == doctest::Approx(-(2e6 - 1e6 * 0.25)));
+  CHECK(forces.row(2).tail(upper).sum() == doctest::Approx(-1e6));
+}
+
+TEST_CASE("slip bounds are forces, weights sum to the free part of the contact side") {
+  auto const plates = fem::make_two_plates(4);
+  CHECK(plates.contact_weights.sum() == doctest::Approx(3 - 0.125));
+  CHECK(plates.g == 1.7e7 * plates.contact_weights);
+  CHECK(plates.d.isZero(0));
+  CHECK(plates.contact_side.lower[0] == 0);
+  CHECK(plates.contact_side.upper[0] == 3);
+  auto const bricks = fem::make_two_bricks(4);
+  CHECK(bricks.g.sum() == doctest::Approx(0.3 * 1750 * 1000));
+}
+
+TEST_CASE("a gap is the distance of the bodies, and sides that do not match are refused") {
+  auto pair = halves<2>(2);
+  pair.first.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}, {0, 1.25});
+  CHECK(fem::make_two_body_scene(pair).d == Eigen::VectorXd::Constant(6, 0.25));
+  // The same seen from below.
+  std::swap(pair.first, pair.second);
+  pair.contact.upper = true;
+  auto const turned = fem::make_two_body_scene(pair);
+  CHECK(turned.d == Eigen::VectorXd::Constant(6, 0.25));
+  CHECK(turned.N.sum() == 0);
+
+  auto const refused = [](auto change, char const* message) {
+    auto wrong = halves<2>(2);
+    change(wrong);
+    CHECK_THROWS_WITH_AS((void)fem::make_two_body_scene(wrong), message, std::invalid_argument);
+  };
+  refused(
+      [](auto& p) {
+        p.first.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}, {0, 0.5});
+      },
+      "origin: got 0, expected bodies that do not overlap");
+  refused(
+      [](auto& p) {
+        p.first.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}, {0.5, 1});
+      },
+      "origin: got 0, expected bodies that lie opposite each other");
+  refused(
+      [](auto& p) {
+        p.first.mesh = fem::make_box_mesh<2>({5, 2}, {3, 1}, {0, 1});
+      },
+      "cells_along: got 6, expected the same grid on both contact sides");
+  refused([](auto& p) { p.slip_bound = -1; }, "slip_bound: got -1, expected a finite number >= 0");
+  CHECK_THROWS_AS((void)fem::make_two_plates(0), std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::make_two_bricks(1), std::invalid_argument);
+}
+
+TEST_CASE("a node that only one body holds is a contact node with one side") {
+  auto pair = halves<2>(2);
+  pair.second.fixed = {1, false};  // the lower body stands on its bottom
+  auto const scene = fem::make_two_body_scene(pair);
+  CHECK(scene.contact_count() == 7);
+  Eigen::VectorXd const entries = scene.N.cwiseAbs() * Eigen::VectorXd::Ones(scene.N.cols());
+  CHECK(entries[0] == 1);
+  CHECK(entries.tail(6) == Eigen::VectorXd::Constant(6, 2));
+}
+
+}  // namespace two_bodies_test
