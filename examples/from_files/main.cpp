@@ -4,6 +4,7 @@
 // prints one JSON object.
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -93,10 +94,15 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option(
          "--tolerance", a.settings.tolerance,
-         "relative norm of the reduced gradient at which the method stops; 0: when rounding "
-         "lets it get no further, which is status \"stalled\" and exit status 1")
+         "relative norm of the reduced gradient at which the method stops (ssn, semismooth_newton: "
+         "of the\nnatural residual; ssn_primal_dual, ssnm_*: of a step); 0: when rounding lets it "
+         "get no further,\nwhich is status \"stalled\" and exit status 1")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
+  app.add_option("--start", a.settings.start,
+                 "where the method starts: zero, or a point found by qpc to an accuracy of 0.1")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, from_files::start_point>{
+          {"zero", from_files::start_point::zero}, {"qpc", from_files::start_point::qpc}}));
   app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")
       ->capture_default_str()
       ->check(examples::expects_at_least(0));
