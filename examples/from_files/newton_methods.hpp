@@ -64,7 +64,8 @@ template <class Friction, class Dual>
       [&](Eigen::VectorXd const& y) { return slant::project(dual.set(), contact.multipliers(y)); });
 }
 
-/// SSNM of the thesis; A is formed and factored.
+/// SSNM of the thesis; A is formed and factored. It has nothing against cycles: as there, a run of
+/// 1000 steps is one too many.
 template <class Dual, class Solver>
 [[nodiscard]] outcome run_ssnm(Dual const& dual, Eigen::VectorXd const& λ0, settings const& s,
                                Solver solver) {
@@ -74,7 +75,7 @@ template <class Dual, class Solver>
   options.precision = {.r_tol = 0.1, .c_fact = 0.5};
   options.multipliers = slant::ssnm_multipliers::estimated;
   outcome result = run_and_project(slant::ssnm{dense.qp(), solver, options}, λ0,
-                                   slant::step_below(s.tolerance), s, dual);
+                                   slant::step_below(s.tolerance) || slant::at_most(1000), s, dual);
   result.work.setup_applications += dense.products();
   return result;
 }
