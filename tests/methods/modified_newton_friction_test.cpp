@@ -44,4 +44,26 @@ TEST_CASE("plane friction: all reach the independent reference, with few product
   check("qpq", slant::qpq{qp}, 55);
 }
 
+// [K Ex 5, Table 5]: α̃ = ρ = β/σ_max with β far beyond 2 needs fewer products; AS then oscillates
+// where AS-S has been stabilised.
+TEST_CASE("steps beyond 2/σ_max: AS oscillates, AS-S and IMSSN converge") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const data = test::one_tangent(scene);
+  slant::contact::dual const dual(slant::contact::friction_line{}, slant::factorize(scene.K), data);
+  auto const qp = dual.qp();
+  auto const stop = slant::reduced_gradient_below(1e-6) || slant::at_most_applications(1000);
+  double const safe = slant::gimssn{qp}.start(dual.zero()).step_length;  // 1.9/σ_max
+  for (double β : {8.0, 15.0, 20.0}) {
+    CAPTURE(β);
+    double const α = β / 1.9 * safe;
+    auto const stable = slant::solve(slant::as_s(qp, {.step_length = α}), dual.zero(), stop);
+    REQUIRE(stable.converged());
+    CHECK(stable.state.work.operator_applications <= 40);
+    auto const i = slant::solve(slant::imssn{qp, {.step_length = α}}, dual.zero(), stop);
+    CHECK(i.converged());
+    CHECK((i.x() - stable.x()).norm() <= 1e-4 * i.x().norm());
+    CHECK_FALSE(slant::solve(slant::as(qp, {.step_length = α}), dual.zero(), stop).converged());
+  }
+}
+
 }  // namespace modified_newton_friction_test

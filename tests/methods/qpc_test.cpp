@@ -35,7 +35,7 @@ TEST_CASE("blocks are released only from (nearly) the minimum on the face") {
       VectorXd const before = s.x;
       auto const face = s.face;
       method.step(s);
-      faces += s.last_step != slant::kprgp_step::conjugate_gradient;
+      if (s.last_step != slant::kprgp_step::conjugate_gradient) ++faces;
       if (s.last_step != slant::kprgp_step::proportioning) continue;
       ++releases;
       CHECK(φ <= δ * δ * std::max(first, β));
@@ -55,7 +55,7 @@ TEST_CASE("a first phase for other methods: Example 1 to 1e-1, 1e-3, 1e-6") {
   test::example_one<double> const p;
   test::example_one_solution<double> const solution;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
-  for (double tolerance : {1e-1, 1e-3, 1e-6}) {
+  for (double const tolerance : {1e-1, 1e-3, 1e-6}) {
     auto const r = slant::solve(slant::qpc{qp}, p.zero(),
                                 slant::reduced_gradient_below(tolerance) || slant::at_most(60));
     REQUIRE(r.converged());

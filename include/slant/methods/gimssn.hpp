@@ -31,7 +31,7 @@ using gimssn_options = modified_newton_options<S, adaptive_precision>;
 /// number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
-  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
 
  public:
   using gimssn::modified_newton::modified_newton;

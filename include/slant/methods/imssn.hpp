@@ -30,7 +30,7 @@ using imssn_options = modified_newton_options<S, adaptive_precision>;
 /// definite on a face).
 template <class QP>
 class imssn : public modified_newton<QP, frozen_start, unlimited_cg, adaptive_precision> {
-  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
 
  public:
   using imssn::modified_newton::modified_newton;

@@ -42,7 +42,7 @@ namespace slant {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
-  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
 
  public:
   using kprgp::proportioning::proportioning;

@@ -24,7 +24,7 @@ using mssn_options = modified_newton_options<S, fixed_forcing>;
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
 class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
-  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
 
  public:
   using mssn::modified_newton::modified_newton;

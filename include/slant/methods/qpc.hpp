@@ -22,7 +22,7 @@ namespace slant {
 /// Requirements and statuses are those of kprgp. One application of A a step, two for an expansion.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
-  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
 
  public:
   using qpc::proportioning::proportioning;

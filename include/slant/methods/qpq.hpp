@@ -32,7 +32,7 @@ namespace slant {
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_proportioning> {
-  static_assert(sizeof(detail::active_set_complaint<std::remove_cvref_t<QP>>) > 0);
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
 
  public:
   using qpq::proportioning::proportioning;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The answer to a problem on which kprgp and its relatives cannot work. Each of them asks for its
-// size. It is not said by their common base classes: one in which a static_assert fails is no base
-// class any more for clang, which then complains of that as well.
+// The answer to a problem on which kprgp and its relatives cannot work. Each of them asks whether
+// it was made. It is not said by their common base classes: one in which a static_assert fails is
+// no base class any more for clang, which then complains of that as well.
 #pragma once
 
 #include <slant/iteration/detail/part_to_blame.hpp>
@@ -14,6 +14,7 @@ namespace slant::detail {
 /// Says what a problem lacks.
 template <class QP>
 struct active_set_complaint {
+  static constexpr bool made = true;
   using a = questions_about<typename QP::operator_type, typename QP::vector_type>;
 
   static_assert(
@@ -33,12 +34,15 @@ struct active_set_complaint {
 /// A problem that was told so already.
 template <class QP>
   requires was_refused<QP>
-struct active_set_complaint<QP> {};
+struct active_set_complaint<QP> {
+  static constexpr bool made = true;
+};
 
 /// No problem at all.
 template <class QP>
   requires(!quadratic_program<QP> && !was_refused<QP>)
 struct active_set_complaint<QP> {
+  static constexpr bool made = true;
   static_assert(quadratic_program<QP>,
                 "gimssn, imssn, mssn, qpc, qpq, kprgp: expected a separable_qp");
 };
