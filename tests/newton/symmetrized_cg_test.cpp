@@ -131,7 +131,7 @@ struct positive_points {
   [[nodiscard]] slant::index size() const { return n; }
   void project(auto const& x, auto& y) const { y = x.cwiseMax(0); }
   [[nodiscard]] bool contains(auto const& x) const { return (x.array() >= 0).all(); }
-  [[nodiscard]] auto slant(VectorXd const& x) const {
+  [[nodiscard]] static auto slant(VectorXd const& x) {
     return slant::diagonal<slant::self_adjoint, slant::firmly_nonexpansive>(
         VectorXd((x.array() >= 0).cast<double>()));
   }
