@@ -124,6 +124,8 @@ TEST_CASE("a singular F° is a breakdown with a reason, whatever the solver") {
     CHECK(r.x().allFinite());
   };
   check(slant::solve(slant::semismooth_newton{F}, y0, stop));
+  // No direction is a direction of length 0, but no success.
+  check(slant::solve(slant::semismooth_newton{F}, y0, slant::step_below(1e-3)));
   // Half of F can be reduced, which is direction enough for an inexact Newton method.
   slant::semismooth_newton const inexact{F, slant::bicgstab_solver{}};
   CHECK(slant::solve(inexact, y0, stop).converged());

@@ -68,6 +68,11 @@ struct newton_state {
     failure = why;
     return false;
   }
+  /// The same where no step was made: the size of its direction, 0 perhaps, is no sign of success.
+  bool give_up_step(slant::status how, newton_failure why) {
+    step_norm = std::numeric_limits<scalar>::infinity();
+    return give_up(how, why);
+  }
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {

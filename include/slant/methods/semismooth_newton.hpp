@@ -146,7 +146,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     bool const useful =
         detail::is_finite(s.step_norm) &&
         (r.status == status::converged || r.residual_norm <= S(0.99) * s.residual_norm);
-    return useful || s.give_up(status::breakdown, newton_failure::no_direction);
+    return useful || s.give_up_step(status::breakdown, newton_failure::no_direction);
   }
 
   /// The trial point and its residual; false if no length is accepted.
@@ -174,8 +174,8 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
         return true;
       }
     }
-    return p.best_length > S(0) ? s.give_up(status::stalled, newton_failure::no_length)
-                                : s.give_up(status::breakdown, newton_failure::not_finite);
+    return p.best_length > S(0) ? s.give_up_step(status::stalled, newton_failure::no_length)
+                                : s.give_up_step(status::breakdown, newton_failure::not_finite);
   }
 
   /// The trial point becomes the iterate: its F is known, so F° is all that is to be computed.
