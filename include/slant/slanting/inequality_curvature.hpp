@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Derivatives of the smooth inequalities f(x) ≤ 0 of a product of blocks, as operators:
-//
-//     inequality_jacobian      J = ∇f(x)ᵀ,  one row per inequality
-//     inequality_curvature     (H, Jᵀ),  H = Σ zᵢ ∇²fᵢ(x): the derivative of (x, z) ↦ ∇f(x) z
-//
-// Both own their entries and share the layout, so that they can be renewed in place.
+// The derivative (H, Jᵀ) of the forces (x, z) ↦ ∇f(x) z that multipliers exert, as an operator:
+// H = Σ zᵢ ∇²fᵢ(x), J = ∇f(x)ᵀ. H consists of small diagonal blocks; those of bounds are zero,
+// those of balls multiples of I, and it is looked at each time which are.
 #pragma once
 
-#include <slant/concepts/capabilities.hpp>
-#include <slant/slanting/detail/inequality_layout.hpp>
+#include <slant/slanting/inequality_jacobian.hpp>
 
 #include <Eigen/Core>
 
@@ -20,108 +16,6 @@
 #include <vector>
 
 namespace slant {
-
-/// y = J x. Made by the slanting function `inequalities`.
-template <class S>
-class inequality_jacobian {
- public:
-  using scalar = S;
-  static constexpr law_set laws{};
-
-  explicit inequality_jacobian(std::shared_ptr<detail::inequality_layout const> layout)
-      : layout_(std::move(layout)), gradients_(layout_->gradients()) {}
-
-  [[nodiscard]] index rows() const noexcept { return layout_->rows(); }
-  [[nodiscard]] index cols() const noexcept { return layout_->cols(); }
-
-  /// c J at x.
-  template <class Set, class X>
-  void renew(Set const& set, X const& x, S const& c = S(1)) {
-    index at = 0;
-    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr int n = static_dimension_of<block_type>;
-      constexpr int k = detail::inequalities_of<block_type>;
-      if constexpr (k > 0) {
-        Eigen::Matrix<S, n, k> const g = block.inequality_gradient(place.value(x));
-        for (int i = 0; i < k; ++i) {
-          for (int j = 0; j < n; ++j) gradients_[at++] = c * g.coeff(j, i);
-        }
-      }
-    });
-  }
-
-  template <class X, class Y>
-  void apply(X const& x, Y& y) const {
-    each(slant::local(x), slant::local(y), [](auto&& target, auto const& sum) { target = sum; });
-  }
-  template <class X, class Y>
-  void apply_add(S const& α, X const& x, Y& y) const {
-    each(slant::local(x), slant::local(y),
-         [&α](auto&& target, auto const& sum) { target += α * sum; });
-  }
-  template <class X, class Y>
-  void apply_adjoint(X const& x, Y& y) const {
-    slant::local(y).setZero();
-    apply_adjoint_add(S(1), x, y);
-  }
-  template <class X, class Y>
-  void apply_adjoint_add(S const& α, X const& z, Y& y) const {
-    auto const& from = slant::local(z);
-    auto& to = slant::local(y);
-    visit([&](index row, index component, S const& entry) {
-      to.coeffRef(component) += α * (entry * from.coeff(row));
-    });
-  }
-
-  /// f(row, column, entry) for every entry that can differ from zero.
-  template <class F>
-  void visit(F const& f) const {
-    for (auto const& run : layout_->runs()) {
-      S const* entry = gradients_.data() + run.gradient;
-      for (index i = 0; i < run.blocks; ++i) {
-        for (index r = 0; r < run.inequalities; ++r) {
-          for (index j = 0; j < run.dimension; ++j) {
-            f(run.row + i * run.inequalities + r, run.first + i * run.step + j * run.stride,
-              *entry++);
-          }
-        }
-      }
-    }
-  }
-
- private:
-  template <class S2>
-  friend class inequality_curvature;
-
-  /// put(y_row, (J x)_row), rows of blocks of one number all at once.
-  template <class X, class Y, class Put>
-  void each(X const& x, Y& y, Put const& put) const {
-    for (auto const& run : layout_->runs()) {
-      detail::with_block_size(run, [&](auto n, auto k, auto stride, auto step) {
-        if constexpr (detail::is_one<decltype(n)> && detail::is_one<decltype(k)>) {
-          put(y.segment(run.row, run.blocks), gradients_.segment(run.gradient, run.blocks)
-                                                  .cwiseProduct(x.segment(run.first, run.blocks)));
-        } else {
-          S const* const g = gradients_.data() + run.gradient;
-          for (index i = 0; i < run.blocks; ++i) {
-            for (index r = 0; r < k; ++r) {
-              index const own = (i * k + r) * n;
-              S sum = g[own] * x.coeff(run.first + i * step);
-              for (index j = 1; j < n; ++j) {
-                sum += g[own + j] * x.coeff(run.first + i * step + j * stride);
-              }
-              put(y.coeffRef(run.row + i * k + r), sum);
-            }
-          }
-        }
-      });
-    }
-  }
-
-  std::shared_ptr<detail::inequality_layout const> layout_;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> gradients_;
-};
 
 /// y = H dx + Jᵀdz for the argument (dx, dz). Made by the slanting function `inequality_forces`.
 template <class S>
@@ -170,13 +64,13 @@ class inequality_curvature {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
     for_each_run([&](auto const& run, auto curved, auto n, auto k, auto stride, auto step) {
-      S const* const g = jacobian_.gradients_.data() + run.gradient;
+      S const* const g = jacobian_.entries().data() + run.gradient;
       S const* const h = hessians_.data() + run.hessian;
       index const z = jacobian_.cols() + run.row;
       if constexpr (detail::is_one<decltype(n)> && detail::is_one<decltype(k)> && curved == zero) {
-        to.segment(run.first, run.blocks) +=
-            α * jacobian_.gradients_.segment(run.gradient, run.blocks)
-                    .cwiseProduct(from.segment(z, run.blocks));
+        to.segment(run.first, run.blocks) += α * jacobian_.entries()
+                                                     .segment(run.gradient, run.blocks)
+                                                     .cwiseProduct(from.segment(z, run.blocks));
         return;
       }
       for (index i = 0; i < run.blocks; ++i) {
@@ -217,7 +111,7 @@ class inequality_curvature {
   /// f(row, column, entry) for the entries of H; runs of blocks without curvature are passed over.
   template <class F>
   void visit_hessian(F const& f) const {
-    auto const& runs = jacobian_.layout_->runs();
+    auto const& runs = jacobian_.layout().runs();
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (curved_[i] != zero) visit_hessian(runs[i], f);
     }
@@ -225,7 +119,7 @@ class inequality_curvature {
   /// The same for every entry that can ever differ from zero.
   template <class F>
   void visit_hessian_pattern(F const& f) const {
-    for (auto const& run : jacobian_.layout_->runs()) visit_hessian(run, f);
+    for (auto const& run : jacobian_.layout().runs()) visit_hessian(run, f);
   }
 
  private:
@@ -246,7 +140,7 @@ class inequality_curvature {
   /// f(run, curvature, dimension, inequalities, stride, step), constants where they can be.
   template <class F>
   void for_each_run(F const& f) const {
-    auto const& runs = jacobian_.layout_->runs();
+    auto const& runs = jacobian_.layout().runs();
     for (std::size_t number = 0; number < runs.size(); ++number) {
       auto const& run = runs[number];
       detail::with_block_size(run, [&](auto n, auto k, auto stride, auto step) {
@@ -263,7 +157,7 @@ class inequality_curvature {
   }
   /// Which runs of H are zero, which diagonal: balls and half lines need no more.
   void classify() {
-    auto const& runs = jacobian_.layout_->runs();
+    auto const& runs = jacobian_.layout().runs();
     for (std::size_t number = 0; number < runs.size(); ++number) {
       auto const& run = runs[number];
       index const n = run.dimension;
