@@ -61,8 +61,41 @@ class inequality_curvature {
   /// y ← y + α (H dx + Jᵀdz).
   template <class X, class Y>
   void apply_add(S const& α, X const& x, Y& y) const {
-    auto const& from = slant::local(x);
-    auto& to = slant::local(y);
+    detail::by_columns(slant::local(x), slant::local(y),
+                       [&](auto const& from, auto& to) { add_column(α, from, to); });
+  }
+  /// y = (H x; J x); H is symmetric.
+  template <class X, class Y>
+  void apply_adjoint(X const& x, Y& y) const {
+    slant::local(y).setZero();
+    apply_adjoint_add(S(1), x, y);
+  }
+  template <class X, class Y>
+  void apply_adjoint_add(S const& α, X const& x, Y& y) const {
+    detail::by_columns(slant::local(x), slant::local(y),
+                       [&](auto const& from, auto& to) { add_adjoint_column(α, from, to); });
+  }
+
+  /// f(row, column, entry) for the entries of H; runs of blocks without curvature are passed over.
+  template <class F>
+  void visit_hessian(F const& f) const {
+    auto const& runs = jacobian_.layout().runs();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (curved_[i] != zero) visit_hessian(runs[i], f);
+    }
+  }
+  /// The same for every entry that can ever differ from zero.
+  template <class F>
+  void visit_hessian_pattern(F const& f) const {
+    for (auto const& run : jacobian_.layout().runs()) visit_hessian(run, f);
+  }
+
+ private:
+  static constexpr int zero = 0, diagonal = 1, full = 2;
+
+  /// to ← to + α (H dx + Jᵀdz), from = (dx, dz).
+  template <class X, class Y>
+  void add_column(S const& α, X const& from, Y& to) const {
     for_each_run([&](auto const& run, auto curved, auto n, auto k, auto stride, auto step) {
       S const* const g = jacobian_.entries().data() + run.gradient;
       S const* const h = hessians_.data() + run.hessian;
@@ -91,39 +124,15 @@ class inequality_curvature {
       }
     });
   }
-  /// y = (H x; J x); H is symmetric.
+  /// to ← to + α (H x; J x).
   template <class X, class Y>
-  void apply_adjoint(X const& x, Y& y) const {
-    slant::local(y).setZero();
-    apply_adjoint_add(S(1), x, y);
-  }
-  template <class X, class Y>
-  void apply_adjoint_add(S const& α, X const& x, Y& y) const {
-    auto const& from = slant::local(x);
-    auto& to = slant::local(y);
+  void add_adjoint_column(S const& α, X const& from, Y& to) const {
     index const n = jacobian_.cols();
     visit_hessian([&](index i, index j, S const& h) { to.coeffRef(i) += α * (h * from.coeff(j)); });
     jacobian_.visit([&](index row, index component, S const& entry) {
       to.coeffRef(n + row) += α * (entry * from.coeff(component));
     });
   }
-
-  /// f(row, column, entry) for the entries of H; runs of blocks without curvature are passed over.
-  template <class F>
-  void visit_hessian(F const& f) const {
-    auto const& runs = jacobian_.layout().runs();
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      if (curved_[i] != zero) visit_hessian(runs[i], f);
-    }
-  }
-  /// The same for every entry that can ever differ from zero.
-  template <class F>
-  void visit_hessian_pattern(F const& f) const {
-    for (auto const& run : jacobian_.layout().runs()) visit_hessian(run, f);
-  }
-
- private:
-  static constexpr int zero = 0, diagonal = 1, full = 2;
 
   template <class F>
   void visit_hessian(detail::inequality_run const& run, F const& f) const {

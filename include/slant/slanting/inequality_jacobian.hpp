@@ -50,12 +50,15 @@ class inequality_jacobian {
 
   template <class X, class Y>
   void apply(X const& x, Y& y) const {
-    each(slant::local(x), slant::local(y), [](auto&& target, auto const& sum) { target = sum; });
+    detail::by_columns(slant::local(x), slant::local(y), [&](auto const& from, auto& to) {
+      each(from, to, [](auto&& target, auto const& sum) { target = sum; });
+    });
   }
   template <class X, class Y>
   void apply_add(S const& α, X const& x, Y& y) const {
-    each(slant::local(x), slant::local(y),
-         [&α](auto&& target, auto const& sum) { target += α * sum; });
+    detail::by_columns(slant::local(x), slant::local(y), [&](auto const& from, auto& to) {
+      each(from, to, [&α](auto&& target, auto const& sum) { target += α * sum; });
+    });
   }
   template <class X, class Y>
   void apply_adjoint(X const& x, Y& y) const {
@@ -64,10 +67,10 @@ class inequality_jacobian {
   }
   template <class X, class Y>
   void apply_adjoint_add(S const& α, X const& z, Y& y) const {
-    auto const& from = slant::local(z);
-    auto& to = slant::local(y);
-    visit([&](index row, index component, S const& entry) {
-      to.coeffRef(component) += α * (entry * from.coeff(row));
+    detail::by_columns(slant::local(z), slant::local(y), [&](auto const& from, auto& to) {
+      visit([&](index row, index component, S const& entry) {
+        to.coeffRef(component) += α * (entry * from.coeff(row));
+      });
     });
   }
 
