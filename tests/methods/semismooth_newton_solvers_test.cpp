@@ -90,23 +90,4 @@ TEST_CASE("units do not matter: powers of two give the same bits") {
   }
 }
 
-TEST_CASE("bad starts: far away, infeasible, random") {
-  newton_scene::data const d(m);
-  auto const A = d.definite();
-  auto const F =
-      slant::natural_residual(A, d.b, newton_scene::contact_set(m, smallest_radius), d.ρ);
-  auto const stop = slant::residual_below(1e-10) || slant::at_most(200);
-  VectorXd const solution = slant::solve(slant::semismooth_newton{F}, d.zero(), stop).x();
-  for (double size : {1.0, 1e3, 1e10}) {
-    for (unsigned seed : {1U, 2U, 3U}) {
-      VectorXd const x0 = size * slanting_support::random_vector(3 * m, seed);
-      auto const r = slant::solve(slant::semismooth_newton{F}, x0, stop);
-      CAPTURE(size);
-      CHECK(r.converged());
-      CHECK((r.x() - solution).norm() <= 1e-8 * solution.norm());
-      CHECK(r.state.residual_scale == slant::norm(slant::evaluate(F, d.zero())));
-    }
-  }
-}
-
 }  // namespace semismooth_newton_solvers_test

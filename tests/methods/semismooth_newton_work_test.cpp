@@ -126,7 +126,8 @@ TEST_CASE("no step allocates, shortened ones included") {
   };
   check(slant::semismooth_newton{p.F});
   check(slant::semismooth_newton{p.F, slant::symmetrized_cg{.warm_start = true}});
-  check(slant::semismooth_newton{p.F, slant::bicgstab_solver{}});
+  check(slant::semismooth_newton{p.F, slant::bicgstab_solver{}, slant::halving_line_search{},
+                                 slant::eisenstat_walker{.η_first = 0.1}});
 }
 
 }  // namespace semismooth_newton_work_test

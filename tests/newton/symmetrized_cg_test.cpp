@@ -2,6 +2,7 @@
 #include "newton_scene.hpp"
 
 #include <slant/newton/symmetrized_cg.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/testing/archetypes/linear_operator.hpp>
 
 #include <support/allocation_guard.hpp>
@@ -122,6 +123,33 @@ TEST_CASE("nothing is allocated between prepare and the end") {
   auto const allocations = guard.count();
   CHECK(allocations == 0);
   CHECK(r.status == slant::status::converged);
+}
+
+/// x ≥ 0 by a client who knows nothing of blocks: G is some diagonal operator.
+struct positive_points {
+  slant::index n;
+  [[nodiscard]] slant::index size() const { return n; }
+  void project(auto const& x, auto& y) const { y = x.cwiseMax(0); }
+  [[nodiscard]] bool contains(auto const& x) const { return (x.array() >= 0).all(); }
+  [[nodiscard]] static auto slant(VectorXd const& x) {
+    return slant::diagonal<slant::self_adjoint, slant::firmly_nonexpansive>(
+        VectorXd((x.array() >= 0).cast<double>()));
+  }
+};
+
+TEST_CASE("a set whose blocks are not accessible") {
+  newton_scene::data const d(5);
+  auto const A = d.definite();
+  auto const F = slant::natural_residual(A, d.b, positive_points{15}, d.ρ);
+  VectorXd const x = slanting_support::random_vector(15, 7);
+  VectorXd const f = slant::evaluate(F, x);
+  auto const G = F.slant(x);
+  slant::symmetrized_cg const cg;
+  auto p = cg.prepare(G, f);
+  static_assert(!decltype(p.preconditioner)::effective);
+  VectorXd dy(15);
+  CHECK(cg.solve(G, f, {1e-10, f.norm(), 0}, dy, p).status == slant::status::converged);
+  CHECK((f + slanting_support::dense(G, x) * dy).norm() <= 1.1e-10 * f.norm());
 }
 
 TEST_CASE("archetype operator and vector; who is refused") {

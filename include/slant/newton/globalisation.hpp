@@ -43,7 +43,7 @@ concept globalisation = requires(G const& g, search_point<S> const& p) {
 /// α = 1 always: Newton's method itself. Local convergence.
 struct full_step {
   void validate() const {}
-  [[nodiscard]] int first_length() const { return 1; }
+  [[nodiscard]] static constexpr int first_length() { return 1; }
   template <class S>
   [[nodiscard]] bool accepts(search_point<S> const& p) const {
     return detail::is_finite(p.residual);
@@ -93,7 +93,7 @@ struct halving_line_search {
       throw bad_input("max_halvings", detail::show(max_halvings), "a number >= 0");
     }
   }
-  [[nodiscard]] int first_length() const { return 1; }
+  [[nodiscard]] static constexpr int first_length() { return 1; }
   template <class S>
   [[nodiscard]] bool accepts(search_point<S> const& p) const {
     if (p.trial > max_halvings) return detail::is_finite(p.residual);  // the best, once more
