@@ -89,6 +89,21 @@ TEST_CASE("an empty choice: bounds at −∞, circles without end") {
   CHECK((w.A * r.x - w.b).norm() <= 1e-12 * w.b.norm());
 }
 
+TEST_CASE("at the last digits the run stalls, with a residual of rounding errors") {
+  auto const w = fem::make_thesis_wire(8);
+  auto const set = fem::wire_set(w, 0, 0.5);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
+  slant::separable_qp const qp{A, w.b, set};
+  slant::ssnm const method{qp, slant::saddle_direct{}};
+  auto const r = slant::solve(method, VectorXd::Zero(32).eval(), slant::at_most(100));
+  CHECK((r.status == slant::status::stalled || r.status == slant::status::converged ||
+         r.status == slant::status::iteration_limit));
+  CHECK(r.state.residual_norm <= 1e-14 * r.state.residual_scale);
+  auto const to = slant::solve(method, VectorXd::Zero(32).eval(),
+                               slant::residual_below(1e-12) || slant::at_most(100));
+  CHECK(to.converged());
+}
+
 TEST_CASE("bad input") {
   auto const w = fem::make_thesis_wire(4);
   auto const set = fem::wire_set(w, 0, 1);

@@ -32,7 +32,13 @@ void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
       Eigen::Matrix<S, n, 1> const point = place.value(x);
       Eigen::Matrix<S, n, 1> const force = place.value(r);
       Eigen::Matrix<S, n, k> const gradients = block.inequality_gradient(point);
-      bool const inside = block.state(point) == block_state::free;
+      bool const inside = [&] {
+        if constexpr (has_state<block_type, Eigen::Matrix<S, n, 1>>) {
+          return block.state(point) == block_state::free;
+        } else {
+          return (block.inequality(point).array() < S(0)).all();
+        }
+      }();
       for (int i = 0; i < k; ++i) {
         S const slope = gradients.col(i).squaredNorm();
         S const push = -gradients.col(i).dot(force);

@@ -62,13 +62,14 @@ class ssnm<QP, LinearSolver> {
     check(x0);
     auto z = like(x0, f_.multipliers());
     slant::local(z).setZero();
-    if (options_.multipliers == ssnm_multipliers::estimated) {
-      auto r = like(x0, f_.unknowns());
-      slant::apply(problem().a(), x0, r);
-      slant::local(r) -= slant::local(problem().b());
-      estimated_multipliers(problem().set(), x0, r, z);
-    }
-    return start(x0, z);
+    if (options_.multipliers == ssnm_multipliers::zero) return start(x0, z);
+    auto r = like(x0, f_.unknowns());
+    slant::apply(problem().a(), x0, r);
+    slant::local(r) -= slant::local(problem().b());
+    estimated_multipliers(problem().set(), x0, r, z);
+    auto s = start(x0, z);
+    ++s.work.setup_applications;
+    return s;
   }
   /// From x⁰ and (λ⁰, μ⁰) = z⁰.
   [[nodiscard]] state_type start(vector_type const& x0, vector_type const& z0) const {
@@ -94,6 +95,7 @@ class ssnm<QP, LinearSolver> {
                  std::move(f_workspace),
                  std::move(prepared)};
     s.forcing = forcing_history<scalar>::starting_at(scalar(1));
+    s.residual_scale = norm(problem().b());
     classify(s);
     return s;
   }
@@ -110,7 +112,7 @@ class ssnm<QP, LinearSolver> {
     s.work.operator_applications += r.operator_applications;
     s.work.factorizations += r.factorizations;
     if (!(r.residual_norm < s.residual_norm)) {
-      s.status = status::breakdown;
+      s.status = r.status == status::breakdown ? status::breakdown : status::stalled;
       return;
     }
     slant::local(s.y) += slant::local(s.direction);

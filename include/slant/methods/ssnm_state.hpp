@@ -29,6 +29,7 @@ struct ssnm_state {
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
 
   scalar residual_norm{0};                                     ///< ‖F(y)‖
+  scalar residual_scale{0};                                    ///< ‖b‖
   scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖x⁺ − x‖ of the last step
   scalar x_norm{0};                                            ///< ‖x‖
   scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
@@ -52,6 +53,10 @@ struct ssnm_state {
                "): A + Σ z ∇²f is singular, or not definite where the solver needs it, or an "
                "active "
                "gradient vanishes or depends on others";
+      case slant::status::stalled:
+        return "no direction reduces ‖F‖ any more: it is down to rounding, or the inner iteration "
+               "stagnates (" +
+               std::string(to_string(solver_status)) + ")";
       default:
         return std::string(to_string(status));
     }

@@ -10,7 +10,8 @@
 #include <slant/slanting/fischer_burmeister.hpp>
 #include <slant/slanting/identity.hpp>
 #include <slant/slanting/inequalities.hpp>
-#include <slant/slanting/inequality_operators.hpp>
+#include <slant/slanting/inequality_curvature.hpp>
+#include <slant/slanting/inequality_jacobian.hpp>
 #include <slant/slanting/kkt_function.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/min.hpp>

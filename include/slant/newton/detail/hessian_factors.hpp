@@ -8,6 +8,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/laws.hpp>
 #include <slant/factorizations/detail/sparse_ldlt_factors.hpp>
 
 #include <Eigen/Cholesky>

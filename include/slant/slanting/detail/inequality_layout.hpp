@@ -97,6 +97,20 @@ void repeat(N n, F const& f) {
   }
 }
 
+/// f(x, y) for each of several right-hand sides x and results y.
+template <class X, class Y, class F>
+void by_columns(X const& x, Y& y, F const& f) {
+  if constexpr (X::ColsAtCompileTime == 1 && Y::ColsAtCompileTime == 1) {
+    f(x, y);
+  } else {
+    for (index j = 0; j < index(x.cols()); ++j) {
+      auto const from = x.col(j);
+      auto to = y.col(j);
+      f(from, to);
+    }
+  }
+}
+
 template <class N>
 inline constexpr bool is_one = std::is_same_v<N, std::integral_constant<index, 1>>;
 
