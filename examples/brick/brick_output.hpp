@@ -27,9 +27,9 @@ inline void print_problem(fem::contact_scene<3> const& scene, fem::brick_load lo
   std::printf("Steel brick on a rigid foundation, load \"%s\"\n", fem::name_of(load).data());
   std::printf("  body           3 x 1 x 1, E = %g MPa, nu = %g; fixed at x = 0, contact on z = 0\n",
               defaults.E, defaults.nu);
-  for (auto const& load : loading.tractions)
-    std::printf("  traction       (%g, %g, %g) MPa on the %s\n", load.traction[0], load.traction[1],
-                load.traction[2], load.side.axis == 2 ? "top" : "right end");
+  for (auto const& side : loading.tractions)
+    std::printf("  traction       (%g, %g, %g) MPa on the %s\n", side.traction[0], side.traction[1],
+                side.traction[2], side.side.axis == 2 ? "top" : "right end");
   std::printf("  slip bound     %g MPa (Tresca)\n", loading.slip_bound);
   std::printf("  mesh           %td tetrahedra, %td unknowns\n", scene.mesh.cell_count(),
               scene.unknowns.count);
@@ -97,9 +97,9 @@ inline void write_output(std::filesystem::path const& folder, fem::contact_scene
   if (!contact.written) return;  // the other picture would fail for the same reason
   std::vector<fem::history_series> series;
   series.push_back({history.label, std::move(history.points)});
-  auto const course =
-      fem::history_plot(folder / "history.png", series,
-                        {.title = title + ": KPRGP", .vertical = "relative reduced gradient"});
+  auto const course = fem::history_plot(
+      folder / "history.png", series,
+      {.title = title + ": Newton steps", .vertical = "relative reduced gradient"});
   std::printf("%s\n", course.message.c_str());
 }
 

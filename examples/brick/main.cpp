@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The steel brick of [T §4.2, K Ex 3] in frictional contact with a rigid foundation, by KPRGP on
-// the dual problem.
+// The steel brick of [T §4.2, K Ex 3] in frictional contact with a rigid foundation, by the
+// symmetric Newton method on the dual problem.
 #include <unistd.h>
 
 #include <chrono>
 #include <fem/steel_brick.hpp>
+#include <slant/contact/preconditioner.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
+#include <slant/methods/symmetric_newton.hpp>
 #include <support/command_line.hpp>
 
 #include "brick_output.hpp"
@@ -20,8 +21,8 @@ namespace {
 struct settings {
   int k = 6;
   std::string load = "lift";
-  double tolerance = 1e-7;
-  slant::index max_iterations = 100000;
+  double tolerance = 1e-10;
+  slant::index max_iterations = 1000;
   std::filesystem::path output{};
 };
 
@@ -48,10 +49,13 @@ int solve_brick(settings const& s) {
   slant::history<decltype(accuracy), fem::history_point> history(accuracy);
   auto const start = std::chrono::steady_clock::now();
   auto const report = [&] {
-    slant::progress_bar bar("kprgp", s.tolerance,
-                            {.enabled = isatty(STDERR_FILENO) != 0, .every = 25});
+    slant::progress_bar bar("newton", s.tolerance,
+                            {.enabled = isatty(STDERR_FILENO) != 0, .every = 1});
+    slant::symmetric_newton_options<double> options;
+    options.forcing.goal = s.tolerance;
+    auto const M = slant::contact::lumped_preconditioner(scene.K, dual.constraints());
     return slant::solve(
-        slant::kprgp{dual.qp()}, dual.zero(),
+        slant::symmetric_newton{dual.qp(), M, options}, dual.zero(),
         slant::reduced_gradient_below(s.tolerance) || slant::at_most(s.max_iterations), history,
         bar);
   }();

@@ -23,8 +23,8 @@ int main() {
   auto const Λ = slant::cartesian(slant::half_lines(n), slant::discs(g));
 
   Eigen::VectorXd const λ0 = Eigen::VectorXd::Zero(3 * n);
-  auto const run = slant::solve(slant::kprgp{slant::separable_qp{A, b, Λ}}, λ0,
-                                slant::reduced_gradient_below(1e-12) || slant::at_most(500));
+  auto const run = slant::solve(slant::symmetric_newton{slant::separable_qp{A, b, Λ}}, λ0,
+                                slant::reduced_gradient_below(1e-12) || slant::at_most(50));
 
   std::cout << to_string(run.status) << std::fixed << "\npressure  friction\n";
   std::cout.precision(4);
