@@ -6,6 +6,7 @@
 #   benchmarks/run_all.sh [--only NAME]… [--output FOLDER]
 #
 #   composition    instructions of composed operators, beside loops written by hand
+#   slanting       instructions of F°(y) by the chain rule, beside hand-derived formulas
 #   compile_time   seconds and memory of the compiler for a few includes
 #   projections    largest error of the projections at a million points each
 #   example_1      products of KPRGP for eleven Γ, beside the printed ones
@@ -20,7 +21,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
-all=(composition compile_time projections example_1 wire brick)
+all=(composition slanting compile_time projections example_1 wire brick)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -56,6 +57,9 @@ program() {
 }
 
 run_composition() { "$here/composition.sh" "$(program composition)" >"$output/composition.csv"; }
+run_slanting() {
+  "$here/slanting_composition.sh" "$(program slanting_composition)" >"$output/slanting.csv"
+}
 run_compile_time() { "$here/compile_time.sh" --output "$output"; }
 run_projections() { "$(program projection_errors)" >"$output/projections.csv"; }
 run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"; }
@@ -162,6 +166,7 @@ write_summary() {
   printf '# Benchmarks\n\n'
   describe_machine
   section composition "Instructions of one application"
+  section slanting "Instructions of one application of F°(y)"
   section compile_time "Compile time"
   section projections "Accuracy of projections"
   section example_1 "Example 1: products of KPRGP, relative reduced gradient 1e-6"

@@ -3,19 +3,16 @@
 // The methods in the tables of the brick.
 #pragma once
 
-#include <slant/methods/kprgp.hpp>
-#include <support/named_method.hpp>
+#include <support/contact_methods.hpp>
 #include <tuple>
-#include <utility>
 
 namespace brick_tables {
 
-/// Every method makes two columns: from zero, and by nested iteration.
+/// Each of ours makes two columns: from zero, and by nested iteration.
 [[nodiscard]] inline auto methods() {
-  using examples::named_method;
-  return std::tuple{named_method{"KPRGP", [](auto qp, double σ) {
-                                   return slant::kprgp{std::move(qp), {.step_length = 1.9 / σ}};
-                                 }}};
+  return std::tuple{examples::imssn("IMSSN", 1.9), examples::gimssn("GIMSSN", 1.9),
+                    examples::kprgp("KPRGP", 1.9), examples::newton("Newton"),
+                    examples::preconditioned_newton("Newton, M")};
 }
 
 }  // namespace brick_tables

@@ -20,6 +20,7 @@ struct arguments {
   fs::path folder{};
   std::string method{from_files::recommended_method};
   from_files::settings settings{};
+  std::string start{"zero"};
   fs::path output{};
   bool list_methods = false;
 };
@@ -64,7 +65,9 @@ int solve_folder(arguments const& a) {
   auto const problem = from_files::read_problem_folder(a.folder);
   std::optional<from_files::result_files> files;
   if (!a.output.empty()) files.emplace(a.output);
-  auto const solution = from_files::solve(problem, a.method, a.settings);
+  from_files::settings settings = a.settings;
+  settings.start = a.start == "qpc" ? from_files::start_point::qpc : from_files::start_point::zero;
+  auto const solution = from_files::solve(problem, a.method, settings);
   if (!solution.is_finite()) files.reset();
   // No result counts before all of it can arrive: files appear only after the report was printed.
   if (files) files->write(solution);
@@ -93,10 +96,17 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option(
          "--tolerance", a.settings.tolerance,
-         "relative norm of the reduced gradient at which the method stops; 0: when rounding "
-         "lets it get no further, which is status \"stalled\" and exit status 1")
+         "relative norm of the reduced gradient at which the method stops (ssn, semismooth_newton: "
+         "of the\nnatural residual; ssn_primal_dual, ssnm_*: of a step); 0: when rounding lets it "
+         "get no further,\nwhich is status \"stalled\" and exit status 1")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
+  app.add_option("--start", a.start,
+                 "zero, or qpc: where this method has reduced the reduced gradient to a tenth")
+      ->capture_default_str()
+      ->check(examples::expects<std::string>("zero or qpc", [](std::string const& start) {
+        return start == "zero" || start == "qpc";
+      }));
   app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")
       ->capture_default_str()
       ->check(examples::expects_at_least(0));

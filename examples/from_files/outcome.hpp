@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of one method on the dual problem, in a form that all methods share.
+// One run of one method, in a form that all methods share.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +14,17 @@ namespace from_files {
 
 using clock = std::chrono::steady_clock;
 
+/// Where a method starts.
+enum class start_point {
+  zero,  ///< λ = 0
+  qpc    ///< where the first-order method qpc has reduced the reduced gradient to a tenth
+};
+
 /// What the user asks of a method.
 struct settings {
-  double tolerance = 1e-8;  ///< relative norm of the reduced gradient
+  double tolerance = 1e-8;  ///< relative, of the norm that the method judges itself by
   slant::index max_iterations = 1000000;
+  start_point start = start_point::zero;
 };
 
 /// What came of it.
@@ -30,24 +37,40 @@ struct outcome {
   Eigen::VectorXd λ;          ///< (normal, tangential)
 };
 
-/// Runs a method for the dual problem whose state measures the reduced gradient.
-template <class Method>
-[[nodiscard]] outcome run_on_dual(Method const& method, Eigen::VectorXd const& x0,
-                                  settings const& s) {
+/// Runs a method from y0 until the rule fires or the limit of steps is reached; multipliers(y) is λ
+/// of its last iterate.
+template <class Method, class Rule, class Multipliers>
+[[nodiscard]] outcome run_until(Method const& method, Eigen::VectorXd const& y0, Rule accurate,
+                                settings const& s, Multipliers multipliers) {
   clock::time_point started;
   auto const note_start = [&](auto const& state) {
     if (state.iteration == 0) started = clock::now();
   };
-  auto report = slant::solve(
-      method, x0, slant::reduced_gradient_below(s.tolerance) || slant::at_most(s.max_iterations),
-      note_start);
+  auto report =
+      slant::solve(method, y0, std::move(accurate) || slant::at_most(s.max_iterations), note_start);
   slant::index const iterations = report.iterations();
   return {.status = report.status,
           .reason = std::move(report.reason),
           .iterations = iterations,
           .work = report.state.work,
           .started = started,
-          .λ = std::move(report.state.x)};
+          .λ = multipliers(std::as_const(report.state.x))};
+}
+
+/// A method for the dual problem whose state measures the reduced gradient.
+template <class Method>
+[[nodiscard]] outcome run_on_dual(Method const& method, Eigen::VectorXd const& λ0,
+                                  settings const& s) {
+  return run_until(method, λ0, slant::reduced_gradient_below(s.tolerance), s,
+                   [](auto const& λ) { return λ; });
+}
+
+/// A method whose iterates leave Λ: the nearest point of Λ is the result.
+template <class Method, class Rule, class Dual>
+[[nodiscard]] outcome run_and_project(Method const& method, Eigen::VectorXd const& λ0,
+                                      Rule accurate, settings const& s, Dual const& dual) {
+  return run_until(method, λ0, std::move(accurate), s,
+                   [&](auto const& λ) { return slant::project(dual.set(), λ); });
 }
 
 }  // namespace from_files

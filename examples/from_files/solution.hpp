@@ -37,6 +37,20 @@ namespace detail {
          ", so the multipliers grow without bound";
 }
 
+/// A start and what it cost.
+struct first_phase {
+  Eigen::VectorXd λ;
+  slant::work work{};
+};
+
+template <class Dual>
+[[nodiscard]] first_phase find_start(Dual const& dual, settings const& s) {
+  if (s.start == start_point::zero) return {dual.zero()};
+  auto r = slant::solve(slant::qpc{dual.qp()}, dual.zero(),
+                        slant::reduced_gradient_below(0.1) || slant::at_most(s.max_iterations));
+  return {std::move(r.state.x), r.state.work};
+}
+
 template <class Friction>
 [[nodiscard]] solution solve_with(Friction friction, problem const& p, std::string_view method,
                                   settings const& s) {
@@ -44,7 +58,11 @@ template <class Friction>
   auto const factor = slant::factorize(p.K);
   slant::contact::dual const dual(friction, factor, p.contact);
   solution result;
-  with_method(method, [&](auto const& chosen) { result.run = chosen.run(dual, s); });
+  first_phase const start = find_start(dual, s);
+  with_method(method,
+              [&](auto const& chosen) { result.run = chosen.run(friction, p, dual, start.λ, s); });
+  result.run.work.operator_applications += start.work.operator_applications;
+  result.run.work.setup_applications += start.work.setup_applications;
   if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
   result.u = dual.displacement(result.run.λ);
   auto const end = clock::now();

@@ -6,6 +6,7 @@
 #include <fem/contact_prolongation.hpp>
 #include <fem/contact_scene.hpp>
 #include <ranges>
+#include <slant/contact/preconditioner.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/nested.hpp>
@@ -41,6 +42,10 @@ class contact_problem {
   [[nodiscard]] Eigen::VectorXd displacement(Eigen::VectorXd const& λ) const {
     return dual_.displacement(λ);
   }
+  /// M ≈ A⁻¹.
+  [[nodiscard]] auto preconditioner() const {
+    return slant::contact::lumped_preconditioner(scene_.K, dual_.constraints());
+  }
   /// An upper bound of σ_max(A).
   [[nodiscard]] double sigma() const { return σ_; }
 
@@ -65,7 +70,7 @@ class contact_level {
     if (coarse != nullptr) P_ = fem::contact_prolongation(coarse->scene(), problem.scene());
   }
 
-  [[nodiscard]] auto method() const { return method_->make(problem_->qp(), problem_->sigma()); }
+  [[nodiscard]] auto method() const { return method_->make(*problem_); }
   [[nodiscard]] auto stop() const { return method_->stop(limits_); }
   [[nodiscard]] auto prolongation() const { return slant::matrix(P_); }
 
@@ -80,8 +85,7 @@ class contact_level {
 template <class Method, int D, class... Observers>
 [[nodiscard]] auto run_from_zero(Method const& method, contact_problem<D> const& problem,
                                  run_limits const& limits, Observers&&... observers) {
-  return slant::solve(method.make(problem.qp(), problem.sigma()), problem.zero(),
-                      method.stop(limits), observers...);
+  return slant::solve(method.make(problem), problem.zero(), method.stop(limits), observers...);
 }
 
 /// Solves problem after problem, each from the prolonged solution of the one before.

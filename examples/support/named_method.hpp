@@ -29,7 +29,7 @@ struct reduced_gradient_rule {
 template <class Make, class Stop = reduced_gradient_rule>
 struct named_method {
   std::string name;
-  Make make;  ///< make(qp, σ) with a separable_qp, which the method may keep, and σ ≥ σ_max(A)
+  Make make;  ///< make(problem), which offers qp(), sigma() ≥ σ_max(A) and preconditioner() ≈ A⁻¹
   Stop stop{};       ///< stop(limits): its stopping rule
   bool ours = true;  ///< must converge, and is shown nested too; a document's may fail, as there
 };

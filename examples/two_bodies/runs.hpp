@@ -64,7 +64,7 @@ void draw(Methods const& methods, examples::contact_problem<D> const& problem,
   auto const& best = std::get<std::tuple_size_v<Methods> - 1>(methods);
   examples::run_limits further = limits;
   further.tolerance = 1e-6 * limits.tolerance;
-  λ = slant::solve(best.make(problem.qp(), problem.sigma()), λ, best.stop(further)).x();
+  λ = slant::solve(best.make(problem), λ, best.stop(further)).x();
   auto const qp = problem.qp();
   Eigen::VectorXd r(λ.size());
   slant::apply(qp.a(), λ, r);

@@ -10,8 +10,10 @@
 #include <fem/wire_prolongation.hpp>
 #include <map>
 #include <ranges>
+#include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/nested.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
@@ -55,12 +57,14 @@ class wire_level {
   wire_level(wire_level const&) = delete;
   wire_level& operator=(wire_level const&) = delete;
 
-  [[nodiscard]] auto method() const {
-    return method_.make(
-        slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(wire_.A),
-                            wire_.b, set_},
-        4.);
+  [[nodiscard]] auto method() const { return method_.make(*this); }
+  [[nodiscard]] auto qp() const {
+    return slant::separable_qp{
+        slant::matrix<slant::self_adjoint, slant::positive_definite>(wire_.A), wire_.b, set_};
   }
+  [[nodiscard]] double sigma() const { return 4; }
+  /// A⁻¹ itself, two bidiagonal sweeps.
+  [[nodiscard]] auto preconditioner() const { return slant::inverse(slant::ldlt(wire_.A)); }
   [[nodiscard]] auto stop() const { return method_.stop(limits_); }
   [[nodiscard]] auto prolongation() const { return slant::matrix(P_); }
 

@@ -147,6 +147,22 @@ TEST_CASE("one product by A for the value, none for the slant after it, no alloc
   CHECK(dense(g, x) == dense_slant(f, x));
 }
 
+TEST_CASE("the first slant after a value costs no product either") {
+  MatrixXd const m = slanting_support::random_spd(6, 1);
+  VectorXd const b = slanting_support::random_vector(6, 2);
+  auto const a = slant::counted(definite(m));
+  auto const f = slant::natural_residual(a, b, contact_set(), 0.1);
+  VectorXd const x = slanting_support::random_vector(6, 3);
+  VectorXd v(6);
+  auto w = slant::workspace(f, x);
+  slant::evaluate(f, x, v, w);
+  a.reset_counts();
+  auto const g = slant::slant_from_value(f, x, w);
+  static_assert(std::is_same_v<decltype(g), decltype(f.slant(x)) const>);
+  CHECK(a.applications() == 0);
+  CHECK(dense(g, x) == dense_slant(f, x));
+}
+
 TEST_CASE("archetype operator and vector") {
   namespace archetype = slant::testing::archetype;
   MatrixXd const m = slanting_support::random_spd(6, 1);

@@ -15,6 +15,7 @@
 //     slant(y, G) or slant(y, G, w)   G = F°(y) into an operator that slant(y₀) made earlier
 //     slant_after_value(y, G, w)      the same where w comes from value(y, f, w) at this very y:
 //                                     what value left in w (G(y) of a composition F∘G) is reused
+//     slant_from_value(y, w)          the same as a new operator: slant(y) that reuses w
 //
 // Formulas. Types derived from slant::slanting_base (slant/slanting/slanting_base.hpp) take part in
 // f + g, f * g, A * f, …; for others there are the named add, subtract, scale, compose.
@@ -120,6 +121,18 @@ struct update_slant_fn {
   }
 };
 
+struct slant_from_value_fn {
+  template <class F, class X, class W>
+  [[nodiscard]] auto operator()(F const& f, X const& y, W const& w) const {
+    check_argument(f, y);
+    if constexpr (requires { f.slant_from_value(y, w); }) {
+      return f.slant_from_value(y, w);
+    } else {
+      return f.slant(y);
+    }
+  }
+};
+
 struct update_slant_after_value_fn {
   template <class F, class X, class G, class W>
   void operator()(F const& f, X const& y, G& g, W& w) const {
@@ -140,6 +153,9 @@ inline constexpr detail::evaluate_fn evaluate{};
 
 /// G = F°(y), in place if the function can.
 inline constexpr detail::update_slant_fn update_slant{};
+
+/// F°(y) as a new operator, right after evaluate(f, y, v, w) with the same y and w.
+inline constexpr detail::slant_from_value_fn slant_from_value{};
 
 /// G = F°(y) right after evaluate(f, y, v, w) with the same y and w: nothing that w holds is
 /// computed again. The caller answers for "the same y"; update_slant has no such condition.

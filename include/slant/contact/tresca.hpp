@@ -17,36 +17,14 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/factorization.hpp>
 #include <slant/contact/contact_data.hpp>
+#include <slant/contact/detail/friction_law.hpp>
+#include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
 
 namespace slant::contact {
-
-/// Friction laws as types: which set the tangential multipliers live in.
-struct frictionless {};   ///< no tangential multipliers
-struct friction_line {};  ///< one tangent per node (2D bodies): |λ_t,i| ≤ gᵢ
-struct friction_disc {};  ///< two tangents per node (3D bodies): ‖λ_t,i‖ ≤ gᵢ
-
-namespace detail {
-
-template <class S>
-auto feasible_set(frictionless, data<S> const& c) {
-  return half_lines<S>(c.nodes());
-}
-template <class S>
-auto feasible_set(friction_line, data<S> const& c) {
-  return cartesian(half_lines<S>(c.nodes()), intervals(c.g));
-}
-template <class S>
-auto feasible_set(friction_disc, data<S> const& c) {
-  return cartesian(half_lines<S>(c.nodes()), discs(c.g));
-}
-
-}  // namespace detail
 
 /// The dual problem of a contact scene. Holds B, b and the set; refers to the factorisation.
 /// Not movable: its operators refer to one another. What refers to it is not to be had from a
@@ -66,8 +44,8 @@ class dual {
   /// contact::data::validate), or if K⁻¹f overflows.
   dual(Friction friction, held<Factorization> factor, data<S> const& c)
       : factor_(std::move(factor)),
-        f_(validated(friction, c, factor_.get().rows()).f),
-        B_(stacked(c)),
+        f_(detail::validated(friction, c, factor_.get().rows()).f),
+        B_(detail::stacked_constraints(c)),
         set_(detail::feasible_set(friction, c)),
         free_displacement_(f_.size()),
         b_(B_.rows()) {
@@ -110,19 +88,6 @@ class dual {
   }
 
  private:
-  static data<S> const& validated(Friction, data<S> const& c, index unknowns) {
-    c.validate();
-    slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
-    constexpr index tangents = std::is_same_v<Friction, frictionless>    ? 0
-                               : std::is_same_v<Friction, friction_line> ? 1
-                                                                         : 2;
-    if (c.tangents() != tangents) {
-      throw bad_input("tangents per contact node", slant::detail::show(c.tangents()),
-                      slant::detail::show(tangents) + " for this friction law");
-    }
-    return c;
-  }
-
   /// u without contact, about which the user has only f to look at.
   static void check_range(vector_type const& u) {
     for (index i = 0; i < u.size(); ++i) {
@@ -133,27 +98,6 @@ class dual {
                         "displacements within the range of the scalar type");
       }
     }
-  }
-
-  static sparse_type stacked(data<S> const& c) {
-    std::vector<Eigen::Triplet<S>> entries;
-    entries.reserve(static_cast<std::size_t>(c.N.nonZeros() + c.T.nonZeros()));
-    auto append = [&](sparse_type const& m, index first_row, auto wanted) {
-      for (index j = 0; j < m.outerSize(); ++j) {
-        for (typename sparse_type::InnerIterator e(m, j); e; ++e) {
-          if (wanted(e.row())) {
-            entries.emplace_back(static_cast<int>(first_row + e.row()), static_cast<int>(j),
-                                 e.value());
-          }
-        }
-      }
-    };
-    // A node that never meets its obstacle (infinite gap) presses on nothing: its row is empty.
-    append(c.N, 0, [&](index i) { return slant::detail::is_finite(c.d(i)); });
-    append(c.T, c.nodes(), [](index) { return true; });
-    sparse_type b(c.N.rows() + c.T.rows(), c.f.size());
-    b.setFromTriplets(entries.begin(), entries.end());
-    return b;
   }
 
   /// b −= c. A node with an infinite gap, whose row of B is empty, gets a negative load instead: it
@@ -175,7 +119,7 @@ class dual {
   held<Factorization> factor_;
   vector_type f_;
   sparse_type B_;
-  decltype(detail::feasible_set(Friction{}, std::declval<data<S> const&>())) set_;
+  detail::feasible_set_t<Friction, S> set_;
   vector_type free_displacement_;  // K⁻¹ f
   vector_type b_;
 };

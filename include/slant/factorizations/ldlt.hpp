@@ -9,9 +9,9 @@
 #pragma once
 
 #include <slant/concepts/factorization.hpp>
+#include <slant/factorizations/detail/sparse_ldlt_factors.hpp>
 #include <slant/factorizations/detail/spd_checks.hpp>
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <memory>
@@ -73,7 +73,7 @@ class ldlt {
     int const* const place = factors_->permutation().indices().data();
     for (index j = 0; j < w.cols(); ++j) {
       S* const v = w.data() + j * w.rows();
-      solve_in_place(v);
+      factors_->solve_in_place(v);
       // The unit is applied last: b and 1/D may both be near the end of the exponent range.
       for (index i = 0; i < w.rows(); ++i) solution.coeffRef(i, j) = unit_ * v[place[i]];
     }
@@ -82,41 +82,7 @@ class ldlt {
  private:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
-  /// Eigen's factors, with the parts that it gives away only as copies (D) or protects kept apart.
-  class factors : public Eigen::SimplicialLDLT<matrix_type, Eigen::Lower> {
-   public:
-    explicit factors(matrix_type const& k) {
-      // The ordering of an empty matrix is more than Eigen can do.
-      if (k.rows() > 0) this->compute(k);
-    }
-    /// L without its unit diagonal, compressed by columns.
-    [[nodiscard]] matrix_type const& lower() const { return this->m_matrix; }
-    /// D. A pivot that is exactly zero ends the factorisation; what follows it is not set.
-    [[nodiscard]] vector_type const& pivots() const { return this->m_diag; }
-    [[nodiscard]] auto const& permutation() const { return this->m_P; }
-    [[nodiscard]] index original_row(index i) const { return this->m_Pinv.indices()[i]; }
-  };
-
-  /// v ← L⁻ᵀ D⁻¹ L⁻¹ v. Plain loops over the arrays: Eigen's solveInPlace looks them up anew for
-  /// each column. Not inlined: what surrounds them would take registers from the innermost loops,
-  /// which g++ 12 pays with 5 % more instructions.
-  [[gnu::noinline]] void solve_in_place(S* v) const {
-    index const n = rows();
-    int const* const begin = factors_->lower().outerIndexPtr();
-    int const* const row = factors_->lower().innerIndexPtr();
-    S const* const entry = factors_->lower().valuePtr();
-    S const* const pivot = factors_->pivots().data();
-    for (index k = 0; k < n; ++k) {
-      S const t = v[k];
-      if (t == S(0)) continue;  // right-hand sides like Bᵀx are mostly zeros
-      for (index p = begin[k], end = begin[k + 1]; p < end; ++p) v[row[p]] -= entry[p] * t;
-    }
-    for (index k = n; k-- > 0;) {
-      S t = v[k] / pivot[k];
-      for (index p = begin[k], end = begin[k + 1]; p < end; ++p) t -= entry[p] * v[row[p]];
-      v[k] = t;
-    }
-  }
+  using factors = detail::sparse_ldlt_factors<S>;
 
   S unit_{1};
   std::shared_ptr<factors const> factors_;

@@ -9,5 +9,6 @@
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>
 // IWYU pragma: end_exports

@@ -7,8 +7,12 @@
 //     p ← r + β (p − ω v),  v = A M p,  α = ρ / r̂ᵀv,  s = r − α v,
 //     t = A M s,  ω = tᵀs / tᵀt,  x ← x + α M p + ω M s,  r ← s − ω t
 //
-// Two applications of A a step. When ρ = r̂ᵀr or r̂ᵀv vanishes relative to its factors the shadow
-// residual is renewed (r̂ = r); when that does not help either, the status is breakdown: never NaN.
+// Two applications of A a step. Breakdowns are mended where that is possible, without NaN:
+//   ρ = r̂ᵀr or r̂ᵀv vanishes relative to its factors: the shadow residual is renewed, r̂ = r;
+//   r̂ᵀv vanishes nevertheless, as rᵀA r does for skew A: r̂ = r + (‖r‖/‖v‖) v, then r̂ᵀv = ‖r‖ ‖v‖;
+//   tᵀs is small against ‖t‖ ‖s‖, so that ω nearly stops the recurrence: |ω| = κ ‖s‖/‖t‖ with
+//   κ = 0.7 at least, since any ω ≠ 0 keeps it intact [Sleijpen, van der Vorst 1995].
+// What is left is A v = 0 or a number out of range: status breakdown.
 #pragma once
 
 #include <slant/iteration/detail/part_to_blame.hpp>
@@ -101,6 +105,13 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     return s;
   }
 
+  /// start(s.x) in the place of s, which this method or one like it made earlier: for a sequence of
+  /// systems with other A and b of the same sizes. No allocation; breakdown if A x is not finite.
+  void restart(state_type& s) const {
+    s.restarted = true;
+    detail::restart_residual(this->a(), this->b(), s);
+  }
+
   void step(state_type& s) const {
     if (s.status != status::running) return;
     auto const ε = std::numeric_limits<scalar>::epsilon();
@@ -116,15 +127,20 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
         slant::local(s.p) = slant::local(s.r) + β * (slant::local(s.p) - s.ω * slant::local(s.v));
       }
     }
-    if (s.restarted) restart(s);
+    bool const renewed = s.restarted;
+    if (renewed) renew_shadow(s);
     image(s, s.p, s.v);
+    auto const usable_denominator = [&](scalar value) {
+      return usable(value, ε * norm(s.shadow) * norm(s.v));
+    };
     scalar denominator = inner_product(s.shadow, s.v);
-    if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) {
-      restart(s);
+    if (!renewed && !usable_denominator(denominator)) {
+      renew_shadow(s);
       image(s, s.p, s.v);
       denominator = inner_product(s.shadow, s.v);
-      if (!usable(denominator, ε * norm(s.shadow) * norm(s.v))) return break_down(s);
     }
+    if (!usable_denominator(denominator)) denominator = turn_shadow(s);
+    if (!usable_denominator(denominator)) return break_down(s);
     s.α = s.ρ / denominator;
     slant::local(s.x) -= (s.unit * s.α) * slant::local(s.preconditioned);  // M p
     slant::local(s.r) -= s.α * slant::local(s.v);  // r is now the half-step residual s
@@ -136,10 +152,9 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     image(s, s.r, s.t);
     scalar const τ = norm(s.t);
     if (!usable(τ, scalar(0))) return break_down(s);
-    s.ω = inner_product(s.t, s.r) / τ / τ;
+    s.ω = stabilised(inner_product(s.t, s.r) / τ, s.residual_norm / s.unit) / τ;
     slant::local(s.x) -= (s.unit * s.ω) * slant::local(s.preconditioned);  // M s
     slant::local(s.r) -= s.ω * slant::local(s.t);
-    if (s.ω == scalar(0)) s.restarted = true;  // a skew direction: the next step starts anew
     detail::note_residual(s);
   }
 
@@ -154,11 +169,26 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     using std::abs;
     return abs(value) > noise && detail::is_finite(value);
   }
-  static void restart(state_type& s) {
+  static void renew_shadow(state_type& s) {
     slant::local(s.shadow) = slant::local(s.r);
     slant::local(s.p) = slant::local(s.r);
     s.ρ = inner_product(s.r, s.r);
     s.restarted = false;
+  }
+  /// r̂ = r + (‖r‖/‖v‖) v where v = A M r and rᵀv = 0; r̂ᵀv.
+  static scalar turn_shadow(state_type& s) {
+    scalar const stretch = norm(s.r) / norm(s.v);
+    if (!usable(stretch, scalar(0))) return scalar(0);
+    slant::local(s.shadow) += stretch * slant::local(s.v);
+    s.ρ = inner_product(s.shadow, s.r);
+    return inner_product(s.shadow, s.v);
+  }
+  /// tᵀs/‖t‖ = ‖s‖ cos(t, s), with a cosine of at least κ.
+  static scalar stabilised(scalar length, scalar size) {
+    using std::abs;
+    scalar const least = scalar(0.7) * size;
+    if (!(abs(length) < least)) return length;
+    return length < scalar(0) ? scalar(-least) : least;
   }
   static void break_down(state_type& s) { s.status = status::breakdown; }
 

@@ -100,6 +100,13 @@ class cg<A, V, M> : public detail::preconditioned_system<A, V, M> {
     return s;
   }
 
+  /// start(s.x) in the place of s, which this method or one like it made earlier: for a sequence of
+  /// systems with other A and b of the same sizes. No allocation; breakdown if A x is not finite.
+  void restart(state_type& s) const {
+    s.directions.live = false;
+    detail::restart_residual(this->a(), this->b(), s);
+  }
+
   void step(state_type& s) const {
     if (s.status != status::running) return;
     auto& d = s.directions;

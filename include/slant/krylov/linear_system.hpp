@@ -44,9 +44,9 @@ void note_residual(State& s) {
 }
 
 /// s.r = (A s.x − b) / s.unit, the unit, and the scale ‖b‖ (or ‖A x₀‖ if b = 0); one application,
-/// none if x₀ = 0.
-template <class A, class V, class State>
-void start_residual(A const& a, V const& b, State& s) {
+/// none if x₀ = 0. check(A x₀) is called in between.
+template <class A, class V, class State, class Check>
+void first_residual(A const& a, V const& b, State& s, Check check) {
   using S = scalar_t<V>;
   auto& r = s.r;
   s.residual_scale = norm(b);
@@ -56,13 +56,33 @@ void start_residual(A const& a, V const& b, State& s) {
   } else {
     slant::apply(a, s.x, r, s.a_workspace);
     ++s.work.operator_applications;
-    check_finite("A x0", r);
+    check(r);
     S const image = norm(r);
     if (s.residual_scale == S(0)) s.residual_scale = image;
     s.unit = unit_near(std::max<S>(s.residual_scale, image));
     slant::local(r) = (slant::local(r) - slant::local(b)) * (S(1) / s.unit);
   }
   note_residual(s);
+}
+
+/// The first residual of a run; bad_input if A x₀ is not finite.
+template <class A, class V, class State>
+void start_residual(A const& a, V const& b, State& s) {
+  first_residual(a, b, s, [](auto const& image) { check_finite("A x0", image); });
+}
+
+/// What start would make of s.x, in place: no allocation, and no exception, since an A x that is
+/// not finite is a breakdown of whoever iterates around this.
+template <class A, class V, class State>
+void restart_residual(A const& a, V const& b, State& s) {
+  using S = scalar_t<V>;
+  s.unit = S(1);
+  s.computed_norm = std::numeric_limits<S>::infinity();
+  s.updated = false;
+  s.iteration = 0;
+  s.status = slant::status::running;
+  s.work = {};
+  first_residual(a, b, s, [](auto const&) {});
 }
 
 /// s.r from s.x, if it has been updated instead; whether it has. One application; note(s) then

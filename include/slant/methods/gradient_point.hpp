@@ -92,6 +92,12 @@ struct gradient_point {
     return {inner_product(x, trial) / scalar(2), noise * norm(trial)};
   }
 
+  /// Rounding errors that ‖r̃‖ may consist of.
+  [[nodiscard]] scalar rounding() const {
+    scalar const of_terms = unit * (size_of_b + norm(r)) + norm(x) / step_length;
+    return scalar(32) * std::numeric_limits<scalar>::epsilon() * of_terms;
+  }
+
  private:
   /// x = P_Λ(y) with its r and r̃.
   void place(QP const& qp, vector_type const& y) {

@@ -6,7 +6,8 @@
 //
 //     r(x)  = A x − b                          gradient
 //     r̃(x)  = (x − P_Λ(x − α̃ r)) / α̃           reduced gradient, zero exactly at the solution
-//     F, 𝒜  = blocks with f_i < 0, f_i = 0       free and active set
+//     F, 𝒜  = blocks with f_i < 0, f_i = 0       free and active set; or, with the active sets of
+//                                                semismooth Newton, those of P_Λ(x − α̃ r)
 //     φ̃, β̃  = r̃ on F, r̃ on 𝒜;   φ = r on F
 //
 //     (1°) r̃ = 0:                     stop
@@ -22,15 +23,10 @@
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
 #pragma once
 
-#include <slant/concepts/distributed.hpp>
-#include <slant/krylov/gradient_step.hpp>
-#include <slant/methods/kprgp_options.hpp>
-#include <slant/methods/kprgp_problem.hpp>
-#include <slant/methods/kprgp_state.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/methods/detail/active_set_complaint.hpp>
+#include <slant/methods/proportioning.hpp>
+#include <slant/methods/release_rules.hpp>
 
-#include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -45,204 +41,35 @@ namespace slant {
 /// `patience` steps, or q falls for ever, but only along a curve on the boundary of a cone);
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
-  requires kprgp_problem<std::remove_cvref_t<QP>>
-class kprgp<QP> {
+class kprgp : public proportioning<QP, reduced_gradient_release> {
+  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
+
  public:
-  using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = kprgp_options<scalar>;
-  using state_type = kprgp_state<problem>;
-
-  explicit kprgp(held<QP> qp) : kprgp(std::move(qp), options{}) {}
-  /// Throws bad_input for options out of range.
-  kprgp(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
-    options_.validate();
-  }
-
-  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
-  /// 1/σ_max is not a finite number.
-  [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const& qp = qp_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
-    state_type s(qp, x0);
-    set_step_length(s);
-    bool const solved = s.begin(qp, x0);
-    restart(s);
-    if (solved) s.status = status::converged;
-    return s;
-  }
-
-  /// One step (2°) or (3°).
-  void step(state_type& s) const {
-    if (s.status != status::running) return;
-    if (strictly_proportional(s)) {
-      if (!conjugate_gradient_step(s)) expansion_step(s);
-    } else {
-      proportioning_step(s);
-    }
-    ++s.iteration;
-    note_progress(s);
-  }
-
-  /// r and r̃ from x, if CG steps have been updating r instead; whether they have. One application.
-  bool refresh(state_type& s) const {
-    if (s.since_refresh == 0) return false;
-    s.status = status::running;
-    s.directions.live = false;
-    s.gradient(qp_.get());
-    split(s);
-    return true;
-  }
-
- private:
-  static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
-
-  static scalar epsilon() { return std::numeric_limits<scalar>::epsilon(); }
-
-  /// [K (33)]: the error on the active set is small against the one on the free set.
-  [[nodiscard]] bool strictly_proportional(state_type const& s) const {
-    auto const& Γ = options_.proportioning;
-    return s.βr < Γ * Γ * s.φr;
-  }
-
-  /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
-  bool conjugate_gradient_step(state_type& s) const {
-    auto& d = s.directions;
-    s.face.keep(s.r, s.φ);
-    d.advance(s.φ);
-    d.image(qp_.get().a(), s.a_workspace);
-    ++s.work.operator_applications;
-    scalar const slope = inner_product(s.r, d.p);
-    scalar const noise = curvature_noise(s);
-    if (!(d.curvature >= -noise)) {  // A is not what it promised, or not a number
-      s.status = status::breakdown;
-      return true;
-    }
-    bool const curved = d.curvature > noise;
-    if (curved && try_step(s, slope / d.curvature)) return true;
-
-    slant::local(s.trial) = -slant::local(d.p);
-    scalar const α_max = slant::minimum(
-        s.x, qp_.get().set().step_to_boundary(slant::local(s.x), slant::local(s.trial)));
-    if (!(α_max < std::numeric_limits<scalar>::infinity())) {
-      bool const descent = !definite && !curved && is_descent(slope, d.p, gradient_noise(s));
-      s.status = descent ? status::unbounded : status::stalled;
-      return true;
-    }
-    if (options_.half_step || !curved) {
-      slant::local(s.x) += α_max * slant::local(s.trial);
-      slant::local(s.r) -= (α_max / s.unit) * slant::local(d.Ap);
-      split(s);
-    }
-    return false;
-  }
-
-  /// x − α p, p in multiples of unit, if it lies in Λ.
-  bool try_step(state_type& s, scalar α) const {
-    auto& d = s.directions;
-    slant::local(s.trial) = slant::local(s.x) - (s.unit * α) * slant::local(d.p);
-    if (!slant::everywhere(s.x, qp_.get().set().contains(slant::local(s.trial)))) return false;
-    std::swap(s.x, s.trial);
-    ++s.since_refresh;
-    if (options_.refresh > 0 && s.since_refresh >= options_.refresh) {
-      s.gradient(qp_.get());
-    } else {
-      slant::local(s.r) -= α * slant::local(d.Ap);
-    }
-    split(s);
-    s.last_step = kprgp_step::conjugate_gradient;
-    return true;
-  }
-
-  /// x ← x − α̃ φ̃: may add blocks to the active set.
-  void expansion_step(state_type& s) const {
-    s.face.keep(s.projected, s.φ);
-    s.face.keep_complement(s.x, s.trial);
-    take_gradient_step(s, kprgp_step::expansion);
-  }
-
-  /// x ← x − α̃ β̃: may release blocks from the active set.
-  void proportioning_step(state_type& s) const {
-    s.face.keep_complement(s.projected, s.φ);
-    s.face.keep(s.x, s.trial);
-    take_gradient_step(s, kprgp_step::proportioning);
-  }
-
-  /// The blocks that move are in s.φ, the others in s.trial.
-  void take_gradient_step(state_type& s, kprgp_step kind) const {
-    slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
-    s.gradient(qp_.get());
-    restart(s);
-    s.last_step = kind;
-  }
-
-  /// A new face at x; the next direction is φ itself.
-  void restart(state_type& s) const {
-    s.face.assign(qp_.get().set(), slant::local(s.x));
-    s.directions.live = false;
-    split(s);
-    if constexpr (!definite) {
-      // Steps that leave Λ again and again may still sum up to a direction that never does.
-      if (s.recession.found(qp_.get().set(), s)) s.status = status::unbounded;
-    }
-  }
-
-  /// r̃ and what its two parts can gain.
-  void split(state_type& s) const {
-    s.reduce(qp_.get());
-    scalar const rounding = epsilon() * norm(s.x) / (s.step_length * s.unit);  // of r̃
-    scalar const noise = rounding * norm(s.r);
-    s.face.keep(s.reduced, s.φ);
-    s.φr = gain(s.φ, s.r, noise);
-    s.face.keep_complement(s.reduced, s.φ);
-    s.βr = gain(s.φ, s.r, noise);
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
-  }
-
-  /// Curvature of p below which p counts as a direction of the kernel; 0 if there is none.
-  scalar curvature_noise(state_type& s) const {
-    if constexpr (definite) {
-      return scalar(0);
-    } else {
-      auto const& d = s.directions;
-      if (options_.step_length) s.σ = std::max<scalar>(s.σ, d.curvature / inner_product(d.p, d.p));
-      return flatness(d.p, s.σ);
-    }
-  }
-
-  /// At least max(‖b‖, ‖A x‖) / unit.
-  static scalar gradient_noise(state_type const& s) { return s.size_of_b + norm(s.r); }
-
-  void note_progress(state_type& s) const {
-    if (s.status != status::running) return;
-    auto const energy = [&] { return s.energy(qp_.get()); };
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy)) {
-      s.status = status::stalled;
-    }
-  }
-
-  void set_step_length(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
-    auto const safe =
-        safe_gradient_step(qp_.get().a(), s.x, options_.step_factor, options_.spectrum);
-    s.step_length = safe.length;
-    s.σ = safe.σ;
-    s.work.setup_applications += safe.applications;
-  }
-
-  held<QP> qp_;
-  options options_;
+  using kprgp::proportioning::proportioning;
 };
 
 template <class QP>
 kprgp(QP&&) -> kprgp<kept_t<QP>>;
 template <class QP>
 kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> kprgp<kept_t<QP>>;
+
+/// AS [K Ex 5], KPRGP by its name for the two-sided bounds of plane friction: solve(as(qp), x0,
+/// reduced_gradient_below(1e-6) || at_most(500)).
+template <class QP>
+[[nodiscard]] auto as(QP&& qp,
+                      kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
+  return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
+}
+
+/// AS-S [K Ex 5], KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i
+/// inside Λ_i instead of those with x_i inside. [K] states that Theorem 1 holds for it as
+/// well, and reports it as the stabler one with steps far beyond 2/σ_max. solve(as_s(qp), x0,
+/// reduced_gradient_below(1e-6) || at_most(500)).
+template <class QP>
+[[nodiscard]] auto as_s(QP&& qp,
+                        kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
+  options.active_sets = active_set_rule::semismooth;
+  return slant::as(std::forward<QP>(qp), std::move(options));
+}
 
 }  // namespace slant

@@ -10,12 +10,19 @@
 
 namespace slant {
 
+/// Which blocks count as free when a face is chosen.
+enum class active_set_rule : unsigned char {
+  boundary,  ///< those in which x is not on the boundary: f_i < 0 [K §3.1.1]
+  semismooth  ///< those in which P_Λ(x − α̃ r) is not: the sets of semismooth Newton [K (60), (61)]
+};
+
 /// Options of kprgp.
 template <class S>
 struct kprgp_options {
   S proportioning = S(1);  ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
   std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/gradient_step.hpp
   S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
+  active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
   bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What KPRGP asks of its problem, and the answer to a problem that lacks something.
+// What the active set methods ask of their problem, and the answer to a problem that lacks
+// something.
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/methods/detail/block_states.hpp>
-#include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
 
 #include <concepts>
@@ -38,7 +37,8 @@ template <class C, class V>
 concept active_set_domain =
     separable_set<C, V> && has_block_states<C, V> && has_step_to_boundary<C, V>;
 
-/// What kprgp works on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive semidefinite.
+/// What kprgp and its relatives work on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive
+/// semidefinite.
 template <class QP>
 concept kprgp_problem =
     quadratic_program<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
@@ -46,50 +46,27 @@ concept kprgp_problem =
 
 namespace detail {
 
-template <class QP>
-using refused_kprgp =
-    refused_method<typename QP::vector_type, kprgp_state<QP>, kprgp_options<typename QP::scalar>>;
+template <class QP, class Rule>
+using refused_proportioning = refused_method<typename QP::vector_type, kprgp_state<QP>,
+                                             typename Rule::template options<typename QP::scalar>>;
 
 }  // namespace detail
 
-/// A problem that lacks something ends here and is told so; see iteration/detail/refused.hpp. The
-/// method itself is in kprgp.hpp.
-template <class QP>
-class kprgp : public detail::refused_kprgp<std::remove_cvref_t<QP>> {
-  using problem = std::remove_cvref_t<QP>;
-  using a = detail::questions_about<typename problem::operator_type, typename problem::vector_type>;
-
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "kprgp: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "kprgp: a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
-                "kprgp: A must declare that it is self-adjoint and positive semidefinite");
-  static_assert(
-      active_set_domain<typename problem::set_type, local_t<typename problem::vector_type>>,
-      "kprgp: the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-
+/// A problem that lacks something ends here; see methods/detail/active_set_complaint.hpp. The
+/// method itself is in proportioning.hpp.
+template <class QP, class Rule>
+class proportioning : public detail::refused_proportioning<std::remove_cvref_t<QP>, Rule> {
  public:
-  using kprgp::refused_method::refused_method;
-};
-
-/// A problem that was told so already.
-template <class QP>
-  requires detail::was_refused<std::remove_cvref_t<QP>>
-class kprgp<QP> : public detail::refused_kprgp<std::remove_cvref_t<QP>> {
- public:
-  using kprgp::refused_method::refused_method;
+  using proportioning::refused_method::refused_method;
 };
 
 /// No problem at all.
-template <class QP>
+template <class QP, class Rule>
   requires(!quadratic_program<std::remove_cvref_t<QP>> &&
            !detail::was_refused<std::remove_cvref_t<QP>>)
-class kprgp<QP> : public detail::refused_method<void, void> {
-  static_assert(quadratic_program<std::remove_cvref_t<QP>>, "kprgp: expected a separable_qp");
-
+class proportioning<QP, Rule> : public detail::refused_method<void, void> {
  public:
-  using kprgp::refused_method::refused_method;
+  using proportioning::refused_method::refused_method;
 };
 
 }  // namespace slant

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The state of KPRGP: everything that one step hands to the next, and all vectors it works in.
+// The state of KPRGP, QPQ and QPC: everything that one step hands to the next, and all vectors it
+// works in.
 #pragma once
 
 #include <slant/iteration/report.hpp>
@@ -14,10 +15,10 @@
 
 namespace slant {
 
-/// The three steps of KPRGP.
+/// The three steps of KPRGP, QPQ and QPC.
 enum class kprgp_step : unsigned char { conjugate_gradient, expansion, proportioning };
 
-/// State of kprgp for a separable_qp of type QP.
+/// State of kprgp, qpq and qpc for a separable_qp of type QP.
 template <class QP>
 struct kprgp_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
@@ -29,9 +30,10 @@ struct kprgp_state : gradient_point<QP> {
   progress_watch<scalar> progress;               ///< looks for steps that get nowhere
   face_t<typename QP::set_type, local_t<vector_type>> face;  ///< that of x at the last restart
 
-  scalar φr{0};  ///< φ̃ᵀr / unit², what the free set can still gain
-  scalar βr{0};  ///< β̃ᵀr / unit², what the active set can still gain
-  scalar σ{0};   ///< σ_max to a few digits; known if A is not declared definite
+  scalar φr{0};  ///< φ̃ᵀr / unit², what the free set can still gain; of qpq and qpc: ‖φ‖² / unit²
+  scalar βr{0};  ///< β̃ᵀr / unit², what the active set can still gain; of qpq and qpc: ‖β‖² / unit²
+  scalar φr_at_restart{0};  ///< φr when the face was chosen
+  scalar σ{0};              ///< σ_max to a few digits; known if A is not declared definite
   kprgp_step last_step = kprgp_step::conjugate_gradient;
   index iteration = 0;
   slant::status status = slant::status::running;

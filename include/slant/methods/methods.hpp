@@ -4,10 +4,38 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/descent_takeover.hpp>
+#include <slant/methods/estimated_multipliers.hpp>
+#include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
+#include <slant/methods/imssn.hpp>
+#include <slant/methods/kkt_vector.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/modified_newton.hpp>
+#include <slant/methods/modified_newton_options.hpp>
+#include <slant/methods/modified_newton_parts.hpp>
+#include <slant/methods/modified_newton_state.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/methods/newton_options.hpp>
+#include <slant/methods/newton_parts.hpp>
+#include <slant/methods/newton_segment.hpp>
+#include <slant/methods/newton_state.hpp>
+#include <slant/methods/proportioning.hpp>
+#include <slant/methods/qpc.hpp>
+#include <slant/methods/qpc_options.hpp>
+#include <slant/methods/qpq.hpp>
 #include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/release_rules.hpp>
+#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/ssnm.hpp>
+#include <slant/methods/ssnm_options.hpp>
+#include <slant/methods/ssnm_problem.hpp>
+#include <slant/methods/ssnm_state.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/methods/symmetric_newton_state.hpp>
 // IWYU pragma: end_exports

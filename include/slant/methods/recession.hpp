@@ -22,6 +22,21 @@ template <class V, class S>
   return std::numeric_limits<S>::epsilon() * size * (size * σ);
 }
 
+/// The same for the direction of a CG method; 0 if A is declared definite, which has no kernel.
+/// `learn`: σ is not known and grows with the curvatures that are seen.
+template <bool Definite, class Directions, class S>
+[[nodiscard]] S kernel_curvature(Directions const& d, S& σ, bool learn) {
+  if constexpr (Definite) {
+    return S(0);
+  } else {
+    if (learn) {
+      S const seen = d.curvature / inner_product(d.p, d.p);
+      if (seen > σ) σ = seen;
+    }
+    return flatness(d.p, σ);
+  }
+}
+
 /// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
 template <class V, class S>
 [[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {

@@ -18,6 +18,10 @@ class product_operator {
   using left = std::remove_cvref_t<A>;
   using right = std::remove_cvref_t<B>;
 
+  /// B x is handed on as a view of x.
+  template <class X>
+  static constexpr bool no_copy = detail::shows_segment<right, X>;
+
  public:
   static constexpr law_set laws{};
 
@@ -38,14 +42,24 @@ class product_operator {
   template <class X, class Y, class W>
     requires detail::applies<right, X, plain_t<X>> && detail::applies<left, plain_t<X>, Y>
   void apply(X const& x, Y& y, W& w) const {
-    slant::apply(b_.get(), x, w.between, w.inner);
-    slant::apply(a_.get(), w.between, y, w.outer);
+    if constexpr (no_copy<X>) {
+      auto const segment = b_.get().segment(x);
+      slant::apply(a_.get(), segment, y, w.outer);
+    } else {
+      slant::apply(b_.get(), x, w.between, w.inner);
+      slant::apply(a_.get(), w.between, y, w.outer);
+    }
   }
   template <class X, class Y, class W>
     requires detail::applies<right, X, plain_t<X>> && detail::accumulates<left, plain_t<X>, Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    slant::apply(b_.get(), x, w.between, w.inner);
-    slant::apply_add(a_.get(), α, w.between, y, w.outer);
+    if constexpr (no_copy<X>) {
+      auto const segment = b_.get().segment(x);
+      slant::apply_add(a_.get(), α, segment, y, w.outer);
+    } else {
+      slant::apply(b_.get(), x, w.between, w.inner);
+      slant::apply_add(a_.get(), α, w.between, y, w.outer);
+    }
   }
 
   template <class X>

@@ -9,6 +9,7 @@
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
+#include <slant/sets/curved_face.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>

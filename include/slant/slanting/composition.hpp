@@ -74,6 +74,13 @@ class composition_map : public slanting_base {
     return detail::assembled_operator(detail::product_rule{}, outer().slant(between),
                                       inner().slant(y));
   }
+  template <class Y, class W>
+    requires slanting_function<inner_type, plain_t<Y>> && slanting_function<outer_type, plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return detail::assembled_operator(detail::product_rule{},
+                                      slant::slant_from_value(outer(), w.between, w.outer),
+                                      slant::slant_from_value(inner(), y, w.inner));
+  }
   template <class Y, class S, class W>
   void slant(Y const& y, S& s, W& w) const {
     slant::evaluate(inner(), y, w.between, w.inner);

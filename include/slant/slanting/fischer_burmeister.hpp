@@ -25,6 +25,8 @@ namespace slant {
 namespace detail {
 
 struct fischer_burmeister_kernel {
+  static constexpr bool chooses = false;
+
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {
     using std::sqrt;

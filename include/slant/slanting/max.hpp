@@ -6,6 +6,7 @@
 // max(F, G) = G + max(0, F − G): where F(y)_i = G(y)_i the row is that of F°.
 #pragma once
 
+#include <slant/operators/diagonal.hpp>
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/detail/pointwise_pair.hpp>
 
@@ -17,6 +18,8 @@ namespace slant {
 namespace detail {
 
 struct max_kernel {
+  static constexpr bool chooses = true;
+
   /// The larger one; NaN if either is.
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {

@@ -17,6 +17,8 @@ namespace slant {
 namespace detail {
 
 struct min_kernel {
+  static constexpr bool chooses = true;
+
   /// The smaller one; NaN if either is.
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {

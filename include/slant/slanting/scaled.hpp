@@ -58,6 +58,11 @@ class scaled_map : public slanting_base {
   [[nodiscard]] auto slant(Y const& y) const {
     return detail::assembled_operator(rule{c_}, inner().slant(y));
   }
+  template <class Y, class W>
+    requires slanting_function<inner_type, plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return detail::assembled_operator(rule{c_}, slant::slant_from_value(inner(), y, w));
+  }
   template <class Y, class G, class W>
   void slant(Y const& y, G& g, W& w) const {
     g.rule() = rule{c_};

@@ -9,6 +9,10 @@
 #include <slant/slanting/difference.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
 #include <slant/slanting/identity.hpp>
+#include <slant/slanting/inequalities.hpp>
+#include <slant/slanting/inequality_curvature.hpp>
+#include <slant/slanting/inequality_jacobian.hpp>
+#include <slant/slanting/kkt_function.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/min.hpp>
 #include <slant/slanting/natural_residual.hpp>

@@ -35,6 +35,7 @@ struct beyond_question {
   void solve(auto const& b, auto& x) const;
   void project(auto const& x, auto& y) const;
   bool contains(auto const& x) const;
+  double step_to_boundary(auto const& x, auto const& d) const;
   void keep(auto const& x, auto& y) const;
 };
 

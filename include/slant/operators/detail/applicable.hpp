@@ -50,6 +50,12 @@ concept adds_adjoint =
     (has_adjoint_accumulate<A, plain_t<X>> && accumulates_adjoint<A, X, Y>) ||
     (!has_adjoint_accumulate<A, plain_t<X>> && applies_adjoint<A, X, plain_t<X>>);
 
+/// A x is a segment of x, and a.segment(x) shows it without a copy. Only of vectors that are
+/// nothing but Eigen objects: the local part of another kind knows nothing of its other parts.
+template <class A, class X>
+concept shows_segment = std::is_same_v<local_t<X>, std::remove_cvref_t<X>> &&
+                        requires(A const& a, X const& x) { a.segment(x); };
+
 template <class A> concept knows_its_inverse = requires(A const& a) { a.inverse(); };
 
 /// Columns first, first + 1, … of the identity on n unknowns, as many as y has columns.

@@ -39,6 +39,13 @@ class forwarding_operator {
     slant::apply_add(self().underlying(), α, x, y, w);
   }
 
+  /// What a slice shows of x.
+  template <class X, class D = Derived>
+    requires shows_segment<underlying_t<D>, X>
+  [[nodiscard]] auto segment(X const& x) const {
+    return self().underlying().segment(x);
+  }
+
   template <class X, class D = Derived>
     requires has_adjoint<underlying_t<D>, plain_t<X>>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {

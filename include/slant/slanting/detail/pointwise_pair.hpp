@@ -8,31 +8,21 @@
 // The maximum, the minimum and the Fischer–Burmeister function are three choices of κ.
 #pragma once
 
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/sum.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
 #include <slant/slanting/detail/function_pair.hpp>
+#include <slant/slanting/detail/weighted_sum_operator.hpp>
 
 #include <type_traits>
 #include <utility>
 
 namespace slant::detail {
 
-/// diag(p) A + diag(q) B.
+/// diag(p) A + diag(q) B; Chooses: each row is that of A or that of B.
+template <bool Chooses>
 struct weighted_sum_rule {
-  template <class P, class A>
-  using term = product_operator<diagonal_operator<P const&>, A const&>;
-
   template <class P, class Q, class A, class B>
   [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
-    return sum_operator<term<P, A>, term<Q, B>>(weighted(p, a), weighted(q, b));
-  }
-
- private:
-  template <class P, class A>
-  [[nodiscard]] static term<P, A> weighted(P const& p, A const& a) {
-    return term<P, A>(diagonal_operator<P const&>(held<P const&>(p)), a);
+    return weighted_sum_operator<Chooses, P, Q, A, B>(p, q, a, b);
   }
 };
 
@@ -45,7 +35,8 @@ struct pointwise_pair_workspace {
   Vector g;
 };
 
-/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}.
+/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
+/// the slopes are always (1, 0) or (0, 1), or NaN.
 template <class Kernel, class F, class G>
 class pointwise_pair : public function_pair<F, G> {
   using pair = function_pair<F, G>;
@@ -76,8 +67,8 @@ class pointwise_pair : public function_pair<F, G> {
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
-    assembled_operator s(weighted_sum_rule{}, slant::like(y, rows()), slant::like(y, rows()),
-                         left().slant(y), right().slant(y));
+    assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()),
+                         slant::like(y, rows()), left().slant(y), right().slant(y));
     set_slopes(s, w);
     return s;
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Operators of the same argument, one above the other: y = (A₁x; A₂x; …). The slanting operator of
-// a stack of functions. Each part writes to a vector of the caller's kind, then its rows are
-// copied.
+// a stack of functions. Each part writes into its rows of an Eigen vector; of another kind of
+// vector it writes all of one, whose entries are then copied.
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/detail/accumulate.hpp>
+#include <slant/operators/detail/applicable.hpp>
 #include <slant/operators/held.hpp>
 
 #include <boost/hana/at.hpp>
@@ -31,6 +32,16 @@ template <class Inner, class Vector>
 [[nodiscard]] auto make_stacked_part_workspace(Inner inner, Vector rows) {
   return stacked_part_workspace<Inner, Vector>{std::move(inner), std::move(rows)};
 }
+
+/// Its rows of Y, as an Eigen view.
+template <class Y>
+using rows_view_t = decltype(slant::local(std::declval<Y&>()).middleRows(index{}, index{}));
+
+/// A can write straight into rows of Y, where that is nothing but an Eigen object.
+template <class A, class X, class Y>
+concept writes_rows =
+    std::is_same_v<local_t<X>, std::remove_cvref_t<X>> &&
+    std::is_same_v<local_t<Y>, std::remove_cvref_t<Y>> && applies<A, X, rows_view_t<Y>>;
 
 /// y = (A₁x; A₂x; …), all with the same number of columns.
 template <class... A>
@@ -62,8 +73,13 @@ class stacked_operator {
   void apply(X const& x, Y& y, W& w) const {
     for_each([&](auto const& a, auto i, index first) {
       auto& own = std::get<i()>(w);
-      slant::apply(a, x, own.rows, own.inner);
-      slant::local(y).middleRows(first, a.rows()) = slant::local(own.rows);
+      if constexpr (writes_rows<std::remove_cvref_t<decltype(a)>, X, Y>) {
+        auto rows = slant::local(y).middleRows(first, a.rows());
+        slant::apply(a, x, rows, own.inner);
+      } else {
+        slant::apply(a, x, own.rows, own.inner);
+        slant::local(y).middleRows(first, a.rows()) = slant::local(own.rows);
+      }
     });
   }
 

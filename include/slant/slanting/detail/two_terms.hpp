@@ -49,6 +49,12 @@ class two_terms : public function_pair<F, G> {
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
     return assembled_operator(Rule{}, left().slant(y), right().slant(y));
   }
+  template <class Y, class W>
+    requires pair::template
+  usable<plain_t<Y>> [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return assembled_operator(Rule{}, slant::slant_from_value(left(), y, w.first),
+                              slant::slant_from_value(right(), y, w.second));
+  }
   template <class Y, class S, class W>
   void slant(Y const& y, S& s, W& w) const {
     slant::update_slant(left(), y, s.template part<0>(), w.first);

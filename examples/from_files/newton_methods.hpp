@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+//
+// The runs of Newton's methods that take more than a line.
+#pragma once
+
+#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/primal_dual.hpp>
+#include <slant/iteration/step_below.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/methods/semismooth_newton.hpp>
+#include <slant/methods/ssnm.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/bicgstab_solver.hpp>
+#include <slant/slanting/natural_residual.hpp>
+#include <utility>
+
+#include "dense_dual.hpp"
+#include "outcome.hpp"
+#include "problem_folder.hpp"
+
+namespace from_files {
+
+/// Our method, with the preconditioner that K offers for nothing.
+template <class Dual>
+[[nodiscard]] outcome run_symmetric_newton(problem const& p, Dual const& dual,
+                                           Eigen::VectorXd const& λ0, settings const& s) {
+  slant::symmetric_newton_options<double> options;
+  options.forcing.goal = s.tolerance;
+  return run_on_dual(
+      slant::symmetric_newton{dual.qp(),
+                              slant::contact::lumped_preconditioner(p.K, dual.constraints()),
+                              std::move(options)},
+      λ0, s);
+}
+
+/// Newton's method for λ − P(λ − ρ(A λ − b)) with a linear solver and a globalisation.
+template <class Dual, class Solver, class Search, class Forcing>
+[[nodiscard]] outcome run_natural_residual(Dual const& dual, Eigen::VectorXd const& λ0,
+                                           settings const& s, Solver solver, Search search,
+                                           Forcing forcing) {
+  auto const A = dual.a();
+  auto const step = slant::mean_step(A, λ0, 0.5);
+  auto const F = slant::natural_residual(A, dual.b(), dual.set(), step.length);
+  outcome result = run_and_project(
+      slant::semismooth_newton{F, std::move(solver), std::move(search), std::move(forcing)}, λ0,
+      slant::residual_below(s.tolerance), s, dual);
+  result.work.setup_applications += step.applications;
+  return result;
+}
+
+/// [K (46)–(54)], displacements and multipliers in one nonsymmetric system.
+template <class Friction, class Dual>
+[[nodiscard]] outcome run_primal_dual(Friction friction, problem const& p, Dual const& dual,
+                                      Eigen::VectorXd const& λ0, settings const& s) {
+  auto const K = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.K);
+  slant::contact::primal_dual const contact(friction, K, p.contact);
+  auto const G = contact.function(p.K.diagonal().mean());
+  Eigen::VectorXd y0(G.cols());
+  y0 << dual.displacement(λ0), λ0;
+  return run_until(
+      slant::semismooth_newton{G, slant::bicgstab_solver{}, slant::halving_line_search{},
+                               slant::adaptive_precision{}},
+      y0, slant::step_below(s.tolerance), s,
+      [&](Eigen::VectorXd const& y) { return slant::project(dual.set(), contact.multipliers(y)); });
+}
+
+/// SSNM of the thesis; A is formed and factored. It has nothing against cycles: as there, a run of
+/// 1000 steps is one too many.
+template <class Dual, class Solver>
+[[nodiscard]] outcome run_ssnm(Dual const& dual, Eigen::VectorXd const& λ0, settings const& s,
+                               Solver solver) {
+  dense_dual<Dual> const dense(dual);
+  slant::ssnm_options<double> options;
+  options.rho = dense.mean() > 0 ? dense.mean() : 1;
+  options.precision = {.r_tol = 0.1, .c_fact = 0.5};
+  options.multipliers = slant::ssnm_multipliers::estimated;
+  outcome result = run_and_project(slant::ssnm{dense.qp(), solver, options}, λ0,
+                                   slant::step_below(s.tolerance) || slant::at_most(1000), s, dual);
+  result.work.setup_applications += dense.products();
+  return result;
+}
+
+}  // namespace from_files

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// Friction laws as types: which set the tangential multipliers live in.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <type_traits>
+
+namespace slant::contact {
+
+struct frictionless {};   ///< no tangential multipliers
+struct friction_line {};  ///< one tangent per node (2D bodies): |λ_t,i| ≤ gᵢ
+struct friction_disc {};  ///< two tangents per node (3D bodies): ‖λ_t,i‖ ≤ gᵢ
+
+namespace detail {
+
+template <class S>
+auto feasible_set(frictionless, data<S> const& c) {
+  return half_lines<S>(c.nodes());
+}
+template <class S>
+auto feasible_set(friction_line, data<S> const& c) {
+  return cartesian(half_lines<S>(c.nodes()), intervals(c.g));
+}
+template <class S>
+auto feasible_set(friction_disc, data<S> const& c) {
+  return cartesian(half_lines<S>(c.nodes()), discs(c.g));
+}
+
+template <class Friction, class S>
+using feasible_set_t = decltype(detail::feasible_set(Friction{}, std::declval<data<S> const&>()));
+
+/// The data, after a look at them. Throws bad_input unless they are valid, K has as many rows as f
+/// and the friction law as many tangents as T.
+template <class Friction, class S>
+data<S> const& validated(Friction, data<S> const& c, index unknowns) {
+  c.validate();
+  slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
+  constexpr index tangents = std::is_same_v<Friction, frictionless>    ? 0
+                             : std::is_same_v<Friction, friction_line> ? 1
+                                                                       : 2;
+  if (c.tangents() != tangents) {
+    throw bad_input("tangents per contact node", slant::detail::show(c.tangents()),
+                    slant::detail::show(tangents) + " for this friction law");
+  }
+  return c;
+}
+
+}  // namespace detail
+
+}  // namespace slant::contact

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//
+// The quadratic program of a Newton step (sets/curved_face.hpp),
+//
+//     minimise  rᵀt + ½ tᵀ(A + C/ρ) t   over   t ∈ range(G),     H = Π A Π + C/ρ,
+//
+// by preconditioned conjugate gradients from t = 0:
+//
+//     p ← z − …,  t ← t + α p,  A t ← A t + α A p,  g ← g + α H p.
+//
+// A t comes along, so whoever takes the step knows the gradient r + A t at its end: one product by
+// A a step and none besides.
+//
+// Preconditioner. Where the boundary is flat (C = 0), M ≈ A⁻¹ is the one to use; where its
+// curvature outweighs A, (C/ρ)⁻¹. With s = mean(diag M) ≈ 1/mean(diag A) and W = (I + (s/ρ) C)⁻¹
+//
+//     z = W M W g + s W (I − W) g
+//
+// is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
+// leaves z = s W g.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <type_traits>
+
+namespace slant {
+
+/// What became of the minimisation.
+template <class S>
+struct inner_result {
+  index iterations;  ///< products spent
+  S residual;        ///< ‖Π r + H t‖, in units of r
+  bool finite;       ///< no number left the range of the scalar
+};
+
+/// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
+/// of A and M.
+template <class V, class M>
+class curved_minimum {
+ public:
+  using scalar = scalar_t<V>;
+
+  V t;      ///< the step, in range(G)
+  V image;  ///< A t
+
+  curved_minimum(V const& prototype, index n, M const& m)
+      : t(like(prototype, n)),
+        image(like(prototype, n)),
+        g_(like(prototype, n)),
+        p_(like(prototype, n)),
+        Ap_(like(prototype, n)),
+        z_(like(prototype, n)),
+        weighed_(like(prototype, preconditioned ? n : 0)),
+        m_workspace_(workspace(m, prototype)) {}
+
+  /// t with ‖Π r + H t‖ ≤ target, or the best one after at most `most` steps. t has the units of r
+  /// over those of A. r is the gradient at t = 0, s = mean(diag M).
+  template <class A, class WA, class Face>
+  inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
+                                Face const& face, scalar const& ρ, scalar const& s,
+                                scalar const& target, index most) {
+    slant::local(t).setZero();
+    slant::local(image).setZero();
+    face.keep(r, g_);
+    scalar size = norm(g_);
+    scalar gz(0);
+    index k = 0;
+    while (k < most && size > target) {
+      precondition(m, face, s);
+      scalar const next = inner_product(g_, z_);
+      if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
+      if (k == 0) {
+        slant::local(p_) = -slant::local(z_);
+      } else {
+        slant::local(p_) = (next / gz) * slant::local(p_) - slant::local(z_);
+      }
+      gz = next;
+      slant::apply(a, p_, Ap_, a_workspace);
+      ++k;
+      face.keep(Ap_, z_);
+      face.add_curvature(scalar(1) / ρ, p_, z_);
+      scalar const bend = inner_product(p_, z_);
+      if (!(bend > scalar(0))) break;  // a direction of the kernel of H: the step ends here
+      scalar const α = gz / bend;
+      slant::local(t) += α * slant::local(p_);
+      slant::local(image) += α * slant::local(Ap_);
+      slant::local(g_) += α * slant::local(z_);
+      size = norm(g_);
+    }
+    return {k, size, detail::is_finite(size) && detail::is_finite(gz)};
+  }
+
+ private:
+  static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
+
+  /// z = W M W g + s W (I − W) g.
+  template <class Face>
+  void precondition(M const& m, Face const& face, scalar const& s) {
+    face.weigh(g_, z_);
+    if constexpr (preconditioned) {
+      slant::apply(m, z_, weighed_, m_workspace_);
+      slant::local(weighed_) += s * (slant::local(g_) - slant::local(z_));
+      face.weigh(weighed_, z_);
+    } else {
+      static_cast<void>(m);
+      static_cast<void>(s);
+    }
+  }
+
+  V g_;        // Π r + H t
+  V p_;        // direction
+  V Ap_;       // its image
+  V z_;        // preconditioned g, then H p
+  V weighed_;  // M W g
+  workspace_t<M, V> m_workspace_;
+};
+
+}  // namespace slant

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// A method that converges from everywhere takes over where a faster one fails: KPRGP, until its
+// iterate is better than the point of failure by a factor. Since KPRGP converges to the solution
+// from every x ∈ Λ [K Theorem 1] this happens after finitely many of its steps; so failures cannot
+// follow one another without the residual tending to zero.
+#pragma once
+
+#include <slant/iteration/report.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/kprgp_options.hpp>
+#include <slant/methods/kprgp_state.hpp>
+
+#include <optional>
+#include <utility>
+
+namespace slant {
+
+/// KPRGP at work on a point s that derives from gradient_point<QP>. Nothing is computed or
+/// allocated before the first failure, σ_max included.
+template <class QP>
+class descent_takeover {
+ public:
+  using scalar = typename QP::scalar;
+  using options = kprgp_options<scalar>;
+
+  [[nodiscard]] bool at_work() const { return at_work_; }
+  /// How often it had to take over.
+  [[nodiscard]] index count() const { return count_; }
+  /// The state of KPRGP, once there was need for it.
+  [[nodiscard]] std::optional<kprgp_state<QP>> const& state() const { return state_; }
+
+  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates.
+  template <class State>
+  status begin(QP const& qp, options o, State& s, scalar const& goal) {
+    if (state_) o.step_length = state_->step_length;  // σ_max is known by now
+    state_.emplace(kprgp<QP const&>{qp, std::move(o)}.start(s.x));
+    s.work.setup_applications += state_->work.setup_applications;
+    s.work.operator_applications += state_->work.operator_applications;
+    goal_ = goal;
+    at_work_ = true;
+    ++count_;
+    return follow(qp, s);
+  }
+
+  /// One step of KPRGP.
+  template <class State>
+  status step(QP const& qp, options const& o, State& s) {
+    index const before = state_->work.operator_applications;
+    kprgp<QP const&>{qp, o}.step(*state_);
+    s.work.operator_applications += state_->work.operator_applications - before;
+    return follow(qp, s);
+  }
+
+ private:
+  /// s.x, s.r and s.reduced are those of KPRGP's iterate; no longer at work if that is good enough.
+  template <class State>
+  status follow(QP const& qp, State& s) {
+    slant::local(s.x) = slant::local(state_->x);
+    slant::local(s.r) = (state_->unit / s.unit) * slant::local(state_->r);
+    s.since_refresh = state_->since_refresh;
+    s.reduce(qp);
+    if (s.reduced_gradient_norm == scalar(0)) return status::converged;
+    if (state_->status == status::running) at_work_ = s.reduced_gradient_norm > goal_;
+    return state_->status;
+  }
+
+  std::optional<kprgp_state<QP>> state_;
+  scalar goal_{0};
+  bool at_work_ = false;
+  index count_ = 0;
+};
+
+}  // namespace slant

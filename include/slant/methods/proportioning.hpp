@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+//
+// The frame of the active set methods KPRGP, QPQ and QPC: conjugate gradients on a face, expansion
+// of the active set by projected gradient steps, and a rule that says when and how blocks are
+// released from it.
+//
+//     the rule keeps the face:   conjugate gradient step over F [K (31), (32)]; if it leaves Λ, a
+//     half
+//                                step to the boundary and the expansion  x ← x − α̃ φ̃
+//     otherwise:                 proportioning  x ← x − α̃ β̃,  or the step along −β to the minimum
+//     of
+//                                q or the boundary of Λ
+#pragma once
+
+#include <slant/krylov/feasible_step.hpp>
+#include <slant/krylov/gradient_step.hpp>
+#include <slant/methods/kprgp_options.hpp>
+#include <slant/methods/kprgp_problem.hpp>
+#include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/separable_qp.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// Active set method with a rule of release_rules.hpp. Requires: psd_operator (A symmetric positive
+/// semidefinite) and separable_set with step_to_boundary.
+template <class QP, class Rule>
+  requires kprgp_problem<std::remove_cvref_t<QP>>
+class proportioning<QP, Rule> {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = typename Rule::template options<scalar>;
+  using state_type = kprgp_state<problem>;
+
+  explicit proportioning(held<QP> qp) : proportioning(std::move(qp), options{}) {}
+  /// Throws bad_input for options out of range.
+  proportioning(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
+    options_.validate();
+  }
+
+  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
+  /// 1/σ_max is not a finite number.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
+    detail::check_finite("x0", x0);
+    state_type s(qp, x0);
+    set_step_length(s);
+    bool const solved = s.begin(qp, x0);
+    restart(s);
+    if (solved) s.status = status::converged;
+    return s;
+  }
+
+  /// One step on the face, or one that changes it.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    if (Rule::keeps_face(s, options_)) {
+      if (!conjugate_gradient_step(s)) expansion_step(s);
+    } else {
+      release_step(s);
+    }
+    ++s.iteration;
+    note_progress(s);
+  }
+
+  /// r and r̃ from x, if CG steps have been updating r instead; whether they have. One application.
+  bool refresh(state_type& s) const {
+    if (s.since_refresh == 0) return false;
+    s.status = status::running;
+    s.directions.live = false;
+    s.gradient(qp_.get());
+    split(s);
+    return true;
+  }
+
+ private:
+  static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
+
+  /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
+  bool conjugate_gradient_step(state_type& s) const {
+    s.face.keep(s.r, s.φ);
+    auto const step = step_along(s);
+    if (step.end == feasible_step_end::boundary) {
+      if (options_.half_step || step.flat) {
+        half_step(s, step);
+        split(s);
+      }
+      return false;
+    }
+    if (step.end == feasible_step_end::minimum) {
+      renew(s);
+      split(s);
+      s.last_step = kprgp_step::conjugate_gradient;
+    }
+    return true;
+  }
+
+  /// The step from the gradient in s.φ. Sets the status if there is none.
+  feasible_step<scalar> step_along(state_type& s) const {
+    auto const& qp = qp_.get();
+    next_direction(qp.a(), s);
+    bool const σ_unknown = options_.step_length.has_value();
+    auto const step =
+        step_within(qp.set(), s, kernel_curvature<definite>(s.directions, s.σ, σ_unknown));
+    // A is not what it promised, or not a number.
+    if (step.end == feasible_step_end::broken) s.status = status::breakdown;
+    if (step.end == feasible_step_end::endless) {
+      bool const descent =
+          !definite && step.flat && is_descent(step.slope, s.directions.p, gradient_noise(s));
+      s.status = descent ? status::unbounded : status::stalled;
+    }
+    return step;
+  }
+
+  /// r anew from x after many updates.
+  void renew(state_type& s) const {
+    if (options_.refresh > 0 && s.since_refresh >= options_.refresh) s.gradient(qp_.get());
+  }
+
+  /// x ← x − α̃ φ̃: may add blocks to the active set.
+  void expansion_step(state_type& s) const {
+    s.face.keep(s.projected, s.φ);
+    s.face.keep_complement(s.x, s.trial);
+    take_gradient_step(s, kprgp_step::expansion);
+  }
+
+  /// May release blocks from the active set.
+  void release_step(state_type& s) const {
+    if constexpr (Rule::minimising) {  // x ← x − α β, no further than the boundary
+      Rule::release_direction(qp_.get(), s, s.φ);
+      s.directions.live = false;
+      auto const step = step_along(s);
+      if (s.status != status::running) return;
+      if (step.end == feasible_step_end::boundary) half_step(s, step);
+      renew(s);
+      restart(s);
+      s.last_step = kprgp_step::proportioning;
+    } else {  // x ← x − α̃ β̃
+      s.face.keep_complement(s.projected, s.φ);
+      s.face.keep(s.x, s.trial);
+      take_gradient_step(s, kprgp_step::proportioning);
+    }
+  }
+
+  /// The blocks that move are in s.φ, the others in s.trial.
+  void take_gradient_step(state_type& s, kprgp_step kind) const {
+    slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
+    s.gradient(qp_.get());
+    restart(s);
+    s.last_step = kind;
+  }
+
+  /// A new face; the next direction is φ itself.
+  void restart(state_type& s) const {
+    bool const semismooth = options_.active_sets == active_set_rule::semismooth;
+    s.reduce(qp_.get());
+    s.face.assign(qp_.get().set(), slant::local(semismooth ? s.projected : s.x));
+    s.directions.live = false;
+    weigh(s);
+    s.φr_at_restart = s.φr;
+    if constexpr (!definite) {
+      // Steps that leave Λ again and again may still sum up to a direction that never does.
+      if (s.recession.found(qp_.get().set(), s)) s.status = status::unbounded;
+    }
+  }
+
+  /// r̃ and what its two parts can gain.
+  void split(state_type& s) const {
+    s.reduce(qp_.get());
+    weigh(s);
+  }
+
+  void weigh(state_type& s) const {
+    Rule::weigh(qp_.get(), s);
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+  }
+
+  /// At least max(‖b‖, ‖A x‖) / unit.
+  static scalar gradient_noise(state_type const& s) { return s.size_of_b + norm(s.r); }
+
+  void note_progress(state_type& s) const {
+    if (s.status != status::running) return;
+    auto const energy = [&] { return s.energy(qp_.get()); };
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy)) {
+      s.status = status::stalled;
+    }
+  }
+
+  void set_step_length(state_type& s) const {
+    if (options_.step_length) {
+      s.step_length = *options_.step_length;
+      return;
+    }
+    auto const safe =
+        safe_gradient_step(qp_.get().a(), s.x, options_.step_factor, options_.spectrum);
+    s.step_length = safe.length;
+    s.σ = safe.σ;
+    s.work.setup_applications += safe.applications;
+  }
+
+  held<QP> qp_;
+  options options_;
+};
+
+}  // namespace slant

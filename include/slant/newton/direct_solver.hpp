@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+//
+// Gaussian elimination for F°(y) dy = −F, where the operator can be taken apart:
+//
+//     G offers its inverse (has_inverse)     one application of G⁻¹
+//     G is a sparse matrix                   sparse LU by Eigen
+//     G has columns                          dense LU by Eigen with row pivoting
+//
+// No threshold says what is singular: the residual of dy is looked at, one application of G, as
+// that of every other solver. A matrix that has no solution shows it there.
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/distributed.hpp>
+#include <slant/newton/detail/dense_lu.hpp>
+#include <slant/newton/detail/sparse_lu.hpp>
+#include <slant/newton/direction.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/slanting/detail/assembled_operator.hpp>
+
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+namespace detail {
+
+/// The matrix that an operator is, perhaps behind the reference that a linear function hands out.
+template <class G>
+struct stored_matrix {
+  static constexpr bool exists = false;
+  static constexpr bool sparse = false;
+};
+template <class M, law_set L>
+struct stored_matrix<matrix_operator<M, L>> {
+  static constexpr bool exists = true;
+  static constexpr bool sparse = is_sparse_matrix<M>;
+  static auto const& of(matrix_operator<M, L> const& g) { return g.get(); }
+};
+template <class A>
+struct stored_matrix<operator_view<A>> : stored_matrix<A> {
+  static auto const& of(operator_view<A> const& g) { return stored_matrix<A>::of(g.underlying()); }
+};
+
+template <class V>
+using dense_matrix_t = Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// "Factors" of an operator that offers its inverse; W is the workspace of that.
+template <class W>
+class known_inverse {
+ public:
+  static constexpr index factorizations = 0;
+
+  explicit known_inverse(W w) : w_(std::move(w)) {}
+
+  template <class G, class V>
+  void solve(G const& g, V const& b, V& x) {
+    slant::apply(g.inverse(), b, x, w_);
+  }
+
+ private:
+  W w_;
+};
+
+/// What direct solvers keep: factors, and what the residual needs.
+template <class V, class Factors, class W>
+struct direct_workspace {
+  Factors factors;
+  V residual;     ///< F + G dy
+  W g_workspace;  ///< temporaries of G
+};
+
+/// solve(dy) makes dy = G⁻¹ F and says whether it could; what comes of it.
+template <class G, class V, class P, class Solve>
+[[nodiscard]] direction_report<scalar_t<V>> direct_direction(
+    G const& g, V const& f, direction_request<scalar_t<V>> const& request, V& dy, P& p,
+    Solve solve) {
+  using S = scalar_t<V>;
+  constexpr index factored = std::remove_cvref_t<decltype(p.factors)>::factorizations;
+  direction_report<S> report{status::breakdown, request.residual_norm, 0, 1 - factored, factored};
+  bool const solved = slant::everywhere(dy, solve(dy));
+  slant::local(dy) = -slant::local(dy);
+  if (solved && is_finite(S(norm(dy)))) {
+    if constexpr (requires { p.factors.multiply(dy, p.residual); }) {
+      p.factors.multiply(dy, p.residual);
+    } else {
+      slant::apply(g, dy, p.residual, p.g_workspace);
+      ++report.operator_applications;
+    }
+    slant::local(p.residual) += slant::local(f);
+    report.residual_norm = norm(p.residual);
+    // LU is as accurate as this precision allows, if not as η wants.
+    bool const enough = report.residual_norm <= request.tolerance * request.residual_norm;
+    if (is_finite(report.residual_norm)) {
+      report.status = enough ? status::converged : status::stalled;
+      return report;
+    }
+  }
+  report.residual_norm = request.residual_norm;
+  slant::local(dy).setZero();
+  return report;
+}
+
+}  // namespace detail
+
+/// A direct solution costs no more than the operator's own inverse, or the factors of its matrix.
+template <class G, class V>
+concept solved_cheaply =
+    linear_operator<G, V> && (has_inverse<G, V> || detail::stored_matrix<G>::exists);
+
+/// A direct solution is possible.
+template <class G, class V>
+concept solved_directly =
+    solved_cheaply<G, V> || (linear_operator<G, V> && has_columns<G, detail::dense_matrix_t<V>>);
+
+/// LU of F°(y), or its inverse; for operators that are `solved_directly`. Factorisations allocate.
+struct direct_solver {
+  void validate() const {}
+
+  template <class G, class V>
+    requires solved_directly<G, V>
+  [[nodiscard]] auto prepare(G const& g, V const& f) const {
+    auto factors = factors_for(g, f);
+    auto w = slant::workspace(g, f);
+    return detail::direct_workspace<V, decltype(factors), decltype(w)>{
+        std::move(factors), like(f, slant::local(f).size()), std::move(w)};
+  }
+
+  template <class G, class V, class P>
+    requires solved_directly<G, V>
+  direction_report<scalar_t<V>> solve(G const& g, V const& f,
+                                      direction_request<scalar_t<V>> const& request, V& dy,
+                                      P& p) const {
+    return detail::direct_direction(g, f, request, dy, p, [&](V& x) {
+      if constexpr (has_inverse<G, V>) {
+        try {
+          p.factors.solve(g, f, x);
+        } catch (bad_input const&) {  // an inverse that this very operator has not
+          return false;
+        }
+      } else {
+        if (!factor(g, p.factors)) return false;
+        p.factors.solve(f, x);
+      }
+      return true;
+    });
+  }
+
+  /// The complaint about operators that it cannot handle.
+  template <class G, class V>
+  static consteval void refuse() {
+    static_assert(solved_directly<G, V>,
+                  "direct_solver: F°(y) must be a matrix, or have columns or an inverse");
+  }
+
+ private:
+  template <class G, class V>
+  [[nodiscard]] static auto factors_for(G const& g, V const& f) {
+    using S = scalar_t<V>;
+    if constexpr (has_inverse<G, V>) {
+      auto w = slant::workspace(g.inverse(), f);
+      return detail::known_inverse<decltype(w)>(std::move(w));
+    } else if constexpr (detail::stored_matrix<G>::sparse) {
+      return detail::sparse_lu<S>();
+    } else {
+      return detail::dense_lu<S>(g.rows());
+    }
+  }
+  template <class G, class Factors>
+  [[nodiscard]] static bool factor(G const& g, Factors& factors) {
+    if constexpr (detail::stored_matrix<G>::sparse) {
+      auto const& m = detail::stored_matrix<G>::of(g);
+      using matrix_type = typename Factors::matrix_type;
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, matrix_type>) {
+        return factors.factor(m);
+      } else {
+        return factors.factor(matrix_type(m));
+      }
+    } else {
+      return factors.factor(g);
+    }
+  }
+};
+
+}  // namespace slant

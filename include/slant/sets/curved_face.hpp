@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// The face that a Newton step moves in, with the curvature of the boundary of Λ along it.
+//
+// At z the projection P_Λ has the slanting operator G = diag(G₁, …, G_m), symmetric, 0 ⪯ G_i ⪯ I.
+// A Newton step for the natural residual x − P_Λ(x − ρ r(x)) is a quadratic program on range(G),
+//
+//     minimise  q(x + t) + ½ tᵀ(C/ρ) t   over   t ∈ range(G),        C = G⁺ − I on range(G) ⪰ 0
+//
+// (derivation in slanting/symmetrizable.hpp). C/ρ is the curvature of the boundary times the force
+// that presses x against it: 0 for a block inside its set and for flat boundaries, (1 − τ)/(τρ)
+// with τ = g/‖z‖ on the tangent of a disc. Both spaces are known block by block, and blocks inside
+// their sets (G_i = I) or fixed (G_i = 0) are told by a mask: only curved ones store matrices.
+#pragma once
+
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/detail/symmetric_eigen.hpp>
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <vector>
+
+namespace slant {
+
+/// range(G), C and W = (I + κC)⁻¹ on range(G) at a point; vectors have the dimension of the set.
+/// Outputs must not alias inputs.
+template <scalar S = double>
+class curved_face {
+ public:
+  /// Room for the blocks of a set; nothing is known yet. Allocates.
+  template <class C>
+  explicit curved_face(C const& set) : mask_(slant::dimension_of(set)) {
+    std::size_t entries = 0;
+    slant::visit_blocks(set, [&](auto const& block, auto const& p) {
+      if constexpr (!whole_space<std::remove_cvref_t<decltype(block)>>) {
+        entries += static_cast<std::size_t>(p.size() * p.size());
+      }
+    });
+    mask_.setOnes();
+    blocks_.reserve(static_cast<std::size_t>(slant::block_count(set)));
+    components_.reserve(static_cast<std::size_t>(mask_.size()));
+    matrices_.reserve(3 * entries);
+  }
+
+  /// Becomes the face at z. κ ≥ 0 is the weight of the curvature in W. Does not allocate.
+  template <class C, class Z>
+  void assign(C const& set, Z const& z, S const& κ) {
+    blocks_.clear();
+    components_.clear();
+    matrices_.clear();
+    fixed_ = 0;
+    slant::visit_blocks(set, [&](auto const& block, auto const& p) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      if constexpr (!whole_space<block_type>) {
+        Eigen::Matrix<S, block_type::dimension, block_type::dimension> const g =
+            block.slant(p.value(z));
+        add(g, p, κ);
+      }
+    });
+  }
+
+  /// Number of blocks with some, but not every motion left, and of those with none.
+  [[nodiscard]] index curved_count() const { return static_cast<index>(blocks_.size()); }
+  [[nodiscard]] index fixed_count() const { return fixed_; }
+
+  /// y = Π x, the orthogonal projection onto range(G).
+  template <class X, class Y>
+  void keep(X const& x, Y& y) const {
+    transform(projector, slant::local(x), slant::local(y));
+  }
+
+  /// y = W x, 0 off range(G).
+  template <class X, class Y>
+  void weigh(X const& x, Y& y) const {
+    transform(weight, slant::local(x), slant::local(y));
+  }
+
+  /// y ← y + α C x.
+  template <class X, class Y>
+  void add_curvature(S const& α, X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    for_each([&](auto entry, index const* component, index n) {
+      for (index j = 0; j < n; ++j) {
+        S sum(0);
+        for (index l = 0; l < n; ++l) sum += entry(curvature, j, l) * from.coeff(component[l]);
+        to.coeffRef(component[j]) += α * sum;
+      }
+    });
+  }
+
+ private:
+  enum kind : int { projector, curvature, weight };
+
+  struct curved_block {
+    std::size_t component;  // first of its components
+    std::size_t matrix;     // first entry of its three matrices
+    index size;
+  };
+
+  template <class G, class P>
+  void add(G const& g, P const& p, S const& κ) {
+    constexpr int N = G::RowsAtCompileTime;
+    bool const inside = (g.array() == G::Identity().array()).all();
+    bool const fixed = (g.array() == S(0)).all();
+    for (index j = 0; j < N; ++j) mask_.coeffRef(p.component(j)) = fixed ? S(0) : S(1);
+    if (fixed) ++fixed_;
+    if (inside || fixed) return;
+
+    blocks_.push_back({components_.size(), matrices_.size(), N});
+    for (index j = 0; j < N; ++j) components_.push_back(p.component(j));
+    detail::symmetric_eigen<S, N> const spectrum(g);
+    // An eigenvalue that is only a rounding error of the largest one is no motion.
+    S const zero = S(4 * N) * std::numeric_limits<S>::epsilon() * spectrum.values.maxCoeff();
+    auto const append = [&](auto of) {
+      G m = G::Zero();
+      for (int j = 0; j < N; ++j) {
+        S const γ = spectrum.values(j) < S(1) ? spectrum.values(j) : S(1);
+        if (γ > zero) m += of(γ) * spectrum.vectors.col(j) * spectrum.vectors.col(j).transpose();
+      }
+      matrices_.insert(matrices_.end(), m.data(), m.data() + N * N);
+    };
+    append([](S const&) { return S(1); });
+    append([](S const& γ) { return S((S(1) - γ) / γ); });
+    append([&](S const& γ) { return S(γ / (γ + κ * (S(1) - γ))); });
+  }
+
+  /// f(entry(kind, row, column), its components, how many) for each curved block.
+  template <class F>
+  void for_each(F&& f) const {
+    for (auto const& b : blocks_) {
+      S const* const first = matrices_.data() + b.matrix;
+      index const n = b.size;
+      f([=](kind k, index i, index j) { return first[(k * n + j) * n + i]; },
+        components_.data() + b.component, n);
+    }
+  }
+
+  template <class X, class Y>
+  void transform(kind k, X const& x, Y& y) const {
+    // A selection, not a product with the mask: 0 · ∞ would be NaN.
+    y = mask_.binaryExpr(x, [](S const& m, S const& v) { return m == S(0) ? S(0) : v; });
+    for_each([&](auto entry, index const* component, index n) {
+      for (index j = 0; j < n; ++j) {
+        S sum(0);
+        for (index l = 0; l < n; ++l) sum += entry(k, j, l) * x.coeff(component[l]);
+        y.coeffRef(component[j]) = sum;
+      }
+    });
+  }
+
+  Eigen::Matrix<S, Eigen::Dynamic, 1> mask_;  // 0 on fixed blocks
+  std::vector<curved_block> blocks_;
+  std::vector<index> components_;
+  std::vector<S> matrices_;
+  index fixed_ = 0;
+};
+
+}  // namespace slant

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// The printed iterations of SSNM from zero [T Tables 4.1, 4.2] are reproduced, not only
+// approximately.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fem/thesis_ssnm.hpp>
+#include <fem/thesis_tables.hpp>
+#include <fem/wire_counts.hpp>
+#include <slant/newton/saddle_direct.hpp>
+
+namespace thesis_ssnm_test {
+
+struct outcome {
+  fem::ssnm_run run;
+  fem::active_counts counts;
+};
+
+outcome run(std::size_t entry, double l, double g, slant::index most = 1000) {
+  auto const w = fem::make_thesis_wire(fem::wire_sizes[entry] / 4);
+  auto const set = fem::wire_set(w, l, g);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
+  auto r = fem::run_ssnm(slant::separable_qp{A, w.b, set}, slant::saddle_direct{}, {},
+                         Eigen::VectorXd::Zero(4 * w.m).eval(), 1e-6, most);
+  auto const counts = fem::count_active(set, w.A, w.b, r.x);
+  return {std::move(r), counts};
+}
+
+fem::active_counts printed_counts(std::size_t entry, double l, double g) {
+  for (auto const& row : fem::printed_wire_counts) {
+    if (row.l == l && row.g == g) return {row.bounds[entry], row.circles[entry]};
+  }
+  return {-1, -1};
+}
+
+TEST_CASE("Table 4.1: every number of iterations, n = 32, 64, 128") {
+  for (auto const& row : fem::thesis_table_4_1) {
+    for (std::size_t entry = 0; entry < 3; ++entry) {
+      CAPTURE(row.l);
+      CAPTURE(fem::wire_sizes[entry]);
+      auto const [r, counts] = run(entry, row.l, row.g);
+      CHECK(r.converged());
+      CHECK(r.iterations == row.iterations[entry]);
+      CHECK(counts == printed_counts(entry, row.l, row.g));
+    }
+  }
+}
+
+TEST_CASE("Table 4.2: every number of at most 16 iterations, n = 32, 64, 128") {
+  for (auto const& row : fem::thesis_table_4_2) {
+    for (std::size_t entry = 0; entry < 3; ++entry) {
+      if (row.iterations[entry] == fem::failed || row.iterations[entry] > 16) continue;
+      CAPTURE(row.g);
+      CAPTURE(fem::wire_sizes[entry]);
+      auto const [r, counts] = run(entry, row.l, row.g);
+      CHECK(r.converged());
+      CHECK(r.iterations == row.iterations[entry]);
+      CHECK(counts == printed_counts(entry, row.l, row.g));
+    }
+  }
+}
+
+TEST_CASE("a failure of Table 4.2 fails here as well, and says so") {
+  auto const [r, counts] = run(1, 0, 0.3, 200);  // n = 64
+  CHECK(r.status == slant::status::iteration_limit);
+  CHECK(r.x.allFinite());
+}
+
+}  // namespace thesis_ssnm_test

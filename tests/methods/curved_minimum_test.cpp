@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/newton_segment.hpp>
+#include <slant/operators/counted.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/curved_face.hpp>
+
+#include <doctest/doctest.h>
+
+#include <krylov/spd_matrices.hpp>
+
+namespace curved_minimum_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct sliding_discs {
+  MatrixXd A = test::with_spectrum(test::log_spaced(12, 200), 2);
+  VectorXd r = test::random_vector(12, 4);
+  VectorXd z = 2 * test::random_vector(12, 6);
+  VectorXd g{{0.5, 1.0, 3.0, 0.0, 0.1, 2.0}};
+  double ρ = 0.8;
+};
+
+/// The minimiser by dense linear algebra on a basis of range(G).
+VectorXd dense_minimiser(sliding_discs const& p, slant::curved_face<> const& face) {
+  MatrixXd H(12, 12), keep(12, 12);
+  for (Eigen::Index j = 0; j < 12; ++j) {
+    VectorXd const e = VectorXd::Unit(12, j);
+    VectorXd y = VectorXd::Zero(12);
+    face.add_curvature(1 / p.ρ, e, y);
+    H.col(j) = y;
+    face.keep(e, y);
+    keep.col(j) = y;
+  }
+  H += keep * p.A * keep;
+  return H.completeOrthogonalDecomposition().solve(-keep * p.r);
+}
+
+TEST_CASE("the minimiser of the model and its image, with and without a preconditioner") {
+  sliding_discs const p;
+  auto const set = slant::discs(p.g);
+  auto const A = slant::counted(test::spd(p.A));
+  slant::curved_face<> face(set);
+  face.assign(set, p.z, 1.0 / p.ρ);
+  REQUIRE(face.curved_count() >= 2);
+  REQUIRE(face.fixed_count() >= 1);
+  VectorXd const exact = dense_minimiser(p, face);
+  auto const check = [&](auto const& m, double s) {
+    auto const before = A.applications();
+    auto workspace_of_a = slant::workspace(A, p.r);
+    slant::curved_minimum<VectorXd, std::remove_cvref_t<decltype(m)>> inner(p.r, 12, m);
+    auto const result =
+        inner.minimise(A, workspace_of_a, m, p.r, face, p.ρ, s, 1e-13 * p.r.norm(), 100);
+    CHECK(result.finite);
+    CHECK(result.residual <= 1e-13 * p.r.norm());
+    CHECK(A.applications() - before == result.iterations);
+    CHECK((inner.t - exact).norm() <= 1e-10 * exact.norm());
+    CHECK((inner.image - p.A * inner.t).norm() <= 1e-12 * p.A.norm() * exact.norm());
+    return result.iterations;
+  };
+  auto const plain = check(slant::identity(12), 1.0);
+  MatrixXd const inverse = p.A.inverse();
+  auto const preconditioned =
+      check(test::spd(MatrixXd((inverse + inverse.transpose()) / 2)), inverse.trace() / 12);
+  CHECK(preconditioned <= plain);
+}
+
+TEST_CASE("limits: no step, a target that is met already, a kernel") {
+  sliding_discs const p;
+  auto const set = slant::discs(p.g);
+  slant::curved_face<> face(set);
+  face.assign(set, p.z, 1.0);
+  auto const I = slant::identity(12);
+  slant::curved_minimum<VectorXd, slant::identity_operator> inner(p.r, 12, I);
+  auto const A = test::spd(p.A);
+  auto w = slant::workspace(A, p.r);
+  CHECK(inner.minimise(A, w, I, p.r, face, p.ρ, 1.0, 0.0, 0).iterations == 0);
+  CHECK(inner.t == VectorXd::Zero(12));
+  CHECK(inner.minimise(A, w, I, p.r, face, p.ρ, 1.0, 10 * p.r.norm(), 50).iterations == 0);
+  // A = 0 on free components: descent without end is left to others.
+  VectorXd const inside = VectorXd::Zero(12);
+  auto const wide = slant::discs(VectorXd(VectorXd::Ones(6)));
+  face.assign(wide, inside, 1.0);
+  MatrixXd const zero = MatrixXd::Zero(12, 12);
+  auto const nothing = test::spd(zero);
+  auto const result = inner.minimise(nothing, w, I, p.r, face, p.ρ, 1.0, 0.0, 50);
+  CHECK(result.iterations == 1);
+  CHECK(result.finite);
+  CHECK(inner.t == VectorXd::Zero(12));
+}
+
+TEST_CASE("the residual along a segment, with exact ends") {
+  sliding_discs const p;
+  auto const set = slant::discs(p.g);
+  slant::newton_segment<VectorXd> segment(p.r, 12);
+  segment.y = 1e10 * test::random_vector(12, 1);
+  segment.z = segment.y - p.ρ * (p.A * segment.y - p.r);
+  segment.target_y = test::random_vector(12, 2);
+  segment.target_z = segment.target_y - p.ρ * (p.A * segment.target_y - p.r);
+  VectorXd projected(12), trial(12);
+  for (double β : {0.0, 0.25, 1.0}) {
+    VectorXd const y = (1 - β) * segment.y + β * segment.target_y;
+    VectorXd const z = y - p.ρ * (p.A * y - p.r);
+    VectorXd const F = y - slant::project(set, z);
+    CHECK(segment.residual_at(set, β, projected, trial) == doctest::Approx(F.norm()));
+  }
+  VectorXd const end = segment.target_y;
+  segment.advance(1.0);
+  CHECK(segment.y == end);
+}
+
+}  // namespace curved_minimum_test

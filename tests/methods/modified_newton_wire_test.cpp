@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// MSSN, IMSSN, GIMSSN and AS-S on the wire.
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/gimssn.hpp>
+#include <slant/methods/imssn.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <doctest/doctest.h>
+
+#include <fem/active_counts.hpp>
+#include <fem/string_1d.hpp>
+#include <fem/wire_counts.hpp>
+#include <string>
+
+namespace modified_newton_wire_test {
+
+using Eigen::VectorXd;
+
+TEST_CASE("the wire: the printed numbers of active constraints for n = 32 and 64") {
+  auto const stop = slant::reduced_gradient_below(1e-9) || slant::at_most(20000);
+  for (auto const& printed : fem::printed_wire_counts) {
+    for (std::size_t entry = 0; printed.unknowns(entry) <= 64; ++entry) {
+      auto const m = static_cast<Eigen::Index>(printed.m(entry));
+      CAPTURE(printed.l);
+      CAPTURE(printed.g);
+      CAPTURE(m);
+      auto const wire = fem::make_wire(m);
+      auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
+                                        slant::discs(VectorXd::Constant(m, printed.g).eval()),
+                                        slant::free_components(m));
+      auto const qp = slant::separable_qp{
+          slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A), wire.b, set};
+      VectorXd const zero = VectorXd::Zero(4 * m);
+      double const ρ = 1.9 * wire.h() / 4;
+      auto const check = [&](std::string const& name, auto const& method) {
+        CAPTURE(name);
+        auto const r = slant::solve(method, zero, stop);
+        CHECK(r.converged());
+        CHECK(fem::count_active(set, wire.A, wire.b, r.x()) ==
+              fem::active_counts{printed.bounds[entry], printed.circles[entry]});
+      };
+      check("mssn", slant::mssn{qp, {.step_length = ρ}});
+      check("imssn", slant::imssn{qp, {.step_length = ρ}});
+      check("gimssn", slant::gimssn{qp, {.step_length = ρ}});
+      check("as_s", slant::as_s(qp, {.step_length = ρ}));
+    }
+  }
+}
+
+}  // namespace modified_newton_wire_test

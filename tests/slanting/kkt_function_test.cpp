@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "slanting_support.hpp"
+
+#include <slant/operators/counted.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/ellipse.hpp>
+#include <slant/slanting/identity.hpp>
+#include <slant/slanting/kkt_function.hpp>
+#include <slant/slanting/max.hpp>
+#include <slant/testing/slanting_laws.hpp>
+
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+#include <fem/string_1d.hpp>
+
+#include <Eigen/Core>
+
+namespace kkt_function_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slanting_support::dense_slant;
+using slanting_support::random_vector;
+
+/// The wire of [T (4.1)]: bounds, circles, free unknowns.
+struct wire_problem {
+  fem::wire<> wire;
+  double l;
+  double g;
+
+  [[nodiscard]] auto set() const {
+    return slant::cartesian(slant::half_lines(VectorXd::Constant(wire.m, l).eval()),
+                            slant::discs(VectorXd::Constant(wire.m, g).eval()),
+                            slant::free_components(wire.m));
+  }
+  /// [T (2.11)], written down component by component.
+  [[nodiscard]] VectorXd value(VectorXd const& y, double ρ) const {
+    auto const m = wire.m;
+    auto const n = 4 * m;
+    VectorXd const x = y.head(n);
+    VectorXd F(n + 2 * m);
+    F.head(n) = wire.A * x - wire.b;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      double const λ = y[n + i], μ = y[n + m + i];
+      double const x1 = x[i], x2 = x[m + 2 * i], x3 = x[m + 2 * i + 1];
+      F[i] -= λ;
+      F[m + 2 * i] += 2 * μ * x2;
+      F[m + 2 * i + 1] += 2 * μ * x3;
+      F[n + i] = λ - std::max(0.0, λ + ρ * (l - x1));
+      F[n + m + i] = μ - std::max(0.0, μ + ρ * (x2 * x2 + x3 * x3 - g * g));
+    }
+    return F;
+  }
+  /// [T (2.13)] as a dense matrix.
+  [[nodiscard]] MatrixXd slant(VectorXd const& y, double ρ) const {
+    auto const m = wire.m;
+    auto const n = 4 * m;
+    MatrixXd G = MatrixXd::Zero(n + 2 * m, n + 2 * m);
+    G.topLeftCorner(n, n) = MatrixXd(wire.A);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      auto const two = m + 2 * i, three = two + 1, row = n + m + i;
+      double const λ = y[n + i], μ = y[row], x2 = y[two], x3 = y[three];
+      bool const bound = λ + ρ * (l - y[i]) > 0;
+      bool const circle = μ + ρ * (x2 * x2 + x3 * x3 - g * g) > 0;
+      G(two, two) += 2 * μ;
+      G(three, three) += 2 * μ;
+      G(i, n + i) = -1;
+      G(two, row) = 2 * x2;
+      G(three, row) = 2 * x3;
+      if (bound) G(n + i, i) = ρ;
+      if (!bound) G(n + i, n + i) = 1;
+      if (circle) G(row, two) = -2 * ρ * x2;
+      if (circle) G(row, three) = -2 * ρ * x3;
+      if (!circle) G(row, row) = 1;
+    }
+    return G;
+  }
+};
+
+TEST_CASE("the function and the operator of the thesis, to the last digit") {
+  wire_problem const p{fem::make_wire(5), -0.3, 0.7};
+  auto const n = 4 * p.wire.m;
+  auto const set = p.set();
+  for (double ρ : {1.0, 0.37, 100.0}) {
+    auto const F = slant::kkt(p.wire.A, p.wire.b, set, ρ);
+    CHECK(F.rows() == 6 * p.wire.m);
+    CHECK(F.unknowns() == n);
+    CHECK(F.multipliers() == 2 * p.wire.m);
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      VectorXd y = random_vector(F.cols(), seed);
+      if (seed == 1) y.setZero();             // circles inactive
+      if (seed == 2) y.tail(p.wire.m) *= 40;  // circles active
+      VectorXd const hand = p.value(y, ρ);
+      CHECK((slant::evaluate(F, y) - hand).cwiseAbs().maxCoeff() <=
+            4e-16 * (1 + p.wire.A.coeff(0, 0) + 100 * ρ));
+      CHECK(dense_slant(F, y) == p.slant(y, ρ));
+    }
+  }
+}
+
+TEST_CASE("ties are inactive, as in the thesis") {
+  wire_problem const p{fem::make_wire(3), 0, 1};
+  auto const set = p.set();
+  auto const F = slant::kkt(p.wire.A, p.wire.b, set, 1.0);
+  auto const G = F.slant(VectorXd::Zero(F.cols()).eval());  // λ + ρ (l − x₁) = 0
+  CHECK(G.active() == VectorXd::Zero(6));
+}
+
+TEST_CASE("the laws of slanting functions, also where the set is ellipses and intervals") {
+  auto const ellipses =
+      slant::power(slant::ellipse<>{}, VectorXd{{1.0, 2.0}}, VectorXd{{0.5, 0.3}});
+  auto const intervals = slant::intervals(VectorXd{{-1.0, 0.0}}, VectorXd{{0.5, 2.0}});
+  auto const set = slant::cartesian(intervals, slant::free_components(1), ellipses);
+  MatrixXd const A = slanting_support::random_spd(7, 5);
+  VectorXd const b = random_vector(7, 6);
+  auto const F = slant::kkt(A, b, set, 0.5);
+  CHECK(F.multipliers() == 6);
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    slant::testing::check_slanting_laws(F, VectorXd(2 * random_vector(13, seed)),
+                                        random_vector(13, 50 + seed));
+  }
+}
+
+TEST_CASE("it is λ − max(0, λ + ρ f(x)), but z does not cancel") {
+  wire_problem const p{fem::make_wire(3), -0.2, 0.5};
+  auto const set = p.set();
+  slant::index const n = 12, m = 6;
+  auto const x = slant::linear(slant::slice(n + m, 0, n));
+  auto const z = slant::linear(slant::slice(n + m, n, m));
+  auto const f = slant::inequalities(set) * x;
+  auto const literal = z - slant::positive_part(m) * (z + 2.0 * f);
+  auto const F = slant::kkt(p.wire.A, p.wire.b, set, 2.0);
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    VectorXd const y = random_vector(n + m, seed);
+    VectorXd const difference = slant::evaluate(F, y).tail(m) - slant::evaluate(literal, y);
+    CHECK(difference.cwiseAbs().maxCoeff() <= 4e-16);
+    CHECK(dense_slant(F, y).bottomRows(m) == dense_slant(literal, y));
+  }
+  VectorXd y = VectorXd::Zero(n + m);
+  y.tail(m).setConstant(1e17);  // far more than f, which must not be lost
+  CHECK(slant::evaluate(F, y)[n] == 2.0 * -(-0.2 - 0.0));
+}
+
+TEST_CASE("one application of A for a value and its slant; nothing allocates") {
+  wire_problem const p{fem::make_wire(8), -0.2, 0.5};
+  auto const set = p.set();
+  auto const A = slant::counted(p.wire.A);
+  auto const F = slant::kkt(A, p.wire.b, set, 1.0);
+  VectorXd const y = random_vector(F.cols(), 3);
+  VectorXd v(F.rows()), Gv(F.rows());
+  auto w = slant::workspace(F, y);
+  auto G = F.slant(VectorXd::Zero(F.cols()).eval());
+  auto gw = slant::workspace(G, y);
+  A.reset_counts();
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(F, y, v, w);
+  slant::update_slant_after_value(F, y, G, w);
+  auto const applications = A.counts().applications;
+  slant::apply(G, v, Gv, gw);
+  auto const allocations = guard.count();
+  CHECK(applications == 1);
+  CHECK(allocations == 0);
+  CHECK((Gv - p.slant(y, 1.0) * v).norm() <= 1e-14 * Gv.norm());
+}
+
+TEST_CASE("bad input") {
+  wire_problem const p{fem::make_wire(3), 0, 1};
+  auto const set = p.set();
+  VectorXd const b = VectorXd::Zero(12);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::kkt(p.wire.A, VectorXd(b.head(5)), set, 1.0)),
+                       doctest::Contains("b.size(): got 5, expected 12"), slant::bad_input);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::kkt(p.wire.A, b, set, 0.0)),
+                       "rho: got 0, expected a finite number > 0", slant::bad_input);
+}
+
+}  // namespace kkt_function_test
