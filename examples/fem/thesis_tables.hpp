@@ -24,7 +24,8 @@ inline constexpr printed_work unreadable{illegible, illegible};
 /// Sizes of the wire in all tables: n = 32, 64, …, 2048 unknowns.
 inline constexpr std::array<int, 7> wire_sizes{32, 64, 128, 256, 512, 1024, 2048};
 
-/// Iterations of SSNM from zero, tolerance 1e−6, ρ = 1.
+/// Iterations of SSNM from zero, ρ = 1. The exponents of its tolerances (here, and of the fixed
+/// inner one in Table 4.5) are not legible in our copy.
 struct ssnm_iterations {
   double l;
   double g;
@@ -75,7 +76,7 @@ inline constexpr std::array<ssnm_after_qpc_row, 4> thesis_table_4_3{
 inline constexpr ssnm_after_qpc_row thesis_table_4_4{
     1, {{{8, 1, 1}, {6, 1, 1}, {11, 1, 1}, {4, 532, 2}, {40, 1, 1}, {80, 1, 1}, {159, 1, 1}}}};
 
-/// [T Table 4.5]: l = 0, g = 0.5, variant A. Fixed: inner tolerance 1e−6, cold start, ρ = 1.
+/// [T Table 4.5]: l = 0, g = 0.5, variant A. Fixed: one inner tolerance, cold start, ρ = 1.
 /// Adaptive: r_tol = 0.01, c_fact = 0.9, warm start, ρ = 0.5.
 struct inner_precision_row {
   printed_work fixed;

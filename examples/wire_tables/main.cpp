@@ -11,8 +11,7 @@
 namespace {
 
 int print_tables(wire_tables::settings const& s, std::string const& only) {
-  wire_tables::wire_runs runs(s);
-  wire_tables::table_printer tables(runs);
+  wire_tables::table_printer tables(s);
   auto const wanted = [&](char const* name) { return only == "all" || only == name; };
   std::printf(
       "The wire of [T §4.1]; ours: products/steps to a relative accuracy of %g,\n"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fem/thesis_ssnm_start.hpp>
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
 #include <iterator>
@@ -60,7 +61,11 @@ using cells = std::vector<std::string>;
 /// Prints the tables; `right` stays true while every run converges to the printed active sets.
 class table_printer {
  public:
-  explicit table_printer(wire_runs& runs) : runs_(runs), meshes_(mesh_count(runs.options())) {}
+  explicit table_printer(settings const& s)
+      : ours_(our_methods(), s),
+        direct_(direct_methods(), s),
+        variants_(variant_methods(), s),
+        meshes_(mesh_count(s)) {}
 
   [[nodiscard]] bool right() const { return right_; }
 
@@ -68,13 +73,15 @@ class table_printer {
   template <class Rows>
   void ssnm(char const* title, Rows const& rows) {
     std::printf("\n%s\n", title);
-    examples::text_table const table(
-        joined({"l", "g", "n", "printed counts", "our counts", "SSNM"}, our_names()));
+    examples::text_table const table(joined({"l", "g", "n", "printed counts", "our counts", "SSNM"},
+                                            joined(direct_.names(), ours_.names())));
     table.print_head();
     for (auto const& row : rows)
       for (std::size_t e = 0; e < meshes_; ++e)
-        table.print_row(joined({number(row.l), number(row.g), number(fem::wire_sizes[e])},
-                               with_counts(row.l, row.g, e, printed(row.iterations[e]))));
+        table.print_row(
+            joined({number(row.l), number(row.g), number(fem::wire_sizes[e])},
+                   joined(counts_and(row.l, row.g, e, printed(row.iterations[e])),
+                          joined(did(direct_, row.l, row.g, e), did(ours_, row.l, row.g, e)))));
   }
 
   /// Tables 4.3 and 4.4.
@@ -82,12 +89,14 @@ class table_printer {
   void after_qpc(char const* title, Rows const& rows) {
     std::printf("\n%s\n", title);
     examples::text_table const table(
-        joined({"g", "n", "printed counts", "our counts", "SSNM(QPC)"}, our_names()));
+        joined({"g", "n", "printed counts", "our counts", "SSNM(QPC)", "(KPRGP)"}, ours_.names()));
     table.print_head();
     for (auto const& row : rows)
       for (std::size_t e = 0; e < meshes_; ++e)
-        table.print_row(joined({number(row.g), number(fem::wire_sizes[e])},
-                               with_counts(0, row.g, e, printed(row.entries[e]))));
+        table.print_row(joined(
+            {number(row.g), number(fem::wire_sizes[e])},
+            joined(joined(counts_and(0, row.g, e, printed(row.entries[e])), {started(row.g, e)}),
+                   did(ours_, 0, row.g, e))));
   }
 
   /// Tables 4.5 and 4.8.
@@ -95,7 +104,8 @@ class table_printer {
     std::printf(
         "\nTables 4.5 and 4.8: l = 0, g = 0.5; printed products/iterations of variants A and B\n");
     examples::text_table const table(
-        joined({"n", "A fixed", "A adaptive", "A 0.01", "B 0.01", "B 0.1"}, our_names()), 8);
+        joined({"n", "A fixed", "adaptive", "A 0.01", "B 0.01", "B 0.1"},
+               joined(variants_.names(), ours_.names())));
     table.print_head();
     for (std::size_t e = 0; e < meshes_; ++e) {
       auto const& inner = fem::thesis_table_4_5[e];
@@ -103,51 +113,60 @@ class table_printer {
       table.print_row(
           joined({number(fem::wire_sizes[e]), printed(inner.fixed), printed(inner.adaptive),
                   printed(variant.a), printed(variant.b_001), printed(variant.b_01)},
-                 ours(0, 0.5, e)));
+                 joined(did(variants_, 0, 0.5, e), did(ours_, 0, 0.5, e))));
     }
   }
 
-  /// Table 4.6. Ours, which have no such parameters, stand in rows of their own.
+  /// Table 4.6; methods without such parameters stand in rows of their own.
   void precision_factors() {
     constexpr std::size_t first = 3;  // the table begins with n = 256
-    std::printf("\nTable 4.6: l = 0, g = 0.5; products/iterations of variant A\n");
-    examples::text_table const table({"r_tol", "c_fact", "n = 256", "n = 512", "n = 1024"}, 9);
+    std::printf(
+        "\nTable 4.6: l = 0, g = 0.5; products/iterations of variant A, printed and ours\n");
+    cells head{"r_tol", "c_fact"};
+    for (std::size_t e = first; e < first + 3; ++e)
+      head = joined(head, {"n = " + number(fem::wire_sizes[e]), "ours"});
+    examples::text_table const table(head, 9);
     table.print_head();
     for (auto const& row : fem::thesis_table_4_6) {
       cells line{number(row.r_tol), number(row.c_fact)};
-      for (auto const& entry : row.entries) line.push_back(printed(entry));
+      for (std::size_t e = first; e < first + 3; ++e)
+        line =
+            joined(line, {printed(row.entries[e - first]), variant_a(e, 1, row.r_tol, row.c_fact)});
       table.print_row(line);
     }
-    own_rows(table, first, row_size);
+    own_rows(table, {"", ""}, first, 3);
   }
 
   /// Table 4.7.
   void penalties() {
     constexpr std::size_t entry = 4;
-    std::printf("\nTable 4.7: n = 512, l = 0, g = 0.5; products/iterations of variant A\n");
+    std::printf(
+        "\nTable 4.7: n = 512, l = 0, g = 0.5; products/iterations of variant A, printed and "
+        "ours\n");
     cells head{"r_tol"};
-    for (double const ρ : fem::thesis_table_4_7_penalties) head.push_back("ρ = " + number(ρ));
+    for (double const ρ : fem::thesis_table_4_7_penalties)
+      head = joined(head, {"ρ = " + number(ρ), "ours"});
     examples::text_table const table(head, 9);
     table.print_head();
     for (auto const& row : fem::thesis_table_4_7) {
       cells line{number(row.r_tol)};
-      for (auto const& work : row.entries) line.push_back(printed(work));
+      for (std::size_t i = 0; i < row.entries.size(); ++i)
+        line = joined(line, {printed(row.entries[i]),
+                             variant_a(entry, fem::thesis_table_4_7_penalties[i], row.r_tol, 0.9)});
       table.print_row(line);
     }
-    own_rows(table, entry, 1);
+    own_rows(table, {""}, entry, 1);
   }
 
  private:
-  static constexpr std::size_t row_size = 3;
-
-  [[nodiscard]] static cells our_names() { return examples::names_of(methods()); }
-  /// What each method did, from zero and nested; also judges.
-  [[nodiscard]] cells ours(double l, double g, std::size_t e) {
+  /// What each method of a list did, from zero and nested; judges ours.
+  template <class Runs>
+  [[nodiscard]] cells did(Runs& list, double l, double g, std::size_t e) {
     cells result;
     auto const add = [&](std::vector<counted_run> const& runs, bool ours) {
       result.push_back(e < runs.size() ? judged(runs[e], ours, l, g, e) : "-");
     };
-    for (auto const& method : runs_.of(l, g)) {
+    for (auto const& method : list.of(l, g)) {
       add(method.from_zero, method.ours);
       if (method.ours) add(method.nested, true);
     }
@@ -157,27 +176,42 @@ class table_printer {
                                    std::size_t e) {
     bool const same = !has_counts(l, g, e) || entry.counts == counts(l, g, e);
     right_ = right_ && (!ours || (entry.run.converged() && same));
+    if (!ours && !entry.run.converged()) return "×";
     return products_and_steps(entry.run) + (same || !entry.run.converged() ? "" : "!");
   }
-  /// Printed counts, ours, the printed entry, our columns.
-  [[nodiscard]] cells with_counts(double l, double g, std::size_t e, std::string const& entry) {
+  /// Printed counts, those of the last of our methods, the printed entry.
+  [[nodiscard]] cells counts_and(double l, double g, std::size_t e, std::string const& entry) {
     int const m = fem::wire_counts::m(e);
-    auto const& all = runs_.of(l, g);
-    auto const last =
-        std::find_if(all.rbegin(), all.rend(), [](auto const& method) { return method.ours; });
-    auto const& found = last->nested;
-    return joined({has_counts(l, g, e) ? ratios(counts(l, g, e), m) : "-",
-                   e < found.size() ? ratios(found[e].counts, m) : "-", entry},
-                  ours(l, g, e));
+    auto const& found = ours_.of(l, g).back().nested;
+    return {has_counts(l, g, e) ? ratios(counts(l, g, e), m) : "-",
+            e < found.size() ? ratios(found[e].counts, m) : "-", entry};
   }
-  /// For tables of the parameters of a method: other methods below, `count` meshes from `first` on.
-  void own_rows(examples::text_table const& table, std::size_t first, std::size_t count) {
-    auto const names = our_names();
+  /// SSNM from the result of a first-order method.
+  [[nodiscard]] static std::string started(double g, std::size_t e) {
+    auto const r = fem::run_started_wire_ssnm(fem::make_thesis_wire(fem::wire_sizes[e] / 4), 0, g);
+    if (!r.run.converged()) return "×";
+    return printed(fem::ssnm_after_qpc{static_cast<int>(r.run.iterations),
+                                       static_cast<int>(r.first_phase), r.accuracy});
+  }
+  /// Variant A on the wire l = 0, g = 0.5 with these parameters, if the mesh is asked for.
+  [[nodiscard]] std::string variant_a(std::size_t e, double ρ, double r_tol, double c_fact) const {
+    if (e >= meshes_) return "-";
+    auto const method =
+        wire_tables::ssnm("A", slant::schur_bicgstab{}, fem::thesis_options(ρ, r_tol, c_fact));
+    wire_level const level(method, e, 0, 0.5, {});
+    auto const report = slant::solve(level.method(), level.zero(), level.stop());
+    return report.converged() ? products_and_steps(examples::measure(report)) : "×";
+  }
+  /// For tables of the parameters of a method: ours below, `count` meshes from `first` on.
+  void own_rows(examples::text_table const& table, cells const& blank, std::size_t first,
+                std::size_t count) {
+    auto const names = ours_.names();
     for (std::size_t column = 0; column < names.size(); ++column) {
-      cells line;
+      cells line = blank;
       for (std::size_t e = first; e < std::min(first + count, meshes_); ++e)
-        line.push_back(ours(0, 0.5, e)[column]);
-      if (!line.empty()) table.print_row(joined({names[column]}, line));
+        line = joined(line, {"", did(ours_, 0, 0.5, e)[column]});
+      line.push_back(names[column]);
+      if (first < meshes_) table.print_row(line);
     }
   }
 
@@ -196,7 +230,9 @@ class table_printer {
     return {row->bounds[e], row->circles[e]};
   }
 
-  wire_runs& runs_;
+  wire_runs<decltype(our_methods())> ours_;
+  wire_runs<decltype(direct_methods())> direct_;
+  wire_runs<decltype(variant_methods())> variants_;
   std::size_t meshes_;
   bool right_ = true;
 };

@@ -26,7 +26,7 @@
 namespace wire_tables {
 
 struct settings {
-  int largest = 1024;  ///< unknowns of the finest mesh
+  int largest = 512;  ///< unknowns of the finest mesh
   examples::run_limits limits{.tolerance = 1e-9, .max_iterations = 1000000};
 };
 
@@ -116,23 +116,27 @@ template <class Method>
   return runs;
 }
 
-/// Runs of all methods, made when they are asked for and kept: the same wires stand in many tables.
+/// Runs of all methods of a list, made when they are asked for and kept: the same wires stand in
+/// many tables.
+template <class Methods>
 class wire_runs {
  public:
-  explicit wire_runs(settings const& s) : settings_(s) {}
+  wire_runs(Methods methods, settings const& s) : methods_(std::move(methods)), settings_(s) {}
 
   /// One entry per method.
   [[nodiscard]] std::vector<method_runs> const& of(double l, double g) {
     auto const [at, is_new] = runs_.try_emplace({l, g});
     if (is_new)
-      examples::for_each_method(methods(), [&, &all = at->second](auto const& method) {
+      examples::for_each_method(methods_, [&, &all = at->second](auto const& method) {
         all.push_back(run_method(method, l, g, settings_));
       });
     return at->second;
   }
-  [[nodiscard]] settings const& options() const { return settings_; }
+  /// The names of the columns.
+  [[nodiscard]] std::vector<std::string> names() const { return examples::names_of(methods_); }
 
  private:
+  Methods methods_;
   settings settings_;
   std::map<std::pair<double, double>, std::vector<method_runs>> runs_{};
 };
