@@ -138,6 +138,14 @@ struct wire_run {
   vector x;
 };
 
+/// Inner systems solved well, as suits a preconditioner that is A⁻¹ where nothing is active.
+slant::symmetric_newton_options<double> wire_options() {
+  slant::symmetric_newton_options<double> o;
+  o.step_factor = 1;
+  o.forcing = {.γ = 0.9, .exponent = 2, .η_max = 1e-4, .η_first = 1e-4};
+  return o;
+}
+
 wire_run run_wire(fem::wire_counts const& row, std::size_t entry, vector const* start) {
   auto const m = static_cast<Eigen::Index>(row.m(entry));
   auto const wire = fem::make_wire(m);
@@ -150,9 +158,9 @@ wire_run run_wire(fem::wire_counts const& row, std::size_t entry, vector const* 
   if (start != nullptr)
     x0 = fem::wire_prolongation(fem::make_wire(static_cast<Eigen::Index>(row.m(entry - 1))), wire) *
          *start;
-  auto r = slant::solve(
-      slant::symmetric_newton{qp, slant::inverse(slant::ldlt(wire.A)), {.step_factor = 2.0}}, x0,
-      slant::reduced_gradient_below(1e-10) || slant::at_most(1000));
+  auto r =
+      slant::solve(slant::symmetric_newton{qp, slant::inverse(slant::ldlt(wire.A)), wire_options()},
+                   x0, slant::reduced_gradient_below(1e-10) || slant::at_most(1000));
   bool const printed = row.bounds[entry] != fem::wire_counts::not_printed;
   bool const right =
       r.converged() && (!printed || fem::count_active(set, wire.A, wire.b, r.x()) ==

@@ -12,6 +12,10 @@
 #   example_1      products of KPRGP for eleven Γ, beside the printed ones
 #   wire           active constraints of the wire, beside the printed ones
 #   brick          error of KPRGP against work: the steel brick, three sizes, three loads
+#   newton_brick   products of Newton's methods on the brick until the energy error is 1e-8
+#   newton_wire    Newton steps on the wire, from zero and by nested iteration
+#   newton_floor   the accuracy at which the symmetric Newton method stalls, against κ(A)
+#   active_sets    products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
 # Exit status 1 if one of them fails or misses a limit that it knows.
@@ -21,7 +25,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
-all=(composition slanting compile_time projections example_1 wire brick)
+all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
+  newton_floor active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -63,6 +68,10 @@ run_slanting() {
 run_compile_time() { "$here/compile_time.sh" --output "$output"; }
 run_projections() { "$(program projection_errors)" >"$output/projections.csv"; }
 run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"; }
+run_newton_brick() { "$(program newton_products)" brick >"$output/newton_brick.csv"; }
+run_newton_wire() { "$(program newton_products)" wire >"$output/newton_wire.csv"; }
+run_newton_floor() { "$(program newton_products)" floor >"$output/newton_floor.csv"; }
+run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
   local status=0
@@ -171,6 +180,10 @@ write_summary() {
   section projections "Accuracy of projections"
   section example_1 "Example 1: products of KPRGP, relative reduced gradient 1e-6"
   section wire "Wire: active constraints, relative reduced gradient 1e-9"
+  section newton_brick "Brick: products until the relative energy error is at most 1e-8"
+  section newton_wire "Wire: Newton steps to a relative reduced gradient of 1e-10"
+  section newton_floor "Where the symmetric Newton method stalls, in ε (‖A‖ ‖x‖ + ‖b‖)"
+  section active_sets "Products of the published active set methods"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

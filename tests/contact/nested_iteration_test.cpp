@@ -14,8 +14,8 @@ namespace nested_iteration_test {
 TEST_CASE("two plates: the finest solution is the same and costs less") {
   auto problems = examples::make_ladder<2>(fem::make_two_plates);
   examples::named_method const method{
-      "KPRGP", [](auto qp, double σ) {
-        return slant::kprgp{std::move(qp), {.step_length = 1.9 / σ}};
+      "KPRGP", [](auto const& problem) {
+        return slant::kprgp{problem.qp(), {.step_length = 1.9 / problem.sigma()}};
       }};
   examples::run_limits const limits{.tolerance = 1e-10};
   auto const direct = examples::run_from_zero(method, problems.at(8), limits);

@@ -69,13 +69,13 @@ class curved_face {
   /// y = Π x, the orthogonal projection onto range(G).
   template <class X, class Y>
   void keep(X const& x, Y& y) const {
-    transform(projector, slant::local(x), slant::local(y));
+    transform(range_projector, slant::local(x), slant::local(y));
   }
 
   /// y = W x, 0 off range(G).
   template <class X, class Y>
   void weigh(X const& x, Y& y) const {
-    transform(weight, slant::local(x), slant::local(y));
+    transform(range_weight, slant::local(x), slant::local(y));
   }
 
   /// y ← y + α C x.
@@ -86,14 +86,14 @@ class curved_face {
     for_each([&](auto entry, index const* component, index n) {
       for (index j = 0; j < n; ++j) {
         S sum(0);
-        for (index l = 0; l < n; ++l) sum += entry(curvature, j, l) * from.coeff(component[l]);
+        for (index l = 0; l < n; ++l) sum += entry(range_curvature, j, l) * from.coeff(component[l]);
         to.coeffRef(component[j]) += α * sum;
       }
     });
   }
 
  private:
-  enum kind : int { projector, curvature, weight };
+  enum kind : int { range_projector, range_curvature, range_weight };
 
   struct curved_block {
     std::size_t component;  // first of its components
