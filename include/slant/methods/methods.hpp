@@ -5,7 +5,6 @@
 
 // IWYU pragma: begin_exports
 #include <slant/methods/curved_minimum.hpp>
-#include <slant/methods/descent_takeover.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
