@@ -16,9 +16,7 @@
 //     classify    G, Π, C at z                                   sets/curved_face.hpp
 //     solve       t and A t                                      one product a step of CG
 //     shorten     β = 1, ½, … until ‖F(y + β dy)‖ ≤ (1 − c β) ‖F(y)‖    no product
-//     accept      y ← y + β dy
-//
-// x ∈ Λ with a gradient computed from x is what others see; y is a private matter.
+//     accept      y ← y + β dy; others see x ∈ Λ with a gradient computed from x
 //
 // Convergence, for positive definite A. Near a solution with an invertible Newton operator the
 // steps are full and superlinear [T Theorem 1.2]: of order min(forcing.exponent, that of the set).
