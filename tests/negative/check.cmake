@@ -10,7 +10,8 @@
 #   // max-lines-gcc: 20                                                  (optional)
 #   // max-lines-clang: 30                                                (optional)
 # Demanded: without SLANT_COMPLETE the compiler fails, its output matches and is not longer than
-# allowed; with it, the same file compiles. So the one missing thing is the only cause.
+# allowed; with it, the same file compiles. So the one missing thing is the only cause. The latter is
+# asked of g++ only, which takes half of the time: the message is what differs between compilers.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -70,8 +71,10 @@ if(NOT line_limit STREQUAL "" AND lines GREATER line_limit)
   fail("${lines} lines of output, at most ${line_limit} allowed:\n${output}")
 endif()
 
-compile(-DSLANT_COMPLETE status output)
-if(NOT status STREQUAL "0")
-  fail("the complete model does not compile either:\n${output}")
+if(NOT KIND STREQUAL "clang" OR CASE MATCHES "/self_check/")
+  compile(-DSLANT_COMPLETE status complete_output)
+  if(NOT status STREQUAL "0")
+    fail("the complete model does not compile either:\n${complete_output}")
+  endif()
 endif()
 message(STATUS "${lines} lines of output, as expected: ${expected}")

@@ -12,8 +12,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 template <class Solver, class G>
-slant::direction_report<double> solve(Solver const& solver, G const& g, VectorXd const& f,
-                                      VectorXd& dy) {
+slant::direction_report<double> solve_twice(Solver const& solver, G const& g, VectorXd const& f,
+                                            VectorXd& dy) {
   auto p = solver.prepare(g, f);
   auto q = p;  // states are copied, factors included or not
   static_cast<void>(solver.solve(g, f, {0, f.norm(), 0}, dy, p));
@@ -26,7 +26,7 @@ TEST_CASE("a matrix, columns, an inverse: the same direction") {
   VectorXd const exact = slanting_support::solve(m, VectorXd(-f));
   VectorXd dy(12);
   auto const check = [&](auto const& solver, auto const& g) {
-    auto const r = solve(solver, g, f, dy);
+    auto const r = solve_twice(solver, g, f, dy);
     CHECK(r.factorizations == 1);
     CHECK(r.iterations == 0);
     CHECK(r.residual_norm <= 1e-13 * f.norm());
@@ -38,7 +38,7 @@ TEST_CASE("a matrix, columns, an inverse: the same direction") {
 
   VectorXd const d = VectorXd::LinSpaced(12, 1, 7);
   auto const D = slant::diagonal<slant::self_adjoint, slant::positive_definite>(d);
-  auto const r = solve(slant::direct_solver{}, D, f, dy);
+  auto const r = solve_twice(slant::direct_solver{}, D, f, dy);
   CHECK(r.factorizations == 0);
   CHECK(r.operator_applications == 2);
   CHECK((dy + f.cwiseQuotient(d)).norm() <= 1e-15);
@@ -69,7 +69,7 @@ TEST_CASE("singular matrices, and those that are not numbers, are breakdowns") {
   MatrixXd const nan = MatrixXd::Constant(3, 3, std::nan(""));
   for (MatrixXd const& m : {MatrixXd(MatrixXd::Zero(3, 3)), singular, nan}) {
     slant::matrix_operator<MatrixXd> const g{slant::held<MatrixXd>(MatrixXd(m))};
-    auto const r = solve(slant::direct_solver{}, g, f, dy);
+    auto const r = solve_twice(slant::direct_solver{}, g, f, dy);
     CHECK(r.status == slant::status::breakdown);
     CHECK(r.residual_norm == f.norm());
     CHECK(dy == VectorXd::Zero(3));

@@ -12,8 +12,8 @@ using Eigen::VectorXd;
 using sparse_matrix = Eigen::SparseMatrix<double>;
 
 template <class Solver, class G>
-slant::direction_report<double> solve(Solver const& solver, G const& g, VectorXd const& f,
-                                      VectorXd& dy) {
+slant::direction_report<double> solve_twice(Solver const& solver, G const& g, VectorXd const& f,
+                                            VectorXd& dy) {
   auto p = solver.prepare(g, f);
   auto q = p;  // states are copied; the factors stay behind
   static_cast<void>(solver.solve(g, f, {0, f.norm(), 0}, dy, p));
@@ -38,11 +38,11 @@ TEST_CASE("sparse matrices of both orders, and columns of a composition") {
     CHECK((dy - exact).norm() <= 1e-11 * exact.norm());
   };
   A.reset_counts();
-  check(solve(slant::sparse_direct_solver{}, G, f, dy));  // 32 columns and 13
+  check(solve_twice(slant::sparse_direct_solver{}, G, f, dy));  // 32 columns and 13
   CHECK(A.applications() == 0);
-  check(solve(slant::direct_solver{}, slant::matrix(by_columns), f, dy));
+  check(solve_twice(slant::direct_solver{}, slant::matrix(by_columns), f, dy));
   auto const linear = slant::linear(by_rows);
-  check(solve(slant::direct_solver{}, linear.slant(x), f, dy));
+  check(solve_twice(slant::direct_solver{}, linear.slant(x), f, dy));
 }
 
 TEST_CASE("singular matrices, and those that are not numbers, are breakdowns") {
@@ -52,8 +52,8 @@ TEST_CASE("singular matrices, and those that are not numbers, are breakdowns") {
     sparse_matrix m = MatrixXd(MatrixXd::Constant(3, 3, entry)).sparseView();
     slant::matrix_operator<sparse_matrix> const g{slant::held<sparse_matrix>(std::move(m))};
     CAPTURE(entry);
-    for (auto const& r : {solve(slant::direct_solver{}, g, f, dy),
-                          solve(slant::sparse_direct_solver{}, g, f, dy)}) {
+    for (auto const& r : {solve_twice(slant::direct_solver{}, g, f, dy),
+                          solve_twice(slant::sparse_direct_solver{}, g, f, dy)}) {
       CHECK(r.status == slant::status::breakdown);
       CHECK(r.residual_norm == f.norm());
       CHECK(dy == VectorXd::Zero(3));
