@@ -17,13 +17,19 @@ namespace fem {
 
 /// SSN for the dual problem of a contact scene. Inner iterations to the precision of IMSSN,
 /// tol⁽ᵏ⁺¹⁾ = min(r_tol err⁽ᵏ⁾/err⁽⁰⁾, c_fact tol⁽ᵏ⁾). ρ in units of 1/A; [K Table 6]
-/// has 1.9/σ_max. state.work.operator_applications are the products with A.
-template <class QP>
-[[nodiscard]] auto make_lecture_ssn(QP const& qp, double ρ, double r_tol = 0.1,
+/// has 1.9/σ_max. The problem, a contact::dual or a separable_qp, is referenced.
+/// state.work.operator_applications are the products with A.
+template <class Problem>
+[[nodiscard]] auto make_lecture_ssn(Problem const& problem, double ρ, double r_tol = 0.1,
                                     double c_fact = 0.9) {
-  return slant::semismooth_newton{slant::natural_residual(qp.a(), qp.b(), qp.set(), ρ),
-                                  slant::bicgstab_solver{}, slant::full_step{},
-                                  slant::adaptive_precision{.r_tol = r_tol, .c_fact = c_fact}};
+  return slant::semismooth_newton{
+      slant::natural_residual(problem.a(), problem.b(), problem.set(), ρ), slant::bicgstab_solver{},
+      slant::full_step{}, slant::adaptive_precision{.r_tol = r_tol, .c_fact = c_fact}};
 }
+
+/// It would be gone before the method looks at it.
+template <class Problem>
+auto make_lecture_ssn(Problem const&& problem, double ρ, double r_tol = 0.1,
+                      double c_fact = 0.9) = delete;
 
 }  // namespace fem

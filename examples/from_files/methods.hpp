@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "newton_methods.hpp"
 #include "outcome.hpp"
@@ -56,19 +57,19 @@ inline constexpr std::tuple methods{
                  [](auto, problem const& p, auto const& dual, Eigen::VectorXd const& λ0,
                     settings const& s) { return run_symmetric_newton(p, dual, λ0, s); }},
     on_dual("kprgp", "Active sets: CG on a face, gradient projections to change it.",
-            [](auto qp) { return slant::kprgp{qp}; }),
+            [](auto qp) { return slant::kprgp{std::move(qp)}; }),
     on_dual("as_s", "kprgp with the active sets of semismooth Newton.",
-            [](auto qp) { return slant::as_s(qp); }),
+            [](auto qp) { return slant::as_s(std::move(qp)); }),
     on_dual("qpq", "Active sets by the discontinuous test that came before kprgp.",
-            [](auto qp) { return slant::qpq{qp}; }),
+            [](auto qp) { return slant::qpq{std::move(qp)}; }),
     on_dual("qpc", "Polyak's active sets: CG to the minimum of a face before it is changed.",
-            [](auto qp) { return slant::qpc{qp}; }),
+            [](auto qp) { return slant::qpc{std::move(qp)}; }),
     on_dual("gimssn", "Semismooth Newton without curvature, feasible and monotone.",
-            [](auto qp) { return slant::gimssn{qp}; }),
+            [](auto qp) { return slant::gimssn{std::move(qp)}; }),
     on_dual("imssn", "The same, neither feasible nor monotone.",
-            [](auto qp) { return slant::imssn{qp}; }),
+            [](auto qp) { return slant::imssn{std::move(qp)}; }),
     on_dual("mssn", "The same with inner systems solved accurately.",
-            [](auto qp) { return slant::mssn{qp}; }),
+            [](auto qp) { return slant::mssn{std::move(qp)}; }),
     named_method{
         "semismooth_newton",
         "Newton for the natural residual as a composition; inner solver by its laws.",

@@ -38,6 +38,7 @@ class contact_problem {
 
   [[nodiscard]] fem::contact_scene<D> const& scene() const { return scene_; }
   [[nodiscard]] auto qp() const { return dual_.qp(); }
+  [[nodiscard]] auto const& dual() const { return dual_; }
   [[nodiscard]] Eigen::VectorXd zero() const { return dual_.zero(); }
   [[nodiscard]] Eigen::VectorXd displacement(Eigen::VectorXd const& λ) const {
     return dual_.displacement(λ);

@@ -29,7 +29,7 @@ struct step_rule {
 [[nodiscard]] inline auto space_methods() {
   return std::tuple{examples::named_method{"SSN",
                                            [](auto const& problem) {
-                                             return fem::make_lecture_ssn(problem.qp(),
+                                             return fem::make_lecture_ssn(problem.dual(),
                                                                           1.9 / problem.sigma());
                                            },
                                            step_rule{}, false},
