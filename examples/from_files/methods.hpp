@@ -58,6 +58,8 @@ inline constexpr std::tuple methods{
                     settings const& s) { return run_symmetric_newton(p, dual, λ0, s); }},
     on_dual("kprgp", "Active sets: CG on a face, gradient projections to change it.",
             [](auto qp) { return slant::kprgp{std::move(qp)}; }),
+    on_dual("as", "kprgp by the name that it has on half lines and intervals.",
+            [](auto qp) { return slant::as(std::move(qp)); }),
     on_dual("as_s", "kprgp with the active sets of semismooth Newton.",
             [](auto qp) { return slant::as_s(std::move(qp)); }),
     on_dual("qpq", "Active sets by the discontinuous test that came before kprgp.",

@@ -110,7 +110,7 @@ TEST_CASE("from_files: every method by its name, from zero and from a first-orde
       check_against_reference(files, scene, result);
     }
   }
-  CHECK(methods == 14);
+  CHECK(methods == 15);
 }
 
 TEST_CASE("from_files: a body in the plane") {

@@ -52,6 +52,35 @@ TEST_CASE("where Newton's method fails KPRGP takes over, and hands back") {
   CHECK(r.state.work.setup_applications <= 20);
 }
 
+TEST_CASE(
+    "no minimum, found at any takeover; in float a search ends where β is no number any more") {
+  // Descent without end along (1, 1, 0); the third unknown alone has work to do.
+  MatrixXd const M{{1.0, -1.0, 0.0}, {-1.0, 1.0, 0.0}, {0.0, 0.0, 3.0}};
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
+  VectorXd const b{{1.0, 1.0, 2.0}};
+  slant::separable_qp const qp{A, b, slant::half_lines(3)};
+  slant::symmetric_newton_options<double> o;
+  o.halvings = 0;
+  o.sufficient = 0.999;
+  auto const r = slant::solve(slant::symmetric_newton{qp, o}, VectorXd(VectorXd::Zero(3)),
+                              slant::reduced_gradient_below(1e-10) || slant::at_most(5000));
+  CHECK(r.status == slant::status::unbounded);
+
+  test::mixture const p(1e3);
+  Eigen::MatrixXf const single = p.A.cast<float>();
+  auto const Af = slant::matrix<slant::self_adjoint, slant::positive_definite>(single);
+  Eigen::VectorXf const bf = p.b.cast<float>(), lower = p.lower.cast<float>(),
+                        g = p.g.cast<float>();
+  auto const set =
+      slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<float>(6));
+  slant::symmetric_newton_options<float> of;
+  of.sufficient = 0.99F;
+  auto const rf = slant::solve(slant::symmetric_newton{slant::separable_qp{Af, bf, set}, of},
+                               Eigen::VectorXf(Eigen::VectorXf::Zero(20)),
+                               slant::reduced_gradient_below(1e-3F) || slant::at_most(5000));
+  CHECK(rf.converged());
+}
+
 TEST_CASE("the precision is exhausted: stalled, at the floor") {
   for (double κ : {1e2, 1e8}) {
     CAPTURE(κ);

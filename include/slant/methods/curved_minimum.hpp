@@ -57,7 +57,7 @@ class curved_minimum {
         weighed_(like(prototype, preconditioned ? n : 0)),
         m_workspace_(workspace(m, prototype)) {}
 
-  /// t with ‖Π r + H t‖ ≤ target, or the best one after at most `most` steps. t has the units of r
+  /// t with ‖Π r + H t‖ ≤ target, or the last one after at most `most` steps. t has the units of r
   /// over those of A. r is the gradient at t = 0, s = mean(diag M).
   template <class A, class WA, class Face>
   inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
@@ -68,10 +68,12 @@ class curved_minimum {
     face.keep(r, g_);
     scalar size = norm(g_);
     scalar gz(0);
+    bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
       precondition(m, face, s);
       scalar const next = inner_product(g_, z_);
+      finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
       if (k == 0) {
         slant::local(p_) = -slant::local(z_);
@@ -84,6 +86,7 @@ class curved_minimum {
       face.keep(Ap_, z_);
       face.add_curvature(scalar(1) / ρ, p_, z_);
       scalar const bend = inner_product(p_, z_);
+      finite = finite && detail::is_finite(bend);
       if (!(bend > scalar(0))) break;  // a direction of the kernel of H: the step ends here
       scalar const α = gz / bend;
       slant::local(t) += α * slant::local(p_);
@@ -91,7 +94,7 @@ class curved_minimum {
       slant::local(g_) += α * slant::local(z_);
       size = norm(g_);
     }
-    return {k, size, detail::is_finite(size) && detail::is_finite(gz)};
+    return {k, size, finite && detail::is_finite(size)};
   }
 
  private:

@@ -6,6 +6,7 @@
 // follow one another without the residual tending to zero.
 #pragma once
 
+#include <slant/concepts/bad_input.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -30,17 +31,33 @@ class descent_takeover {
   /// The state of KPRGP, once there was need for it.
   [[nodiscard]] std::optional<kprgp_state<QP>> const& state() const { return state_; }
 
-  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates.
+  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if KPRGP
+  /// finds A or A x unusable, which it would refuse as input.
   template <class State>
   status begin(QP const& qp, options o, State& s, scalar const& goal) {
+    scalar const σ = state_ ? state_->σ : scalar(0);
     if (state_) o.step_length = state_->step_length;  // σ_max is known by now
-    state_.emplace(kprgp<QP const&>{qp, std::move(o)}.start(s.x));
+    try {
+      state_.emplace(kprgp<QP const&>{qp, std::move(o)}.start(s.x));
+    } catch (bad_input const&) {
+      return status::breakdown;
+    }
+    if (σ > scalar(0)) state_->σ = σ;
     s.work.setup_applications += state_->work.setup_applications;
     s.work.operator_applications += state_->work.operator_applications;
     goal_ = goal;
     at_work_ = true;
     ++count_;
     return follow(qp, s);
+  }
+
+  /// r from x, if KPRGP has been updating it; whether it has. One product.
+  template <class State>
+  bool refresh(QP const& qp, options const& o, State& s) {
+    if (!kprgp<QP const&>{qp, o}.refresh(*state_)) return false;
+    ++s.work.operator_applications;
+    s.status = follow(qp, s);
+    return true;
   }
 
   /// One step of KPRGP.

@@ -63,6 +63,7 @@ struct gradient_point {
     unit = unit_near(std::max<scalar>(length_of_b, norm(r)));
     size_of_b = length_of_b / unit;
     slant::local(r) *= scalar(1) / unit;
+    slant::local(reduced) *= scalar(1) / unit;
     return solved;
   }
 

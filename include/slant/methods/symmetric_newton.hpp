@@ -110,10 +110,7 @@ class symmetric_newton<QP, M> {
 
   /// r from x where KPRGP has been updating it; whether it has. One product.
   bool refresh(state_type& s) const {
-    if (s.since_refresh == 0) return false;
-    s.status = status::running;
-    measure(s);
-    return true;
+    return s.descent.at_work() && s.descent.refresh(qp_.get(), options_.descent, s);
   }
 
  private:
@@ -155,7 +152,9 @@ class symmetric_newton<QP, M> {
     for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
       scalar const size =
           s.segment.residual_at(qp_.get().set(), β, s.projected, s.trial) / s.step_length;
-      if (size <= (scalar(1) - options_.sufficient * β) * s.residual_norm) {
+      scalar const enough = (scalar(1) - options_.sufficient * β) * s.residual_norm;
+      if (!(enough < s.residual_norm)) return false;  // β is below the precision
+      if (size <= enough) {
         s.step_fraction = β;
         s.residual_norm = size;
         return true;
@@ -210,6 +209,7 @@ class symmetric_newton<QP, M> {
     if (s.descent.at_work() || s.status != status::running) return;
     restart(s);
     s.forcing.record(s.residual_norm);
+    s.progress = {};
   }
 
   /// ρ per unit of the gradient: z = y − ρ r.
@@ -220,7 +220,7 @@ class symmetric_newton<QP, M> {
     auto const no_energy = [] {
       return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
     };
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
+    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, no_energy)) {
       s.status = status::stalled;
     }
   }

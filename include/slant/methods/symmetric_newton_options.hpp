@@ -30,7 +30,7 @@ struct symmetric_newton_options {
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
   S sufficient = S(0.1);  ///< c in (0, 1): a step of length β lowers ‖F‖ by c β ‖F‖ at least
   index halvings = 30;   ///< β = 1, ½, …: so often at most
-  index patience = 100;  ///< steps in which ‖r̃‖ does not fall that mean stalled
+  index patience = 100;  ///< steps in which ‖F‖ does not fall that mean stalled
   kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
 
   /// Throws bad_input naming the option, its value and what was expected.
