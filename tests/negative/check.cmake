@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Checks one program that must not compile:
-#   cmake -DCOMPILER=path -DKIND=gcc|clang -DFLAGS=response_file -DCASE=file.cpp -P check.cmake
+#   cmake -DCOMPILER=path -DKIND=gcc|clang -DFLAGS=response_file -DFIRST=header -DCASE=file.cpp -P check.cmake
 #
 # The file is a complete model minus exactly one thing. That thing stands between
 # #ifdef SLANT_COMPLETE and #endif, and the first lines of the file say what the reader must be told:
@@ -36,8 +36,8 @@ endfunction()
 function(compile definition status output)
   set(ENV{LC_ALL} C)  # plain quotes in the messages
   execute_process(
-    COMMAND "${COMPILER}" "@${FLAGS}" -fsyntax-only -w -fdiagnostics-color=never ${definition}
-            "${CASE}"
+    COMMAND "${COMPILER}" "@${FLAGS}" -fsyntax-only -w -fdiagnostics-color=never -include "${FIRST}"
+            ${definition} "${CASE}"
     RESULT_VARIABLE code
     OUTPUT_VARIABLE text
     ERROR_VARIABLE text)
