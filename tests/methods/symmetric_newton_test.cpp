@@ -38,6 +38,7 @@ TEST_CASE("the same steps as Newton's method for the natural residual") {
   slant::semismooth_newton const generic{slant::natural_residual(A, p.b, set, s.step_length),
                                          slant::direct_solver{}};
   auto g = generic.start(s.x);
+  int compared = 0;
   for (int k = 0; k < 12 && s.status == slant::status::running; ++k) {
     method.step(s);
     if (s.step_fraction != 1.0) break;  // the two searches differ
@@ -45,8 +46,9 @@ TEST_CASE("the same steps as Newton's method for the natural residual") {
     if (g.length != 1.0) break;
     CAPTURE(k);
     CHECK((s.segment.y - g.x).norm() <= 1e-10 * (1 + g.x.norm()));
+    ++compared;
   }
-  CHECK(s.iteration >= 2);
+  CHECK(compared >= 3);
   auto const r = slant::solve(generic, x0, slant::residual_below(1e-13) || slant::at_most(100));
   auto const ours =
       slant::solve(method, x0, slant::reduced_gradient_below(1e-13) || slant::at_most(100));
