@@ -10,6 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <support/effort.hpp>
 
 namespace preconditioner_test {
 
@@ -29,7 +30,8 @@ MatrixXd dense_of(auto const& op) {
 }
 
 TEST_CASE("D B K B' D, with its laws, and a better condition than A alone") {
-  auto const scene = fem::make_steel_brick({.k = 3, .load = fem::brick_load::press});
+  auto const scene =
+      fem::make_steel_brick({.k = test::effort(3, 2), .load = fem::brick_load::press});
   auto const data = test::contact_data(scene);
   slant::contact::dual const dual(slant::contact::friction_disc{}, slant::factorize(scene.K), data);
   // Two bodies have rows of length √2: scale some.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <support/allocation_guard.hpp>
+#include <support/effort.hpp>
 #include <utility>
 
 namespace tresca_test {
@@ -37,7 +38,7 @@ void check_against_reference(Friction friction, Eigen::SparseMatrix<double> cons
 TEST_CASE("bricks with friction, with one tangent, without friction: as the reference") {
   for (auto const load : fem::brick_loads) {
     CAPTURE(fem::name_of(load));
-    auto const scene = fem::make_steel_brick({.k = 2, .load = load});
+    auto const scene = fem::make_steel_brick({.k = test::effort(2, 1), .load = load});
     check_against_reference(contact::friction_disc{}, scene.K, test::contact_data(scene));
     check_against_reference(contact::friction_line{}, scene.K, test::one_tangent(scene));
     check_against_reference(contact::frictionless{}, scene.K, test::frictionless_data(scene));

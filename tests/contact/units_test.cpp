@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <contact/scenes.hpp>
+#include <support/effort.hpp>
 
 namespace units_test {
 
@@ -17,7 +18,8 @@ using Eigen::VectorXd;
 
 // K in s, f in t: displacements and gaps in t/s, forces and slip bounds in t.
 TEST_CASE("units change neither status nor iterations nor errors") {
-  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const scene =
+      fem::make_steel_brick({.k = test::effort(2, 1), .load = fem::brick_load::lift});
   auto plain = test::contact_data(scene);
   plain.d.array() += 1e-6;
   VectorXd const exact = test::reference(scene.K, plain).u;

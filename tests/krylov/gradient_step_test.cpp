@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <support/effort.hpp>
 
 namespace gradient_step_test {
 
@@ -16,7 +17,7 @@ using Eigen::VectorXd;
 TEST_CASE(
     "the length is best for small condition numbers, near 2/σ_max for large ones, always safe") {
   for (double κ : {1.0, 1.5, 3.0, 10.0, 1e6}) {
-    for (Eigen::Index n : {5, 40, 200}) {
+    for (Eigen::Index n : {5, 40, test::effort(200, 60)}) {
       auto const M = test::with_spectrum(test::log_spaced(n, κ));
       double const σ = M.operatorNorm();
       auto const step = slant::safe_gradient_step(test::spd(M), VectorXd(n), 1.9);

@@ -10,12 +10,13 @@
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
+#include <support/effort.hpp>
 
 namespace kprgp_wire_test {
 
 TEST_CASE("KPRGP finds the printed numbers of active constraints of the wire up to n = 256") {
   for (auto const& printed : fem::printed_wire_counts)
-    for (std::size_t entry = 0; printed.unknowns(entry) <= 256; ++entry) {
+    for (std::size_t entry = 0; printed.unknowns(entry) <= test::effort(256, 64); ++entry) {
       auto const m = static_cast<Eigen::Index>(printed.m(entry));
       CAPTURE(printed.l);
       CAPTURE(printed.g);

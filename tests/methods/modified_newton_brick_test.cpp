@@ -13,15 +13,12 @@
 
 #include <contact/scenes.hpp>
 #include <string>
+#include <support/effort.hpp>
 
 namespace modified_newton_brick_test {
 
 TEST_CASE("a brick pressed down: the energy error is small, the price is known") {
-#ifdef __OPTIMIZE__
-  int const k = 3;
-#else  // With sanitizers a product takes fifty times as long; they see as much on a smaller mesh.
-  int const k = 2;
-#endif
+  int const k = test::effort(3, 2);
   auto const scene = fem::make_steel_brick({.k = k, .load = fem::brick_load::press});
   auto const data = test::contact_data(scene);
   auto const reference = test::reference(scene.K, data);

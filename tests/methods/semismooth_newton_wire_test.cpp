@@ -14,12 +14,13 @@
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
+#include <support/effort.hpp>
 
 namespace semismooth_newton_wire_test {
 
 TEST_CASE("all printed numbers of active constraints up to n = 256, in at most 30 steps") {
   for (auto const& printed : fem::printed_wire_counts) {
-    for (std::size_t entry = 0; printed.unknowns(entry) <= 256; ++entry) {
+    for (std::size_t entry = 0; printed.unknowns(entry) <= test::effort(256, 64); ++entry) {
       auto const m = static_cast<Eigen::Index>(printed.m(entry));
       CAPTURE(printed.l);
       CAPTURE(printed.g);

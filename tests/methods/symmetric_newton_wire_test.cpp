@@ -12,6 +12,7 @@
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
+#include <support/effort.hpp>
 
 namespace symmetric_newton_wire_test {
 
@@ -42,11 +43,7 @@ slant::index check_cell(fem::wire_counts const& printed, std::size_t entry) {
 }
 
 TEST_CASE("every cell of the wire's tables from zero, those where the thesis failed included") {
-#ifdef __OPTIMIZE__
-  std::size_t const entries = 7;  // n = 2048
-#else
-  std::size_t const entries = 4;
-#endif
+  std::size_t const entries = test::effort(7, 3);  // n = 2048 or 128
   for (auto const& printed : fem::printed_wire_counts) {
     for (std::size_t entry = 0; entry < entries; ++entry) {
       // The thesis needs up to 223 steps where bounds alone are active; the front moves by a node.

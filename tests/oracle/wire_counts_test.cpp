@@ -5,6 +5,7 @@
 #include <optional>
 #include <oracle/certificate.hpp>
 #include <oracle/wire_reference.hpp>
+#include <support/effort.hpp>
 
 namespace wire_counts_test {
 
@@ -13,7 +14,7 @@ TEST_CASE("the wire has the printed numbers of active and free constraints up to
     CAPTURE(printed.l);
     CAPTURE(printed.g);
     std::optional<oracle::wire_reference> coarse;
-    for (std::size_t entry = 0; printed.unknowns(entry) <= 256; ++entry) {
+    for (std::size_t entry = 0; printed.unknowns(entry) <= test::effort(256, 64); ++entry) {
       CAPTURE(printed.unknowns(entry));
       auto solution =
           oracle::solve_wire(printed.m(entry), printed.l, printed.g, coarse ? &*coarse : nullptr);

@@ -16,6 +16,7 @@
 #include <fem/string_1d.hpp>
 
 #include <Eigen/Core>
+#include <support/effort.hpp>
 
 namespace kkt_function_test {
 
@@ -117,7 +118,7 @@ TEST_CASE("the laws of slanting functions, also where the set is ellipses and in
   VectorXd const b = random_vector(7, 6);
   auto const F = slant::kkt(A, b, set, 0.5);
   CHECK(F.multipliers() == 6);
-  for (unsigned seed = 1; seed <= 5; ++seed) {
+  for (unsigned seed = 1; seed <= test::effort(5U, 1U); ++seed) {
     slant::testing::check_slanting_laws(F, VectorXd(2 * random_vector(13, seed)),
                                         random_vector(13, 50 + seed));
   }
