@@ -5,6 +5,7 @@
 
 // IWYU pragma: begin_exports
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/equilibrated.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>

@@ -6,6 +6,7 @@
 // IWYU pragma: begin_exports
 #include <slant/sets/ball.hpp>
 #include <slant/sets/block_product.hpp>
+#include <slant/sets/block_scaled.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+//
+// The same quadratic program in unknowns of similar stiffness. With x = D y,
+//
+//     minimise   ½ yᵀ(D A D) y − (D b)ᵀy   over   y ∈ D⁻¹Λ,        D = diag(d),
+//
+// where d is one factor for each block. With d = mean(diag A over the block)^(−1/2) every block has
+// the stiffness 1: among all such D one that comes within a factor of the number of blocks of the
+// smallest condition number of D A D [van der Sluis 1969].
+//
+// Methods whose steps have one length for all blocks (the gradient steps of kprgp, ρ in the natural
+// residual of symmetric_newton) need it where the stiffness of the blocks differs by orders of
+// magnitude: bodies of steel and rubber, nodes of very different weights, unknowns of different
+// units. They see a separable_qp like any other, and ‖r̃‖ is then measured in roots of energy.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/checks.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/congruence.hpp>
+#include <slant/operators/diagonal.hpp>
+#include <slant/sets/block_scaled.hpp>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace slant {
+
+/// d_j = (mean of a over the block of j)^(−1/2), where a = diag(A); 1 where that mean is 0.
+/// Throws bad_input unless a has the size of the set and finite entries ≥ 0.
+template <class C, class S>
+[[nodiscard]] auto block_factors(C const& set, Eigen::Matrix<S, Eigen::Dynamic, 1> const& a) {
+  using std::sqrt;
+  detail::check_size("diagonal", index(a.size()), slant::dimension_of(set),
+                     "the dimension of the set,");
+  Eigen::Matrix<S, Eigen::Dynamic, 1> d(a.size());
+  for (index j = 0; j < a.size(); ++j) {
+    if (!(a(j) >= S(0) && detail::is_finite(a(j)))) {
+      throw bad_input("diagonal(" + std::to_string(j) + ")", detail::show(a(j)),
+                      "a finite number >= 0");
+    }
+    d(j) = a(j) > S(0) ? S(S(1) / sqrt(a(j))) : S(1);
+  }
+  slant::visit_blocks(set, [&](auto const& block, auto const& p) {
+    if constexpr (!whole_space<std::remove_cvref_t<decltype(block)>>) {
+      S sum(0);
+      for (index j = 0; j < p.size(); ++j) sum += a(p.component(j)) / S(p.size());
+      S const factor = sum > S(0) ? S(S(1) / sqrt(sum)) : S(1);
+      for (index j = 0; j < p.size(); ++j) d(p.component(j)) = factor;
+    }
+  });
+  return d;
+}
+
+/// A quadratic program in unknowns y with x = D y: `auto const scaled = equilibrated(qp);
+/// auto r = solve(symmetric_newton{scaled.qp()}, scaled.from(x0), stop); scaled.back(r.x())`.
+/// References the operator and the set of the problem, which must outlive it.
+template <class QP>
+class equilibrated {
+ public:
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+  using factors = Eigen::Matrix<scalar, Eigen::Dynamic, 1>;
+
+  /// d from the diagonal of A, which A must give.
+  explicit equilibrated(QP const& qp)
+    requires has_diagonal<typename QP::operator_type, vector_type>
+      : equilibrated(qp, factors_of(qp)) {}
+
+  /// d: one factor for each unknown, the same all over a block. For an A that does not give its
+  /// diagonal, `block_factors` makes them of an estimate.
+  /// Throws bad_input as block_scaled does.
+  equilibrated(QP const& qp, factors d) : original_(&qp), d_(std::move(d)), b_(qp.b()) {
+    detail::check_block_factors(d_, qp.set());
+    slant::local(b_) = slant::local(b_).cwiseProduct(d_);
+  }
+
+  /// D.
+  [[nodiscard]] factors const& d() const { return d_; }
+
+  /// min ½ yᵀ(D A D) y − (D b)ᵀy over D⁻¹Λ. References this object.
+  [[nodiscard]] auto qp() const& {
+    return separable_qp{congruence(full_row_rank(diagonal<positive_definite>(d_)), original_->a()),
+                        b_, block_scaled(factors(d_.cwiseInverse()), original_->set())};
+  }
+  auto qp() const&& = delete;  // it would reference what is about to end
+
+  /// y of x.
+  [[nodiscard]] vector_type from(vector_type x) const {
+    detail::check_size("x", index(slant::local(x).size()), original_->size());
+    slant::local(x) = slant::local(x).cwiseQuotient(d_);
+    return x;
+  }
+  /// x of y.
+  [[nodiscard]] vector_type back(vector_type y) const {
+    detail::check_size("y", index(slant::local(y).size()), original_->size());
+    slant::local(y) = slant::local(y).cwiseProduct(d_);
+    return y;
+  }
+
+ private:
+  static factors factors_of(QP const& qp) {
+    vector_type a = like(qp.b(), qp.size());
+    qp.a().diagonal(a);
+    return block_factors(qp.set(), factors(slant::local(a)));
+  }
+
+  QP const* original_;
+  factors d_;
+  vector_type b_;
+};
+
+}  // namespace slant
