@@ -6,10 +6,9 @@
 //                                    and with a preconditioner, and nested (k/2 → k); for k ≤ 8 the
 //                                    error that KPRGP, IMSSN and GIMSSN reach in 5000 products
 //     newton_products wire [N]       Newton steps from zero and on each level of nested iteration
-//     newton_products floor          the accuracy at which it stalls, beside the condition of A
 //
 // prints comma-separated values. Exit status 1 if a run does not converge, or misses a limit: 250
-// products, nested 120; 6 Newton steps on a level of the wire; 100 ε of the terms of A x − b.
+// products, nested 120; 6 Newton steps on a level of the wire.
 
 #include <slant/contact/optimality.hpp>
 #include <slant/factorizations/ldlt.hpp>
@@ -25,7 +24,6 @@
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
 #include <fem/wire_prolongation.hpp>
-#include <methods/mixture.hpp>
 #include <support/contact_methods.hpp>
 #include <support/problem_ladder.hpp>
 
@@ -33,7 +31,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -186,28 +183,6 @@ bool wires(int largest) {
   return good;
 }
 
-/// ‖r̃‖ at the end of a run that asks for all digits, over ε (‖A‖ ‖x‖ + ‖b‖), what the terms of A x
-/// − b are rounded against.
-bool floors() {
-  std::printf("kappa,steps,status,reduced_gradient_over_eps\n");
-  bool good = true;
-  double const ε = std::numeric_limits<double>::epsilon();
-  for (double const κ : {1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14}) {
-    test::mixture const p(κ);
-    auto const A = test::spd(p.A);
-    auto const set = p.set();
-    slant::separable_qp const qp{A, p.b, set};
-    auto const r = slant::solve(slant::symmetric_newton{qp}, vector(vector::Zero(20)),
-                                slant::reduced_gradient_below(0.0) || slant::at_most(3000));
-    double const terms = p.A.norm() * r.x().norm() + p.b.norm();
-    double const floor = r.state.reduced_gradient_norm / (ε * terms);
-    std::printf("%g,%td,%s,%.2g\n", κ, r.iterations(), slant::to_string(r.status).data(), floor);
-    bool const done = r.status == slant::status::stalled || r.status == slant::status::converged;
-    good = good && done && floor <= 100;
-  }
-  return good;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -219,10 +194,8 @@ int main(int argc, char** argv) {
     good = bricks(numbers.empty() ? std::vector<int>{4, 6, 8, 12, 16} : numbers);
   } else if (what == "wire") {
     good = wires(numbers.empty() ? 2048 : numbers.front());
-  } else if (what == "floor") {
-    good = floors();
   } else {
-    std::fprintf(stderr, "usage: newton_products brick [K...] | wire [N] | floor\n");
+    std::fprintf(stderr, "usage: newton_products brick [K...] | wire [N]\n");
     return 2;
   }
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

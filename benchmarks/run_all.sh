@@ -70,7 +70,7 @@ run_projections() { "$(program projection_errors)" >"$output/projections.csv"; }
 run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"; }
 run_newton_brick() { "$(program newton_products)" brick >"$output/newton_brick.csv"; }
 run_newton_wire() { "$(program newton_products)" wire >"$output/newton_wire.csv"; }
-run_newton_floor() { "$(program newton_products)" floor >"$output/newton_floor.csv"; }
+run_newton_floor() { "$(program newton_floor)" >"$output/newton_floor.csv"; }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
@@ -182,7 +182,7 @@ write_summary() {
   section wire "Wire: active constraints, relative reduced gradient 1e-9"
   section newton_brick "Brick: products until the relative energy error is at most 1e-8"
   section newton_wire "Wire: Newton steps to a relative reduced gradient of 1e-10"
-  section newton_floor "Where the symmetric Newton method stalls, in ε (‖A‖ ‖x‖ + ‖b‖)"
+  section newton_floor "Where the symmetric Newton method stalls, in multiples of the rounding of its terms"
   section active_sets "Products of the published active set methods"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }

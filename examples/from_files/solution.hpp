@@ -37,18 +37,25 @@ namespace detail {
          ", so the multipliers grow without bound";
 }
 
-/// A start and what it cost.
-struct first_phase {
-  Eigen::VectorXd λ;
-  slant::work work{};
-};
-
+/// λ = 0, or where the first-order method ends; its outcome then.
 template <class Dual>
-[[nodiscard]] first_phase find_start(Dual const& dual, settings const& s) {
-  if (s.start == start_point::zero) return {dual.zero()};
-  auto r = slant::solve(slant::qpc{dual.qp()}, dual.zero(),
-                        slant::reduced_gradient_below(0.1) || slant::at_most(s.max_iterations));
-  return {std::move(r.state.x), r.state.work};
+[[nodiscard]] outcome find_start(Dual const& dual, settings const& s) {
+  if (s.start == start_point::qpc) {
+    settings rough = s;
+    rough.tolerance = 0.1;
+    return run_on_dual(slant::qpc{dual.qp()}, dual.zero(), rough);
+  }
+  return {.status = slant::status::converged,
+          .reason = {},
+          .iterations = 0,
+          .work = {},
+          .started = clock::now(),
+          .λ = dual.zero()};
+}
+
+/// Is there no point in going on from where a run has ended?
+[[nodiscard]] inline bool hopeless(slant::status s) {
+  return s == slant::status::unbounded || s == slant::status::breakdown;
 }
 
 template <class Friction>
@@ -58,11 +65,16 @@ template <class Friction>
   auto const factor = slant::factorize(p.K);
   slant::contact::dual const dual(friction, factor, p.contact);
   solution result;
-  first_phase const start = find_start(dual, s);
-  with_method(method,
-              [&](auto const& chosen) { result.run = chosen.run(friction, p, dual, start.λ, s); });
-  result.run.work.operator_applications += start.work.operator_applications;
-  result.run.work.setup_applications += start.work.setup_applications;
+  outcome const start = find_start(dual, s);
+  with_method(method, [&](auto const& chosen) {
+    if (hopeless(start.status)) {
+      result.run = start;
+      return;
+    }
+    result.run = chosen.run(friction, p, dual, start.λ, s);
+    result.run.work.operator_applications += start.work.operator_applications;
+    result.run.work.setup_applications += start.work.setup_applications;
+  });
   if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
   result.u = dual.displacement(result.run.λ);
   auto const end = clock::now();

@@ -199,12 +199,15 @@ TEST_CASE("from_files: a problem without solution is not solved") {
   one_spring const files;
   files.put("N.mtx", coordinate + "2 1 2\n1 1 1\n2 1 -1\n");
   files.put("d.txt", "0.5\n-0.6\n");
-  auto const ran = files.solve();
-  CHECK(ran.status == 1);
-  REQUIRE(is_one_line(ran.out));
-  json const result = json::parse(ran.out);
-  CHECK(result["status"] == "unbounded");
-  CHECK(result["reason"].get<std::string>().starts_with("no u satisfies N u <= d, "));
+  for (auto const* const start : {"--start zero", "--start qpc"}) {
+    auto const ran = files.solve(start);
+    CHECK(ran.status == 1);
+    REQUIRE(is_one_line(ran.out));
+    json const result = json::parse(ran.out);
+    CHECK(result["status"] == "unbounded");
+    CHECK(result["reason"].get<std::string>().starts_with("no u satisfies N u <= d, "));
+    CHECK(result["iterations"] <= 10);
+  }
 
   // u = 0 by friction, and -u <= -0.6.
   files.put("N.mtx", coordinate + "1 1 1\n1 1 -1\n");
