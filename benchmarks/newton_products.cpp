@@ -106,6 +106,12 @@ bool bricks(std::vector<int> const& sizes) {
       slant::symmetric_newton const preconditioned{p.qp(), p.preconditioner(), o};
       good =
           run_brick(name, k, "Newton with M", preconditioned, p.zero(), error, 250, true) && good;
+      auto const S = p.dirichlet();
+      auto tight = o;
+      tight.forcing.η_max = tight.forcing.η_first = 0.1;
+      good = run_brick(name, k, "Newton with Dirichlet", slant::symmetric_newton{p.qp(), S, tight},
+                       p.zero(), error, 250, true) &&
+             good;
       if (k % 2 == 0) {
         auto const& coarse = problems.at(k / 2);
         auto const start =

@@ -6,6 +6,7 @@
 #include <fem/contact_prolongation.hpp>
 #include <fem/contact_scene.hpp>
 #include <ranges>
+#include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
@@ -46,6 +47,10 @@ class contact_problem {
   /// M ≈ A⁻¹.
   [[nodiscard]] auto preconditioner() const {
     return slant::contact::lumped_preconditioner(scene_.K, dual_.constraints());
+  }
+  /// A better M ≈ A⁻¹, which costs a factorisation.
+  [[nodiscard]] auto dirichlet() const {
+    return slant::contact::dirichlet_preconditioner(scene_.K, dual_.constraints());
   }
   /// An upper bound of σ_max(A).
   [[nodiscard]] double sigma() const { return σ_; }

@@ -19,10 +19,9 @@ struct step_rule {
 
 /// Columns beside [K Table 5]. KPRGP with intervals is the lecture's AS.
 [[nodiscard]] inline auto plane_methods() {
-  return std::tuple{
-      examples::gimssn("GIMSSN 1.9", 1.9), examples::as_s("AS-S 20", 20),
-      examples::kprgp("AS 1.9", 1.9),      examples::kprgp("AS 15", 15),
-      examples::newton("Newton"),          examples::preconditioned_newton("Newton, M")};
+  return std::tuple{examples::gimssn("GIMSSN 1.9", 1.9), examples::as_s("AS-S 20", 20),
+                    examples::kprgp("AS 1.9", 1.9),      examples::kprgp("AS 15", 15),
+                    examples::newton("Newton"),          examples::dirichlet_newton("Newton, M")};
 }
 
 /// Columns beside [K Table 6].
@@ -37,7 +36,7 @@ struct step_rule {
                     examples::gimssn("GIMSSN", 1.9),
                     examples::kprgp("KPRGP", 1.9),
                     examples::newton("Newton"),
-                    examples::preconditioned_newton("Newton, M")};
+                    examples::dirichlet_newton("Newton, M")};
 }
 
 }  // namespace two_bodies

@@ -5,6 +5,7 @@
 
 // IWYU pragma: begin_exports
 #include <slant/contact/contact_data.hpp>
+#include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>

@@ -9,8 +9,8 @@
 // back to forces as if their neighbours did not move.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
 #include <slant/concepts/laws.hpp>
+#include <slant/contact/detail/scaled_constraints.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <Eigen/SparseCore>
@@ -25,16 +25,7 @@ namespace slant::contact {
 template <class S>
 [[nodiscard]] auto lumped_preconditioner(Eigen::SparseMatrix<S> const& K,
                                          Eigen::SparseMatrix<S> const& B) {
-  slant::detail::check_size("columns of K", K.cols(), K.rows(), "as many as rows,");
-  slant::detail::check_size("columns of B", B.cols(), K.rows(), "the size of K,");
-  Eigen::Matrix<S, Eigen::Dynamic, 1> D = Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(B.rows());
-  for (index j = 0; j < B.outerSize(); ++j) {
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(B, j); e; ++e) {
-      D(e.row()) += e.value() * e.value();
-    }
-  }
-  for (S& d : D) d = d > S(0) ? S(S(1) / d) : S(0);
-  Eigen::SparseMatrix<S> const scaled = D.asDiagonal() * B;
+  Eigen::SparseMatrix<S> const scaled = detail::scaled_constraints(K, B);
   Eigen::SparseMatrix<S> const forces = K * Eigen::SparseMatrix<S>(scaled.transpose());
   Eigen::SparseMatrix<S> M = scaled * forces;
   return slant::matrix<self_adjoint, positive_semidefinite>(std::move(M));
