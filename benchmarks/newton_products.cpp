@@ -118,8 +118,11 @@ bool bricks(std::vector<int> const& sizes) {
             slant::solve(slant::symmetric_newton{coarse.qp(), coarse.preconditioner()},
                          coarse.zero(), slant::reduced_gradient_below(1e-8) || slant::at_most(200));
         auto const P = fem::contact_prolongation(coarse.scene(), p.scene());
-        good = run_brick(name, k, "Newton with M nested", preconditioned, vector(P * start.x()),
-                         error, 120, true) &&
+        vector const λ0 = P * start.x();
+        good = run_brick(name, k, "Newton with M nested", preconditioned, λ0, error, 120, true) &&
+               good;
+        good = run_brick(name, k, "Newton with Dirichlet nested",
+                         slant::symmetric_newton{p.qp(), S, tight}, λ0, error, 120, true) &&
                good;
       }
       if (k > 8) continue;

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <fem/two_plates.hpp>
+#include <support/dense_of.hpp>
 #include <support/effort.hpp>
 
 namespace dirichlet_preconditioner_test {
@@ -17,24 +18,12 @@ using Eigen::MatrixXd;
 using Eigen::SparseMatrix;
 using Eigen::VectorXd;
 
-MatrixXd dense_of(auto const& op) {
-  MatrixXd m(op.rows(), op.cols());
-  for (Eigen::Index j = 0; j < op.cols(); ++j) {
-    VectorXd const e = VectorXd::Unit(op.cols(), j);
-    VectorXd y(op.rows());
-    auto w = slant::workspace(op, e);
-    slant::apply(op, e, y, w);
-    m.col(j) = y;
-  }
-  return m;
-}
-
 TEST_CASE("one body: M is the inverse of A") {
   auto const scene = fem::make_steel_brick({.k = test::effort(3, 2)});
   auto const data = test::contact_data(scene);
   slant::contact::dual const dual(slant::contact::friction_disc{}, slant::factorize(scene.K), data);
   auto const M = slant::contact::dirichlet_preconditioner(scene.K, dual.constraints());
-  MatrixXd const product = dense_of(M) * dense_of(dual.a());
+  MatrixXd const product = test::dense_of(M) * test::dense_of(dual.a());
   CHECK((product - MatrixXd::Identity(product.rows(), product.cols())).norm() <= 1e-10);
   slant::testing::check_operator_laws(M);
 }
@@ -54,7 +43,7 @@ TEST_CASE("two bodies, rows of any length: as computed by hand from dense blocks
   VectorXd const D = stacked.rowwise().squaredNorm().cwiseInverse();
   MatrixXd const expected = D.asDiagonal() * stacked(Eigen::all, c) * S *
                             stacked(Eigen::all, c).transpose() * D.asDiagonal();
-  CHECK((dense_of(M) - expected).norm() <= 1e-12 * expected.norm());
+  CHECK((test::dense_of(M) - expected).norm() <= 1e-12 * expected.norm());
 }
 
 TEST_CASE("nothing but contact unknowns, rows on which nothing acts, sizes that do not fit") {
@@ -64,7 +53,7 @@ TEST_CASE("nothing but contact unknowns, rows on which nothing acts, sizes that 
   B.insert(0, 1) = 1.0;
   B.insert(2, 0) = 2.0;
   auto const M = slant::contact::dirichlet_preconditioner(K, B);
-  CHECK(dense_of(M) == MatrixXd(VectorXd{{4.0, 0.0, 0.5}}.asDiagonal()));
+  CHECK(test::dense_of(M) == MatrixXd(VectorXd{{4.0, 0.0, 0.5}}.asDiagonal()));
   CHECK_THROWS_AS(
       static_cast<void>(slant::contact::dirichlet_preconditioner(K, SparseMatrix<double>(3, 5))),
       slant::bad_input);

@@ -10,24 +10,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <support/dense_of.hpp>
 #include <support/effort.hpp>
 
 namespace preconditioner_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd dense_of(auto const& op) {
-  MatrixXd m(op.rows(), op.cols());
-  for (Eigen::Index j = 0; j < op.cols(); ++j) {
-    VectorXd const e = VectorXd::Unit(op.cols(), j);
-    VectorXd y(op.rows());
-    auto w = slant::workspace(op, e);
-    slant::apply(op, e, y, w);
-    m.col(j) = y;
-  }
-  return m;
-}
 
 TEST_CASE("D B K B' D, with its laws, and a better condition than A alone") {
   auto const scene =
@@ -42,16 +31,16 @@ TEST_CASE("D B K B' D, with its laws, and a better condition than A alone") {
   auto const M = slant::contact::lumped_preconditioner(scene.K, B);
   MatrixXd const D = MatrixXd(B * B.transpose()).diagonal().cwiseInverse().asDiagonal();
   MatrixXd const expected = D * MatrixXd(B) * MatrixXd(scene.K) * MatrixXd(B).transpose() * D;
-  CHECK((dense_of(M) - expected).norm() <= 1e-14 * expected.norm());
+  CHECK((test::dense_of(M) - expected).norm() <= 1e-14 * expected.norm());
   slant::testing::check_operator_laws(M);
 
   auto const plain = slant::contact::lumped_preconditioner(scene.K, dual.constraints());
-  MatrixXd const A = dense_of(dual.a());
+  MatrixXd const A = test::dense_of(dual.a());
   auto const condition = [](MatrixXd const& m) {
     VectorXd const e = m.eigenvalues().cwiseAbs();
     return e.maxCoeff() / e.minCoeff();
   };
-  CHECK(condition(dense_of(plain) * A) < condition(A) / 3);
+  CHECK(condition(test::dense_of(plain) * A) < condition(A) / 3);
 }
 
 TEST_CASE("rows on which nothing acts, and sizes that do not fit") {
@@ -59,7 +48,7 @@ TEST_CASE("rows on which nothing acts, and sizes that do not fit") {
   K.setIdentity();
   B.insert(1, 2) = 2.0;
   auto const M = slant::contact::lumped_preconditioner(K, B);
-  CHECK(dense_of(M) == MatrixXd(VectorXd{{0.0, 0.25}}.asDiagonal()));
+  CHECK(test::dense_of(M) == MatrixXd(VectorXd{{0.0, 0.25}}.asDiagonal()));
   CHECK_THROWS_WITH(static_cast<void>(slant::contact::lumped_preconditioner(
                         K, Eigen::SparseMatrix<double>(2, 4))),
                     "columns of B: got 4, expected the size of K, 3");
