@@ -18,7 +18,8 @@ namespace fem {
 /// The problem with nx × ny interior nodes; TORSION1 (c = 5), TORSION3 (10), TORSION5 (20) in
 /// CUTEst. Throws std::invalid_argument for a grid without nodes.
 template <class S = double>
-[[nodiscard]] membrane<S> make_elastic_torsion(Eigen::Index nx, Eigen::Index ny, S const& c = S(5)) {
+[[nodiscard]] membrane<S> make_elastic_torsion(Eigen::Index nx, Eigen::Index ny,
+                                               S const& c = S(5)) {
   rectangle_grid<S> const grid{.nx = nx, .ny = ny};
   auto const distance = [](S const& x, S const& y) {
     return std::min(std::min<S>(x, S(1) - x), std::min<S>(y, S(1) - y));

@@ -65,8 +65,7 @@ class five_point {
       line.noalias() = diagonal_.asDiagonal() * here;
       line.bottomRows(nx_ - 1).noalias() -= inner * here.topRows(nx_ - 1);
       line.topRows(nx_ - 1).noalias() -= inner * here.bottomRows(nx_ - 1);
-      if (j > 0)
-        line.noalias() -= along_y_.asDiagonal() * from.middleRows(nx_ * (j - 1), nx_);
+      if (j > 0) line.noalias() -= along_y_.asDiagonal() * from.middleRows(nx_ * (j - 1), nx_);
       if (j + 1 < ny_)
         line.noalias() -= along_y_.asDiagonal() * from.middleRows(nx_ * (j + 1), nx_);
     }
@@ -74,8 +73,7 @@ class five_point {
   template <class Y>
     requires std::same_as<slant::scalar_t<Y>, S>
   void diagonal(Y& d) const {
-    for (Eigen::Index j = 0; j < ny_; ++j)
-      slant::local(d).middleRows(nx_ * j, nx_) = diagonal_;
+    for (Eigen::Index j = 0; j < ny_; ++j) slant::local(d).middleRows(nx_ * j, nx_) = diagonal_;
   }
   /// A as a matrix.
   [[nodiscard]] Eigen::SparseMatrix<S> matrix() const {

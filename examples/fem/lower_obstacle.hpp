@@ -22,9 +22,7 @@ template <class S = double>
   rectangle_grid<S> const grid{.nx = nx, .ny = ny};
   return make_membrane(
       grid, [](S const&) { return S(1); }, constant(S(1)),
-      [](S const& x, S const& y) {
-        return S(sin(S(16) / S(5) * x) * sin(S(33) / S(10) * y));
-      },
+      [](S const& x, S const& y) { return S(sin(S(16) / S(5) * x) * sin(S(33) / S(10) * y)); },
       no_upper_bound<S>());
 }
 

@@ -51,8 +51,7 @@ template <class S, class Function>
                                                            Function const& f) {
   Eigen::Matrix<S, Eigen::Dynamic, 1> values(grid.size());
   for (Eigen::Index j = 0; j < grid.ny; ++j)
-    for (Eigen::Index i = 0; i < grid.nx; ++i)
-      values[grid.unknown(i, j)] = f(grid.x(i), grid.y(j));
+    for (Eigen::Index i = 0; i < grid.nx; ++i) values[grid.unknown(i, j)] = f(grid.x(i), grid.y(j));
   return values;
 }
 
