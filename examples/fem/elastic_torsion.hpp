@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include <fem/membrane.hpp>
 
@@ -19,7 +20,7 @@ namespace fem {
 /// CUTEst. Throws std::invalid_argument for a grid without nodes.
 template <class S = double>
 [[nodiscard]] membrane<S> make_elastic_torsion(Eigen::Index nx, Eigen::Index ny,
-                                               S const& c = S(5)) {
+                                               std::type_identity_t<S> const& c = S(5)) {
   rectangle_grid<S> const grid{.nx = nx, .ny = ny};
   auto const distance = [](S const& x, S const& y) {
     return std::min(std::min<S>(x, S(1) - x), std::min<S>(y, S(1) - y));

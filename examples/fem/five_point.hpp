@@ -12,9 +12,10 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cmath>
+#include <concepts>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
-#include <utility>
 
 #include <fem/rectangle_grid.hpp>
 
@@ -29,18 +30,17 @@ class five_point {
   /// Every node hangs on the edges through a chain of positive weights.
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
-  /// Of the weight w(x) > 0. Throws std::invalid_argument for a grid without nodes, or if a weight
-  /// is not a positive finite number.
+  /// Of the weight w(x) > 0. Throws std::invalid_argument for a grid that is none, or if w is not a
+  /// positive finite number at a node.
   template <class Weight>
   five_point(rectangle_grid<S> const& grid, Weight const& w)
       : nx_(grid.nx), ny_(grid.ny), along_x_(grid.nx + 1), along_y_(grid.nx) {
-    require_nodes(grid);
+    require_grid(grid);
     S const slope = grid.hy() / grid.hx();
-    for (Eigen::Index i = 0; i <= nx_; ++i)
-      along_x_[i] = checked(slope * (w(grid.x(i - 1)) + w(grid.x(i))) / S(2));
+    auto const at = [&](Eigen::Index i) { return checked(w(grid.x(i))); };
+    for (Eigen::Index i = 0; i <= nx_; ++i) along_x_[i] = slope * (at(i - 1) + at(i)) / S(2);
     for (Eigen::Index i = 0; i < nx_; ++i)
-      along_y_[i] =
-          checked((w(grid.x(i - 1)) + S(4) * w(grid.x(i)) + w(grid.x(i + 1))) / (S(6) * slope));
+      along_y_[i] = (at(i - 1) + S(4) * at(i) + at(i + 1)) / (S(6) * slope);
     diagonal_ = along_x_.head(nx_) + along_x_.tail(nx_) + S(2) * along_y_;
   }
 

@@ -21,8 +21,8 @@ namespace fem {
 template <class S>
 [[nodiscard]] Eigen::SparseMatrix<S> grid_prolongation(rectangle_grid<S> const& coarse,
                                                        rectangle_grid<S> const& fine) {
-  require_nodes(coarse);
-  require_nodes(fine);
+  require_grid(coarse);
+  require_grid(fine);
   require(coarse.width == fine.width, "width", fine.width, "that of the coarse grid");
   require(coarse.height == fine.height, "height", fine.height, "that of the coarse grid");
   auto const in_x = interpolate(coarse.all_x(), fine.all_x());

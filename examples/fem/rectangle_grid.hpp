@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include <fem/require.hpp>
@@ -55,11 +56,15 @@ template <class S, class Function>
   return values;
 }
 
-/// Throws std::invalid_argument unless there is an interior node, and no more than 2³⁰ of them.
+/// Throws std::invalid_argument unless there are interior nodes, no more than 2¹⁵ in a direction,
+/// in a rectangle of positive finite size.
 template <class S>
-void require_nodes(rectangle_grid<S> const& grid) {
+void require_grid(rectangle_grid<S> const& grid) {
+  using std::isfinite;
   require(grid.nx >= 1 && grid.nx <= (1 << 15), "nx", grid.nx, "between 1 and 2^15 nodes");
   require(grid.ny >= 1 && grid.ny <= (1 << 15), "ny", grid.ny, "between 1 and 2^15 nodes");
+  require(grid.width > S(0) && isfinite(grid.width), "width", grid.width, "a positive number");
+  require(grid.height > S(0) && isfinite(grid.height), "height", grid.height, "a positive number");
 }
 
 }  // namespace fem
