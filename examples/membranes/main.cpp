@@ -2,6 +2,8 @@
 //
 // Obstacle problems of the literature on grids, matrix-free: elastic–plastic torsion, journal
 // bearing, a membrane over an obstacle and between two; printed optimal values beside ours.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <fem/membrane_contact.hpp>
 #include <fem/membrane_vtu.hpp>
@@ -18,9 +20,9 @@ namespace {
 using membranes::settings;
 
 std::string formatted(char const* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
 }
 
 /// "100 × 100".
@@ -103,7 +105,7 @@ int main(int argc, char** argv) {
                "membranes");
   app.footer(std::string(examples::exit_status_help));
   settings s;
-  auto const one_of = [](std::string const& expectation, std::vector<std::string> names) {
+  auto const one_of = [](std::string const& expectation, std::vector<std::string> const& names) {
     return examples::expects<std::string>(expectation, [names](std::string const& name) {
       return std::find(names.begin(), names.end(), name) != names.end();
     });

@@ -12,6 +12,7 @@
 #include <fem/lower_obstacle.hpp>
 #include <fem/printed_membranes.hpp>
 #include <optional>
+#include <ranges>
 #include <slant/iteration/nested.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/separable_qp.hpp>
@@ -90,8 +91,8 @@ class membrane_problem {
   while (!s.from_zero && sizes.back().first > 15 && sizes.back().second > 15)
     sizes.emplace_back(sizes.back().first / 2, sizes.back().second / 2);
   std::vector<membrane_problem> levels;
-  for (auto size = sizes.rbegin(); size != sizes.rend(); ++size)
-    levels.emplace_back(make(problem, s, size->first, size->second));
+  for (auto const& [nx, ny] : std::views::reverse(sizes))
+    levels.emplace_back(make(problem, s, nx, ny));
   return levels;
 }
 
