@@ -180,6 +180,20 @@ TEST_CASE("from a coarse grid: few steps, however fine the grid is") {
   check([](int n) { return fem::make_double_obstacle<>(n, n); });
 }
 
+TEST_CASE("bounds on one side may as well be half lines") {
+  auto const m = fem::make_journal_bearing<>(12, 9);
+  VectorXd const zero = VectorXd::Zero(m.grid.size());
+  auto const set = slant::half_lines(m.lower);
+  auto const by_half_lines =
+      slant::solve(slant::symmetric_newton{slant::separable_qp{m.A, m.b, set},
+                                           fem::incomplete_five_point<>(m.A),
+                                           {.step_length = 2 / m.A.largest_eigenvalue_bound()}},
+                   zero, slant::reduced_gradient_below(1e-12) || slant::at_most(300));
+  auto const by_intervals = run_newton(m, m.A, zero);
+  CHECK(by_half_lines.state.work == by_intervals.state.work);
+  CHECK((by_half_lines.x() - by_intervals.x()).isZero(0));
+}
+
 TEST_CASE("data out of range are refused") {
   CHECK_THROWS_WITH_AS((void)fem::make_journal_bearing<>(3, 3, {.eccentricity = 1}),
                        "eccentricity: got 1, expected a number in (0, 1)", std::invalid_argument);
