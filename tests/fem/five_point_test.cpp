@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <fem/five_point.hpp>
+#include <limits>
+#include <numbers>
+#include <oracle/naive_membrane.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/operator_laws.hpp>
+#include <string>
+
+#include "support/allocation_guard.hpp"
+
+namespace five_point_test {
+
+constexpr double ε = std::numeric_limits<double>::epsilon();
+
+template <class S>
+S weight(S const& x) {
+  using std::cos;
+  S const gap = S(1) + S(0.5) * cos(x);
+  return S(gap * gap * gap);
+}
+
+fem::five_point<> some_operator(int nx, int ny) {
+  return {fem::rectangle_grid<>{nx, ny, 6.2, 3}, weight<double>};
+}
+
+TEST_CASE("it keeps its word") {
+  static_assert(slant::spd_operator<fem::five_point<>, Eigen::VectorXd>);
+  static_assert(slant::has_diagonal<fem::five_point<>, Eigen::VectorXd>);
+  static_assert(!slant::linear_operator<fem::five_point<float>, Eigen::VectorXd>);
+  slant::testing::check_operator_laws(some_operator(7, 5));
+  slant::testing::check_operator_laws(some_operator(1, 4));
+  slant::testing::check_operator_laws(some_operator(3, 1));
+  slant::testing::check_operator_laws(some_operator(1, 1));
+  slant::testing::check_operator_laws(some_operator(4, 3),
+                                      slant::testing::archetype::vector(Eigen::VectorXd()));
+}
+
+TEST_CASE("without a matrix the same as with one, and as the sum over the triangles") {
+  for (auto const& [nx, ny] : {std::pair{6, 4}, {1, 5}, {5, 1}, {1, 1}}) {
+    auto const a = some_operator(nx, ny);
+    Eigen::SparseMatrix<double> const A = a.matrix();
+    Eigen::MatrixXd const naive =
+        oracle::naive_stiffness(nx, ny, 6.2L, 3, weight<long double>).cast<double>();
+    CHECK((Eigen::MatrixXd(A) - naive).cwiseAbs().maxCoeff() <= 8 * ε * naive.maxCoeff());
+    CHECK((Eigen::MatrixXd(A) - Eigen::MatrixXd(A).transpose()).isZero(0));
+
+    Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(nx * ny, -1, 3).array().sin();
+    Eigen::VectorXd y(nx * ny), d(nx * ny);
+    a.apply(x, y);
+    a.diagonal(d);
+    Eigen::VectorXd const terms = A.cwiseAbs() * x.cwiseAbs();
+    CHECK(((y - A * x).cwiseAbs() - 8 * ε * terms).maxCoeff() <= 0);
+    CHECK((d - Eigen::VectorXd(A.diagonal())).isZero(0));
+  }
+}
+
+// sin(jπx/width) sin(kπy/height) on the nodes is an eigenvector of the Laplacian.
+TEST_CASE("eigenvalues of the Laplacian in closed form") {
+  fem::rectangle_grid<> const grid{.nx = 9, .ny = 6, .width = 2, .height = 3};
+  fem::five_point<> const a(grid, [](double) { return 1.0; });
+  double const π = std::numbers::pi;
+  for (int j : {1, 4, 9})
+    for (int k : {1, 6}) {
+      Eigen::VectorXd const v = fem::at_nodes(grid, [&](double x, double y) {
+        return std::sin(j * π * x / 2) * std::sin(k * π * y / 3);
+      });
+      double const in_x = 2 * std::sin(j * π / 20) / grid.hx();
+      double const in_y = 2 * std::sin(k * π / 14) / grid.hy();
+      double const λ = grid.hx() * grid.hy() * (in_x * in_x + in_y * in_y);
+      Eigen::VectorXd y(v.size());
+      a.apply(v, y);
+      CHECK((y - λ * v).norm() < 1e-13 * a.largest_eigenvalue_bound() * v.norm());
+      CHECK(λ < a.largest_eigenvalue_bound());
+    }
+}
+
+TEST_CASE("the bound of the spectrum holds where the weight varies, and is not far off") {
+  auto const a = some_operator(8, 9);
+  double const bound = a.largest_eigenvalue_bound();
+  Eigen::MatrixXd const A = a.matrix();
+  CHECK((bound * Eigen::MatrixXd::Identity(72, 72) - A).llt().info() == Eigen::Success);
+  Eigen::VectorXd zigzag(72);  // where the weight is large
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 9; ++j) zigzag[i + 8 * j] = i < 2 ? ((i + j) % 2 == 0 ? 1 : -1) : 0;
+  CHECK(zigzag.dot(A * zigzag) > bound / 2 * zigzag.squaredNorm());
+}
+
+TEST_CASE("the energy of a linear function is that of its slope") {
+  // v = x on the nodes of a line, except for the last edge, where it falls to zero.
+  fem::rectangle_grid<> const grid{.nx = 4, .ny = 1, .width = 5, .height = 2};
+  fem::five_point<> const a(grid, [](double) { return 3.0; });
+  Eigen::VectorXd const v = fem::at_nodes(grid, [](double x, double) { return x; });
+  Eigen::VectorXd y(4);
+  a.apply(v, y);
+  // Triangles of area 1/2 with weight 3: slopes in x four times 1 and once −4, in y twice v/1.
+  CHECK(v.dot(y) == doctest::Approx(3 * (4 + 16) + 2 * 3 * (1 + 4 + 9 + 16)));
+}
+
+TEST_CASE("an application does not allocate") {
+  auto const a = some_operator(6, 5);
+  Eigen::VectorXd const x = Eigen::VectorXd::Ones(30);
+  Eigen::VectorXd y(30);
+  slant::testing::allocation_guard guard;
+  a.apply(x, y);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+TEST_CASE("what is no grid and what is no weight") {
+  auto const one = [](double) { return 1.0; };
+  using grid = fem::rectangle_grid<>;
+  CHECK_THROWS_WITH_AS((void)fem::five_point<>(grid{0, 3, 1, 1}, one),
+                       "nx: got 0, expected between 1 and 2^15 nodes", std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::five_point<>(grid{3, -1, 1, 1}, one),
+                       "ny: got -1, expected between 1 and 2^15 nodes", std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::five_point<>(grid{3, 3, 1, 1}, [](double x) { return 0.5 - x; }),
+                       "w: got 0, expected a positive finite weight", std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::five_point<>(grid{3, 3, 0, 1}, one),
+                       "width: got 0, expected a positive number", std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::five_point<>(grid{3, 3, 1, INFINITY}, one),
+                       "height: got inf, expected a positive number", std::invalid_argument);
+  CHECK_THROWS_AS((void)fem::five_point<>(grid{3, 3, 1, 1}, [](double) { return NAN; }),
+                  std::invalid_argument);
+}
+
+}  // namespace five_point_test
