@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Is it a solution? The conditions of [K (23), (26)], computed from the scene and the solution in
+// physical units, by no code that any method uses.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include <fem/stokes_dual.hpp>
+#include <fem/stokes_flow.hpp>
+#include <fem/stokes_scene.hpp>
+
+namespace fem {
+
+/// Violations. All but the flows are relative: 0 at the solution, 1 is as wrong as nothing at all.
+struct stokes_balance {
+  double momentum;     ///< ‖A_κ u + Cᵀλ − l‖ over the sum of the norms of its terms
+  double mass;         ///< ‖B u − E p − c‖ over the same
+  double penetration;  ///< max |u_n| over the largest velocity
+  double above_bound;  ///< max (|λ_t,i| − ω g)₊ over max |λ_t,i|
+  double wrong_slip;   ///< Σ |λ_t u_t − ω g |u_t|| over Σ |λ_t| max |u|: the law of the wall
+  double inflow;       ///< ∮ (−u·n)₊ over the edges outside the wall, volume per time
+  double outflow;      ///< ∮ (u·n)₊
+
+  [[nodiscard]] double residual() const {
+    return std::max({momentum, mass, penetration, above_bound, wrong_slip});
+  }
+};
+
+/// The violations of a solution, whose flow is measured through the edges of the domain.
+[[nodiscard]] inline stokes_balance check_balance(planar_domain const& domain,
+                                                  stokes_scene const& scene,
+                                                  stokes_solution const& s) {
+  auto const over = [](double part, double whole) { return part > 0 ? part / whole : 0.0; };
+  Eigen::Matrix2Xd const velocity = scene.velocity(s.u);
+  double const speed = velocity.colwise().norm().maxCoeff();
+  stokes_balance balance{};
+
+  Eigen::VectorXd const Au = scene.A * s.u;
+  Eigen::VectorXd const wall = scene.T.transpose() * s.tangential + scene.N.transpose() * s.normal;
+  Eigen::VectorXd const Bp = scene.B.transpose() * s.p;
+  balance.momentum =
+      over((Au + wall + Bp - scene.l).norm(), Au.norm() + wall.norm() + Bp.norm() + scene.l.norm());
+  Eigen::VectorXd const Bu = scene.B * s.u;
+  Eigen::VectorXd const Ep = scene.E * s.p;
+  balance.mass = over((Bu - Ep - scene.c).norm(), Bu.norm() + Ep.norm() + scene.c.norm());
+
+  if (scene.wall_count() > 0) {
+    Eigen::ArrayXd const u_t = (scene.T * s.u).array();
+    Eigen::ArrayXd const λ_t = s.tangential.array();
+    balance.penetration = over((scene.N * s.u).cwiseAbs().maxCoeff(), speed);
+    balance.above_bound =
+        over(std::max(0.0, (λ_t.abs() - scene.g.array()).maxCoeff()), λ_t.abs().maxCoeff());
+    double wrong = 0;
+    for (Eigen::Index i = 0; i < u_t.size(); ++i)
+      if (u_t[i] != 0) wrong += std::abs(λ_t[i] * u_t[i] - scene.g[i] * std::abs(u_t[i]));
+    balance.wrong_slip = over(wrong, λ_t.abs().sum() * speed);
+  }
+  for (auto const& edge : domain.boundary) {
+    double const flow =
+        domain.outward(edge).dot(velocity.col(edge.from) + velocity.col(edge.to)) / 2;
+    (flow < 0 ? balance.inflow : balance.outflow) += std::abs(flow);
+  }
+  return balance;
+}
+
+}  // namespace fem
