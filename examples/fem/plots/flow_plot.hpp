@@ -140,7 +140,7 @@ inline void plot_states(std::ostringstream& out, char const* columns, wall_field
   out << "set origin 0.47,0\nset size 0.53,0.62\nset size noratio\nset key top right\n"
       << "set title 'Shear stress along the obstacle' noenhanced\n"
       << "set xlabel 'position on the obstacle, degrees from downstream' tc rgb '#555555'\n"
-      << "set xrange [-180:180]\nset xtics 60\nset autoscale y\nset offsets 0,0,graph 0.15,graph "
+      << "set xrange [-180:180]\nset xtics 60\nset autoscale y\nset offsets 0,0,graph 0.35,graph "
          "0.05\nset grid ytics lt 1 lw 1 lc rgb '#E4E4E4'\n"
       << "plot ";
   if (field.bound.allFinite())
