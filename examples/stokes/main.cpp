@@ -38,7 +38,7 @@ int solve_flow(settings const& s) {
   auto const solution = problem.dual().solution(run.dual);
   auto const field = fem::make_wall_field(problem.scene(), solution);
   stokes::print_result(s.method, run, field);
-  stokes::print_balance(fem::check_balance(flow.domain, problem.scene(), solution));
+  stokes::print_balance(fem::check_balance(flow, problem.scene(), solution));
   if (!s.output.empty())
     stokes::write_output(s.output, problem.scene(), solution, field, s.channel);
   return run.work.converged() ? examples::succeeded : examples::not_converged;

@@ -75,7 +75,7 @@ errors solve(int cells) {
                               slant::reduced_gradient_below(1e-10) || slant::at_most(100));
   REQUIRE(r.converged());
   auto const solution = dual.solution(r.x());
-  CHECK(fem::check_balance(flow.domain, scene, solution).residual() < 1e-9);
+  CHECK(fem::check_balance(flow, scene, solution).residual() < 1e-9);
   auto const field = fem::make_wall_field(scene, solution);
 
   errors e{};
