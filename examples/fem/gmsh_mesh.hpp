@@ -12,17 +12,17 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <slant/io/text_scanner.hpp>
 #include <string>
-#include <system_error>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fem/gmsh_scanner.hpp>
 #include <fem/planar_domain.hpp>
 
 namespace fem {
@@ -36,7 +36,7 @@ class gmsh_reader {
 
   [[nodiscard]] planar_domain read() {
     read_format();
-    while (next_line()) {
+    while (scan_.next_line()) {
       std::string const section(scan_.word());
       if (section == "$PhysicalNames") {
         read_names();
@@ -46,7 +46,7 @@ class gmsh_reader {
         read_elements();
       } else if (section.size() > 1 && section[0] == '$' && !section.starts_with("$End")) {
         std::string const end = "$End" + section.substr(1);
-        while (require_line(end), scan_.line() != end) {
+        while (scan_.require_line(end), scan_.line() != end) {
         }
       } else {
         scan_.refuse(slant::detail::quoted(scan_.line()), "the beginning of a section, $Name");
@@ -62,46 +62,8 @@ class gmsh_reader {
     slant::index at;  ///< line of the file
   };
 
-  bool next_line() {
-    while (scan_.next_line())
-      if (!scan_.is_blank()) return true;
-    return false;
-  }
-  void require_line(std::string_view expectation) {
-    if (!next_line()) scan_.refuse("the end of the file", expectation);
-  }
-  void expect_line(std::string_view line) {
-    require_line(line);
-    if (scan_.word() != line || !scan_.word().empty())
-      scan_.refuse(slant::detail::quoted(scan_.line()), line);
-  }
-
-  /// The next word as a number; nothing else may be in it.
-  template <class T>
-  T number(std::string_view expectation) {
-    std::string_view const word = scan_.word();
-    T value{};
-    auto const [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || error != std::errc{} || rest != word.data() + word.size())
-      scan_.refuse(word.empty() ? "the end of the line" : slant::detail::quoted(word), expectation);
-    return value;
-  }
-  /// How many lines follow; a file cannot hold more than its bytes allow.
-  slant::index count(std::string_view expectation) {
-    require_line(expectation);
-    auto const n = number<slant::index>(expectation);
-    scan_.expect_end_of_line("nothing after the number of lines");
-    if (n < 0 || n > scan_.bytes_left() / 2)
-      scan_.refuse(std::to_string(n), "a number of lines that the file can hold");
-    return n;
-  }
-  double coordinate() {
-    auto const x = number<double>("a coordinate");
-    if (!std::isfinite(x)) scan_.refuse(std::to_string(x), "a finite coordinate");
-    return x;
-  }
   int node() {
-    auto const id = number<int>("the number of a node");
+    auto const id = scan_.number<int>("the number of a node");
     auto const found = nodes_.find(id);
     if (found == nodes_.end()) scan_.refuse(std::to_string(id), "the number of a node in $Nodes");
     used_[static_cast<std::size_t>(found->second)] = true;
@@ -109,20 +71,20 @@ class gmsh_reader {
   }
 
   void read_format() {
-    expect_line("$MeshFormat");
-    require_line("2.2 0 8");
+    scan_.expect_line("$MeshFormat");
+    scan_.require_line("2.2 0 8");
     bool const version = scan_.word() == "2.2";
     if (!version || scan_.word() != "0")
       scan_.refuse(slant::detail::quoted(scan_.line()),
                    "2.2 0 8, Gmsh's text format 2.2 (gmsh -format msh22)");
-    expect_line("$EndMeshFormat");
+    scan_.expect_line("$EndMeshFormat");
   }
 
   void read_names() {
-    for (slant::index left = count("the number of names"); left > 0; --left) {
-      require_line("a dimension, a number and a name");
-      auto const dimension = number<int>("a dimension");
-      auto const tag = number<int>("the number of a physical group");
+    for (slant::index left = scan_.count("the number of names"); left > 0; --left) {
+      scan_.require_line("a dimension, a number and a name");
+      auto const dimension = scan_.number<int>("a dimension");
+      auto const tag = scan_.number<int>("the number of a physical group");
       std::string_view const word = scan_.word();
       if (word.size() < 3 || word.front() != '"' || word.back() != '"')
         scan_.refuse(slant::detail::quoted(word), "a name in double quotes, without blanks");
@@ -131,38 +93,38 @@ class gmsh_reader {
         scan_.refuse(std::to_string(tag), "a number that has no name yet");
       domain_.parts.emplace_back(word.substr(1, word.size() - 2));
     }
-    expect_line("$EndPhysicalNames");
+    scan_.expect_line("$EndPhysicalNames");
   }
 
   void read_nodes() {
     if (!nodes_.empty()) scan_.refuse("$Nodes", "only one section of that name");
-    auto const n = count("the number of nodes");
+    auto const n = scan_.count("the number of nodes");
     if (n > std::numeric_limits<int>::max() / 6) scan_.refuse(std::to_string(n), "fewer nodes");
     domain_.mesh.nodes.resize(2, n);
     used_.assign(static_cast<std::size_t>(n), false);
     for (int i = 0; i < n; ++i) {
-      require_line("a node: number, x, y, z");
-      auto const id = number<int>("the number of a node");
+      scan_.require_line("a node: number, x, y, z");
+      auto const id = scan_.number<int>("the number of a node");
       if (!nodes_.try_emplace(id, i).second)
         scan_.refuse(std::to_string(id), "a number that no node has yet");
-      domain_.mesh.nodes(0, i) = coordinate();
-      domain_.mesh.nodes(1, i) = coordinate();
-      if (double const z = coordinate(); z != 0)
+      domain_.mesh.nodes(0, i) = scan_.coordinate();
+      domain_.mesh.nodes(1, i) = scan_.coordinate();
+      if (double const z = scan_.coordinate(); z != 0)
         scan_.refuse(std::to_string(z), "z = 0, a plane mesh");
       scan_.expect_end_of_line("three coordinates");
     }
-    expect_line("$EndNodes");
+    scan_.expect_line("$EndNodes");
   }
 
   void read_elements() {
-    for (slant::index left = count("the number of elements"); left > 0; --left) {
-      require_line("an element: number, type, tags, nodes");
-      number<int>("the number of an element");
-      auto const type = number<int>("the type of an element");
-      auto const tags = number<int>("the number of tags");
+    for (slant::index left = scan_.count("the number of elements"); left > 0; --left) {
+      scan_.require_line("an element: number, type, tags, nodes");
+      scan_.number<int>("the number of an element");
+      auto const type = scan_.number<int>("the type of an element");
+      auto const tags = scan_.number<int>("the number of tags");
       if (tags < 1 || tags > 100) scan_.refuse(std::to_string(tags), "one tag or more");
-      auto const group = number<int>("the number of a physical group");
-      for (int i = 1; i < tags; ++i) number<int>("a tag");
+      auto const group = scan_.number<int>("the number of a physical group");
+      for (int i = 1; i < tags; ++i) scan_.number<int>("a tag");
       if (type == 15) continue;
       if (type == 1) {
         auto const part = parts_.find(group);
@@ -177,7 +139,7 @@ class gmsh_reader {
       }
       scan_.expect_end_of_line("as many nodes as the type has");
     }
-    expect_line("$EndElements");
+    scan_.expect_line("$EndElements");
   }
 
   void add_triangle() {
@@ -222,7 +184,7 @@ class gmsh_reader {
     return std::move(domain_);
   }
 
-  slant::detail::line_scanner scan_;
+  gmsh_scanner scan_;
   planar_domain domain_{};
   std::map<int, int> parts_{};  // physical group → part
   std::map<int, int> nodes_{};  // number in the file → column

@@ -75,6 +75,9 @@ class stokes_dual {
     b_.tail(n_p_) -= S_p * scene.c;
   }
 
+  stokes_dual(Factorization const&&, stokes_scene const&,
+              dual_units = dual_units::balanced) = delete;  // the factors would be gone
+
   /// A, never formed.
   [[nodiscard]] auto a() const& {
     return slant::declare<slant::positive_definite>(
