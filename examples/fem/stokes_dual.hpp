@@ -89,7 +89,9 @@ class stokes_dual {
   auto a() const&& = delete;
   /// Λ, in the units of μ.
   [[nodiscard]] auto set() const {
-    return slant::cartesian(slant::intervals(radii_), slant::free_components(m_ + n_p_));
+    // λ_n and p apart: methods that treat parts of a set alike should tell the two.
+    return slant::cartesian(slant::intervals(radii_), slant::free_components(m_),
+                            slant::free_components(n_p_));
   }
   /// The dual problem; refers to this object.
   [[nodiscard]] auto qp() const& { return slant::separable_qp{a(), b_, set()}; }

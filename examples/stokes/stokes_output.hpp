@@ -66,7 +66,7 @@ inline void print_balance(fem::stokes_balance const& b) {
   std::printf("  mass           B u - E p = c                    %.1e\n", b.mass);
   std::printf("  wall           u_n = 0                          %.1e\n", b.penetration);
   std::printf("                 |sigma_t + kappa u_t| <= g       %.1e\n", b.above_bound);
-  std::printf("                 sigma_t u_t + g|u_t| + kappa u_t^2 = 0   %.1e\n", b.wrong_slip);
+  std::printf("                 stick or slip                    %.1e\n", b.wrong_slip);
   std::printf("  flow           in %.10g, out %.10g\n", b.inflow, b.outflow);
 }
 
