@@ -112,6 +112,7 @@ int main(int argc, char** argv) {
       ->check(examples::expects_at_least(0));
   app.add_flag("--table", table, "Table 4 up to this refinement, all methods, instead of one flow");
   app.add_option("--meshes", s.meshes, "folder of channel_1.msh ...")
+      ->default_str("meshes beside main.cpp")
       ->check(examples::expects_name());
   app.add_option("--output", s.output, "folder for flow.vtu (ParaView) and the picture flow.png")
       ->check(examples::expects_name());
