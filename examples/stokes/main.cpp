@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+//
+// Stokes flow past a round obstacle on which the fluid sticks or slips [K §2.2, Example 4], and the
+// products of the lecture's Table 4 beside ours.
+#include <chrono>
+#include <fem/channel_flow.hpp>
+#include <fem/stokes_table.hpp>
+#include <support/command_line.hpp>
+#include <support/text_table.hpp>
+
+#include "channel_mesh.hpp"
+#include "methods.hpp"
+#include "stokes_output.hpp"
+
+namespace {
+
+struct settings {
+  int refinement = 2;
+  fem::channel_options channel{};
+  std::string method = "newton";
+  examples::run_limits limits{.tolerance = 1e-8};
+  std::filesystem::path meshes = SLANT_EXAMPLE_MESHES;
+  std::filesystem::path output{};
+};
+
+int solve_flow(settings const& s) {
+  auto const flow = make_channel_flow(stokes::read_mesh(s.meshes, s.refinement), s.channel);
+  if (!s.output.empty()) examples::make_folder("--output", s.output);
+
+  auto const start = std::chrono::steady_clock::now();
+  stokes::flow_problem const problem(flow);
+  double const setup =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  auto const mesh = stokes::mesh_file(s.meshes, s.refinement).filename().string();
+  stokes::print_problem(problem, s.channel, mesh, setup);
+
+  auto const run = stokes::run(s.method, problem, s.limits);
+  auto const solution = problem.dual().solution(run.dual);
+  auto const field = fem::make_wall_field(problem.scene(), solution);
+  stokes::print_result(s.method, run, field);
+  stokes::print_balance(fem::check_balance(flow, problem.scene(), solution));
+  if (!s.output.empty())
+    stokes::write_output(s.output, problem.scene(), solution, field, s.channel);
+  return run.work.converged() ? examples::succeeded : examples::not_converged;
+}
+
+/// Steps/products of every method beside the printed ones.
+int print_table(settings const& s) {
+  std::printf(
+      "Stokes flow with a stick-slip wall [K Table 4]: printed products of the active-set (AS) "
+      "and\n"
+      "path-following (PF) methods; ours: steps/products to a relative accuracy of %g\n\n",
+      s.limits.tolerance);
+  std::vector<std::string> names{"n_u/n_p/n_c", "g", "AS", "PF"};
+  examples::for_each_method(stokes::methods(),
+                            [&](auto const& method) { names.push_back(method.name); });
+  examples::text_table const table(names);
+  table.print_head();
+  bool converged = true;
+  for (auto const& printed : fem::lecture_table_4) {
+    if (printed.refinement > s.refinement) break;
+    auto const domain = stokes::read_mesh(s.meshes, printed.refinement);
+    for (std::size_t column = 0; column < fem::lecture_slip_bounds.size(); ++column) {
+      double const g = fem::lecture_slip_bounds[column];
+      stokes::flow_problem const problem(
+          fem::make_channel_flow(domain, {.slip_bound = g, .adhesion = s.channel.adhesion}));
+      auto const& scene = problem.scene();
+      int const as = printed.active_set[column];
+      std::vector<std::string> line{
+          std::to_string(scene.velocity_count()) + "/" + std::to_string(scene.pressure_count()) +
+              "/" + std::to_string(scene.wall_count()),
+          std::to_string(static_cast<int>(g)), as == 0 ? ">200000" : std::to_string(as),
+          std::to_string(printed.path_following[column])};
+      examples::for_each_method(stokes::methods(), [&](auto const& method) {
+        auto const run = stokes::run(method.name, problem, s.limits);
+        converged = converged && run.work.converged();
+        line.push_back(examples::steps_and_products(run.work));
+      });
+      table.print_row(line);
+    }
+  }
+  std::printf("\n%s\n", converged ? "all runs converged" : "some runs did not converge");
+  return converged ? examples::succeeded : examples::not_converged;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Stokes flow past an obstacle on which the fluid sticks or slips.", "stokes");
+  app.footer(std::string(examples::exit_status_help));
+  app.option_defaults()->always_capture_default();
+  settings s;
+  bool table = false;
+  auto const not_negative = [](char const* expectation) {
+    return examples::expects<double>(expectation,
+                                     [](double x) { return x >= 0 && std::isfinite(x); });
+  };
+  app.add_option("--refinement", s.refinement, "mesh 1 to 4; 1 and 2 are shipped")
+      ->check(examples::expects<int>("a whole number from 1 to 4", [](int k) {
+        return k >= 1 && k <= stokes::finest_refinement;
+      }));
+  app.add_option("--g", s.channel.slip_bound, "slip bound of the obstacle, a stress")
+      ->check(not_negative("a finite number >= 0"));
+  app.add_option("--kappa", s.channel.adhesion, "adhesion of the obstacle, a stress per velocity")
+      ->check(not_negative("a finite number >= 0"));
+  app.add_option("--method", s.method, stokes::method_names())
+      ->check(examples::expects<std::string>(
+          stokes::method_names(), [](std::string const& name) { return stokes::is_method(name); }));
+  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
+      ->check(examples::expects_tolerance());
+  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most")
+      ->check(examples::expects_at_least(0));
+  app.add_flag("--table", table, "Table 4 up to this refinement, all methods, instead of one flow");
+  app.add_option("--meshes", s.meshes, "folder of channel_1.msh ...")
+      ->default_str("meshes beside main.cpp")
+      ->check(examples::expects_name());
+  app.add_option("--output", s.output, "folder for flow.vtu (ParaView) and the picture flow.png")
+      ->check(examples::expects_name());
+  return examples::run_program(app, argc, argv,
+                               [&] { return table ? print_table(s) : solve_flow(s); });
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// The program stokes: does it run, say the right thing, write its files, and name what is missing?
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "run_program.hpp"
+
+namespace {
+
+using examples_test::contains;
+using examples_test::is_one_line;
+using examples_test::run;
+using examples_test::word;
+
+}  // namespace
+
+TEST_CASE("stokes: problem, result, proof and files") {
+  io_test::temporary_folder const folder;
+  auto const output = folder / "new/flow";
+  auto const ran = run("stokes", "--refinement 1 --g 10 --output " + word(output.string()));
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  for (auto const* expected :
+       {"862 velocities, 526 pressures, 30 wall nodes", "586 unknowns, 30 of them bounded",
+        "status         converged", "6 stick, 24 slip", "u_n = 0",
+        "flow           in 0.07875, out "
+        "0.07875"})
+    CHECK(contains(ran.out, expected));
+  CHECK(contains(io_test::get(output / "flow.vtu"), "wall_state"));
+  bool const drawn = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  CHECK(contains(ran.out, "wrote " + (output / "flow.png").string()) == drawn);
+  CHECK(io_test::get(output / "flow.png").starts_with("\x89PNG") == drawn);
+}
+
+TEST_CASE("stokes: the table, by all methods") {
+  auto const ran = run("stokes", "--table --refinement 1 --tolerance 1e-6");
+  CHECK(ran.status == 0);
+  CHECK(contains(ran.out, "862/526/30       10     6867      208"));
+  CHECK(contains(ran.out, "862/526/30       30      682      181"));
+  CHECK(contains(ran.out, "all runs converged\n"));
+}
+
+TEST_CASE("stokes: not converged is not success") {
+  auto const ran = run("stokes", "--refinement 1 --method active_set --max-iterations 3");
+  CHECK(ran.status == 1);
+  CHECK(contains(ran.out, "iteration_limit: reached the limit of 3 steps"));
+}
+
+TEST_CASE("stokes: what cannot be used is named in one line") {
+  auto const refused = [](std::string const& options, std::string const& expected) {
+    auto const ran = run("stokes", options);
+    CAPTURE(ran.err);
+    CHECK(ran.status == 2);
+    CHECK(ran.out == "");
+    CHECK(is_one_line(ran.err));
+    CHECK(contains(ran.err, expected));
+  };
+  io_test::temporary_folder const folder;
+  auto const empty = word(folder.path().string());
+  refused("--meshes " + empty + " --refinement 3", "examples/stokes/make_mesh 3 makes it");
+  io_test::put(folder / "channel_1.msh", "solid\n");
+  refused("--meshes " + empty + " --refinement 1", "channel_1.msh:1: got 'solid'");
+  refused("--refinement 5", "--refinement: got 5, expected a whole number from 1 to 4");
+  refused("--g -1", "--g: got -1, expected a finite number >= 0");
+  refused("--kappa nan", "--kappa: got nan");
+  refused("--method simplex", "--method: got simplex, expected newton");
+}
