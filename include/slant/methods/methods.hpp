@@ -4,11 +4,17 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/barrier.hpp>
+#include <slant/methods/barrier_minimum.hpp>
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/interior_point_options.hpp>
+#include <slant/methods/interior_point_state.hpp>
+#include <slant/methods/interior_start.hpp>
 #include <slant/methods/kkt_vector.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
