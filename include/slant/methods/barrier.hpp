@@ -12,8 +12,8 @@
 // by a power of two σ_i such that z_i is of the order of the distance to the boundary; multipliers
 // are then forces, whatever form a block gives to its inequality.
 //
-// W is semidefinite although the f of a cone is not convex: with z = −f(x), ν_i (∇²f_i + ∇f_i ∇f_iᵀ
-// / z_i) is ν_i z_i times the Hessian of −log(−f_i), and that is convex.
+// W is semidefinite even where an f_i is not convex: with z = −f(x), ν_i (∇²f_i + ∇f_i ∇f_iᵀ/z_i)
+// is ν_i z_i times the Hessian of −log(−f_i), and that is convex for cones as well.
 #pragma once
 
 #include <slant/concepts/checks.hpp>

@@ -22,11 +22,12 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_problem.hpp>
 #include <slant/methods/interior_point_state.hpp>
 #include <slant/methods/interior_start.hpp>
+#include <slant/methods/recession.hpp>
 #include <slant/methods/separable_qp.hpp>
 
 #include <algorithm>
@@ -74,7 +75,7 @@ class interior_point<QP> {
     scalar const length = options_.start_length * s.gradient_scale * s.step_length * per_entry;
     s.trial = s.x;
     slant::project(qp.set(), slant::local(x0), slant::local(s.x));
-    enter_interior(qp.set(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
+    enter_interior(blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
                    s.barrier.per_unit());
     if (solved) {
       s.x = s.trial;
@@ -89,7 +90,13 @@ class interior_point<QP> {
   void step(state_type& s) const {
     if (s.status != status::running) return;
     choose_centring(s);
-    if (solve_newton(s)) shorten(s);
+    if (solve_newton(s)) {
+      if (descends_for_ever(s)) {
+        s.status = status::unbounded;
+      } else {
+        shorten(s);
+      }
+    }
     ++s.iteration;
     if (s.status == status::running) note_progress(s);
   }
@@ -106,6 +113,9 @@ class interior_point<QP> {
   }
 
  private:
+  [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
+
+  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
   using column = Eigen::Array<scalar, Eigen::Dynamic, 1>;
 
   static scalar root(scalar const& v) {
@@ -123,12 +133,12 @@ class interior_point<QP> {
     slant::local(s.row_scratch) = (live > scalar(0)).template cast<scalar>().matrix();
     scalar const count = inner_product(s.row_scratch, s.row_scratch);
     s.constraints = static_cast<index>(count + scalar(0.5));
-    static_cast<void>(s.barrier.slacks(qp.set(), s.x, s.slacks));
+    static_cast<void>(s.barrier.slacks(blocks(), s.x, s.slacks));
     slant::local(s.multipliers) =
         (live > scalar(0))
             .select(ϑ / slant::local(s.slacks).array(), column::Zero(live.size()))
             .matrix();
-    s.barrier.linearise(qp.set(), s.x);
+    s.barrier.linearise(blocks(), s.x);
     set_lagrangian(s, s.r, s.multipliers);
     s.measure = s.constraints > 0 ? ϑ : scalar(0);
     s.residual_bound =
@@ -151,7 +161,7 @@ class interior_point<QP> {
 
   /// min ν_i z_i over the constraints with a bound, on all processes.
   static scalar least_product(state_type const& s, vector_type const& ν, vector_type const& z) {
-    scalar least = std::numeric_limits<scalar>::infinity();
+    scalar least = infinity;
     auto const& multiplier = slant::local(ν);
     auto const& slack = slant::local(z);
     for (index i = 0; i < index(multiplier.size()); ++i) {
@@ -175,12 +185,13 @@ class interior_point<QP> {
   /// Δx, A Δx and Δν; false if there is none.
   bool solve_newton(state_type& s) const {
     auto const& qp = qp_.get();
-    s.barrier.assemble(qp.set(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
-    scalar const μ = s.centring * s.measure;
+    s.barrier.assemble(blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
     auto const z = slant::local(s.slacks).array();
     auto const ν = slant::local(s.multipliers).array();
-    auto const live = (s.barrier.per_unit().array() > scalar(0)).template cast<scalar>();
-    slant::local(s.row_scratch) = (live * (μ / z)).matrix();
+    auto& centred = slant::local(s.row_scratch);
+    centred = ((s.barrier.per_unit().array() > scalar(0)).template cast<scalar>() *
+               (s.centring * s.measure / z))
+                  .matrix();
     slant::local(s.rhs) = slant::local(s.r);
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
     s.barrier.keep_fixed(s.rhs);
@@ -198,18 +209,36 @@ class interior_point<QP> {
     }
     s.barrier.jacobian().apply(s.step, s.multiplier_step);
     auto& dν = slant::local(s.multiplier_step);
-    dν = (live * (μ / z) - ν + ν / z * dν.array()).matrix();
+    dν = (centred.array() - ν + ν / z * dν.array()).matrix();
     return true;
+  }
+
+  /// Is Δx a direction without curvature and without end in which q falls (recession.hpp)?
+  bool descends_for_ever(state_type& s) const {
+    if constexpr (spd_operator<typename problem::operator_type, vector_type>) {
+      return false;
+    } else {
+      // The trace of A is at least its largest eigenvalue.
+      slant::local(s.trial).setOnes();
+      scalar const trace = inner_product(s.trial, s.diagonal) / s.unit;
+      if (inner_product(s.step, s.inner.image) > flatness(s.step, trace)) return false;
+      scalar const slope = -inner_product(s.step, s.r);
+      return is_descent(slope, s.step, scalar(s.size_of_b + norm(s.r))) && !(way_out(s) < infinity);
+    }
+  }
+
+  /// sup{α : x + α Δx ∈ Λ} on all processes.
+  scalar way_out(state_type const& s) const {
+    return slant::minimum(
+        s.x, scalar(blocks().step_to_boundary(slant::local(s.x), slant::local(s.step))));
   }
 
   /// The step length α and the point at its end.
   void shorten(state_type& s) const {
-    auto const& qp = qp_.get();
-    scalar to_end = slant::minimum(
-        s.x, scalar(qp.set().step_to_boundary(slant::local(s.x), slant::local(s.step))));
+    scalar to_end = way_out(s);
     auto const& ν = slant::local(s.multipliers);
     auto const& dν = slant::local(s.multiplier_step);
-    scalar of_ν = std::numeric_limits<scalar>::infinity();
+    scalar of_ν = infinity;
     for (index i = 0; i < index(ν.size()); ++i) {
       if (dν.coeff(i) < scalar(0)) of_ν = std::min<scalar>(of_ν, -ν.coeff(i) / dν.coeff(i));
     }
@@ -228,12 +257,11 @@ class interior_point<QP> {
 
   /// The point at the fraction α of the step: 1 if it will do, else the factor that shortens α.
   scalar judge(state_type& s, scalar const& α) const {
-    auto const& qp = qp_.get();
     slant::local(s.trial) = slant::local(s.x) + α * slant::local(s.step);
     slant::local(s.trial_multipliers) =
         slant::local(s.multipliers) + α * slant::local(s.multiplier_step);
-    bool const inside = s.barrier.slacks(qp.set(), s.trial, s.trial_slacks) ||
-                        (draw_inside(s), s.barrier.slacks(qp.set(), s.trial, s.trial_slacks));
+    bool const inside = s.barrier.slacks(blocks(), s.trial, s.trial_slacks) ||
+                        (draw_inside(s), s.barrier.slacks(blocks(), s.trial, s.trial_slacks));
     if (!slant::everywhere(s.x, inside)) return options_.shorten_centred;
     if (s.constraints == 0) return scalar(1);
     scalar const measure =
@@ -243,7 +271,7 @@ class interior_point<QP> {
     }
     scalar const fall = scalar(1) - α * options_.sufficient * (scalar(1) - s.centring);
     if (!(measure <= fall * s.measure)) return options_.shorten_measure;
-    s.barrier.linearise(qp.set(), s.trial);
+    s.barrier.linearise(blocks(), s.trial);
     slant::local(s.rhs) = slant::local(s.r) + α * slant::local(s.inner.image);
     set_lagrangian(s, s.rhs, s.trial_multipliers);
     if (!(s.lagrangian_norm <= s.residual_bound * measure)) return options_.shorten_residual;
@@ -254,7 +282,7 @@ class interior_point<QP> {
   /// Blocks of the trial point that were rounded onto their boundary go back by a few units of the
   /// last digit, towards their middle.
   void draw_inside(state_type& s) const {
-    slant::visit_blocks(qp_.get().set(), [&](auto const& block, auto const& place) {
+    slant::visit_blocks(blocks(), [&](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
       if constexpr (detail::inequalities_of<block_type> > 0) {
         auto const from = place.value(s.trial);
@@ -289,9 +317,7 @@ class interior_point<QP> {
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
     if (s.status != status::running) return;
-    auto const no_energy = [] {
-      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
-    };
+    auto const no_energy = [] { return std::pair(scalar(infinity), scalar(0)); };
     if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
       s.status = status::stalled;
     }
@@ -299,15 +325,17 @@ class interior_point<QP> {
 
   /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
   [[gnu::noinline]] void set_diagonal(state_type& s) const {
-    auto const& a = qp_.get().a();
-    auto const mean = mean_diagonal(a, s.x, options_.mean_diagonal);
+    auto const& qp = qp_.get();
+    auto const mean = estimate_diagonal(qp.a(), qp.set(), options_.mean_diagonal, s.diagonal);
     s.work.setup_applications += mean.applications;
-    scalar const typical = mean.value > scalar(0) ? mean.value : scalar(1);
-    s.step_length = options_.step_length ? *options_.step_length : scalar(0.5) / typical;
-    if constexpr (has_diagonal<typename problem::operator_type, vector_type>) {
-      a.diagonal(s.diagonal);
-    } else {
-      slant::local(s.diagonal).setConstant(typical);
+    if (options_.step_length) {
+      s.step_length = *options_.step_length;
+      return;
+    }
+    s.step_length = mean.value > scalar(0) ? scalar(scalar(0.5) / mean.value) : scalar(1);
+    if (!(s.step_length > scalar(0)) || !detail::is_finite(s.step_length)) {
+      throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
+                      "one whose reciprocal is a finite number > 0");
     }
   }
 

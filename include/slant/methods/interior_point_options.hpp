@@ -18,13 +18,13 @@ template <scalar S = double>
 struct interior_point_options {
   /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
   std::optional<S> step_length{};
-  mean_diagonal_options mean_diagonal{};  ///< how mean(diag A) is estimated, if it must be
+  mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
 
   S start_length = S(1);   ///< c_z > 0: first slacks of sets without an end, in natural lengths
   S start_force = S(1);    ///< c_ν > 0: first multipliers, in natural forces
   S start_depth = S(0.5);  ///< in (0, 1]: so far from P_Λ(x0) to the middle of its block one starts
 
-  S centring_least = S(1e-30);    ///< c_min in [0, c_max]: all but pure Newton steps
+  S centring_least = S(0.1);      ///< c_min in [0, c_max]: all but pure Newton steps
   S centring_most = S(0.5);       ///< c_max in (0, 1)
   S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
   S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
@@ -36,10 +36,11 @@ struct interior_point_options {
   S shorten_residual = S(0.5);  ///< ρ₃ in (0, 1): until ‖∇L‖ ≤ β ϑ
   index shortenings = 200;      ///< at most so often in one step
 
-  adaptive_precision forcing{};  ///< inner accuracy, relative to the right-hand side
-  bool warm_start = true;        ///< inner iterations begin at a multiple of the last step
-  index inner_steps = 1000;      ///< conjugate gradient steps of one Newton step at most
-  index patience = 30;           ///< steps without progress that mean stalled
+  adaptive_precision forcing{.r_tol = 0.3,
+                             .c_fact = 0.99};  ///< inner accuracy, relative to the right-hand side
+  bool warm_start = true;    ///< inner iterations begin at a multiple of the last step
+  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
+  index patience = 30;       ///< steps without progress that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {

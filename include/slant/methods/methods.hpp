@@ -7,6 +7,7 @@
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
