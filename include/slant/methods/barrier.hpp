@@ -36,6 +36,7 @@ template <scalar S = double>
 class barrier {
  public:
   using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using curvature_operator = small_blocks<S>;
   using stiffness_operator = small_blocks<S, laws<positive_semidefinite>>;
   using preconditioner_operator = small_blocks<S, laws<positive_semidefinite>>;
 
@@ -44,6 +45,7 @@ class barrier {
   explicit barrier(C const& set)
       : layout_(std::make_shared<detail::inequality_layout const>(set)),
         jacobian_(layout_),
+        curvature_(layout_->cols()),
         stiffness_(layout_->cols()),
         preconditioner_(layout_->cols()),
         per_unit_(column::Zero(layout_->rows())),
@@ -55,6 +57,7 @@ class barrier {
       }
       if constexpr (detail::inequalities_of<block_type> > 0) {
         index const stride = place.size() > 1 ? place.component(1) - place.component(0) : 1;
+        curvature_.append(place.size(), place.component(0), stride);
         stiffness_.append(place.size(), place.component(0), stride);
         preconditioner_.append(place.size(), place.component(0), stride);
       }
@@ -68,6 +71,8 @@ class barrier {
   [[nodiscard]] column const& per_unit() const noexcept { return per_unit_; }
   /// G ᵀ, in units σ.
   [[nodiscard]] inequality_jacobian<S> const& jacobian() const noexcept { return jacobian_; }
+  /// Σ ν_i ∇²f_i.
+  [[nodiscard]] curvature_operator const& curvature() const noexcept { return curvature_; }
   /// W.
   [[nodiscard]] stiffness_operator const& stiffness() const noexcept { return stiffness_; }
   /// P_SC⁻¹; 0 on components of single points.
@@ -102,7 +107,7 @@ class barrier {
     jacobian_.scale_rows(per_unit_);
   }
 
-  /// W and P_SC⁻¹ at x, where G is, for the diagonal d of A. `unit` is that of ν.
+  /// Σ ν_i ∇²f_i, W and P_SC⁻¹ at x, where G is, for the diagonal d of A. `unit` is that of ν.
   template <class C, class X, class M, class Z, class D>
   void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d) {
     auto const& multipliers = slant::local(ν);
@@ -120,6 +125,7 @@ class barrier {
         square w = block.inequality_hessian(
             place.value(x),
             Eigen::Matrix<S, k, 1>(forces.cwiseProduct(per_unit_.template segment<k>(row))));
+        curvature_.block(number) = w;
         for (int i = 0; i < k; ++i) {
           Eigen::Matrix<S, n, 1> const stiff = (forces(i) / slack.coeff(row + i)) * g.col(i);
           w += stiff * g.col(i).transpose();
@@ -156,6 +162,7 @@ class barrier {
 
   std::shared_ptr<detail::inequality_layout const> layout_;
   inequality_jacobian<S> jacobian_;
+  curvature_operator curvature_;
   stiffness_operator stiffness_;
   preconditioner_operator preconditioner_;
   column per_unit_;

@@ -34,6 +34,7 @@
 #include <slant/methods/qpc_options.hpp>
 #include <slant/methods/qpq.hpp>
 #include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/reduced_systems.hpp>
 #include <slant/methods/release_rules.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
