@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/reduced_systems.hpp>
 #include <slant/sets/cartesian.hpp>
