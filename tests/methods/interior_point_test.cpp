@@ -19,11 +19,13 @@ TEST_CASE("Example 1: the solution, products counted, every iterate in the inter
   slant::separable_qp const qp{A, p.b, set};
   slant::interior_point const method{qp};
   auto s = method.start(p.zero());
-  CHECK(A.applications() == 0);  // A knows its diagonal, and the middle of all discs is 0
+  // The length of the data. A knows its diagonal, and the middle of all discs is 0.
+  CHECK(s.work.setup_applications == 1);
+  CHECK(A.applications() == 1);
   while (s.status == slant::status::running && s.reduced_gradient_norm > 1e-10 * s.gradient_scale) {
     method.step(s);
-    CHECK(A.applications() == s.work.operator_applications);
-    CHECK(A.applications() == s.work.inner_iterations);  // no product besides those of CG
+    CHECK(A.applications() == 1 + s.work.operator_applications);
+    CHECK(s.work.operator_applications == s.work.inner_iterations);  // none besides those of CG
     for (Eigen::Index i = 0; i < 6; ++i) {
       CHECK(s.x(i) * s.x(i) + s.x(i + 6) * s.x(i + 6) < p.g(i) * p.g(i));
     }

@@ -71,8 +71,7 @@ class interior_point<QP> {
     bool const solved = s.begin(qp, origin);
     scalar const per_entry = root(scalar(1) / scalar(slant::global_size(x0)));
     scalar const force = options_.start_force * norm(s.r) * per_entry;
-    // ‖r̃‖ at P_Λ(0) times α: the way that the first projected gradient step goes.
-    scalar const length = options_.start_length * s.gradient_scale * s.step_length * per_entry;
+    scalar const length = options_.start_length * first_way(s) * per_entry;
     s.trial = s.x;
     slant::project(qp.set(), slant::local(x0), slant::local(s.x));
     enter_interior(blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
@@ -82,7 +81,7 @@ class interior_point<QP> {
       s.status = status::converged;
       return s;
     }
-    begin(s, force * length);
+    begin(s, force, length);
     return s;
   }
 
@@ -123,8 +122,21 @@ class interior_point<QP> {
     return sqrt(v);
   }
 
+  /// The length of the first projected gradient step with the best step length: that of what Λ does
+  /// not bound. α, the step length of a typical direction, would be too short by far where A is ill
+  /// conditioned and b is smooth. One product.
+  scalar first_way(state_type& s) const {
+    if (s.reduced_gradient_norm == scalar(0)) return scalar(0);
+    slant::apply(qp_.get().a(), s.reduced, s.lagrangian, s.a_workspace);
+    ++s.work.setup_applications;
+    scalar const bend = inner_product(s.reduced, s.lagrangian);
+    scalar const best = inner_product(s.reduced, s.reduced) / bend;
+    bool const bent = bend > scalar(0) && detail::is_finite(best);
+    return s.reduced_gradient_norm * (bent ? best : s.step_length);
+  }
+
   /// ν_i z_i = ϑ at x.
-  void begin(state_type& s, scalar const& ϑ) const {
+  void begin(state_type& s, scalar const& force, scalar const& length) const {
     auto const& qp = qp_.get();
     s.gradient(qp);
     detail::check_finite("A x0 - b", s.r);
@@ -134,13 +146,19 @@ class interior_point<QP> {
     scalar const count = inner_product(s.row_scratch, s.row_scratch);
     s.constraints = static_cast<index>(count + scalar(0.5));
     static_cast<void>(s.barrier.slacks(blocks(), s.x, s.slacks));
+    slant::local(s.trial_slacks) =
+        ((live > scalar(0)).template cast<scalar>() * slant::local(s.slacks).array().min(length))
+            .matrix();
+    scalar const ϑ = s.constraints > 0
+                         ? scalar(force * inner_product(s.trial_slacks, s.row_scratch) / count)
+                         : scalar(0);
     slant::local(s.multipliers) =
         (live > scalar(0))
             .select(ϑ / slant::local(s.slacks).array(), column::Zero(live.size()))
             .matrix();
     s.barrier.linearise(blocks(), s.x);
     set_lagrangian(s, s.r, s.multipliers);
-    s.measure = s.constraints > 0 ? ϑ : scalar(0);
+    s.measure = ϑ;
     s.residual_bound =
         options_.residual_factor * std::max<scalar>(s.lagrangian_norm, s.gradient_scale / s.unit);
     if (s.constraints > 0) s.residual_bound /= ϑ;
