@@ -48,20 +48,25 @@ class small_blocks {
     }
   }
 
+  /// y = B x; several columns at once are fine.
   template <class X, class Y>
   void apply(X const& x, Y& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
-    to = diagonal_.cwiseProduct(from);
-    for_each(from, [&](index j, S const& sum) { to.coeffRef(j) = sum; });
+    for (index c = 0; c < index(from.cols()); ++c) {
+      to.col(c) = diagonal_.cwiseProduct(from.col(c));
+      for_each(from.col(c), [&](index j, S const& sum) { to.coeffRef(j, c) = sum; });
+    }
   }
   /// y ← y + α B x.
   template <class X, class Y>
   void apply_add(S const& α, X const& x, Y& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
-    to += α * diagonal_.cwiseProduct(from);
-    for_each(from, [&](index j, S const& sum) { to.coeffRef(j) += α * sum; });
+    for (index c = 0; c < index(from.cols()); ++c) {
+      to.col(c) += α * diagonal_.cwiseProduct(from.col(c));
+      for_each(from.col(c), [&](index j, S const& sum) { to.coeffRef(j, c) += α * sum; });
+    }
   }
   /// d = diag(B).
   template <class D>
