@@ -220,7 +220,7 @@ bool crossovers(std::vector<int> const& sizes) {
   for (int const k : sizes) {
     auto const p = make_problem(k, fem::brick_load::lift);
     auto const qp = p.qp();
-    auto const stop = slant::reduced_gradient_below(1e-13) || slant::at_most(200);
+    auto const stop = slant::reduced_gradient_below(1e-12) || slant::at_most(200);
     auto const relative = [](auto const& s) { return s.reduced_gradient_norm / s.gradient_scale; };
     slant::interior_point const interior{qp};
     slant::symmetric_newton const newton{qp};
