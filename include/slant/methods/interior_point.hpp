@@ -22,7 +22,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
-#include <slant/methods/estimated_diagonal.hpp>
+#include <slant/methods/interior_point_core.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_problem.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -43,19 +43,19 @@ namespace slant {
 /// values. Statuses of its own: converged (P_Λ(0) is the solution); stalled; unbounded; breakdown.
 template <class QP>
   requires interior_point_problem<std::remove_cvref_t<QP>>
-class interior_point<QP> {
+class interior_point<QP> : detail::interior_point_core<QP> {
+  using core = detail::interior_point_core<QP>;
+
  public:
-  using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = interior_point_options<scalar>;
-  using state_type = interior_point_state<problem>;
+  using typename core::options;
+  using typename core::problem;
+  using typename core::scalar;
+  using typename core::state_type;
+  using typename core::vector_type;
 
   explicit interior_point(held<QP> qp) : interior_point(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  interior_point(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
-    options_.validate();
-  }
+  interior_point(held<QP> qp, options o) : core(std::move(qp), std::move(o)) {}
 
   /// The state of a point in the interior on the way from P_Λ(x0) to the middle of Λ. Throws
   /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
@@ -65,23 +65,23 @@ class interior_point<QP> {
     detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
     detail::check_finite("x0", x0);
     state_type s(qp, x0);
-    set_diagonal(s);
+    this->set_diagonal(s);
     auto origin = like(x0, qp.size());
     slant::local(origin).setZero();
     bool const solved = s.begin(qp, origin);
-    scalar const per_entry = root(scalar(1) / scalar(slant::global_size(x0)));
+    scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
     scalar const force = options_.start_force * norm(s.r) * per_entry;
-    scalar const length = options_.start_length * first_way(s) * per_entry;
+    scalar const length = options_.start_length * this->first_way(s) * per_entry;
     s.trial = s.x;
     slant::project(qp.set(), slant::local(x0), slant::local(s.x));
-    enter_interior(blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
+    enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
                    s.barrier.per_unit());
     if (solved) {
       s.x = s.trial;
       s.status = status::converged;
       return s;
     }
-    begin(s, force, length);
+    this->begin(s, force, length);
     return s;
   }
 
@@ -105,95 +105,21 @@ class interior_point<QP> {
     if (s.since_refresh == 0) return false;
     s.gradient(qp_.get());
     s.reduce(qp_.get());
-    set_lagrangian(s, s.r, s.multipliers);
+    this->set_lagrangian(s, s.r, s.multipliers);
     s.status = status::running;
     note_progress(s);
     return true;
   }
 
  private:
-  [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
-
-  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
-  using column = Eigen::Array<scalar, Eigen::Dynamic, 1>;
-
-  static scalar root(scalar const& v) {
-    using std::sqrt;
-    return sqrt(v);
-  }
-
-  /// The length of the first projected gradient step with the best step length: that of what Λ does
-  /// not bound. α, the step length of a typical direction, would be too short by far where A is ill
-  /// conditioned and b is smooth. One product.
-  scalar first_way(state_type& s) const {
-    if (s.reduced_gradient_norm == scalar(0)) return scalar(0);
-    slant::apply(qp_.get().a(), s.reduced, s.lagrangian, s.a_workspace);
-    ++s.work.setup_applications;
-    scalar const bend = inner_product(s.reduced, s.lagrangian);
-    scalar const best = inner_product(s.reduced, s.reduced) / bend;
-    bool const bent = bend > scalar(0) && detail::is_finite(best);
-    return s.reduced_gradient_norm * (bent ? best : s.step_length);
-  }
-
-  /// ν_i z_i = ϑ at x.
-  void begin(state_type& s, scalar const& force, scalar const& length) const {
-    auto const& qp = qp_.get();
-    s.gradient(qp);
-    detail::check_finite("A x0 - b", s.r);
-    s.reduce(qp);
-    auto const& live = s.barrier.per_unit().array();
-    slant::local(s.row_scratch) = (live > scalar(0)).template cast<scalar>().matrix();
-    scalar const count = inner_product(s.row_scratch, s.row_scratch);
-    s.constraints = static_cast<index>(count + scalar(0.5));
-    static_cast<void>(s.barrier.slacks(blocks(), s.x, s.slacks));
-    slant::local(s.trial_slacks) =
-        ((live > scalar(0)).template cast<scalar>() * slant::local(s.slacks).array().min(length))
-            .matrix();
-    scalar const ϑ = s.constraints > 0
-                         ? scalar(force * inner_product(s.trial_slacks, s.row_scratch) / count)
-                         : scalar(0);
-    slant::local(s.multipliers) =
-        (live > scalar(0))
-            .select(ϑ / slant::local(s.slacks).array(), column::Zero(live.size()))
-            .matrix();
-    s.barrier.linearise(blocks(), s.x);
-    set_lagrangian(s, s.r, s.multipliers);
-    s.measure = ϑ;
-    s.residual_bound =
-        options_.residual_factor * std::max<scalar>(s.lagrangian_norm, s.gradient_scale / s.unit);
-    if (s.constraints > 0) s.residual_bound /= ϑ;
-    s.x_norm = norm(s.x);
-    s.forcing = forcing_history<scalar>::starting_at(scalar(1));
-    if (!detail::is_finite(s.lagrangian_norm) || !detail::is_finite(s.measure)) {
-      s.status = status::breakdown;
-    }
-  }
-
-  /// ∇L = gradient + G ν, G as it stands.
-  void set_lagrangian(state_type& s, vector_type const& gradient, vector_type const& ν) const {
-    slant::local(s.lagrangian) = slant::local(gradient);
-    s.barrier.jacobian().apply_adjoint_add(scalar(1), ν, s.lagrangian);
-    s.barrier.keep_fixed(s.lagrangian);
-    s.lagrangian_norm = norm(s.lagrangian);
-  }
-
-  /// min ν_i z_i over the constraints with a bound, on all processes.
-  static scalar least_product(state_type const& s, vector_type const& ν, vector_type const& z) {
-    scalar least = infinity;
-    auto const& multiplier = slant::local(ν);
-    auto const& slack = slant::local(z);
-    for (index i = 0; i < index(multiplier.size()); ++i) {
-      if (!(s.barrier.per_unit()(i) > scalar(0))) continue;
-      scalar const product = multiplier.coeff(i) * slack.coeff(i);
-      if (!(product >= least)) least = product;
-    }
-    return slant::minimum(s.x, least);
-  }
+  using core::infinity;
+  using core::options_;
+  using core::qp_;
 
   void choose_centring(state_type& s) const {
     s.centring = scalar(0);
     if (s.constraints == 0) return;
-    scalar const ξ = least_product(s, s.multipliers, s.slacks) / s.measure;
+    scalar const ξ = this->least_product(s, s.multipliers, s.slacks) / s.measure;
     scalar const q = ξ < scalar(1) ? scalar((scalar(1) - ξ) / ξ) : scalar(0);
     s.centring =
         std::min(options_.centring_most,
@@ -203,7 +129,7 @@ class interior_point<QP> {
   /// Δx, A Δx and Δν; false if there is none.
   bool solve_newton(state_type& s) const {
     auto const& qp = qp_.get();
-    s.barrier.assemble(blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
+    s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
     auto const z = slant::local(s.slacks).array();
     auto const ν = slant::local(s.multipliers).array();
     auto& centred = slant::local(s.row_scratch);
@@ -241,19 +167,14 @@ class interior_point<QP> {
       scalar const trace = inner_product(s.trial, s.diagonal) / s.unit;
       if (inner_product(s.step, s.inner.image) > flatness(s.step, trace)) return false;
       scalar const slope = -inner_product(s.step, s.r);
-      return is_descent(slope, s.step, scalar(s.size_of_b + norm(s.r))) && !(way_out(s) < infinity);
+      return is_descent(slope, s.step, scalar(s.size_of_b + norm(s.r))) &&
+             !(this->way_out(s) < infinity);
     }
-  }
-
-  /// sup{α : x + α Δx ∈ Λ} on all processes.
-  scalar way_out(state_type const& s) const {
-    return slant::minimum(
-        s.x, scalar(blocks().step_to_boundary(slant::local(s.x), slant::local(s.step))));
   }
 
   /// The step length α and the point at its end.
   void shorten(state_type& s) const {
-    scalar to_end = way_out(s);
+    scalar to_end = this->way_out(s);
     auto const& ν = slant::local(s.multipliers);
     auto const& dν = slant::local(s.multiplier_step);
     scalar of_ν = infinity;
@@ -263,7 +184,7 @@ class interior_point<QP> {
     to_end = std::min(to_end, slant::minimum(s.x, of_ν));
     scalar α = std::min<scalar>(scalar(1), options_.to_boundary * to_end);
     for (index j = 0; j < options_.shortenings && α > scalar(0); ++j) {
-      scalar const factor = judge(s, α);
+      scalar const factor = this->judge(s, α);
       if (factor == scalar(1)) {
         accept(s, α);
         return;
@@ -273,55 +194,12 @@ class interior_point<QP> {
     s.status = status::stalled;
   }
 
-  /// The point at the fraction α of the step: 1 if it will do, else the factor that shortens α.
-  scalar judge(state_type& s, scalar const& α) const {
-    slant::local(s.trial) = slant::local(s.x) + α * slant::local(s.step);
-    slant::local(s.trial_multipliers) =
-        slant::local(s.multipliers) + α * slant::local(s.multiplier_step);
-    bool const inside = s.barrier.slacks(blocks(), s.trial, s.trial_slacks) ||
-                        (draw_inside(s), s.barrier.slacks(blocks(), s.trial, s.trial_slacks));
-    if (!slant::everywhere(s.x, inside)) return options_.shorten_centred;
-    if (s.constraints == 0) return scalar(1);
-    scalar const measure =
-        inner_product(s.trial_multipliers, s.trial_slacks) / scalar(s.constraints);
-    if (!(least_product(s, s.trial_multipliers, s.trial_slacks) >= options_.closeness * measure)) {
-      return options_.shorten_centred;
-    }
-    scalar const fall = scalar(1) - α * options_.sufficient * (scalar(1) - s.centring);
-    if (!(measure <= fall * s.measure)) return options_.shorten_measure;
-    s.barrier.linearise(blocks(), s.trial);
-    slant::local(s.rhs) = slant::local(s.r) + α * slant::local(s.inner.image);
-    set_lagrangian(s, s.rhs, s.trial_multipliers);
-    if (!(s.lagrangian_norm <= s.residual_bound * measure)) return options_.shorten_residual;
-    s.measure = measure;
-    return scalar(1);
-  }
-
-  /// Blocks of the trial point that were rounded onto their boundary go back by a few units of the
-  /// last digit, towards their middle.
-  void draw_inside(state_type& s) const {
-    slant::visit_blocks(blocks(), [&](auto const& block, auto const& place) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      if constexpr (detail::inequalities_of<block_type> > 0) {
-        auto const from = place.value(s.trial);
-        auto const middle = place.value(s.centre);
-        auto at = from;
-        scalar back = scalar(2) * std::numeric_limits<scalar>::epsilon();
-        while (!(block.inequality(at).maxCoeff() < scalar(0)) && back < scalar(1e-6)) {
-          at = from + back * (middle - from);
-          back *= scalar(2);
-        }
-        place.put(s.trial, at);
-      }
-    });
-  }
-
   void accept(state_type& s, scalar const& α) const {
     std::swap(s.x, s.trial);
     std::swap(s.multipliers, s.trial_multipliers);
     std::swap(s.slacks, s.trial_slacks);
     slant::local(s.r) += α * slant::local(s.inner.image);
-    if (s.constraints == 0) set_lagrangian(s, s.r, s.multipliers);
+    if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers);
     ++s.since_refresh;
     s.step_fraction = α;
     s.x_norm = norm(s.x);
@@ -340,25 +218,6 @@ class interior_point<QP> {
       s.status = status::stalled;
     }
   }
-
-  /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_diagonal(state_type& s) const {
-    auto const& qp = qp_.get();
-    auto const mean = estimate_diagonal(qp.a(), qp.set(), options_.mean_diagonal, s.diagonal);
-    s.work.setup_applications += mean.applications;
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
-    s.step_length = mean.value > scalar(0) ? scalar(scalar(0.5) / mean.value) : scalar(1);
-    if (!(s.step_length > scalar(0)) || !detail::is_finite(s.step_length)) {
-      throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
-                      "one whose reciprocal is a finite number > 0");
-    }
-  }
-
-  held<QP> qp_;
-  options options_;
 };
 
 }  // namespace slant
