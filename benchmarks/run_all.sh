@@ -15,6 +15,9 @@
 #   newton_brick   products of Newton's methods on the brick until the energy error is 1e-8
 #   newton_wire    Newton steps on the wire, from zero and by nested iteration
 #   newton_floor   the accuracy at which the symmetric Newton method stalls, against κ(A)
+#   interior_brick        products of the interior-point method until the energy error is 1e-6
+#   interior_condition    condition of its systems with and without preconditioner
+#   interior_crossover    lift to the last digits: interior point, then the symmetric Newton method
 #   active_sets    products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -26,7 +29,7 @@ here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
-  newton_floor active_sets)
+  newton_floor interior_brick interior_condition interior_crossover active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -71,6 +74,13 @@ run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"
 run_newton_brick() { "$(program newton_products)" brick >"$output/newton_brick.csv"; }
 run_newton_wire() { "$(program newton_products)" wire >"$output/newton_wire.csv"; }
 run_newton_floor() { "$(program newton_floor)" >"$output/newton_floor.csv"; }
+run_interior_brick() { "$(program interior_point)" brick >"$output/interior_brick.csv"; }
+run_interior_condition() {
+  "$(program interior_point)" condition >"$output/interior_condition.csv"
+}
+run_interior_crossover() {
+  "$(program interior_point)" crossover >"$output/interior_crossover.csv"
+}
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
@@ -183,6 +193,9 @@ write_summary() {
   section newton_brick "Brick: products until the relative energy error is at most 1e-8"
   section newton_wire "Wire: Newton steps to a relative reduced gradient of 1e-10"
   section newton_floor "Where the symmetric Newton method stalls, in multiples of the rounding of its terms"
+  section interior_brick "Interior point: brick, relative energy error 1e-6, beside [K] Table 3"
+  section interior_condition "Interior point: condition numbers along the iteration"
+  section interior_crossover "Interior point, then symmetric Newton: lift to the last digits"
   section active_sets "Products of the published active set methods"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }

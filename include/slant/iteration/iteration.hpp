@@ -8,6 +8,7 @@
 #include <slant/iteration/nested.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/report.hpp>
+#include <slant/iteration/sequel.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>

@@ -4,12 +4,19 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/barrier.hpp>
+#include <slant/methods/barrier_minimum.hpp>
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/methods/equilibrated.hpp>
+#include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/interior_point_options.hpp>
+#include <slant/methods/interior_point_state.hpp>
+#include <slant/methods/interior_start.hpp>
 #include <slant/methods/kkt_vector.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -28,6 +35,7 @@
 #include <slant/methods/qpc_options.hpp>
 #include <slant/methods/qpq.hpp>
 #include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/reduced_systems.hpp>
 #include <slant/methods/release_rules.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>

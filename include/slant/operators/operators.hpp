@@ -23,6 +23,7 @@
 #include <slant/operators/scaled.hpp>
 #include <slant/operators/schur_complement.hpp>
 #include <slant/operators/slice.hpp>
+#include <slant/operators/small_blocks.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/operators/timed.hpp>
 #include <slant/operators/zero.hpp>

@@ -59,6 +59,10 @@ template <class C> concept set_block = has_static_dimension<C> && set_part<C>;
 /// products do nothing with it, not even look at it.
 template <class C> concept whole_space = requires { requires C::whole_space; };
 
+/// A block of one point, which says so: `static constexpr bool single_point = true`. It has no
+/// interior; methods that need one keep its components where they are.
+template <class C> concept single_point = requires { requires C::single_point; };
+
 namespace detail {
 
 struct block_count_fn {

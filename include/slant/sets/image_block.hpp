@@ -45,6 +45,7 @@ class image_block : public detail::inequality_count<Part> {
   using scalar = set_scalar_t<Part>;
   static constexpr int dimension = Part::dimension;
   static constexpr bool whole_space = slant::whole_space<Part>;
+  static constexpr bool single_point = slant::single_point<Part>;
   using vector_type = Eigen::Matrix<scalar, dimension, 1>;
   using matrix_type = Eigen::Matrix<scalar, dimension, dimension>;
 

@@ -25,6 +25,7 @@ class point {
  public:
   using scalar = S;
   static constexpr int dimension = N;
+  static constexpr bool single_point = true;
   using vector_type = Eigen::Matrix<S, N, 1>;
   using matrix_type = Eigen::Matrix<S, N, N>;
 

@@ -48,6 +48,19 @@ class inequality_jacobian {
     });
   }
 
+  /// Row i times factors(i): other units of the inequalities.
+  template <class F>
+  void scale_rows(F const& factors) {
+    auto const& c = slant::local(factors);
+    for (auto const& run : layout_->runs()) {
+      index at = run.gradient;
+      for (index row = run.row; row < run.row + run.blocks * run.inequalities; ++row) {
+        gradients_.segment(at, run.dimension) *= c.coeff(row);
+        at += run.dimension;
+      }
+    }
+  }
+
   template <class X, class Y>
   void apply(X const& x, Y& y) const {
     detail::by_columns(slant::local(x), slant::local(y), [&](auto const& from, auto& to) {

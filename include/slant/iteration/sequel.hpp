@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// One method, then another: the last iterate of the first starts the second.
+//
+//     x₁ = solve(first, x₀, stop₁),     x = solve(second, x₁, stop₂)
+//
+// Interior-point methods come near from anywhere in a number of steps that hardly depends on the
+// problem, and lose digits at the end; Newton's method on the active constraints is the other way
+// round. The crossover of the two is
+//
+//     solve_then(interior_point{qp}, reduced_gradient_below(1e-3) || at_most(50),
+//                symmetric_newton{qp}, x0, reduced_gradient_below(1e-14) || at_most(100))
+//
+// Rejected: one state that is now of this, now of that type. Each phase has its report, and its
+// work is counted where it was done.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/iteration/solve.hpp>
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace slant {
+
+/// What solve_then leaves behind.
+template <class First, class Second>
+struct sequel_report {
+  report<First> first;
+  std::optional<report<Second>> second;  ///< none if the first phase left nothing to go on from
+
+  /// The last iterate of the last phase that ran.
+  [[nodiscard]] auto const& x() const { return second ? second->x() : first.x(); }
+  /// How the last phase that ran ended.
+  [[nodiscard]] slant::status status() const { return second ? second->status : first.status; }
+  /// The same as a sentence, for both phases.
+  [[nodiscard]] std::string reason() const {
+    return "first phase: " + first.reason +
+           (second ? "; second phase: " + second->reason : std::string("; no second phase"));
+  }
+  /// True only if the second phase reached the accuracy asked for.
+  [[nodiscard]] bool converged() const { return second && second->converged(); }
+  /// Steps of both phases.
+  [[nodiscard]] index iterations() const {
+    return first.iterations() + (second ? second->iterations() : 0);
+  }
+  /// The work of both phases.
+  [[nodiscard]] slant::work work() const
+    requires requires(First const& f, Second const& s) { f.work, s.work; }
+  {
+    slant::work sum = first.state.work;
+    if (second) {
+      auto const& more = second->state.work;
+      sum.operator_applications += more.operator_applications;
+      sum.setup_applications += more.setup_applications;
+      sum.inner_iterations += more.inner_iterations;
+      sum.factorizations += more.factorizations;
+    }
+    return sum;
+  }
+};
+
+namespace detail {
+
+/// What solve_then returns after a static_assert; nothing of it is defined.
+template <class V>
+struct refused_sequel_report {
+  refused_report<V> first;
+  std::optional<refused_report<V>> second;
+  V const& x() const;
+  slant::status status() const;
+  std::string reason() const;
+  bool converged() const;
+  index iterations() const;
+  slant::work work() const;
+};
+
+template <class First, class Stop1, class Second, class V, class Stop2, class... Observers>
+concept solvable_in_turn =
+    solvable<First, V, Stop1, Observers...> && solvable<Second, V, Stop2, Observers...> &&
+    std::same_as<std::remove_cvref_t<decltype(std::declval<state_t<First, V> const&>().x)>, V>;
+
+}  // namespace detail
+
+/// Runs the first method from x0 until stop1, and the second from where it ended until stop2;
+/// observers see all states of both. A first phase that was stopped by a limit or stalled hands
+/// over all the same; after breakdown, unbounded or interrupted, or an iterate that is not finite,
+/// there is no second phase and the report says so. Throws what the methods throw about their
+/// start.
+template <class First, class Stop1, class Second, class V, class Stop2, class... Observers>
+  requires detail::solvable_in_turn<First, Stop1, Second, V, Stop2, Observers...>
+[[nodiscard]] auto solve_then(First&& first, Stop1 stop1, Second&& second, V const& x0, Stop2 stop2,
+                              Observers&&... observers) {
+  sequel_report<state_t<First, V>, state_t<Second, V>> result{
+      slant::solve(first, x0, std::move(stop1), observers...), std::nullopt};
+  auto const how = result.first.status;
+  bool const failed =
+      how == status::breakdown || how == status::unbounded || how == status::interrupted;
+  if (!failed && detail::is_finite(slant::norm(result.first.x()))) {
+    result.second = slant::solve(second, result.first.x(), std::move(stop2), observers...);
+  }
+  return result;
+}
+
+/// Arguments that lack something end here and are told so.
+template <class First, class Stop1, class Second, class V, class Stop2, class... Observers>
+  requires(!detail::solvable_in_turn<First, Stop1, Second, V, Stop2, Observers...>)
+[[nodiscard]] auto solve_then(First&&, Stop1, Second&&, V const&, Stop2, Observers&&...)
+    -> detail::refused_sequel_report<V> {
+  static_assert(iterative_method<First, V>,
+                "solve_then: the first method must run on vectors like x0");
+  static_assert(iterative_method<Second, V>,
+                "solve_then: the second method must run on vectors like x0");
+  if constexpr (iterative_method<First, V> && iterative_method<Second, V>) {
+    static_assert(stopping_rule<Stop1, state_t<First, V>>,
+                  "solve_then: the first rule must judge states of the first method");
+    static_assert(stopping_rule<Stop2, state_t<Second, V>>,
+                  "solve_then: the second rule must judge states of the second method");
+    (detail::check_observer<Observers, state_t<First, V>>(), ...);
+    (detail::check_observer<Observers, state_t<Second, V>>(), ...);
+  }
+  return {};
+}
+
+}  // namespace slant

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// The reduced system of an interior-point step [K (43)],
+//
+//     J_SC t = −g₀,     J_SC = A + W,
+//
+// by conjugate gradients with the preconditioner P_SC = diag(A) + W. A t comes along, so whoever
+// takes the step knows the gradient at its end: one product by A a step of the iteration and none
+// besides, also for a start t₀ ≠ 0, whose image is known from the step that made it. Of its
+// multiples the one with the least energy is taken, which is never worse than 0.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/methods/curved_minimum.hpp>
+
+namespace slant {
+
+/// The solution t, its image, and what the iteration works in.
+template <class V>
+class barrier_minimum {
+ public:
+  using scalar = scalar_t<V>;
+
+  V t;      ///< the step
+  V image;  ///< A t
+
+  barrier_minimum(V const& prototype, index n)
+      : t(like(prototype, n)),
+        image(like(prototype, n)),
+        g_(like(prototype, n)),
+        p_(like(prototype, n)),
+        Ap_(like(prototype, n)),
+        z_(like(prototype, n)) {
+    forget();
+  }
+
+  /// No step is known yet.
+  void forget() {
+    slant::local(t).setZero();
+    slant::local(image).setZero();
+    known_ = false;
+  }
+
+  /// t with ‖g₀ + J_SC t‖ ≤ target, or the last one after at most `most` steps. t has the units of
+  /// g₀ over those of A. `warm`: begins at a multiple of the t that is there.
+  template <class A, class WA, class B>
+  inner_result<scalar> solve(A const& a, WA& a_workspace, B const& barrier, V const& g0,
+                             scalar const& target, index most, bool warm) {
+    slant::local(g_) = slant::local(g0);
+    barrier.keep_fixed(g_);
+    if (warm && known_) {
+      begin_at_multiple(barrier);
+    } else {
+      forget();
+    }
+    known_ = true;
+    scalar size = norm(g_), gz(0);
+    bool finite = detail::is_finite(size);
+    index k = 0;
+    while (k < most && size > target) {
+      slant::apply(barrier.preconditioner(), g_, z_);
+      scalar const next = inner_product(g_, z_);
+      finite = finite && detail::is_finite(next);
+      if (!(next > scalar(0))) break;
+      if (k == 0) {
+        slant::local(p_) = -slant::local(z_);
+      } else {
+        slant::local(p_) = (next / gz) * slant::local(p_) - slant::local(z_);
+      }
+      gz = next;
+      slant::apply(a, p_, Ap_, a_workspace);
+      ++k;
+      add_stiffness(barrier, p_, Ap_, z_);
+      scalar const bend = inner_product(p_, z_);
+      finite = finite && detail::is_finite(bend);
+      if (!(bend > scalar(0))) break;  // a direction without curvature: the step ends here
+      scalar const α = gz / bend;
+      slant::local(t) += α * slant::local(p_);
+      slant::local(image) += α * slant::local(Ap_);
+      slant::local(g_) += α * slant::local(z_);
+      size = norm(g_);
+    }
+    return {k, size, finite && detail::is_finite(size)};
+  }
+
+ private:
+  /// y = J_SC x for x with the image Ax.
+  template <class B>
+  void add_stiffness(B const& barrier, V const& x, V const& Ax, V& y) const {
+    slant::local(y) = slant::local(Ax);
+    barrier.stiffness().apply_add(scalar(1), x, y);
+    barrier.keep_fixed(y);
+  }
+
+  /// t ← θ t with the θ that minimises g₀ᵀt + ½ tᵀJ_SC t, and g with it.
+  template <class B>
+  void begin_at_multiple(B const& barrier) {
+    add_stiffness(barrier, t, image, z_);
+    scalar const bend = inner_product(t, z_), slope = -inner_product(g_, t);
+    if (!(bend > scalar(0)) || !detail::is_finite(bend) || !detail::is_finite(slope)) {
+      forget();
+      return;
+    }
+    scalar const θ = slope / bend;
+    slant::local(t) *= θ;
+    slant::local(image) *= θ;
+    slant::local(g_) += θ * slant::local(z_);
+  }
+
+  V g_;   // g₀ + J_SC t
+  V p_;   // direction
+  V Ap_;  // its image
+  V z_;   // preconditioned g, then J_SC p
+  bool known_ = false;
+};
+
+}  // namespace slant

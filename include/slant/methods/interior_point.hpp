@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+//
+// Interior-point method by path following (algorithm PF) [K §3.2], for
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = {f(x) ≤ 0}                        [K (29)]
+//
+//     F(x, ν, z) = (∇L, f(x) + z, ν ∘ z),   ∇L = A x − b + G ν,   G = ∇f(x)              [K (35)]
+//
+//     centre      c = min(c_max, max(c_min, c_s ((1 − ξ)/ξ)³)),   ξ = min ν_i z_i / ϑ
+//     solve       (A + W) Δx = −(r + c ϑ G z⁻¹)                  [K (43)], one product a step of CG
+//                 Δν = c ϑ/z − ν + (ν/z) Gᵀ Δx                                         [K (42)]
+//     shorten     α: 0.999 of the way to the boundary, then until
+//                 ν_i z_i ≥ γ ϑ⁺,   ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ,   ‖∇L⁺‖ ≤ β ϑ⁺            no product
+//     accept      x ← x + α Δx, r ← r + α A Δx, ν ← ν + α Δν
+//
+// with ϑ = νᵀz / number of constraints. Where it differs from [K]: the slacks are z = −f(x), not
+// unknowns of their own. So every iterate is a point of the interior, f(x) + z = 0 always holds,
+// and W is semidefinite even for a cone, whose f is not convex (barrier.hpp). The start lies on a
+// curve ν_i z_i = ϑ with lengths and forces taken from the data, so that units do not matter.
+// Components without constraint have no multiplier, no slack and no part in ϑ.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
+#include <slant/methods/interior_point_core.hpp>
+#include <slant/methods/interior_point_options.hpp>
+#include <slant/methods/interior_point_problem.hpp>
+#include <slant/methods/interior_point_state.hpp>
+#include <slant/methods/interior_start.hpp>
+#include <slant/methods/recession.hpp>
+#include <slant/methods/separable_qp.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// The method at the top of this file: solve(interior_point{qp}, x0, reduced_gradient_below(1e-8)
+/// || at_most(100)), options second. Requires of the problem that A is psd_operator and that the
+/// blocks of the set have a smooth inequality form and step_to_boundary; single points keep their
+/// values. Statuses of its own: converged (P_Λ(0) is the solution); stalled; unbounded; breakdown.
+template <class QP>
+  requires interior_point_problem<std::remove_cvref_t<QP>>
+class interior_point<QP> : detail::interior_point_core<QP> {
+  using core = detail::interior_point_core<QP>;
+
+ public:
+  using typename core::options;
+  using typename core::problem;
+  using typename core::scalar;
+  using typename core::state_type;
+  using typename core::vector_type;
+
+  explicit interior_point(held<QP> qp) : interior_point(std::move(qp), options{}) {}
+  /// Throws bad_input for options out of range.
+  interior_point(held<QP> qp, options o) : core(std::move(qp), std::move(o)) {}
+
+  /// The state of a point in the interior on the way from P_Λ(x0) to the middle of Λ. Throws
+  /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
+  /// interior.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
+    detail::check_finite("x0", x0);
+    state_type s(qp, x0);
+    this->set_diagonal(s);
+    auto origin = like(x0, qp.size());
+    slant::local(origin).setZero();
+    bool const solved = s.begin(qp, origin);
+    scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
+    scalar const force = options_.start_force * norm(s.r) * per_entry;
+    scalar const length = options_.start_length * this->first_way(s) * per_entry;
+    s.trial = s.x;
+    slant::project(qp.set(), slant::local(x0), slant::local(s.x));
+    enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
+                   s.barrier.per_unit());
+    if (solved) {
+      s.x = s.trial;
+      s.status = status::converged;
+      return s;
+    }
+    this->begin(s, force, length);
+    return s;
+  }
+
+  /// One Newton step.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    choose_centring(s);
+    if (solve_newton(s)) {
+      if (descends_for_ever(s)) {
+        s.status = status::unbounded;
+      } else {
+        shorten(s);
+      }
+    }
+    ++s.iteration;
+    if (s.status == status::running) note_progress(s);
+  }
+
+  /// r from x, where it has been updated; one product.
+  bool refresh(state_type& s) const {
+    if (s.since_refresh == 0) return false;
+    s.gradient(qp_.get());
+    s.reduce(qp_.get());
+    this->set_lagrangian(s, s.r, s.multipliers);
+    s.status = status::running;
+    note_progress(s);
+    return true;
+  }
+
+ private:
+  using core::infinity;
+  using core::options_;
+  using core::qp_;
+
+  void choose_centring(state_type& s) const {
+    s.centring = scalar(0);
+    if (s.constraints == 0) return;
+    scalar const ξ = this->least_product(s, s.multipliers, s.slacks) / s.measure;
+    scalar const q = ξ < scalar(1) ? scalar((scalar(1) - ξ) / ξ) : scalar(0);
+    s.centring =
+        std::min(options_.centring_most,
+                 std::max(options_.centring_least, scalar(options_.centring_scale * (q * q * q))));
+  }
+
+  /// Δx, A Δx and Δν; false if there is none.
+  bool solve_newton(state_type& s) const {
+    auto const& qp = qp_.get();
+    s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
+    auto const z = slant::local(s.slacks).array();
+    auto const ν = slant::local(s.multipliers).array();
+    auto& centred = slant::local(s.row_scratch);
+    centred = ((s.barrier.per_unit().array() > scalar(0)).template cast<scalar>() *
+               (s.centring * s.measure / z))
+                  .matrix();
+    slant::local(s.rhs) = slant::local(s.r);
+    s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
+    s.barrier.keep_fixed(s.rhs);
+    scalar const target = s.forcing.next(options_.forcing) * norm(s.rhs);
+    auto const inner = s.inner.solve(qp.a(), s.a_workspace, s.barrier, s.rhs, target,
+                                     options_.inner_steps, options_.warm_start);
+    s.inner_iterations = inner.iterations;
+    s.work.inner_iterations += inner.iterations;
+    s.work.operator_applications += inner.iterations;
+    slant::local(s.step) = s.unit * slant::local(s.inner.t);
+    s.step_norm = norm(s.step);
+    if (!inner.finite || !detail::is_finite(s.step_norm)) {
+      s.status = status::breakdown;
+      return false;
+    }
+    s.barrier.jacobian().apply(s.step, s.multiplier_step);
+    auto& dν = slant::local(s.multiplier_step);
+    dν = (centred.array() - ν + ν / z * dν.array()).matrix();
+    return true;
+  }
+
+  /// Is Δx a direction without curvature and without end in which q falls (recession.hpp)?
+  bool descends_for_ever(state_type& s) const {
+    if constexpr (spd_operator<typename problem::operator_type, vector_type>) {
+      return false;
+    } else {
+      // The trace of A is at least its largest eigenvalue.
+      slant::local(s.trial).setOnes();
+      scalar const trace = inner_product(s.trial, s.diagonal) / s.unit;
+      if (inner_product(s.step, s.inner.image) > flatness(s.step, trace)) return false;
+      scalar const slope = -inner_product(s.step, s.r);
+      return is_descent(slope, s.step, scalar(s.size_of_b + norm(s.r))) &&
+             !(this->way_out(s) < infinity);
+    }
+  }
+
+  /// The step length α and the point at its end.
+  void shorten(state_type& s) const {
+    scalar to_end = this->way_out(s);
+    auto const& ν = slant::local(s.multipliers);
+    auto const& dν = slant::local(s.multiplier_step);
+    scalar of_ν = infinity;
+    for (index i = 0; i < index(ν.size()); ++i) {
+      if (dν.coeff(i) < scalar(0)) of_ν = std::min<scalar>(of_ν, -ν.coeff(i) / dν.coeff(i));
+    }
+    to_end = std::min(to_end, slant::minimum(s.x, of_ν));
+    scalar α = std::min<scalar>(scalar(1), options_.to_boundary * to_end);
+    for (index j = 0; j < options_.shortenings && α > scalar(0); ++j) {
+      scalar const factor = this->judge(s, α);
+      if (factor == scalar(1)) {
+        accept(s, α);
+        return;
+      }
+      α *= factor;
+    }
+    s.status = status::stalled;
+  }
+
+  void accept(state_type& s, scalar const& α) const {
+    std::swap(s.x, s.trial);
+    std::swap(s.multipliers, s.trial_multipliers);
+    std::swap(s.slacks, s.trial_slacks);
+    slant::local(s.r) += α * slant::local(s.inner.image);
+    if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers);
+    ++s.since_refresh;
+    s.step_fraction = α;
+    s.x_norm = norm(s.x);
+    s.reduce(qp_.get());
+    // [K]: err = ‖v⁺ − v‖ / ‖v⁺‖, here of x alone, since multipliers have other units.
+    scalar const error = s.x_norm > scalar(0) ? scalar(α * s.step_norm / s.x_norm) : scalar(1);
+    s.forcing.record(std::min<scalar>(error, scalar(1)));
+  }
+
+  void note_progress(state_type& s) const {
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+    if (s.status != status::running) return;
+    auto const no_energy = [] { return std::pair(scalar(infinity), scalar(0)); };
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
+      s.status = status::stalled;
+    }
+  }
+};
+
+}  // namespace slant

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// Options of the interior-point method.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/checks.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/newton/forcing.hpp>
+
+#include <optional>
+
+namespace slant {
+
+/// Options of interior_point. The constants of [K §3.2.4] are the defaults where it has them;
+/// lengths and forces of the start are multiples of those of the data, which [K] has not.
+template <scalar S = double>
+struct interior_point_options {
+  /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
+  std::optional<S> step_length{};
+  mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
+
+  /// c_z > 0: first slacks of sets without an end, in natural lengths; c_ν > 0: first multipliers,
+  /// in natural forces. Measured on bricks (k = 8, energy error 1e-6, press, pull, lift): 3 and 0.3
+  /// 196, 107, 107 products, 1 and 1 212, 109, 118; a tenth of these lengths doubles the steps.
+  S start_length = S(3);
+  S start_force = S(0.3);
+  /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
+  /// more of x0 and lies nearer to the boundary: with 0.1 two or three times the steps on bricks.
+  S start_depth = S(1);
+
+  S centring_least = S(0.1);      ///< c_min in [0, c_max]; 0: pure Newton steps
+  S centring_most = S(0.5);       ///< c_max in (0, 1)
+  S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
+  S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
+  S residual_factor = S(1e9);  ///< β₀ ≥ 1: ‖∇L‖ ≤ β ϑ with β₀ times the β of the start
+  S sufficient = S(0.1);        ///< ω in (0, 1): ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
+  S to_boundary = S(0.999);     ///< δ in (0, 1): at most so much of the way to the boundary
+  S shorten_centred = S(0.9);   ///< ρ₁ in (0, 1): shortens α until ν_i z_i ≥ γ ϑ
+  S shorten_measure = S(0.9);   ///< ρ₂ in (0, 1): until ϑ falls enough
+  S shorten_residual = S(0.5);  ///< ρ₃ in (0, 1): until ‖∇L‖ ≤ β ϑ
+  index shortenings = 200;      ///< at most so often in one step
+
+  adaptive_precision forcing{.r_tol = 0.3,
+                             .c_fact = 0.99};  ///< inner accuracy, relative to the right-hand side
+  bool warm_start = true;    ///< inner iterations begin at a multiple of the last step
+  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
+  index patience = 30;       ///< steps without progress that mean stalled
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    if (step_length) positive("step_length", *step_length);
+    positive("start_length", start_length);
+    positive("start_force", start_force);
+    if (!(start_depth > S(0) && start_depth <= S(1))) {
+      throw bad_input("start_depth", detail::show(start_depth), "a number in (0, 1]");
+    }
+    fraction("centring_most", centring_most);
+    if (!(centring_least >= S(0) && centring_least <= centring_most)) {
+      throw bad_input("centring_least", detail::show(centring_least),
+                      "a number in [0, centring_most]");
+    }
+    positive("centring_scale", centring_scale);
+    fraction("closeness", closeness);
+    if (!(residual_factor >= S(1)) || !detail::is_finite(residual_factor)) {
+      throw bad_input("residual_factor", detail::show(residual_factor), "a number >= 1");
+    }
+    fraction("sufficient", sufficient);
+    fraction("to_boundary", to_boundary);
+    fraction("shorten_centred", shorten_centred);
+    fraction("shorten_measure", shorten_measure);
+    fraction("shorten_residual", shorten_residual);
+    if (shortenings < 1) throw bad_input("shortenings", detail::show(shortenings), "at least 1");
+    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    mean_diagonal.validate();
+    forcing.validate();
+  }
+
+ private:
+  static void positive(char const* name, S const& value) {
+    if (!(value > S(0)) || !detail::is_finite(value)) {
+      throw bad_input(name, detail::show(value), "a number > 0");
+    }
+  }
+  static void fraction(char const* name, S const& value) {
+    if (!(value > S(0) && value < S(1))) {
+      throw bad_input(name, detail::show(value), "a number in (0, 1)");
+    }
+  }
+};
+
+}  // namespace slant

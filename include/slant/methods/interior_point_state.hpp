@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// The state of the interior-point method.
+#pragma once
+
+#include <slant/iteration/report.hpp>
+#include <slant/methods/barrier.hpp>
+#include <slant/methods/barrier_minimum.hpp>
+#include <slant/methods/gradient_point.hpp>
+#include <slant/methods/progress_watch.hpp>
+#include <slant/newton/forcing.hpp>
+
+#include <limits>
+#include <string>
+
+namespace slant {
+
+/// State of interior_point for a separable_qp of type QP. x in the interior of Λ with its gradient
+/// r and its reduced gradient are those of gradient_point. Vectors of multipliers have one entry
+/// per inequality of the set, those of unknowns qp.size().
+template <class QP>
+struct interior_point_state : gradient_point<QP> {
+  using typename gradient_point<QP>::vector_type;
+  using typename gradient_point<QP>::scalar;
+
+  slant::barrier<scalar> barrier;  ///< inequalities, G, W, P_SC at x
+  vector_type multipliers;         ///< ν > 0, in multiples of unit; 0 where there is no bound
+  vector_type slacks;              ///< z = −f(x)/σ > 0, lengths
+  vector_type lagrangian;          ///< ∇L = r + G ν, in multiples of unit
+  vector_type diagonal;            ///< D ≈ diag(A)
+  vector_type centre;              ///< a point in the middle of every block
+  vector_type step;                ///< Δx
+  vector_type multiplier_step;     ///< Δν
+  vector_type rhs;                 ///< scratch: minus the right-hand side of [K (43)]
+  vector_type row_scratch;         ///< scratch, one entry per inequality
+  vector_type trial_slacks, trial_multipliers;  ///< those of the trial point
+  barrier_minimum<vector_type> inner;           ///< solves for Δx
+  forcing_history<scalar> forcing{};            ///< errors and inner tolerances so far
+  progress_watch<scalar> progress;              ///< looks for steps that get nowhere
+
+  index constraints = 0;      ///< number of inequalities with a bound, on all processes
+  scalar measure{0};          ///< ϑ = νᵀz / constraints, in multiples of unit
+  scalar lagrangian_norm{0};  ///< ‖∇L‖
+  scalar residual_bound{0};   ///< β
+  scalar centring{0};         ///< c of the last step
+  scalar step_fraction{0};    ///< α of the last step
+  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖Δx‖, of the whole step
+  scalar x_norm{0};                                            ///< ‖x‖
+  index inner_iterations = 0;                                  ///< of the last step
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  interior_point_state(QP const& qp, vector_type const& x0)
+      : gradient_point<QP>(qp, x0),
+        barrier(qp.set()),
+        multipliers(like(x0, barrier.rows())),
+        slacks(like(x0, barrier.rows())),
+        lagrangian(like(x0, qp.size())),
+        diagonal(like(x0, qp.size())),
+        centre(like(x0, qp.size())),
+        step(like(x0, qp.size())),
+        multiplier_step(like(x0, barrier.rows())),
+        rhs(like(x0, qp.size())),
+        row_scratch(like(x0, barrier.rows())),
+        trial_slacks(like(x0, barrier.rows())),
+        trial_multipliers(like(x0, barrier.rows())),
+        inner(x0, qp.size()) {}
+
+  /// What a status other than running means here.
+  [[nodiscard]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the reduced gradient is zero: x is the solution";
+      case slant::status::stalled:
+        return "no step gets any further at this precision";
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or A is not semidefinite";
+      case slant::status::unbounded:
+        return "the function decreases for ever along step";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+}  // namespace slant

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//
+// A diagonal matrix in which some small groups of components are coupled: symmetric blocks of a few
+// rows each, anywhere in the vector. What a product of small convex sets contributes to a Hessian
+// looks like this, and so does the inverse of its sum with a diagonal matrix.
+#pragma once
+
+#include <slant/concepts/laws.hpp>
+#include <slant/concepts/vector.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace slant {
+
+/// Self-adjoint; L are the further laws that whoever assigns the entries promises.
+template <scalar S, law_set L = law_set{}>
+class small_blocks {
+ public:
+  using scalar = S;
+  static constexpr law_set laws = L | slant::laws<slant::self_adjoint>;
+
+  /// n components, no blocks, zero.
+  explicit small_blocks(index n) : diagonal_(Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(n)) {}
+
+  [[nodiscard]] index rows() const noexcept { return diagonal_.size(); }
+  [[nodiscard]] index cols() const noexcept { return diagonal_.size(); }
+  [[nodiscard]] index block_count() const noexcept { return static_cast<index>(blocks_.size()); }
+
+  /// A further block, of the components first, first + stride, …, which no other block has. Zero.
+  void append(index size, index first, index stride) {
+    blocks_.push_back({entries_.size(), size, first, stride});
+    entries_.resize(entries_.size() + static_cast<std::size_t>(size * size), S(0));
+  }
+  /// The entries of block i, in the order of append, symmetric; to be written.
+  [[nodiscard]] auto block(index i) {
+    auto const& b = blocks_[static_cast<std::size_t>(i)];
+    return Eigen::Map<Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>>(entries_.data() + b.entry,
+                                                                        b.size, b.size);
+  }
+  /// The entries of the diagonal outside the blocks become those of d.
+  template <class D>
+  void assign_outside(D const& d) {
+    diagonal_ = slant::local(d);
+    for (auto const& b : blocks_) {
+      for (index i = 0; i < b.size; ++i) diagonal_.coeffRef(b.first + i * b.stride) = S(0);
+    }
+  }
+
+  /// y = B x; several columns at once are fine.
+  template <class X, class Y>
+  void apply(X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    for (index c = 0; c < index(from.cols()); ++c) {
+      to.col(c) = diagonal_.cwiseProduct(from.col(c));
+      for_each(from.col(c), [&](index j, S const& sum) { to.coeffRef(j, c) = sum; });
+    }
+  }
+  /// y ← y + α B x.
+  template <class X, class Y>
+  void apply_add(S const& α, X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    for (index c = 0; c < index(from.cols()); ++c) {
+      to.col(c) += α * diagonal_.cwiseProduct(from.col(c));
+      for_each(from.col(c), [&](index j, S const& sum) { to.coeffRef(j, c) += α * sum; });
+    }
+  }
+  /// d = diag(B).
+  template <class D>
+  void diagonal(D& d) const {
+    auto& to = slant::local(d);
+    to = diagonal_;
+    for (auto const& b : blocks_) {
+      for (index i = 0; i < b.size; ++i) {
+        to.coeffRef(b.first + i * b.stride) =
+            entries_[b.entry + static_cast<std::size_t>(i * (b.size + 1))];
+      }
+    }
+  }
+
+ private:
+  struct block_place {
+    std::size_t entry;
+    index size;
+    index first;
+    index stride;
+  };
+
+  /// f(component, (B x) there) for every component of a block.
+  template <class X, class F>
+  void for_each(X const& x, F const& f) const {
+    for (auto const& b : blocks_) {
+      S const* const m = entries_.data() + b.entry;
+      if (b.size == 1) {
+        f(b.first, m[0] * x.coeff(b.first));
+      } else if (b.size == 2) {
+        S const u = x.coeff(b.first), v = x.coeff(b.first + b.stride);
+        f(b.first, m[0] * u + m[2] * v);
+        f(b.first + b.stride, m[1] * u + m[3] * v);
+      } else {
+        for (index i = 0; i < b.size; ++i) {
+          S sum(0);
+          for (index j = 0; j < b.size; ++j) {
+            sum += m[j * b.size + i] * x.coeff(b.first + j * b.stride);
+          }
+          f(b.first + i * b.stride, sum);
+        }
+      }
+    }
+  }
+
+  Eigen::Matrix<S, Eigen::Dynamic, 1> diagonal_;
+  std::vector<block_place> blocks_;
+  std::vector<S> entries_;
+};
+
+}  // namespace slant

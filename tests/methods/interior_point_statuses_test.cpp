@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <krylov/spd_matrices.hpp>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace interior_point_statuses_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Half lines, intervals, discs and two free unknowns: 12 of them, all lengths in units of t.
+struct problem {
+  double t = 1;
+  VectorXd lower = t * VectorXd{{0.0, -1.0, 0.5}};
+  VectorXd below = t * VectorXd{{-0.3, 0.1, -1.0}}, above = t * VectorXd{{0.2, 0.4, infinity}};
+  VectorXd g = t * VectorXd{{0.5, 2.0}};
+  MatrixXd A = test::with_spectrum(test::log_spaced(12, 100), 3);
+  VectorXd b = t * 2 * test::random_vector(12, 9);
+
+  [[nodiscard]] auto set() const {
+    return slant::cartesian(slant::half_lines(lower), slant::intervals(below, above),
+                            slant::discs(g), slant::free_components(2));
+  }
+  [[nodiscard]] auto qp(double stiffness = 1) const {
+    return slant::separable_qp{test::spd(MatrixXd(stiffness * A)), VectorXd(stiffness * b), set()};
+  }
+};
+
+VectorXd zero() {
+  return VectorXd::Zero(12);
+}
+
+template <class F>
+std::string message_of(F&& f) {
+  try {
+    f();
+  } catch (slant::bad_input const& e) {
+    return e.what();
+  }
+  return "nothing was thrown";
+}
+template <class Problem>
+std::string refusal(Problem const& p) {
+  return message_of([&] { static_cast<void>(slant::interior_point{p.qp()}.start(zero())); });
+}
+
+TEST_CASE("an empty interior: the block, and what to use instead") {
+  std::string const words =
+      " of the set: got an empty interior, expected points with f(x) < 0; use slant::point for "
+      "components with one value, slant::free_components for those without bounds, or another "
+      "method (symmetric_newton, kprgp)";
+  problem p;
+  p.g(1) = 0;
+  CHECK(refusal(p) == "block 7" + words);
+  p.g(1) = 1;
+  p.above(1) = p.below(1);
+  CHECK(refusal(p) == "block 4" + words);
+  p.above(1) = std::nextafter(p.below(1), 1.0);  // two numbers, none between them
+  CHECK(refusal(p) == "block 4" + words);
+  p.above(1) = infinity;
+  p.below(1) = -infinity;
+  CHECK(refusal(p) == "nothing was thrown");
+}
+
+TEST_CASE("a nearly empty interior: the same solution as another method's") {
+  for (double tiny : {1e-6, 1e-12, 1e-15}) {
+    CAPTURE(tiny);
+    problem p;
+    p.g(0) = tiny;
+    p.above(0) = p.below(0) + tiny;
+    auto const qp = p.qp();
+    auto const exact = slant::solve(slant::symmetric_newton{qp}, zero(),
+                                    slant::reduced_gradient_below(1e-13) || slant::at_most(100));
+    auto const r = slant::solve(slant::interior_point{qp}, zero(),
+                                slant::reduced_gradient_below(1e-9) || slant::at_most(100));
+    REQUIRE(exact.converged());
+    CHECK((r.x() - exact.x()).norm() <= 1e-7 * exact.x().norm());
+    CHECK((r.converged() || r.status == slant::status::stalled));
+    CHECK(std::string(r.reason).size() > 10);
+    CHECK(r.x().segment<2>(6).norm() < tiny);
+    CHECK(r.x()(3) > p.below(0));
+    CHECK(r.x()(3) < p.above(0));
+  }
+}
+
+TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
+  auto const solve_in = [](int stiffness, int length) {
+    problem const p{.t = std::ldexp(1.0, length)};
+    auto r = slant::solve(slant::interior_point{p.qp(std::ldexp(1.0, stiffness))}, zero(),
+                          slant::reduced_gradient_below(1e-10) || slant::at_most(60));
+    for (int i = 0; i < 3; ++i) {
+      CHECK(r.x()(i) > p.lower(i));
+      CHECK(r.x()(3 + i) > p.below(i));
+      CHECK(r.x()(3 + i) < p.above(i));
+    }
+    r.state.x /= p.t;
+    return r;
+  };
+  auto const plain = solve_in(0, 0);
+  REQUIRE(plain.converged());
+  constexpr int far = 332;
+  for (auto const& [stiffness, length] : {std::pair{far, 0},
+                                          {-far, 0},
+                                          {0, far},
+                                          {0, -far},
+                                          {far, -far},
+                                          {-far, far},
+                                          {far / 2, far},
+                                          {-far / 2, -far}}) {
+    CAPTURE(stiffness);
+    CAPTURE(length);
+    auto const r = solve_in(stiffness, length);
+    CHECK(r.status == plain.status);
+    CHECK(r.iterations() == plain.iterations());
+    CHECK(r.x() == plain.x());
+  }
+}
+
+TEST_CASE("all digits: stalled at the floor, in the interior") {
+  problem const p;
+  auto const qp = p.qp();
+  auto const r = slant::solve(slant::interior_point{qp}, zero(),
+                              slant::reduced_gradient_below(0.0) || slant::at_most(300));
+  CHECK(r.status == slant::status::stalled);
+  double const ε = std::numeric_limits<double>::epsilon();
+  CHECK(r.state.reduced_gradient_norm <= 100 * ε * (p.b.norm() + p.A.norm() * r.x().norm()));
+  for (int i = 0; i < 3; ++i) CHECK(r.x()(i) > p.lower(i));
+}
+
+TEST_CASE("a semidefinite A: with a minimum, and without") {
+  VectorXd const b = VectorXd::Ones(2);
+  auto const stop = slant::reduced_gradient_below(1e-10) || slant::at_most(300);
+  auto const run = [&](MatrixXd const& M) {
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
+    slant::separable_qp const qp{A, b, slant::half_lines(2)};
+    return slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(2)), stop);
+  };
+  auto const r = run(MatrixXd{{1.0, 1.0}, {1.0, 1.0}});
+  CHECK(r.converged());
+  CHECK(r.x().sum() == doctest::Approx(1.0));
+  MatrixXd const M{{1.0, -1.0}, {-1.0, 1.0}};
+  auto const none = run(M);
+  CHECK(none.status == slant::status::unbounded);
+  VectorXd const d = none.state.step;
+  CHECK((M * d).norm() <= 1e-7 * d.norm());
+  CHECK(b.dot(d) > 0);
+  CHECK(d.minCoeff() >= 0);
+}
+
+TEST_CASE("nothing to do: solved at the start, no constraint at all") {
+  problem p;
+  p.b.setZero();
+  p.lower.setConstant(-1);
+  p.below(1) = -1;
+  auto const r = slant::solve(slant::interior_point{p.qp()}, zero(),
+                              slant::reduced_gradient_below(1e-10) || slant::at_most(5));
+  CHECK(r.converged());
+  CHECK(r.iterations() == 0);
+  problem free;
+  free.lower.setConstant(-infinity);
+  free.below.setConstant(-infinity);
+  free.above.setConstant(infinity);
+  free.g.setConstant(infinity);
+  auto const unconstrained =
+      slant::solve(slant::interior_point{free.qp()}, zero(),
+                   slant::reduced_gradient_below(1e-12) || slant::at_most(50));
+  CHECK(unconstrained.converged());
+  CHECK(unconstrained.state.constraints == 0);
+  CHECK((free.A * unconstrained.x() - free.b).norm() <= 1e-11 * free.b.norm());
+}
+
+TEST_CASE("bad input names argument, value and expectation") {
+  problem const p;
+  auto const qp = p.qp();
+  slant::interior_point const method{qp};
+  CHECK(message_of([&] { static_cast<void>(method.start(VectorXd(VectorXd::Zero(3)))); }) ==
+        "x0: got 3, expected the size of b, 12");
+  VectorXd x0 = zero();
+  x0(1) = nan;
+  CHECK(message_of([&] { static_cast<void>(method.start(x0)); }).starts_with("x0[1]: got nan"));
+  using options = slant::interior_point_options<double>;
+  auto const complaint = [](options const& o) { return message_of([&] { o.validate(); }); };
+  CHECK(complaint({}) == "nothing was thrown");
+  CHECK(complaint({.step_length = -1.0}).starts_with("step_length: got -1"));
+  CHECK(complaint({.start_length = 0.0}).starts_with("start_length: got 0"));
+  CHECK(complaint({.start_force = nan}).starts_with("start_force: got nan"));
+  CHECK(complaint({.start_depth = 2.0}).starts_with("start_depth: got 2"));
+  CHECK(complaint({.centring_least = 0.6}).starts_with("centring_least: got 0.6"));
+  CHECK(complaint({.closeness = 1.0}).starts_with("closeness: got 1"));
+  CHECK(complaint({.residual_factor = 0.5}).starts_with("residual_factor: got 0.5"));
+  CHECK(complaint({.to_boundary = 1.0}).starts_with("to_boundary: got 1"));
+  CHECK(complaint({.shortenings = 0}).starts_with("shortenings: got 0"));
+  CHECK(complaint({.inner_steps = 0}).starts_with("inner_steps: got 0"));
+}
+
+}  // namespace interior_point_statuses_test
