@@ -65,9 +65,7 @@ class equilibrated {
   using factors = Eigen::Matrix<scalar, Eigen::Dynamic, 1>;
 
   /// d from the diagonal of A, which A must give.
-  explicit equilibrated(QP const& qp)
-    requires has_diagonal<typename QP::operator_type, vector_type>
-      : equilibrated(qp, factors_of(qp)) {}
+  explicit equilibrated(QP const& qp) : equilibrated(qp, factors_of(qp)) {}
 
   /// d: one factor for each unknown, the same all over a block. For an A that does not give its
   /// diagonal, `block_factors` makes them of an estimate.
@@ -102,9 +100,17 @@ class equilibrated {
 
  private:
   static factors factors_of(QP const& qp) {
-    vector_type a = like(qp.b(), qp.size());
-    qp.a().diagonal(a);
-    return block_factors(qp.set(), factors(slant::local(a)));
+    constexpr bool known = has_diagonal<typename QP::operator_type, vector_type>;
+    static_assert(known,
+                  "equilibrated: A must have diagonal(d); without it, give the factors d as second "
+                  "argument");
+    factors a = factors::Ones(qp.size());
+    if constexpr (known) {
+      vector_type diagonal_of_a = like(qp.b(), qp.size());
+      qp.a().diagonal(diagonal_of_a);
+      a = slant::local(diagonal_of_a);
+    }
+    return block_factors(qp.set(), a);
   }
 
   QP const* original_;
