@@ -76,13 +76,29 @@ TEST_CASE("blocks of very different stiffness: the work does not depend on the s
 }
 
 TEST_CASE("without it the stiff blocks decide the length of every step") {
-  uneven const p(1e9);
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A);
-  auto const set = p.set();
-  slant::separable_qp const qp{A, p.b, set};
-  CHECK(
-      slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(qp.size())), stop).status ==
-      slant::status::iteration_limit);
+  auto const solve_plainly = [](double spread, slant::index most) {
+    uneven const p(spread);
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A);
+    auto const set = p.set();
+    slant::separable_qp const qp{A, p.b, set};
+    return slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(qp.size())),
+                        slant::reduced_gradient_below(1e-12) || slant::at_most(most));
+  };
+  auto const even = solve_plainly(1, 30).state.work.operator_applications;
+  auto const stiff = solve_plainly(1e6, 2000).state.work.operator_applications;
+  CAPTURE(even);
+  CAPTURE(stiff);
+  CHECK(stiff >= 20 * even);
+  CHECK_FALSE(solve_plainly(1e9, 2000).converged());
+}
+
+TEST_CASE("a problem that is handed over is owned") {
+  uneven const p(1e4);
+  slant::equilibrated const even(slant::separable_qp{
+      slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A), p.b, p.set()});
+  auto const scaled = even.qp();
+  CHECK(slant::solve(slant::symmetric_newton{scaled}, even.from(VectorXd::Zero(24)), stop)
+            .converged());
 }
 
 TEST_CASE("factors: one a block, means of the diagonal, 1 where it vanishes") {

@@ -20,10 +20,12 @@
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/held.hpp>
 #include <slant/sets/block_scaled.hpp>
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -56,51 +58,53 @@ template <class C, class S>
 
 /// A quadratic program in unknowns y with x = D y: `auto const scaled = equilibrated(qp);
 /// auto r = solve(symmetric_newton{scaled.qp()}, scaled.from(x0), stop); scaled.back(r.x())`.
-/// References the operator and the set of the problem, which must outlive it.
+/// QP is `Problem const&` (referenced) or a problem type (owned).
 template <class QP>
 class equilibrated {
+  using problem = std::remove_cvref_t<QP>;
+
  public:
-  using vector_type = typename QP::vector_type;
-  using scalar = typename QP::scalar;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
   using factors = Eigen::Matrix<scalar, Eigen::Dynamic, 1>;
 
   /// d from the diagonal of A, which A must give.
-  explicit equilibrated(QP const& qp) : equilibrated(qp, factors_of(qp)) {}
+  explicit equilibrated(held<QP> qp)
+      : original_(std::move(qp)), d_(factors_of(original_.get())), b_(scaled_b()) {}
 
   /// d: one factor for each unknown, the same all over a block. For an A that does not give its
   /// diagonal, `block_factors` makes them of an estimate.
   /// Throws bad_input as block_scaled does.
-  equilibrated(QP const& qp, factors d) : original_(&qp), d_(std::move(d)), b_(qp.b()) {
-    detail::check_block_factors(d_, qp.set());
-    slant::local(b_) = slant::local(b_).cwiseProduct(d_);
-  }
+  equilibrated(held<QP> qp, factors d)
+      : original_(std::move(qp)), d_(std::move(d)), b_(scaled_b()) {}
 
   /// D.
   [[nodiscard]] factors const& d() const { return d_; }
 
   /// min ½ yᵀ(D A D) y − (D b)ᵀy over D⁻¹Λ. References this object.
   [[nodiscard]] auto qp() const& {
-    return separable_qp{congruence(full_row_rank(diagonal<positive_definite>(d_)), original_->a()),
-                        b_, block_scaled(factors(d_.cwiseInverse()), original_->set())};
+    return separable_qp{
+        congruence(full_row_rank(diagonal<positive_definite>(d_)), original_.get().a()), b_,
+        block_scaled(factors(d_.cwiseInverse()), original_.get().set())};
   }
   auto qp() const&& = delete;  // it would reference what is about to end
 
   /// y of x.
   [[nodiscard]] vector_type from(vector_type x) const {
-    detail::check_size("x", index(slant::local(x).size()), original_->size());
+    detail::check_size("x", index(slant::local(x).size()), original_.get().size());
     slant::local(x) = slant::local(x).cwiseQuotient(d_);
     return x;
   }
   /// x of y.
   [[nodiscard]] vector_type back(vector_type y) const {
-    detail::check_size("y", index(slant::local(y).size()), original_->size());
+    detail::check_size("y", index(slant::local(y).size()), original_.get().size());
     slant::local(y) = slant::local(y).cwiseProduct(d_);
     return y;
   }
 
  private:
-  static factors factors_of(QP const& qp) {
-    constexpr bool known = has_diagonal<typename QP::operator_type, vector_type>;
+  static factors factors_of(problem const& qp) {
+    constexpr bool known = has_diagonal<typename problem::operator_type, vector_type>;
     static_assert(known,
                   "equilibrated: A must have diagonal(d); without it, give the factors d as second "
                   "argument");
@@ -113,9 +117,21 @@ class equilibrated {
     return block_factors(qp.set(), a);
   }
 
-  QP const* original_;
+  [[nodiscard]] vector_type scaled_b() const {
+    detail::check_block_factors(d_, original_.get().set());
+    vector_type b = original_.get().b();
+    slant::local(b) = slant::local(b).cwiseProduct(d_);
+    return b;
+  }
+
+  held<QP> original_;
   factors d_;
-  vector_type b_;
+  vector_type b_;  ///< D b
 };
+
+template <class QP>
+equilibrated(QP&&) -> equilibrated<kept_t<QP>>;
+template <class QP>
+equilibrated(QP&&, typename equilibrated<kept_t<QP>>::factors) -> equilibrated<kept_t<QP>>;
 
 }  // namespace slant
