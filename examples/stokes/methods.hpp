@@ -9,6 +9,7 @@
 #include <fem/wall_preconditioner.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <string>
@@ -62,9 +63,17 @@ class flow_problem {
   auto const plain_newton = [options](flow_problem const& problem) {
     return slant::symmetric_newton{problem.qp(), options};
   };
+  auto const interior = [](flow_problem const& problem) {
+    return slant::interior_point{problem.qp(), problem.preconditioner()};
+  };
+  auto const plain_interior = [](flow_problem const& problem) {
+    return slant::interior_point{problem.qp()};
+  };
   auto const active_set = [](flow_problem const& problem) { return slant::kprgp{problem.qp()}; };
   return std::tuple{examples::named_method{"newton", newton},
                     examples::named_method{"plain_newton", plain_newton},
+                    examples::named_method{"interior_point", interior},
+                    examples::named_method{"plain_interior_point", plain_interior},
                     examples::named_method{"active_set", active_set}};
 }
 

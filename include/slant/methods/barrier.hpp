@@ -125,14 +125,14 @@ class barrier {
         square w = block.inequality_hessian(
             place.value(x),
             Eigen::Matrix<S, k, 1>(forces.cwiseProduct(per_unit_.template segment<k>(row))));
-        curvature_.block(number) = w;
+        curvature_.template block<n>(number) = w;
         for (int i = 0; i < k; ++i) {
           Eigen::Matrix<S, n, 1> const stiff = (forces(i) / slack.coeff(row + i)) * g.col(i);
           w += stiff * g.col(i).transpose();
         }
-        stiffness_.block(number) = w;
+        stiffness_.template block<n>(number) = w;
         for (int j = 0; j < n; ++j) w(j, j) += diagonal.coeff(place.component(j));
-        preconditioner_.block(number) = inverse_of(w);
+        preconditioner_.template block<n>(number) = inverse_of(w);
         row += k;
         entry += k * n;
         ++number;

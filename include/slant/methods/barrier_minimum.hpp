@@ -4,21 +4,31 @@
 //
 //     J_SC t = −g₀,     J_SC = A + W,
 //
-// by conjugate gradients with the preconditioner P_SC = diag(A) + W. A t comes along, so whoever
-// takes the step knows the gradient at its end: one product by A a step of the iteration and none
-// besides, also for a start t₀ ≠ 0, whose image is known from the step that made it. Of its
-// multiples the one with the least energy is taken, which is never worse than 0.
+// by conjugate gradients with the preconditioner P_SC = D + W, D ≈ diag(A). A t comes along, so
+// whoever takes the step knows the gradient at its end: one product by A a step of the iteration
+// and none besides, also for a start t₀ ≠ 0, whose image is known from the step that made it. Of
+// its multiples the one with the least energy is taken, which is never worse than 0.
+//
+// With M ≈ A⁻¹ at hand the preconditioner is, D ≈ diag(M)⁻¹,
+//
+//     P⁻¹ = P_SC⁻¹ (D M D + W) P_SC⁻¹:
+//
+// M where nothing is near its bound (W = 0), W⁻¹ where it is (W → ∞), P_SC⁻¹ for M = D⁻¹, and
+// definite in between.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <type_traits>
 
 namespace slant {
 
 /// The solution t, its image, and what the iteration works in.
-template <class V>
+template <class V, class M>
 class barrier_minimum {
  public:
   using scalar = scalar_t<V>;
@@ -26,13 +36,16 @@ class barrier_minimum {
   V t;      ///< the step
   V image;  ///< A t
 
-  barrier_minimum(V const& prototype, index n)
+  barrier_minimum(V const& prototype, index n, M const& m)
       : t(like(prototype, n)),
         image(like(prototype, n)),
         g_(like(prototype, n)),
         p_(like(prototype, n)),
         Ap_(like(prototype, n)),
-        z_(like(prototype, n)) {
+        z_(like(prototype, n)),
+        near_(like(prototype, preconditioned ? n : 0)),
+        far_(like(prototype, preconditioned ? n : 0)),
+        m_workspace_(workspace(m, prototype)) {
     forget();
   }
 
@@ -44,10 +57,11 @@ class barrier_minimum {
   }
 
   /// t with ‖g₀ + J_SC t‖ ≤ target, or the last one after at most `most` steps. t has the units of
-  /// g₀ over those of A. `warm`: begins at a multiple of the t that is there.
+  /// g₀ over those of A; d is the diagonal of D. `warm`: begins at a multiple of the t that is
+  /// there.
   template <class A, class WA, class B>
-  inner_result<scalar> solve(A const& a, WA& a_workspace, B const& barrier, V const& g0,
-                             scalar const& target, index most, bool warm) {
+  inner_result<scalar> solve(A const& a, WA& a_workspace, M const& m, B const& barrier, V const& d,
+                             V const& g0, scalar const& target, index most, bool warm) {
     slant::local(g_) = slant::local(g0);
     barrier.keep_fixed(g_);
     if (warm && known_) {
@@ -60,7 +74,7 @@ class barrier_minimum {
     bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
-      slant::apply(barrier.preconditioner(), g_, z_);
+      precondition(m, barrier, d);
       scalar const next = inner_product(g_, z_);
       finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;
@@ -86,6 +100,25 @@ class barrier_minimum {
   }
 
  private:
+  static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
+
+  /// z = P⁻¹ g.
+  template <class B>
+  void precondition(M const& m, B const& barrier, V const& d) {
+    if constexpr (preconditioned) {
+      slant::apply(barrier.preconditioner(), g_, near_);
+      slant::local(far_) = slant::local(d).cwiseProduct(slant::local(near_));
+      slant::apply(m, far_, z_, m_workspace_);
+      slant::local(far_) = slant::local(d).cwiseProduct(slant::local(z_));
+      barrier.stiffness().apply_add(scalar(1), near_, far_);
+      slant::apply(barrier.preconditioner(), far_, z_);
+    } else {
+      static_cast<void>(m);
+      static_cast<void>(d);
+      slant::apply(barrier.preconditioner(), g_, z_);
+    }
+  }
+
   /// y = J_SC x for x with the image Ax.
   template <class B>
   void add_stiffness(B const& barrier, V const& x, V const& Ax, V& y) const {
@@ -109,10 +142,12 @@ class barrier_minimum {
     slant::local(g_) += θ * slant::local(z_);
   }
 
-  V g_;   // g₀ + J_SC t
-  V p_;   // direction
-  V Ap_;  // its image
-  V z_;   // preconditioned g, then J_SC p
+  V g_;           // g₀ + J_SC t
+  V p_;           // direction
+  V Ap_;          // its image
+  V z_;           // preconditioned g, then J_SC p
+  V near_, far_;  // parts of the preconditioned g
+  workspace_t<M, V> m_workspace_;
   bool known_ = false;
 };
 

@@ -9,6 +9,7 @@
 //     centre      c = min(c_max, max(c_min, c_s ((1 − ξ)/ξ)³)),   ξ = min ν_i z_i / ϑ
 //     solve       (A + W) Δx = −(r + c ϑ G z⁻¹)                  [K (43)], one product a step of CG
 //                 Δν = c ϑ/z − ν + (ν/z) Gᵀ Δx                                         [K (42)]
+//     raise       ν and ϑ by ‖ν + Δν‖/‖ν‖ where that is large, a few times at most; solve again
 //     shorten     α: 0.999 of the way to the boundary, then until
 //                 ν_i z_i ≥ γ ϑ⁺,   ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ,   ‖∇L⁺‖ ≤ β ϑ⁺            no product
 //     accept      x ← x + α Δx, r ← r + α A Δx, ν ← ν + α Δν
@@ -16,7 +17,8 @@
 // with ϑ = νᵀz / number of constraints. Where it differs from [K]: the slacks are z = −f(x), not
 // unknowns of their own. So every iterate is a point of the interior, f(x) + z = 0 always holds,
 // and W is semidefinite even for a cone, whose f is not convex (barrier.hpp). The start lies on a
-// curve ν_i z_i = ϑ with lengths and forces taken from the data, so that units do not matter.
+// curve ν_i z_i = ϑ with lengths and forces taken from the data, so that units do not matter; where
+// the forces turn out too small, and steps short for that reason, they are raised.
 // Components without constraint have no multiplier, no slack and no part in ϑ.
 #pragma once
 
@@ -41,10 +43,11 @@ namespace slant {
 /// || at_most(100)), options second. Requires of the problem that A is psd_operator and that the
 /// blocks of the set have a smooth inequality form and step_to_boundary; single points keep their
 /// values. Statuses of its own: converged (P_Λ(0) is the solution); stalled; unbounded; breakdown.
-template <class QP>
-  requires interior_point_problem<std::remove_cvref_t<QP>>
-class interior_point<QP> : detail::interior_point_core<QP> {
-  using core = detail::interior_point_core<QP>;
+template <class QP, class M>
+  requires interior_point_problem<std::remove_cvref_t<QP>> &&
+           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class interior_point<QP, M> : detail::interior_point_core<QP, M> {
+  using core = detail::interior_point_core<QP, M>;
 
  public:
   using typename core::options;
@@ -53,9 +56,17 @@ class interior_point<QP> : detail::interior_point_core<QP> {
   using typename core::state_type;
   using typename core::vector_type;
 
-  explicit interior_point(held<QP> qp) : interior_point(std::move(qp), options{}) {}
+  explicit interior_point(held<QP> qp)
+    requires(!core::preconditioned)
+      : interior_point(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  interior_point(held<QP> qp, options o) : core(std::move(qp), std::move(o)) {}
+  interior_point(held<QP> qp, options o)
+    requires(!core::preconditioned)
+      : core(std::move(qp), std::move(o)) {}
+  interior_point(held<QP> qp, held<M> m) : interior_point(std::move(qp), std::move(m), options{}) {}
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  interior_point(held<QP> qp, held<M> m, options o)
+      : core(std::move(qp), std::move(m), std::move(o)) {}
 
   /// The state of a point in the interior on the way from P_Λ(x0) to the middle of Λ. Throws
   /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
@@ -64,7 +75,7 @@ class interior_point<QP> : detail::interior_point_core<QP> {
     auto const& qp = qp_.get();
     detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
     detail::check_finite("x0", x0);
-    state_type s(qp, x0);
+    state_type s(qp, m_.get(), x0);
     this->set_diagonal(s);
     auto origin = like(x0, qp.size());
     slant::local(origin).setZero();
@@ -89,7 +100,9 @@ class interior_point<QP> : detail::interior_point_core<QP> {
   void step(state_type& s) const {
     if (s.status != status::running) return;
     choose_centring(s);
-    if (solve_newton(s)) {
+    bool solved = solve_newton(s);
+    while (solved && this->raise(s)) solved = solve_newton(s);
+    if (solved) {
       if (descends_for_ever(s)) {
         s.status = status::unbounded;
       } else {
@@ -113,6 +126,7 @@ class interior_point<QP> : detail::interior_point_core<QP> {
 
  private:
   using core::infinity;
+  using core::m_;
   using core::options_;
   using core::qp_;
 
@@ -140,8 +154,8 @@ class interior_point<QP> : detail::interior_point_core<QP> {
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
     s.barrier.keep_fixed(s.rhs);
     scalar const target = s.forcing.next(options_.forcing) * norm(s.rhs);
-    auto const inner = s.inner.solve(qp.a(), s.a_workspace, s.barrier, s.rhs, target,
-                                     options_.inner_steps, options_.warm_start);
+    auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
+                                     target, options_.inner_steps, options_.warm_start);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;

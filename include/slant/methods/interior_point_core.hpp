@@ -10,6 +10,7 @@
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
 #include <slant/operators/held.hpp>
+#include <slant/operators/identity.hpp>
 
 #include <Eigen/Core>
 
@@ -22,16 +23,25 @@
 namespace slant::detail {
 
 /// Problem and options of interior_point, with its smaller steps; symbols as in interior_point.hpp.
-template <class QP>
+template <class QP, class M>
 class interior_point_core {
  public:
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
   using scalar = typename problem::scalar;
   using options = interior_point_options<scalar>;
-  using state_type = interior_point_state<problem>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using state_type = interior_point_state<problem, preconditioner>;
+  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  interior_point_core(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
+  interior_point_core(held<QP> qp, options o)
+      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
+    options_.validate();
+  }
+  interior_point_core(held<QP> qp, held<M> m, options o)
+      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
+    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
+    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
     options_.validate();
   }
 
@@ -49,7 +59,17 @@ class interior_point_core {
   /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
   [[gnu::noinline]] void set_diagonal(state_type& s) const {
     auto const& qp = qp_.get();
-    auto const mean = estimate_diagonal(qp.a(), qp.set(), options_.mean_diagonal, s.diagonal);
+    auto const of_a = [&] {
+      if constexpr (preconditioned) {
+        static_cast<void>(
+            estimate_diagonal(m_.get(), qp.set(), options_.mean_diagonal, s.diagonal));
+        slant::local(s.diagonal) = slant::local(s.diagonal).cwiseInverse();
+        return mean_diagonal(qp.a(), s.x, options_.mean_diagonal);
+      } else {
+        return estimate_diagonal(qp.a(), qp.set(), options_.mean_diagonal, s.diagonal);
+      }
+    };
+    auto const mean = of_a();
     s.work.setup_applications += mean.applications;
     if (options_.step_length) {
       s.step_length = *options_.step_length;
@@ -107,6 +127,21 @@ class interior_point_core {
     if (!is_finite(s.lagrangian_norm) || !is_finite(s.measure)) {
       s.status = status::breakdown;
     }
+  }
+
+  /// ν and ϑ of the size that the Newton step Δx, Δν asks for, if those at hand are too small by
+  /// far: Δx would leave Λ almost at once, as no force holds it back. Whether they were.
+  bool raise(state_type& s) const {
+    if (s.constraints == 0 || s.raises == options_.raises) return false;
+    slant::local(s.trial_multipliers) =
+        slant::local(s.multipliers) + slant::local(s.multiplier_step);
+    scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);
+    if (!(growth > options_.raise_above) || !is_finite(growth)) return false;
+    slant::local(s.multipliers) *= growth;
+    s.measure *= growth;
+    set_lagrangian(s, s.r, s.multipliers);
+    ++s.raises;
+    return true;
   }
 
   /// ∇L = gradient + G ν, G as it stands.
@@ -180,6 +215,7 @@ class interior_point_core {
   }
 
   held<QP> qp_;
+  held<M> m_;
   options options_;
 };
 

@@ -29,6 +29,12 @@ struct interior_point_options {
   /// more of x0 and lies nearer to the boundary: with 0.1 two or three times the steps on bricks.
   S start_depth = S(1);
 
+  /// > 1: where a Newton step predicts multipliers so many times as large, ν and ϑ are raised to
+  /// them. Measured: flow past an obstacle (3566 velocities, g = 10, 1e-6) 15 steps and 286
+  /// products, without it 32 and 740; the bricks are not affected.
+  S raise_above = S(5);
+  index raises = 10;  ///< at most so often in all; 0: never
+
   S centring_least = S(0.1);      ///< c_min in [0, c_max]; 0: pure Newton steps
   S centring_most = S(0.5);       ///< c_max in (0, 1)
   S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
@@ -55,6 +61,10 @@ struct interior_point_options {
     if (!(start_depth > S(0) && start_depth <= S(1))) {
       throw bad_input("start_depth", detail::show(start_depth), "a number in (0, 1]");
     }
+    if (!(raise_above > S(1))) {
+      throw bad_input("raise_above", detail::show(raise_above), "a number > 1");
+    }
+    if (raises < 0) throw bad_input("raises", detail::show(raises), "a number >= 0");
     fraction("centring_most", centring_most);
     if (!(centring_least >= S(0) && centring_least <= centring_most)) {
       throw bad_input("centring_least", detail::show(centring_least),

@@ -15,10 +15,10 @@
 
 namespace slant {
 
-/// State of interior_point for a separable_qp of type QP. x in the interior of Λ with its gradient
-/// r and its reduced gradient are those of gradient_point. Vectors of multipliers have one entry
-/// per inequality of the set, those of unknowns qp.size().
-template <class QP>
+/// State of interior_point for a separable_qp of type QP with the preconditioner M. x in the
+/// interior of Λ with its gradient r and its reduced gradient are those of gradient_point. Vectors
+/// of multipliers have one entry per inequality of the set, those of unknowns qp.size().
+template <class QP, class M>
 struct interior_point_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
@@ -27,14 +27,14 @@ struct interior_point_state : gradient_point<QP> {
   vector_type multipliers;         ///< ν > 0, in multiples of unit; 0 where there is no bound
   vector_type slacks;              ///< z = −f(x)/σ > 0, lengths
   vector_type lagrangian;          ///< ∇L = r + G ν, in multiples of unit
-  vector_type diagonal;            ///< D ≈ diag(A)
+  vector_type diagonal;            ///< D ≈ diag(A), of M if there is one
   vector_type centre;              ///< a point in the middle of every block
   vector_type step;                ///< Δx
   vector_type multiplier_step;     ///< Δν
   vector_type rhs;                 ///< scratch: minus the right-hand side of [K (43)]
   vector_type row_scratch;         ///< scratch, one entry per inequality
   vector_type trial_slacks, trial_multipliers;  ///< those of the trial point
-  barrier_minimum<vector_type> inner;           ///< solves for Δx
+  barrier_minimum<vector_type, M> inner;        ///< solves for Δx
   forcing_history<scalar> forcing{};            ///< errors and inner tolerances so far
   progress_watch<scalar> progress;              ///< looks for steps that get nowhere
 
@@ -47,10 +47,11 @@ struct interior_point_state : gradient_point<QP> {
   scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖Δx‖, of the whole step
   scalar x_norm{0};                                            ///< ‖x‖
   index inner_iterations = 0;                                  ///< of the last step
+  index raises = 0;                                            ///< how often ϑ was raised
   index iteration = 0;
   slant::status status = slant::status::running;
 
-  interior_point_state(QP const& qp, vector_type const& x0)
+  interior_point_state(QP const& qp, M const& m, vector_type const& x0)
       : gradient_point<QP>(qp, x0),
         barrier(qp.set()),
         multipliers(like(x0, barrier.rows())),
@@ -64,7 +65,7 @@ struct interior_point_state : gradient_point<QP> {
         row_scratch(like(x0, barrier.rows())),
         trial_slacks(like(x0, barrier.rows())),
         trial_multipliers(like(x0, barrier.rows())),
-        inner(x0, qp.size()) {}
+        inner(x0, qp.size(), m) {}
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {

@@ -30,6 +30,7 @@
 #include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_segment.hpp>
 #include <slant/methods/newton_state.hpp>
+#include <slant/methods/preconditioner_for.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/qpc.hpp>
 #include <slant/methods/qpc_options.hpp>

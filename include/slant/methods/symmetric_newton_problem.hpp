@@ -8,6 +8,7 @@
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/methods/detail/block_slants.hpp>
 #include <slant/methods/kprgp_problem.hpp>
+#include <slant/methods/preconditioner_for.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
 #include <slant/operators/held.hpp>
@@ -21,9 +22,6 @@ namespace slant {
 template <class QP>
 concept symmetric_newton_problem =
     kprgp_problem<QP> && has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
-
-/// A self-adjoint semidefinite M ≈ A⁻¹ for the vectors of the problem.
-template <class M, class QP> concept preconditioner_for = psd_operator<M, typename QP::vector_type>;
 
 namespace detail {
 

@@ -33,11 +33,12 @@ class small_blocks {
     blocks_.push_back({entries_.size(), size, first, stride});
     entries_.resize(entries_.size() + static_cast<std::size_t>(size * size), S(0));
   }
-  /// The entries of block i, in the order of append, symmetric; to be written.
+  /// The entries of block i, in the order of append, symmetric; to be written. N: its size, where
+  /// it is known.
+  template <int N = Eigen::Dynamic>
   [[nodiscard]] auto block(index i) {
     auto const& b = blocks_[static_cast<std::size_t>(i)];
-    return Eigen::Map<Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>>(entries_.data() + b.entry,
-                                                                        b.size, b.size);
+    return Eigen::Map<Eigen::Matrix<S, N, N>>(entries_.data() + b.entry, b.size, b.size);
   }
   /// The entries of the diagonal outside the blocks become those of d.
   template <class D>
