@@ -43,7 +43,7 @@ cells ours(Ladder& problems, int k, examples::run_limits const& limits, bool& co
       converged = converged && (run.converged() || !method.ours);
     };
     add(examples::measure(examples::run_from_zero(method, problems.at(k), limits)));
-    if (method.ours)
+    if (method.nested)
       add(examples::measure(examples::run_nested(method, problems.ladder(k), limits).finest()));
   });
   return result;

@@ -8,10 +8,13 @@
 
 namespace brick_tables {
 
-/// Each of ours makes two columns: from zero, and by nested iteration.
 [[nodiscard]] inline auto methods() {
-  return std::tuple{examples::imssn("IMSSN", 1.9), examples::gimssn("GIMSSN", 1.9),
-                    examples::kprgp("KPRGP", 1.9), examples::newton("Newton"),
+  return std::tuple{examples::imssn("IMSSN", 1.9),
+                    examples::gimssn("GIMSSN", 1.9),
+                    examples::kprgp("KPRGP", 1.9),
+                    examples::interior_point("PF"),
+                    examples::preconditioned_interior_point("PF, M"),
+                    examples::newton("Newton"),
                     examples::preconditioned_newton("Newton, M")};
 }
 

@@ -4,6 +4,7 @@
 // prints one JSON object.
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +16,11 @@
 namespace {
 
 namespace fs = std::filesystem;
+
+std::map<std::string, from_files::start_point> const starts{
+    {"zero", from_files::start_point::zero},
+    {"qpc", from_files::start_point::qpc},
+    {"interior_point", from_files::start_point::interior_point}};
 
 struct arguments {
   fs::path folder{};
@@ -66,7 +72,7 @@ int solve_folder(arguments const& a) {
   std::optional<from_files::result_files> files;
   if (!a.output.empty()) files.emplace(a.output);
   from_files::settings settings = a.settings;
-  settings.start = a.start == "qpc" ? from_files::start_point::qpc : from_files::start_point::zero;
+  settings.start = starts.at(a.start);
   auto const solution = from_files::solve(problem, a.method, settings);
   if (!solution.is_finite()) files.reset();
   // No result counts before all of it can arrive: files appear only after the report was printed.
@@ -102,11 +108,12 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--start", a.start,
-                 "zero, or qpc: where this method has reduced the reduced gradient to a tenth")
+                 "zero, or qpc or interior_point: where that method has reduced the reduced "
+                 "gradient to a tenth")
       ->capture_default_str()
-      ->check(examples::expects<std::string>("zero or qpc", [](std::string const& start) {
-        return start == "zero" || start == "qpc";
-      }));
+      ->check(examples::expects<std::string>(
+          "zero, qpc or interior_point",
+          [](std::string const& start) { return starts.contains(start); }));
   app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")
       ->capture_default_str()
       ->check(examples::expects_at_least(0));

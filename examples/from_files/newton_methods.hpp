@@ -7,6 +7,7 @@
 #include <slant/contact/primal_dual.hpp>
 #include <slant/iteration/step_below.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
+#include <slant/methods/interior_point.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/symmetric_newton.hpp>
@@ -31,6 +32,15 @@ template <class Dual>
                               slant::contact::lumped_preconditioner(p.K, dual.constraints()),
                               std::move(options)},
       λ0, s);
+}
+
+/// Path following, with the same preconditioner.
+template <class Dual>
+[[nodiscard]] outcome run_interior_point(problem const& p, Dual const& dual,
+                                         Eigen::VectorXd const& λ0, settings const& s) {
+  return run_on_dual(slant::interior_point{dual.qp(), slant::contact::lumped_preconditioner(
+                                                          p.K, dual.constraints())},
+                     λ0, s);
 }
 
 /// Newton's method for λ − P(λ − ρ(A λ − b)) with a linear solver and a globalisation.

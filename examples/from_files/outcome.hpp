@@ -14,11 +14,9 @@ namespace from_files {
 
 using clock = std::chrono::steady_clock;
 
-/// Where a method starts.
-enum class start_point {
-  zero,  ///< λ = 0
-  qpc    ///< where the first-order method qpc has reduced the reduced gradient to a tenth
-};
+/// Where a method starts: λ = 0, or where another method has reduced the reduced gradient to a
+/// tenth.
+enum class start_point { zero, qpc, interior_point };
 
 /// What the user asks of a method.
 struct settings {

@@ -37,13 +37,16 @@ namespace detail {
          ", so the multipliers grow without bound";
 }
 
-/// λ = 0, or where the first-order method ends; its outcome then.
+/// λ = 0, or where the first method ends; its outcome then.
 template <class Dual>
-[[nodiscard]] outcome find_start(Dual const& dual, settings const& s) {
+[[nodiscard]] outcome find_start(problem const& p, Dual const& dual, settings const& s) {
+  settings rough = s;
+  rough.tolerance = 0.1;
   if (s.start == start_point::qpc) {
-    settings rough = s;
-    rough.tolerance = 0.1;
     return run_on_dual(slant::qpc{dual.qp()}, dual.zero(), rough);
+  }
+  if (s.start == start_point::interior_point) {
+    return run_interior_point(p, dual, dual.zero(), rough);
   }
   return {.status = slant::status::converged,
           .reason = {},
@@ -65,7 +68,7 @@ template <class Friction>
   auto const factor = slant::factorize(p.K);
   slant::contact::dual const dual(friction, factor, p.contact);
   solution result;
-  outcome const start = find_start(dual, s);
+  outcome const start = find_start(p, dual, s);
   with_method(method, [&](auto const& chosen) {
     if (hopeless(start.status)) {
       result.run = start;

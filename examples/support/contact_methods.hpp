@@ -5,6 +5,7 @@
 
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <support/named_method.hpp>
@@ -47,6 +48,19 @@ namespace examples {
   return named_method{name, [](auto const& problem) {
                         return slant::symmetric_newton{problem.qp(), problem.preconditioner()};
                       }};
+}
+/// Path following, which begins in the middle of the set and so makes nothing of a good start.
+[[nodiscard]] inline auto interior_point(char const* name) {
+  return named_method{name, [](auto const& problem) { return slant::interior_point{problem.qp()}; },
+                      reduced_gradient_rule{}, true, false};
+}
+/// The same with the lumped preconditioner.
+[[nodiscard]] inline auto preconditioned_interior_point(char const* name) {
+  return named_method{name,
+                      [](auto const& problem) {
+                        return slant::interior_point{problem.qp(), problem.preconditioner()};
+                      },
+                      reduced_gradient_rule{}, true, false};
 }
 /// Ours, with the Dirichlet preconditioner: it makes accurate inner solves cheap, and they save
 /// steps.

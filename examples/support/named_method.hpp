@@ -30,8 +30,9 @@ template <class Make, class Stop = reduced_gradient_rule>
 struct named_method {
   std::string name;
   Make make;  ///< make(problem), which offers qp(), sigma() ≥ σ_max(A) and preconditioner() ≈ A⁻¹
-  Stop stop{};       ///< stop(limits): its stopping rule
-  bool ours = true;  ///< must converge, and is shown nested too; a document's may fail, as there
+  Stop stop{};         ///< stop(limits): its stopping rule
+  bool ours = true;    ///< must converge; a document's may fail, as there
+  bool nested = ours;  ///< is shown from zero and by nested iteration
 };
 
 template <class Make>
@@ -40,6 +41,8 @@ template <class Make, class Stop>
 named_method(char const*, Make, Stop) -> named_method<Make, Stop>;
 template <class Make, class Stop>
 named_method(char const*, Make, Stop, bool) -> named_method<Make, Stop>;
+template <class Make, class Stop>
+named_method(char const*, Make, Stop, bool, bool) -> named_method<Make, Stop>;
 
 /// visit(method) for each of a tuple of methods, in order.
 template <class Methods, class Visit>
@@ -47,13 +50,13 @@ void for_each_method(Methods const& methods, Visit const& visit) {
   std::apply([&](auto const&... method) { (visit(method), ...); }, methods);
 }
 
-/// The names of the columns: each method from zero, and ours by nested iteration as well.
+/// The names of the columns.
 template <class Methods>
 [[nodiscard]] std::vector<std::string> names_of(Methods const& methods) {
   std::vector<std::string> names;
   for_each_method(methods, [&](auto const& method) {
-    names.push_back(method.ours ? method.name + " from 0" : method.name);
-    if (method.ours) names.push_back(method.name + " nested");
+    names.push_back(method.nested ? method.name + " from 0" : method.name);
+    if (method.nested) names.push_back(method.name + " nested");
   });
   return names;
 }

@@ -39,7 +39,7 @@ template <class Methods, class Ladder>
       converged = converged && (run.converged() || !method.ours);
     };
     add(examples::measure(examples::run_from_zero(method, problems.at(size), limits)));
-    if (method.ours)
+    if (method.nested)
       add(examples::measure(examples::run_nested(method, problems.ladder(size), limits).finest()));
   });
   return result;

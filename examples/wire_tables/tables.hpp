@@ -168,7 +168,7 @@ class table_printer {
     };
     for (auto const& method : list.of(l, g)) {
       add(method.from_zero, method.ours);
-      if (method.ours) add(method.nested, true);
+      if (method.has_nested) add(method.nested, method.ours);
     }
     return result;
   }

@@ -95,11 +95,12 @@ struct method_runs {
   std::vector<counted_run> from_zero{};
   std::vector<counted_run> nested{};
   bool ours = true;
+  bool has_nested = true;
 };
 
 template <class Method>
 [[nodiscard]] method_runs run_method(Method const& method, double l, double g, settings const& s) {
-  method_runs runs{.ours = method.ours};
+  method_runs runs{.ours = method.ours, .has_nested = method.nested};
   auto const levels =
       std::views::iota(std::size_t(0), mesh_count(s)) |
       std::views::transform([&](std::size_t e) { return wire_level<Method>(method, e, l, g, s); });
@@ -107,7 +108,7 @@ template <class Method>
     auto const report = slant::solve(level.method(), level.zero(), level.stop());
     runs.from_zero.push_back({examples::measure(report), level.count(report.x())});
   }
-  if (!method.ours) return runs;
+  if (!method.nested) return runs;
   auto const nested = slant::solve_nested(levels, Eigen::VectorXd::Zero(fem::wire_sizes[0]).eval());
   for (std::size_t e = 0; e < nested.levels.size(); ++e) {
     auto const& report = nested.levels[e];

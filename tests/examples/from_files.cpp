@@ -89,7 +89,7 @@ TEST_CASE("from_files: a brick in space") {
   check_against_reference(files, scene, result);
 }
 
-TEST_CASE("from_files: every method by its name, from zero and from a first-order phase") {
+TEST_CASE("from_files: every method by its name, from zero and after a first phase") {
   auto const scene =
       fem::make_steel_brick({.k = test::effort(2, 1), .load = fem::brick_load::press});
   auto const list = run("from_files", "--list-methods").out;
@@ -103,7 +103,7 @@ TEST_CASE("from_files: every method by its name, from zero and from a first-orde
     bool const may_fail = name == "ssnm_b" || name == "ssn";
     std::string const limits =
         " --tolerance 1e-9 --max-iterations " + std::string(may_fail ? "100" : "20000");
-    for (std::string const start : {"", " --start qpc"}) {
+    for (std::string const start : {"", " --start qpc", " --start interior_point"}) {
       problem_files const files(scene);
       auto const ran = files.solve("--method " + name + start + limits);
       REQUIRE(is_one_line(ran.out));
@@ -116,7 +116,7 @@ TEST_CASE("from_files: every method by its name, from zero and from a first-orde
       if (converged) check_against_reference(files, scene, result);
     }
   }
-  CHECK(methods == 15);
+  CHECK(methods == 16);
 }
 
 TEST_CASE("from_files: a body in the plane") {
@@ -205,7 +205,7 @@ TEST_CASE("from_files: a problem without solution is not solved") {
   one_spring const files;
   files.put("N.mtx", coordinate + "2 1 2\n1 1 1\n2 1 -1\n");
   files.put("d.txt", "0.5\n-0.6\n");
-  for (auto const* const start : {"--start zero", "--start qpc"}) {
+  for (auto const* const start : {"--start zero", "--start qpc", "--start interior_point"}) {
     auto const ran = files.solve(start);
     CHECK(ran.status == 1);
     REQUIRE(is_one_line(ran.out));

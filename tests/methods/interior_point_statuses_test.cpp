@@ -198,6 +198,8 @@ TEST_CASE("bad input names argument, value and expectation") {
   CHECK(complaint({.start_length = 0.0}).starts_with("start_length: got 0"));
   CHECK(complaint({.start_force = nan}).starts_with("start_force: got nan"));
   CHECK(complaint({.start_depth = 2.0}).starts_with("start_depth: got 2"));
+  CHECK(complaint({.raise_above = 1.0}).starts_with("raise_above: got 1"));
+  CHECK(complaint({.raises = -1}).starts_with("raises: got -1"));
   CHECK(complaint({.centring_least = 0.6}).starts_with("centring_least: got 0.6"));
   CHECK(complaint({.closeness = 1.0}).starts_with("closeness: got 1"));
   CHECK(complaint({.residual_factor = 0.5}).starts_with("residual_factor: got 0.5"));

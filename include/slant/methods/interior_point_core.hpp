@@ -130,13 +130,16 @@ class interior_point_core {
   }
 
   /// ν and ϑ of the size that the Newton step Δx, Δν asks for, if those at hand are too small by
-  /// far: Δx would leave Λ almost at once, as no force holds it back. Whether they were.
+  /// far: Δx leaves Λ almost at once, as no force holds it back. Whether they were.
   bool raise(state_type& s) const {
     if (s.constraints == 0 || s.raises == options_.raises) return false;
     slant::local(s.trial_multipliers) =
         slant::local(s.multipliers) + slant::local(s.multiplier_step);
     scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);
-    if (!(growth > options_.raise_above) || !is_finite(growth)) return false;
+    if (!(growth > options_.raise_above) || !is_finite(growth) ||
+        options_.raise_above * way_out(s) > scalar(1)) {
+      return false;
+    }
     slant::local(s.multipliers) *= growth;
     s.measure *= growth;
     set_lagrangian(s, s.r, s.multipliers);
