@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+//
+// Every method solves every scene from zero to the accuracy that it is asked for: its energy error
+// against the reference is a small multiple of the tolerance, down to where digits end. So any two
+// of them agree to the sum of their errors.
+#include <slant/iteration/sequel.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/gimssn.hpp>
+#include <slant/methods/imssn.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/semismooth_newton.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/symmetrized_cg.hpp>
+#include <slant/slanting/natural_residual.hpp>
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <oracle/certificate.hpp>
+#include <scenes/scene.hpp>
+#include <string>
+#include <support/effort.hpp>
+#include <utility>
+
+namespace agreement_test {
+
+using Eigen::VectorXd;
+using scenes::scene;
+
+/// What a run leaves behind.
+struct outcome {
+  VectorXd x;
+  bool converged;
+  slant::index products;  ///< with A, those of the setup included
+  std::string reason;
+};
+
+/// When a run ends: the tolerance is relative to the first error that the method sees.
+struct limits {
+  double tolerance;
+  slant::index products;
+};
+
+auto qp_of(scene const& s) {
+  return slant::separable_qp{s.A, s.b, s.set};
+}
+VectorXd zero(scene const& s) {
+  return VectorXd::Zero(s.b.size());
+}
+auto rule(limits const& l) {
+  return slant::reduced_gradient_below(l.tolerance) || slant::at_most_applications(l.products);
+}
+slant::index total(slant::work const& w) {
+  return w.operator_applications + w.setup_applications;
+}
+
+/// A method that watches the reduced gradient.
+template <class Method>
+outcome run(Method const& method, scene const& s, limits const& l) {
+  auto const r = slant::solve(method, zero(s), rule(l));
+  return {r.x(), r.converged(), total(r.state.work), r.reason};
+}
+
+/// Told the goal, Newton's method does not solve its last step for digits that do not exist.
+slant::symmetric_newton_options<double> newton_options(limits const& l) {
+  slant::symmetric_newton_options<double> options;
+  options.forcing.goal = l.tolerance;
+  return options;
+}
+
+outcome symmetric_newton(scene const& s, limits const& l) {
+  return run(slant::symmetric_newton{qp_of(s), newton_options(l)}, s, l);
+}
+outcome preconditioned_newton(scene const& s, limits const& l) {
+  return run(slant::symmetric_newton{qp_of(s), s.M, newton_options(l)}, s, l);
+}
+/// The composition x − P(x − ρ (A x − b)); its iterates need not be feasible, their projection is.
+outcome semismooth_newton(scene const& s, limits const& l) {
+  auto const step = slant::mean_step(s.A, s.b, 0.5);
+  auto const F = slant::natural_residual(s.A, s.b, s.set, step.length);
+  auto const r =
+      slant::solve(slant::semismooth_newton{F, slant::symmetrized_cg{}}, zero(s),
+                   slant::residual_below(l.tolerance) || slant::at_most_applications(l.products));
+  return {slant::project(s.set, r.x()), r.converged(), total(r.state.work) + step.applications,
+          r.reason};
+}
+outcome interior_point(scene const& s, limits const& l) {
+  return run(slant::interior_point{qp_of(s)}, s, l);
+}
+/// Two digits by the first, the rest by the second.
+outcome interior_then_newton(scene const& s, limits const& l) {
+  auto const r = slant::solve_then(slant::interior_point{qp_of(s)},
+                                   slant::reduced_gradient_below(1e-2) || slant::at_most(30),
+                                   slant::symmetric_newton{qp_of(s)}, zero(s), rule(l));
+  return {r.x(), r.converged(), total(r.work()), r.reason()};
+}
+outcome kprgp(scene const& s, limits const& l) {
+  return run(slant::kprgp{qp_of(s)}, s, l);
+}
+outcome gimssn(scene const& s, limits const& l) {
+  return run(slant::gimssn{qp_of(s)}, s, l);
+}
+outcome imssn(scene const& s, limits const& l) {
+  return run(slant::imssn{qp_of(s)}, s, l);
+}
+
+/// A method and what is demanded of it: an energy error of at most `factor` times the tolerance
+/// within so many products, `sliding` where many discs slide (ALGORITHMS).
+struct demand {
+  char const* name;
+  outcome (*run)(scene const&, limits const&);
+  double factor;
+  slant::index products;
+  slant::index sliding;
+};
+
+// What is left of the reduced gradient weighs more the smaller its eigenvalue is. Newton's methods
+// leave a mixture or, for their last step is a large one, hardly anything; gradient steps leave the
+// smallest eigenvalues. On a sliding disc only these move KPRGP, GIMSSN and IMSSN.
+constexpr std::array demands{
+    demand{"symmetric_newton", symmetric_newton, 30, 500, 500},
+    demand{"symmetric_newton with a preconditioner", preconditioned_newton, 30, 500, 500},
+    demand{"semismooth_newton", semismooth_newton, 30, 500, 500},
+    demand{"interior_point", interior_point, 30, 700, 500},
+    demand{"interior_point then symmetric_newton", interior_then_newton, 30, 600, 500},
+    demand{"kprgp", kprgp, 100, 1200, 9000},
+    demand{"gimssn", gimssn, 100, 1500, 9000},
+    demand{"imssn", imssn, 100, 1500, 18000},
+};
+
+TEST_CASE("all methods agree with the reference on all scenes") {
+  // Without optimisation and under sanitizers one tolerance: it is met by the same code.
+  std::size_t const first = test::effort<std::size_t>(0, 1);
+  std::size_t const last = test::effort<std::size_t>(3, 2);
+  constexpr std::array tolerances{1e-4, 1e-8, 1e-12};
+  for (auto const& s : scenes::all_scenes()) {
+    SUBCASE(s.name.c_str()) {
+      for (auto const& d : demands) {
+        SUBCASE(d.name) {
+          for (std::size_t i = first; i < last; ++i) {
+            CAPTURE(tolerances[i]);
+            auto const products = s.slow_sliding ? d.sliding : d.products;
+            auto const r = d.run(s, {tolerances[i], products});
+            CAPTURE(r.reason);
+            CHECK(r.converged);
+            CHECK(r.products <= products);
+            CHECK(s.energy_error(r.x) <= d.factor * tolerances[i]);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("every reference is proved to be the solution of the problem that the methods get") {
+  for (auto const& s : scenes::all_scenes()) {
+    CAPTURE(s.name);
+    auto const proof = oracle::certify(s.plain, s.exact);
+    CHECK(proof.infeasibility <= 1e-16);
+    CHECK(proof.energy_error <= 1e-13);
+    // A by other factors, or from other integrals: the rounding of a solve with K apart.
+    VectorXd const x = s.exact.cast<double>();
+    VectorXd image(x.size());
+    slant::apply(s.A, x, image);
+    VectorXd const plain = s.plain.A * x;
+    CHECK((image - plain).norm() <= 1e-12 * plain.norm());
+    CHECK((s.b - s.plain.b.cast<double>()).norm() <= 1e-12 * s.b.norm());
+    VectorXd const z = x - s.plain.steps().cwiseProduct(image - s.b);
+    CHECK((slant::project(s.set, z) - x).norm() <= 1e-12 * x.norm());
+    auto const found = oracle::count_active(s.plain, s.exact);
+    if (s.active) {
+      CHECK(std::pair(found.intervals, found.circles) == *s.active);
+    } else {
+      int const active = found.intervals + found.circles;
+      CHECK(active > 0);
+      CHECK(active < static_cast<int>(s.plain.intervals.size() + s.plain.circles.size()));
+    }
+  }
+}
+
+}  // namespace agreement_test
