@@ -90,9 +90,9 @@ outcome interior_point(scene const& s, limits const& l) {
 }
 /// Two digits by the first, the rest by the second.
 outcome interior_then_newton(scene const& s, limits const& l) {
-  auto const r = slant::solve_then(slant::interior_point{qp_of(s)},
-                                   slant::reduced_gradient_below(1e-2) || slant::at_most(30),
-                                   slant::symmetric_newton{qp_of(s)}, zero(s), rule(l));
+  auto const r = slant::solve_then(
+      slant::interior_point{qp_of(s)}, slant::reduced_gradient_below(1e-2) || slant::at_most(30),
+      slant::symmetric_newton{qp_of(s), newton_options(l)}, zero(s), rule(l));
   return {r.x(), r.converged(), total(r.work()), r.reason()};
 }
 outcome kprgp(scene const& s, limits const& l) {
@@ -105,28 +105,30 @@ outcome imssn(scene const& s, limits const& l) {
   return run(slant::imssn{qp_of(s)}, s, l);
 }
 
-/// A method and what is demanded of it: an energy error of at most `factor` times the tolerance
-/// within so many products, `sliding` where many discs slide (ALGORITHMS).
+/// A method and what is demanded of it: an energy error of at most `factor` times the tolerance,
+/// within so many products for 1e-12.
 struct demand {
   char const* name;
   outcome (*run)(scene const&, limits const&);
   double factor;
   slant::index products;
-  slant::index sliding;
+  slant::index sliding;  ///< products on scenes with slow_sliding
 };
 
-// What is left of the reduced gradient weighs more the smaller its eigenvalue is. Newton's methods
-// leave a mixture or, for their last step is a large one, hardly anything; gradient steps leave the
-// smallest eigenvalues. On a sliding disc only these move KPRGP, GIMSSN and IMSSN.
+// The factors are not 1 because the reduced gradient is not the energy error: what it leaves along
+// an eigenvector of A counts the more, the smaller the eigenvalue is. Newton's methods end with a
+// step that leaves little of anything, gradient steps leave the smallest eigenvalues. A disc on
+// which the body slides moves in KPRGP, GIMSSN and IMSSN by gradient steps alone, so there they
+// have the same accuracy to show, but many more products to do it.
 constexpr std::array demands{
-    demand{"symmetric_newton", symmetric_newton, 30, 500, 500},
-    demand{"symmetric_newton with a preconditioner", preconditioned_newton, 30, 500, 500},
-    demand{"semismooth_newton", semismooth_newton, 30, 500, 500},
-    demand{"interior_point", interior_point, 30, 700, 500},
-    demand{"interior_point then symmetric_newton", interior_then_newton, 30, 600, 500},
-    demand{"kprgp", kprgp, 100, 1200, 9000},
-    demand{"gimssn", gimssn, 100, 1500, 9000},
-    demand{"imssn", imssn, 100, 1500, 18000},
+    demand{"symmetric_newton", symmetric_newton, 20, 350, 250},
+    demand{"symmetric_newton with a preconditioner", preconditioned_newton, 20, 350, 250},
+    demand{"semismooth_newton", semismooth_newton, 20, 400, 350},
+    demand{"interior_point", interior_point, 20, 800, 400},
+    demand{"interior_point then symmetric_newton", interior_then_newton, 20, 650, 300},
+    demand{"kprgp", kprgp, 50, 1100, 9000},
+    demand{"gimssn", gimssn, 50, 1400, 8000},
+    demand{"imssn", imssn, 50, 1400, 17000},
 };
 
 TEST_CASE("all methods agree with the reference on all scenes") {
@@ -158,7 +160,8 @@ TEST_CASE("every reference is proved to be the solution of the problem that the 
     CAPTURE(s.name);
     auto const proof = oracle::certify(s.plain, s.exact);
     CHECK(proof.infeasibility <= 1e-16);
-    CHECK(proof.energy_error <= 1e-13);
+    // The gap, twice the square of the error, is what rounding of the long type leaves of it.
+    CHECK(proof.gap <= 1e-18);
     // A by other factors, or from other integrals: the rounding of a solve with K apart.
     VectorXd const x = s.exact.cast<double>();
     VectorXd image(x.size());

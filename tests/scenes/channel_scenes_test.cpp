@@ -83,7 +83,7 @@ struct flow_data {
   flow.dirichlet = {"left", "top"};
   flow.wall = "bottom";
   flow.velocity = [](Eigen::Vector2d const& x) -> Eigen::Vector2d {
-    return {16 * x[1] * (1 - x[1]), 0};
+    return {8 * x[1] * (1 - x[1]), 0};
   };
   flow.slip_bound = [g](Eigen::Vector2d const&) { return g; };
   return flow;
