@@ -83,9 +83,9 @@ struct flow_data {
   flow.dirichlet = {"left", "top"};
   flow.wall = "bottom";
   flow.velocity = [](Eigen::Vector2d const& x) -> Eigen::Vector2d {
-    return {8 * x[1] * (1 - x[1]), 0};
+    return {10 * x[1] * (1 - x[1]), 0};
   };
-  flow.slip_bound = [g](Eigen::Vector2d const&) { return g; };
+  flow.slip_bound = [g](Eigen::Vector2d const& x) { return g * (0.6 + 0.4 * x[0]); };
   return flow;
 }
 
