@@ -65,7 +65,9 @@ class curved_minimum {
                                 scalar const& target, index most) {
     slant::local(t).setZero();
     slant::local(image).setZero();
-    face.keep(r, g_);
+    // Twice: r may be nearly normal to the face, and what rounding leaves of that is no residual.
+    face.keep(r, z_);
+    face.keep(z_, g_);
     scalar size = norm(g_);
     scalar gz(0);
     bool finite = detail::is_finite(size);

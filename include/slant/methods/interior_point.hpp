@@ -9,7 +9,7 @@
 //     centre      c = min(c_max, max(c_min, c_s ((1 − ξ)/ξ)³)),   ξ = min ν_i z_i / ϑ
 //     solve       (A + W) Δx = −(r + c ϑ G z⁻¹)                  [K (43)], one product a step of CG
 //                 Δν = c ϑ/z − ν + (ν/z) Gᵀ Δx                                         [K (42)]
-//     raise       ν and ϑ by ‖ν + Δν‖/‖ν‖ where that is large, a few times at most; solve again
+//     raise       at the start: ν and ϑ by ‖ν + Δν‖/‖ν‖ where steps are short; solve again
 //     shorten     α: 0.999 of the way to the boundary, then until
 //                 ν_i z_i ≥ γ ϑ⁺,   ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ,   ‖∇L⁺‖ ≤ β ϑ⁺            no product
 //     accept      x ← x + α Δx, r ← r + α A Δx, ν ← ν + α Δν
@@ -216,6 +216,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers);
     ++s.since_refresh;
     s.step_fraction = α;
+    s.under_way = s.under_way || α > scalar(0.5);
     s.x_norm = norm(s.x);
     s.reduce(qp_.get());
     // [K]: err = ‖v⁺ − v‖ / ‖v⁺‖, here of x alone, since multipliers have other units.

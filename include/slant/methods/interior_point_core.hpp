@@ -132,7 +132,7 @@ class interior_point_core {
   /// ν and ϑ of the size that the Newton step Δx, Δν asks for, if those at hand are too small by
   /// far: Δx leaves Λ almost at once, as no force holds it back. Whether they were.
   bool raise(state_type& s) const {
-    if (s.constraints == 0 || s.raises == options_.raises) return false;
+    if (s.constraints == 0 || s.under_way || s.raises == options_.raises) return false;
     slant::local(s.trial_multipliers) =
         slant::local(s.multipliers) + slant::local(s.multiplier_step);
     scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);

@@ -47,7 +47,8 @@ struct interior_point_state : gradient_point<QP> {
   scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖Δx‖, of the whole step
   scalar x_norm{0};                                            ///< ‖x‖
   index inner_iterations = 0;                                  ///< of the last step
-  index raises = 0;                                            ///< how often ϑ was raised
+  bool under_way = false;  ///< a step was longer than half of what Newton proposed
+  index raises = 0;        ///< how often ϑ was raised
   index iteration = 0;
   slant::status status = slant::status::running;
 
