@@ -27,6 +27,7 @@
 #include <cstdlib>
 #include <fem/steel_brick.hpp>
 #include <fem/string_1d.hpp>
+#include <optional>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <string>
@@ -216,46 +217,61 @@ bool all_conditions(std::vector<int> const& sizes) {
   return conditions("wire", 1024, matrix(wire.A), wire.b, set) && good;
 }
 
-/// Products, steps and the last relative reduced gradient of a run.
-template <class Report>
-void print(char const* name, int k, Report const& r, double floor) {
-  auto const& work = r.state.work;
-  std::printf("%s,%d,%td,%td,%.1e,%s\n", name, k, r.iterations(),
-              work.operator_applications + work.setup_applications, floor,
-              slant::to_string(r.status).data());
+/// One after the other for several tolerances of the handover, beside each alone; whether the best
+/// of them takes fewer products than either.
+/// newton(step_length) makes the second one; none: it has to find its own.
+template <class Interior, class Newton>
+bool crossover(char const* preconditioner, int k, Interior const& interior, Newton const& newton,
+               vector const& zero) {
+  auto const stop = slant::reduced_gradient_below(1e-14) || slant::at_most(200);
+  auto const products = [](slant::work const& w) {
+    return w.operator_applications + w.setup_applications;
+  };
+  auto const print = [&](char const* name, auto const& r, slant::index count) {
+    std::printf("%s,%s,%d,%td,%td,%.1e\n", name, preconditioner, k, r.iterations(), count,
+                r.state.reduced_gradient_norm / r.state.gradient_scale);
+  };
+  auto const a = slant::solve(interior, zero, stop);
+  auto const b = slant::solve(newton(std::nullopt), zero, stop);
+  auto const of_a = products(a.state.work), of_b = products(b.state.work);
+  print("interior point", a, of_a);
+  print("symmetric Newton", b, of_b);
+  auto least = of_a + of_b;
+  for (double const handover : {0.3, 0.2, 0.1, 0.05, 0.02, 1e-2, 1e-3, 1e-4, 1e-6}) {
+    auto const r = slant::solve_then(
+        interior, slant::reduced_gradient_below(handover) || slant::at_most(60),
+        [&](auto const& s) { return newton(s.step_length); }, zero, stop);
+    std::printf("crossover at %g,%s,%d,%td+%td,%td+%td,%.1e\n", handover, preconditioner, k,
+                r.first.iterations(), r.second->iterations(), products(r.first.state.work),
+                products(r.second->state.work),
+                r.second->state.reduced_gradient_norm / r.second->state.gradient_scale);
+    if (r.converged()) least = std::min(least, products(r.work()));
+  }
+  std::fflush(stdout);
+  return a.converged() && b.converged() && least < std::min(of_a, of_b);
 }
 
 bool crossovers(std::vector<int> const& sizes) {
-  std::printf("method,k,steps,products,reduced_gradient,status\n");
+  std::printf("method,preconditioner,k,steps,products,reduced_gradient\n");
   bool good = true;
   for (int const k : sizes) {
     auto const p = make_problem(k, fem::brick_load::lift);
     auto const qp = p.qp();
-    auto const stop = slant::reduced_gradient_below(1e-12) || slant::at_most(200);
-    auto const relative = [](auto const& s) { return s.reduced_gradient_norm / s.gradient_scale; };
-    slant::interior_point const interior{qp};
-    slant::symmetric_newton const newton{qp};
-    auto const a = slant::solve(interior, p.zero(), stop);
-    print("interior point", k, a, relative(a.state));
-    auto const b = slant::solve(newton, p.zero(), stop);
-    print("symmetric Newton", k, b, relative(b.state));
-    auto const products = [](slant::work const& w) {
-      return w.operator_applications + w.setup_applications;
+    auto const S = p.dirichlet();
+    auto const options = [](std::optional<double> step_length) {
+      slant::symmetric_newton_options<double> o{.step_length = step_length};
+      o.forcing.goal = 1e-14;
+      return o;
     };
-    auto least = products(a.state.work) + products(b.state.work);
-    for (double const handover : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-      auto const r =
-          slant::solve_then(interior, slant::reduced_gradient_below(handover) || slant::at_most(60),
-                            newton, p.zero(), stop);
-      std::printf("crossover at %.0e,%d,%td+%td,%td+%td,%.1e,%s\n", handover, k,
-                  r.first.iterations(), r.second->iterations(), products(r.first.state.work),
-                  products(r.second->state.work), relative(r.second->state),
-                  slant::to_string(r.status()).data());
-      if (r.converged()) least = std::min(least, products(r.work()));
-    }
-    std::fflush(stdout);
-    good = good && a.converged() && b.converged() &&
-           least < std::min(products(a.state.work), products(b.state.work));
+    auto const plain = [&](std::optional<double> step_length) {
+      return slant::symmetric_newton{qp, options(step_length)};
+    };
+    auto const preconditioned = [&](std::optional<double> step_length) {
+      return slant::symmetric_newton{qp, S, options(step_length)};
+    };
+    good = crossover("none", k, slant::interior_point{qp}, plain, p.zero()) && good;
+    good =
+        crossover("Dirichlet", k, slant::interior_point{qp, S}, preconditioned, p.zero()) && good;
   }
   return good;
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace sequel_test {
 
@@ -51,6 +52,17 @@ TEST_CASE("the second method goes on where the first one ends; counts and words 
   CHECK(r.work().operator_applications == 7);
   CHECK(seen == 5 + 4);
   CHECK(r.reason() == "first phase: small enough; second phase: small enough");
+}
+
+TEST_CASE("the second method may be made from the last state of the first") {
+  VectorXd const x0 = VectorXd::Unit(3, 1);
+  auto const r = slant::solve_then(
+      halving{}, size_below(0.1),
+      [](halving_state const& last) { return halving{.factor = last.x.norm()}; }, x0,
+      size_below(1e-4) || slant::at_most(50));
+  CHECK(r.converged());
+  CHECK(r.second->iterations() == 3);
+  CHECK(r.x()(1) == doctest::Approx(std::pow(2.0, -4 * 4)));
 }
 
 TEST_CASE("a limit or a stall hands over; a failure is reported and ends it") {

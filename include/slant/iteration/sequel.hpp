@@ -8,8 +8,13 @@
 // problem, and lose digits at the end; Newton's method on the active constraints is the other way
 // round. The crossover of the two is
 //
-//     solve_then(interior_point{qp}, reduced_gradient_below(1e-3) || at_most(50),
+//     solve_then(interior_point{qp}, reduced_gradient_below(0.1) || at_most(50),
 //                symmetric_newton{qp}, x0, reduced_gradient_below(1e-14) || at_most(100))
+//
+// In place of the second method one may give a function that makes it from the last state of the
+// first, so that what was learnt there (a step length, an active set) need not be found again:
+//
+//     [&](auto const& s) { return symmetric_newton{qp, {.step_length = s.step_length}}; }
 //
 // Rejected: one state that is now of this, now of that type. Each phase has its report, and its
 // work is counted where it was done.
@@ -77,29 +82,44 @@ struct refused_sequel_report {
   slant::work work() const;
 };
 
+/// The second method: a Second, or what a Second makes of the last state of First.
+template <class Second, class State>
+[[nodiscard]] decltype(auto) sequel_of(Second& second, State const& last) {
+  if constexpr (std::invocable<Second&, State const&>) {
+    return second(last);
+  } else {
+    return (second);
+  }
+}
+template <class Second, class First, class V>
+using sequel_t = std::remove_cvref_t<decltype(sequel_of(
+    std::declval<std::remove_reference_t<Second>&>(), std::declval<state_t<First, V> const&>()))>;
+
 template <class First, class Stop1, class Second, class V, class Stop2, class... Observers>
 concept solvable_in_turn =
-    solvable<First, V, Stop1, Observers...> && solvable<Second, V, Stop2, Observers...> &&
+    solvable<First, V, Stop1, Observers...> &&
+    solvable<sequel_t<Second, First, V>, V, Stop2, Observers...> &&
     std::same_as<std::remove_cvref_t<decltype(std::declval<state_t<First, V> const&>().x)>, V>;
 
 }  // namespace detail
 
-/// Runs the first method from x0 until stop1, and the second from where it ended until stop2;
-/// observers see all states of both. A first phase that was stopped by a limit or stalled hands
-/// over all the same; after breakdown, unbounded or interrupted, or an iterate that is not finite,
-/// there is no second phase and the report says so. Throws what the methods throw about their
-/// start.
+/// Runs the first method from x0 until stop1, and the second, a method or a function that makes one
+/// of the last state of the first, from where it ended until stop2; observers see all states of
+/// both. A first phase that was stopped by a limit or stalled hands over all the same; after
+/// breakdown, unbounded or interrupted, or an iterate that is not finite, there is no second phase
+/// and the report says so. Throws what the methods throw about their start.
 template <class First, class Stop1, class Second, class V, class Stop2, class... Observers>
   requires detail::solvable_in_turn<First, Stop1, Second, V, Stop2, Observers...>
 [[nodiscard]] auto solve_then(First&& first, Stop1 stop1, Second&& second, V const& x0, Stop2 stop2,
                               Observers&&... observers) {
-  sequel_report<state_t<First, V>, state_t<Second, V>> result{
+  sequel_report<state_t<First, V>, state_t<detail::sequel_t<Second, First, V>, V>> result{
       slant::solve(first, x0, std::move(stop1), observers...), std::nullopt};
   auto const how = result.first.status;
   bool const failed =
       how == status::breakdown || how == status::unbounded || how == status::interrupted;
   if (!failed && detail::is_finite(slant::norm(result.first.x()))) {
-    result.second = slant::solve(second, result.first.x(), std::move(stop2), observers...);
+    auto&& next = detail::sequel_of(second, result.first.state);
+    result.second = slant::solve(next, result.first.x(), std::move(stop2), observers...);
   }
   return result;
 }
@@ -111,15 +131,18 @@ template <class First, class Stop1, class Second, class V, class Stop2, class...
     -> detail::refused_sequel_report<V> {
   static_assert(iterative_method<First, V>,
                 "solve_then: the first method must run on vectors like x0");
-  static_assert(iterative_method<Second, V>,
-                "solve_then: the second method must run on vectors like x0");
-  if constexpr (iterative_method<First, V> && iterative_method<Second, V>) {
+  if constexpr (iterative_method<First, V>) {
+    using next = detail::sequel_t<Second, First, V>;
+    static_assert(iterative_method<next, V>,
+                  "solve_then: the second method must run on vectors like x0");
     static_assert(stopping_rule<Stop1, state_t<First, V>>,
                   "solve_then: the first rule must judge states of the first method");
-    static_assert(stopping_rule<Stop2, state_t<Second, V>>,
-                  "solve_then: the second rule must judge states of the second method");
     (detail::check_observer<Observers, state_t<First, V>>(), ...);
-    (detail::check_observer<Observers, state_t<Second, V>>(), ...);
+    if constexpr (iterative_method<next, V>) {
+      static_assert(stopping_rule<Stop2, state_t<next, V>>,
+                    "solve_then: the second rule must judge states of the second method");
+      (detail::check_observer<Observers, state_t<next, V>>(), ...);
+    }
   }
   return {};
 }

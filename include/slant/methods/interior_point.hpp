@@ -153,7 +153,9 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     slant::local(s.rhs) = slant::local(s.r);
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
     s.barrier.keep_fixed(s.rhs);
-    scalar const target = s.forcing.next(options_.forcing) * norm(s.rhs);
+    // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
+    scalar const target = std::max<scalar>(s.forcing.next(options_.forcing) * norm(s.rhs),
+                                           std::numeric_limits<scalar>::epsilon() * norm(s.r));
     auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
                                      target, options_.inner_steps, options_.warm_start);
     s.inner_iterations = inner.iterations;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// MSSN, IMSSN, GIMSSN and AS-S on the wire.
+// MSSN on the wire; its relatives run in tests/scenes.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
-#include <slant/methods/kprgp.hpp>
+
 #include <slant/methods/mssn.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
@@ -15,9 +13,8 @@
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
-#include <string>
 
-namespace modified_newton_wire_test {
+namespace mssn_wire_test {
 
 using Eigen::VectorXd;
 
@@ -37,19 +34,12 @@ TEST_CASE("the wire: the printed numbers of active constraints for n = 32 and 64
           slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A), wire.b, set};
       VectorXd const zero = VectorXd::Zero(4 * m);
       double const ρ = 1.9 * wire.h() / 4;
-      auto const check = [&](std::string const& name, auto const& method) {
-        CAPTURE(name);
-        auto const r = slant::solve(method, zero, stop);
-        CHECK(r.converged());
-        CHECK(fem::count_active(set, wire.A, wire.b, r.x()) ==
-              fem::active_counts{printed.bounds[entry], printed.circles[entry]});
-      };
-      check("mssn", slant::mssn{qp, {.step_length = ρ}});
-      check("imssn", slant::imssn{qp, {.step_length = ρ}});
-      check("gimssn", slant::gimssn{qp, {.step_length = ρ}});
-      check("as_s", slant::as_s(qp, {.step_length = ρ}));
+      auto const r = slant::solve(slant::mssn{qp, {.step_length = ρ}}, zero, stop);
+      CHECK(r.converged());
+      CHECK(fem::count_active(set, wire.A, wire.b, r.x()) ==
+            fem::active_counts{printed.bounds[entry], printed.circles[entry]});
     }
   }
 }
 
-}  // namespace modified_newton_wire_test
+}  // namespace mssn_wire_test
