@@ -201,7 +201,8 @@ TEST_CASE("from_files refuses options that make no sense") {
   with("--max-iterations 99999999999999999999",
        "got 99999999999999999999, expected a whole number >= 0, at most 9223372036854775807");
   with("--tolerance 1e-4000", "expected a relative accuracy in [0, 1), within the range of double");
-  with("--method newton", "--method: got newton, expected one of symmetric_newton, kprgp, ");
+  with("--method newton",
+       "--method: got newton, expected one of symmetric_newton, interior_point, ");
   with("--start somewhere", "--start: got somewhere, expected zero, qpc or interior_point");
   with("--no-such-option", "argument: got --no-such-option, expected one of those that --help");
   with("another_folder", "argument: got another_folder, expected one of those that --help lists");

@@ -74,7 +74,7 @@ TEST_CASE(
   auto const set =
       slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<float>(6));
   slant::symmetric_newton_options<float> of;
-  of.sufficient = 0.99F;
+  of.sufficient = 0.95F;
   auto const rf = slant::solve(slant::symmetric_newton{slant::separable_qp{Af, bf, set}, of},
                                Eigen::VectorXf(Eigen::VectorXf::Zero(20)),
                                slant::reduced_gradient_below(1e-3F) || slant::at_most(5000));
