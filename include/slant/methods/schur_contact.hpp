@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+//
+// The Schur complement algorithm for contact problems [D §5]:
+//
+//     minimise   j(u) = ½ uᵀK u − fᵀu   over   B u ≤ c,     K = diag(K₁, …, K_p) semidefinite
+//
+//     A  (i)–(iii)     U: unknowns in no row of B; factors of UᵀKU; u
+//     B  (iv), (v)     J = { i : b_iᵀu = c_i };  V = (U, V₀) spans ker B^J
+//     C  (vi), (vii)   u ← u + U(UᵀKU)⁻¹Uᵀr,  r = f − K u
+//     D  (viii), (ix)  Vᵀr = 0?  else E
+//        (x)–(xii)     r = Bᵀλ;  λ ≥ 0: solution;  else rows leave J, and (v)
+//     E  (xiii)        q = Q p
+//        (xiv)         α = rᵀq / qᵀK q,  α₁ = min { (c_i − b_iᵀu) / b_iᵀq : b_iᵀq > 0 }
+//        (xv), (xvi)   u ← u + min(α, α₁) q,  r ← r − min(α, α₁) K q
+//        (xvii)        p = V Vᵀr − β p;  α < α₁: D, else B
+//
+// V is never formed: with orthonormal columns V Vᵀ is the orthogonal projector onto ker B^J. Q does
+// not change when J does. A step costs one product with K and one application of Q. (vi) after a
+// step (xv) would change nothing, because Qᵀr = r; it is made at the start and where rows leave.
+//
+// Which rows leave. Let d be the projection of r onto the tangent cone { d : b_iᵀd ≤ 0, i ∈ J }, r =
+// Bᵀλ + d with λ ≥ 0 on J: a well-conditioned least-squares problem with λ for its answer. d = 0
+// means that u is the solution, however many rows are redundant. Else J becomes { i ∈ J : b_iᵀd = 0 }.
+// Where rows are orthogonal that is (xii), the rows of negative multipliers leave; where they are
+// not, dropping those may give a direction that a row which has just left blocks at α₁ = 0.
+//
+// Finite termination. Along d, the first direction of the new face, no tight row blocks (b_iᵀd ≤ 0)
+// and rᵀd = ‖d‖² > 0: the step is longer than 0 and j falls. Steps with α₁ = 0 are possible only
+// where a further row has become tight; each adds a row to J that is independent of those there, so
+// that at most rank B of them follow each other, and none removes a row. With exact minimisation on
+// faces (release = 0) j at the minima of faces falls strictly from one release to the next: no
+// face comes back, and there are finitely many. For Γ = release > 0 faces are left early where β
+// outweighs φ: proportioning [Dostál 1997], with the same conclusion if no multiplier of the
+// solution vanishes.
+//
+// More than one row at a time. Rows leave in any number. Where α > α₁, the points P(u + t q), t = α,
+// α/2, …, P onto B u ≤ c, are tried first [Calamai, Moré 1987], with the unknowns of U following by
+// Q; one is taken if j falls by as much as it would with α₁.
+#pragma once
+
+#include <slant/concepts/distributed.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/methods/schur_contact_options.hpp>
+#include <slant/methods/schur_contact_state.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// No problem at all.
+template <class P>
+class schur_contact : public detail::refused_method<Eigen::VectorXd> {
+  static_assert(detail::was_refused<std::remove_cvref_t<P>> ||
+                    polyhedral_program<std::remove_cvref_t<P>>,
+                "schur_contact: the problem must be a polyhedral_qp{K, f, rows, Q}");
+
+ public:
+  using schur_contact::refused_method::refused_method;
+};
+
+/// The method at the top of this file: solve(schur_contact{problem}, u0, residual_below(1e-10) ||
+/// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d = 0),
+/// unbounded (no solution; the state has the direction), stalled, breakdown.
+template <class P>
+  requires polyhedral_program<std::remove_cvref_t<P>>
+class schur_contact<P> {
+ public:
+  using problem = std::remove_cvref_t<P>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = schur_contact_options<scalar>;
+  using state_type = schur_contact_state<problem>;
+
+  explicit schur_contact(held<P> p) : schur_contact(std::move(p), options{}) {}
+  /// Throws bad_input for options out of range.
+  schur_contact(held<P> p, options o) : p_(std::move(p)), options_(o) { options_.validate(); }
+
+  /// A, B, C. Throws bad_input if u0 or K u0 is not finite or of the wrong size, if no u satisfies B u
+  /// ≤ c, or if the projector moves a row of B.
+  [[nodiscard]] state_type start(vector_type const& u0) const {
+    auto const& p = p_.get();
+    detail::check_size("u0", index(slant::local(u0).size()), p.size(), "the size of f,");
+    detail::check_finite("u0", u0);
+    state_type s(p, u0);
+    measure_slack(s);
+    if (!everywhere(s.x, is_feasible(s))) {
+      if (!everywhere(s.x, s.active.project_on_set(p.rows(), s.x, s.λ))) {
+        throw bad_input("c", "bounds that exclude each other", "a u with B u <= c");
+      }
+      measure_slack(s);
+    }
+    slant::apply(p.k(), s.x, s.r, s.k_workspace);
+    count(s, 1, 0);
+    detail::check_finite("K u0", s.r);
+    s.residual_scale = norm(p.f());
+    if (s.residual_scale == scalar(0)) s.residual_scale = norm(s.r);
+    s.unit = unit_near(std::max<scalar>(s.residual_scale, norm(s.r)));
+    slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
+    take_tight_rows(s);
+    minimise_inside(s);
+    check_inside(s);
+    note(s);
+    return s;
+  }
+
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    if (s.β_norm > scalar(0) && s.φ_norm <= options_.release * s.β_norm) release(s);
+    if (s.status == status::running) conjugate_step(s);
+    if (s.status == status::running) note_progress(s);
+    ++s.iteration;
+  }
+
+  /// r from x, if steps have been updating it. One product.
+  bool refresh(state_type& s) const {
+    if (!s.updated) return false;
+    s.status = status::running;
+    compute_residual(s);
+    measure_slack(s);
+    s.directions.live = false;
+    note(s);
+    return true;
+  }
+
+ private:
+  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
+  static constexpr scalar ε = std::numeric_limits<scalar>::epsilon();
+
+  // B --------------------------------------------------------------------------------------------
+
+  /// slack = c − B u, 0 where that cannot be told from 0.
+  void measure_slack(state_type& s) const {
+    auto const& rows = p_.get().rows();
+    s.slack.setConstant(infinity);
+    rows.for_each_product(s.x, [&](index i, scalar const& value, scalar const& size) {
+      using std::abs;
+      scalar const gap = rows.c()[i] - value;
+      s.slack[i] = abs(gap) <= scalar(16) * ε * (abs(rows.c()[i]) + size) ? scalar(0) : gap;
+    });
+  }
+  static bool is_feasible(state_type const& s) { return (s.slack.array() >= scalar(0)).all(); }
+
+  /// (iv), (v).
+  void take_tight_rows(state_type& s) const {
+    change_active(s, [&](index i) { return !(s.slack[i] > scalar(0)); });
+  }
+  template <class In>
+  void change_active(state_type& s, In in) const {
+    index const changes = s.active.assign(p_.get().rows(), in);
+    s.active_rows_changed += changes;
+    s.active_changes += changes > 0 ? 1 : 0;
+    s.directions.live = false;
+  }
+
+  // C --------------------------------------------------------------------------------------------
+
+  void minimise_inside(state_type& s) const {
+    slant::local(s.trial) = slant::local(s.x);
+    p_.get().projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
+    count(s, 0, 1);
+    compute_residual(s);
+  }
+  void compute_residual(state_type& s) const {
+    slant::apply(p_.get().k(), s.x, s.r, s.k_workspace);
+    count(s, 1, 0);
+    slant::local(s.r) = (slant::local(p_.get().f()) - slant::local(s.r)) * (scalar(1) / s.unit);
+    s.updated = false;
+  }
+  /// B U = 0?
+  void check_inside(state_type& s) const {
+    slant::local(s.trial) -= slant::local(s.x);
+    p_.get().rows().for_each_product(s.trial, [](index i, scalar const& value, scalar const&) {
+      if (value != scalar(0)) {
+        throw bad_input("projector", "one that moves row " + detail::show(i) + " of B",
+                        "that of a U with B U = 0");
+      }
+    });
+  }
+
+  // D --------------------------------------------------------------------------------------------
+
+  /// φ, d, λ of r.
+  void note(state_type& s) const {
+    auto const& rows = p_.get().rows();
+    s.active.project_on_kernel(rows, s.r, s.φ);
+    s.active.project_on_cone(rows, s.r, s.d, s.λ);
+    s.φ_norm = norm(s.φ);
+    s.residual_norm = s.unit * norm(s.d);
+    slant::local(s.trial) = slant::local(s.d) - slant::local(s.φ);
+    s.β_norm = norm(s.trial);
+    if (s.residual_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+  }
+
+  /// (xii), (v)–(vii): rows leave J along which d moves away.
+  void release(state_type& s) const {
+    auto const& rows = p_.get().rows();
+    s.rates.setZero();
+    rows.for_each_product(s.d, [&](index i, scalar const& value, scalar const& size) {
+      if (value < -scalar(32) * ε * size && !(s.λ[i] > scalar(0))) s.rates[i] = value;
+    });
+    index const before = s.active_changes;
+    change_active(s, [&](index i) { return s.active.contains(i) && !(s.rates[i] < scalar(0)); });
+    if (s.active_changes == before) return;
+    ++s.releases;
+    minimise_inside(s);
+    note(s);
+  }
+
+  // E --------------------------------------------------------------------------------------------
+
+  void conjugate_step(state_type& s) const {
+    auto const& p = p_.get();
+    auto& q = s.directions;
+    q.advance(s.φ);                                                          // (xviii)
+    q.image(p.k(), s.k_workspace, p.projection(), s.q_workspace);            // (xiii)
+    count(s, 1, 1);
+    bool const flat = s.flat.is_flat(q) && polish(s);
+    scalar const slope = inner_product(s.r, q.q);
+    if (flat ? !is_downhill(s, slope) : !(q.curvature > scalar(0) && slope > scalar(0))) {
+      give_up_face(s);
+      return;
+    }
+    scalar const α = flat ? infinity : scalar(slope / q.curvature);          // (xiv)
+    scalar const α1 = minimum(s.x, first_constraint(s));
+    if (flat && !(α1 < infinity)) {
+      s.status = status::unbounded;
+      slant::local(s.descent) = slant::local(q.q);
+      return;
+    }
+    if (α < α1) {
+      advance(s, α);
+      s.last_step = schur_contact_step::conjugate_gradient;
+    } else if (flat || !projected_step(s, α, α1, slope)) {
+      advance(s, α1);
+      take_blocking_rows(s, α1);
+      s.last_step = schur_contact_step::blocked;
+    }
+    note(s);
+  }
+
+  /// (xv), (xvi).
+  void advance(state_type& s, scalar const& α) const {
+    slant::local(s.x) += (s.unit * α) * slant::local(s.directions.q);
+    slant::local(s.r) -= α * slant::local(s.directions.Ap);
+    p_.get().rows().for_each_product(s.directions.q, [&](index i, scalar const& value, auto const&) {
+      s.slack[i] -= (s.unit * α) * value;
+    });
+    s.updated = true;
+  }
+
+  /// α₁ per unit, with the rates b_iᵀq of the rows that q approaches; infinite if there is none.
+  scalar first_constraint(state_type& s) const {
+    scalar α1 = infinity;
+    s.rates.setZero();
+    p_.get().rows().for_each_product(
+        s.directions.q, [&](index i, scalar const& value, scalar const& size) {
+          if (s.active.contains(i) || !(value > scalar(32) * ε * size)) return;
+          s.rates[i] = s.unit * value;
+          α1 = std::min<scalar>(α1, std::max<scalar>(s.slack[i], scalar(0)) / s.rates[i]);
+        });
+    return α1;
+  }
+
+  /// (iv) after a step that ended at a constraint. Others that are as near are taken too.
+  void take_blocking_rows(state_type& s, scalar const& α1) const {
+    auto const reached = [&](index i) {
+      // slack before the step, of which what is left now is the rounding error
+      scalar const before = s.slack[i] + α1 * s.rates[i];
+      return s.rates[i] > scalar(0) && s.slack[i] <= scalar(8) * ε * before;
+    };
+    change_active(s, [&](index i) { return s.active.contains(i) || reached(i); });
+    for (index i = 0; i < s.slack.size(); ++i) {
+      if (s.rates[i] > scalar(0) && s.active.contains(i)) s.slack[i] = scalar(0);
+    }
+  }
+
+  /// P(u + t q); false if none is better than the step to α₁.
+  bool projected_step(state_type& s, scalar const& α, scalar const& α1, scalar const& slope) const {
+    auto const& p = p_.get();
+    auto& q = s.directions;
+    scalar const gain = α1 * (slope - α1 * q.curvature / scalar(2));
+    scalar t = α;
+    for (index i = 0; i < options_.projected_trials && t > α1; ++i, t /= scalar(2)) {
+      slant::local(s.trial) = slant::local(s.x) + (s.unit * t) * slant::local(q.q);
+      slant::local(s.d) = slant::local(s.trial);
+      (void)s.active.project_on_set(p.rows(), s.trial, s.λ);
+      slant::local(s.d) = (slant::local(s.trial) - slant::local(s.d)) * (scalar(1) / s.unit);
+      slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
+      slant::apply(p.k(), s.correction, s.d, s.k_workspace);
+      count(s, 1, 1);
+      slant::local(s.correction) += t * slant::local(q.q);
+      slant::local(s.d) = slant::local(s.r) - slant::local(s.d) - t * slant::local(q.Ap);
+      slant::local(s.trial) = slant::local(s.r) + slant::local(s.d);
+      if (!(inner_product(s.correction, s.trial) / scalar(2) >= gain)) continue;
+      slant::local(s.x) += s.unit * slant::local(s.correction);
+      slant::local(s.r) = slant::local(s.d);
+      s.updated = true;
+      measure_slack(s);
+      take_tight_rows(s);
+      s.last_step = schur_contact_step::projected;
+      return true;
+    }
+    return false;
+  }
+
+  /// Makes a flat q exact, and lets it point downhill; false if it is no direction of the kernel.
+  bool polish(state_type& s) const {
+    auto const& p = p_.get();
+    auto& q = s.directions;
+    kernel_projector<scalar> const c(p.rows(), s.active);
+    no_workspace none;
+    auto const found = s.flat.polish(q, p.k(), s.k_workspace, c, none, p.projection(),
+                                     s.q_workspace, global_size(s.x));
+    count(s, found.products, found.projections);
+    q.live = false;
+    if (inner_product(s.r, q.q) < scalar(0)) {
+      slant::local(q.q) *= scalar(-1);
+      slant::local(q.Ap) *= scalar(-1);
+    }
+    return found.flat;
+  }
+  /// Is the slope of a flat q more than the rounding errors of r?
+  bool is_downhill(state_type const& s, scalar const& slope) const {
+    scalar const size = s.residual_scale / s.unit + norm(s.r);
+    return slope > scalar(global_size(s.x)) * ε * norm(s.directions.q) * size;
+  }
+
+  /// The face is solved as well as the precision allows: rows are released, or nothing is left.
+  void give_up_face(state_type& s) const {
+    index const before = s.releases;
+    if (s.β_norm > scalar(0)) release(s);
+    if (s.releases == before && s.status == status::running) {
+      s.status = s.directions.curvature < scalar(0) ? status::breakdown : status::stalled;
+    }
+  }
+
+  /// j has fallen by something, or ‖d‖ is smaller than ever.
+  void note_progress(state_type& s) const {
+    auto const energy = [&] {
+      scalar const work_of_load = inner_product(p_.get().f(), s.x);
+      scalar const work_of_rest = s.unit * inner_product(s.r, s.x);
+      using std::abs;
+      return std::pair(scalar(-(work_of_load + work_of_rest) / scalar(2)),
+                       scalar(scalar(8) * ε * (abs(work_of_load) + abs(work_of_rest))));
+    };
+    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
+      s.status = status::stalled;
+    }
+  }
+
+  static void count(state_type& s, index products, index projections) {
+    s.work.operator_applications += products;
+    s.projector_applications += projections;
+  }
+
+  held<P> p_;
+  options options_;
+};
+
+template <class P>
+schur_contact(P&&) -> schur_contact<kept_t<P>>;
+template <class P>
+schur_contact(P&&, schur_contact_options<typename std::remove_cvref_t<P>::scalar>)
+    -> schur_contact<kept_t<P>>;
+
+}  // namespace slant
