@@ -11,8 +11,8 @@
 //                    sees them
 //     inside         of the others, U: the unknowns that no row of B touches, one factor per body
 //     fixing nodes   where K_i is singular even on those (a body that nothing holds along a contact
-//                    plane, or with too few contact nodes), a few nodes far apart are left out of U,
-//                    so that UᵀKU is definite; conjugate gradients find out about the rest
+//                    plane, or with too few contact nodes), a few nodes far apart are left out of
+//                    U, so that UᵀKU is definite; conjugate gradients find out about the rest
 //
 // Rows with an infinite bound never act and touch nothing.
 #pragma once
@@ -159,8 +159,8 @@ class bodies {
       // Three nodes that are not on a line hold a body in space.
       list fixing = result.fixed ? sources : list{};
       for (int node = result.fixed ? 2 : 0; node < 3; ++node) {
-        auto const chosen =
-            detail::node_of(k, detail::farthest_unknown(k, body, fixing.empty() ? sources : fixing));
+        auto const chosen = detail::node_of(
+            k, detail::farthest_unknown(k, body, fixing.empty() ? sources : fixing));
         fixing.insert(fixing.end(), chosen.begin(), chosen.end());
       }
       for (index const i : fixing) touched[static_cast<std::size_t>(i)] = 1;

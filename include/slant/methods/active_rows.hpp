@@ -30,8 +30,7 @@ class active_rows {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  explicit active_rows(rows_type const& rows)
-      : active_(static_cast<std::size_t>(rows.count()), 0) {
+  explicit active_rows(rows_type const& rows) : active_(static_cast<std::size_t>(rows.count()), 0) {
     for (auto const& part : rows.clusters()) {
       index const n = part.e.rows();
       index const m = part.e.cols();

@@ -152,7 +152,6 @@ class constraint_rows {
 };
 
 template <class M, class V>
-constraint_rows(Eigen::SparseMatrixBase<M> const&, V const&)
-    -> constraint_rows<typename M::Scalar>;
+constraint_rows(Eigen::SparseMatrixBase<M> const&, V const&) -> constraint_rows<typename M::Scalar>;
 
 }  // namespace slant

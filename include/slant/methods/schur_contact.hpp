@@ -18,11 +18,11 @@
 // not change when J does. A step costs one product with K and one application of Q. (vi) after a
 // step (xv) would change nothing, because Qᵀr = r; it is made at the start and where rows leave.
 //
-// Which rows leave. Let d be the projection of r onto the tangent cone { d : b_iᵀd ≤ 0, i ∈ J }, r =
-// Bᵀλ + d with λ ≥ 0 on J: a well-conditioned least-squares problem with λ for its answer. d = 0
-// means that u is the solution, however many rows are redundant. Else J becomes { i ∈ J : b_iᵀd = 0 }.
-// Where rows are orthogonal that is (xii), the rows of negative multipliers leave; where they are
-// not, dropping those may give a direction that a row which has just left blocks at α₁ = 0.
+// Which rows leave. Let d be the projection of r onto the tangent cone { d : b_iᵀd ≤ 0, i ∈ J }, r
+// = Bᵀλ + d with λ ≥ 0 on J: a well-conditioned least-squares problem with λ for its answer. d = 0
+// means that u is the solution, however many rows are redundant. Else J becomes { i ∈ J : b_iᵀd = 0
+// }. Where rows are orthogonal that is (xii), the rows of negative multipliers leave; where they
+// are not, dropping those may give a direction that a row which has just left blocks at α₁ = 0.
 //
 // Finite termination. Along d, the first direction of the new face, no tight row blocks (b_iᵀd ≤ 0)
 // and rᵀd = ‖d‖² > 0: the step is longer than 0 and j falls. Steps with α₁ = 0 are possible only
@@ -33,9 +33,9 @@
 // outweighs φ: proportioning [Dostál 1997], with the same conclusion if no multiplier of the
 // solution vanishes.
 //
-// More than one row at a time. Rows leave in any number. Where α > α₁, the points P(u + t q), t = α,
-// α/2, …, P onto B u ≤ c, are tried first [Calamai, Moré 1987], with the unknowns of U following by
-// Q; one is taken if j falls by as much as it would with α₁.
+// More than one row at a time. Rows leave in any number. Where α > α₁, the points P(u + t q), t =
+// α, α/2, …, P onto B u ≤ c, are tried first [Calamai, Moré 1987], with the unknowns of U following
+// by Q; one is taken if j falls by as much as it would with α₁.
 #pragma once
 
 #include <slant/concepts/distributed.hpp>
@@ -62,8 +62,8 @@ class schur_contact : public detail::refused_method<Eigen::VectorXd> {
 };
 
 /// The method at the top of this file: solve(schur_contact{problem}, u0, residual_below(1e-10) ||
-/// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d = 0),
-/// unbounded (no solution; the state has the direction), stalled, breakdown.
+/// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d
+/// = 0), unbounded (no solution; the state has the direction), stalled, breakdown.
 template <class P>
   requires polyhedral_program<std::remove_cvref_t<P>>
 class schur_contact<P> {
@@ -78,8 +78,8 @@ class schur_contact<P> {
   /// Throws bad_input for options out of range.
   schur_contact(held<P> p, options o) : p_(std::move(p)), options_(o) { options_.validate(); }
 
-  /// A, B, C. Throws bad_input if u0 or K u0 is not finite or of the wrong size, if no u satisfies B u
-  /// ≤ c, or if the projector moves a row of B.
+  /// A, B, C. Throws bad_input if u0 or K u0 is not finite or of the wrong size, if no u satisfies
+  /// B u ≤ c, or if the projector moves a row of B.
   [[nodiscard]] state_type start(vector_type const& u0) const {
     auto const& p = p_.get();
     detail::check_size("u0", index(slant::local(u0).size()), p.size(), "the size of f,");
@@ -131,14 +131,23 @@ class schur_contact<P> {
 
   // B --------------------------------------------------------------------------------------------
 
-  /// slack = c − B u, 0 where that cannot be told from 0.
+  /// slack = c − B u, 0 where that cannot be told from 0: it is a difference of numbers that have
+  /// been as large as row_sizes says.
   void measure_slack(state_type& s) const {
     auto const& rows = p_.get().rows();
+    note_sizes(s, s.x);
     s.slack.setConstant(infinity);
-    rows.for_each_product(s.x, [&](index i, scalar const& value, scalar const& size) {
+    rows.for_each_product(s.x, [&](index i, scalar const& value, scalar const&) {
       using std::abs;
       scalar const gap = rows.c()[i] - value;
-      s.slack[i] = abs(gap) <= scalar(16) * ε * (abs(rows.c()[i]) + size) ? scalar(0) : gap;
+      s.slack[i] = abs(gap) <= scalar(16) * ε * s.row_sizes[i] ? scalar(0) : gap;
+    });
+  }
+  void note_sizes(state_type& s, vector_type const& u) const {
+    auto const& rows = p_.get().rows();
+    rows.for_each_product(u, [&](index i, scalar const&, scalar const& size) {
+      using std::abs;
+      s.row_sizes[i] = std::max<scalar>(s.row_sizes[i], size + abs(rows.c()[i]));
     });
   }
   static bool is_feasible(state_type const& s) { return (s.slack.array() >= scalar(0)).all(); }
@@ -215,8 +224,8 @@ class schur_contact<P> {
   void conjugate_step(state_type& s) const {
     auto const& p = p_.get();
     auto& q = s.directions;
-    q.advance(s.φ);                                                          // (xviii)
-    q.image(p.k(), s.k_workspace, p.projection(), s.q_workspace);            // (xiii)
+    q.advance(s.φ);                                                // (xviii)
+    q.image(p.k(), s.k_workspace, p.projection(), s.q_workspace);  // (xiii)
     count(s, 1, 1);
     bool const flat = s.flat.is_flat(q) && polish(s);
     scalar const slope = inner_product(s.r, q.q);
@@ -224,7 +233,7 @@ class schur_contact<P> {
       give_up_face(s);
       return;
     }
-    scalar const α = flat ? infinity : scalar(slope / q.curvature);          // (xiv)
+    scalar const α = flat ? infinity : scalar(slope / q.curvature);  // (xiv)
     scalar const α1 = minimum(s.x, first_constraint(s));
     if (flat && !(α1 < infinity)) {
       s.status = status::unbounded;
@@ -246,9 +255,9 @@ class schur_contact<P> {
   void advance(state_type& s, scalar const& α) const {
     slant::local(s.x) += (s.unit * α) * slant::local(s.directions.q);
     slant::local(s.r) -= α * slant::local(s.directions.Ap);
-    p_.get().rows().for_each_product(s.directions.q, [&](index i, scalar const& value, auto const&) {
-      s.slack[i] -= (s.unit * α) * value;
-    });
+    p_.get().rows().for_each_product(
+        s.directions.q,
+        [&](index i, scalar const& value, auto const&) { s.slack[i] -= (s.unit * α) * value; });
     s.updated = true;
   }
 
@@ -287,6 +296,7 @@ class schur_contact<P> {
     for (index i = 0; i < options_.projected_trials && t > α1; ++i, t /= scalar(2)) {
       slant::local(s.trial) = slant::local(s.x) + (s.unit * t) * slant::local(q.q);
       slant::local(s.d) = slant::local(s.trial);
+      note_sizes(s, s.trial);
       (void)s.active.project_on_set(p.rows(), s.trial, s.λ);
       slant::local(s.d) = (slant::local(s.trial) - slant::local(s.d)) * (scalar(1) / s.unit);
       slant::apply(p.projection(), s.d, s.correction, s.q_workspace);

@@ -14,7 +14,7 @@ struct schur_contact_options {
   /// Γ ≥ 0 in the test of the residuum [D (ix)]: rows are released where ‖φ‖ ≤ Γ ‖β‖, φ = V Vᵀr
   /// what the face can still gain and β what releasing rows can. 0: only where φ = 0 to the last
   /// digit, as the paper has it, which rounding errors need not allow.
-  S release = S(0.1);
+  S release = S(0.5);
   /// Points u(t) = P(u + t q), t = α, α/2, …, that are tried where the step to the minimum along q
   /// leaves the set, before the step to the first constraint. Each costs one product and one
   /// application of Q. 0: the paper's update, by one index as a rule.

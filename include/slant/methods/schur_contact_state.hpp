@@ -34,6 +34,7 @@ struct schur_contact_state {
   vector_type correction;                        ///< scratch
   vector_type descent;                           ///< direction without end, if unbounded
   row_vector slack;                              ///< c − B u
+  row_vector row_sizes;                          ///< the largest |c| + |B||u| so far
   row_vector rates;                              ///< B q; 0 where it is rounding error
   row_vector λ;                                  ///< multipliers, in multiples of unit
   active_rows<scalar> active;                    ///< J
@@ -68,6 +69,7 @@ struct schur_contact_state {
         correction(r),
         descent(r),
         slack(p.rows().count()),
+        row_sizes(row_vector::Zero(slack.size())),
         rates(row_vector::Zero(slack.size())),
         λ(row_vector::Zero(slack.size())),
         active(p.rows()),
