@@ -100,4 +100,15 @@ concept polyhedral_program = requires(P const& p) {
   { p.projection() } -> std::same_as<typename P::projector_type const&>;
 };
 
+/// No problem at all.
+template <class P>
+class schur_contact : public detail::refused_method<Eigen::VectorXd> {
+  static_assert(detail::was_refused<std::remove_cvref_t<P>> ||
+                    polyhedral_program<std::remove_cvref_t<P>>,
+                "schur_contact: the problem must be a polyhedral_qp{K, f, rows, Q}");
+
+ public:
+  using schur_contact::refused_method::refused_method;
+};
+
 }  // namespace slant

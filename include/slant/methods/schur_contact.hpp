@@ -33,13 +33,13 @@
 // outweighs φ: proportioning [Dostál 1997], with the same conclusion if no multiplier of the
 // solution vanishes.
 //
-// More than one row at a time. Rows leave in any number. Where α > α₁, the points P(u + t q), t =
-// α, α/2, …, P onto B u ≤ c, are tried first [Calamai, Moré 1987], with the unknowns of U following
-// by Q; one is taken if j falls by as much as it would with α₁.
+// Rows leave in any number. More than one at a time enter by a search along the boundary, see
+// projected_search.hpp.
 #pragma once
 
 #include <slant/concepts/distributed.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/methods/projected_search.hpp>
 #include <slant/methods/schur_contact_options.hpp>
 #include <slant/methods/schur_contact_state.hpp>
 
@@ -49,17 +49,6 @@
 #include <utility>
 
 namespace slant {
-
-/// No problem at all.
-template <class P>
-class schur_contact : public detail::refused_method<Eigen::VectorXd> {
-  static_assert(detail::was_refused<std::remove_cvref_t<P>> ||
-                    polyhedral_program<std::remove_cvref_t<P>>,
-                "schur_contact: the problem must be a polyhedral_qp{K, f, rows, Q}");
-
- public:
-  using schur_contact::refused_method::refused_method;
-};
 
 /// The method at the top of this file: solve(schur_contact{problem}, u0, residual_below(1e-10) ||
 /// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d
@@ -85,12 +74,12 @@ class schur_contact<P> {
     detail::check_size("u0", index(slant::local(u0).size()), p.size(), "the size of f,");
     detail::check_finite("u0", u0);
     state_type s(p, u0);
-    measure_slack(s);
-    if (!everywhere(s.x, is_feasible(s))) {
-      if (!everywhere(s.x, s.active.project_on_set(p.rows(), s.x, s.λ))) {
+    s.rows.measure(p.rows(), s.x);
+    if (!everywhere(s.x, s.rows.is_feasible())) {
+      if (!everywhere(s.x, s.rows.active.project_on_set(p.rows(), s.x, s.λ))) {
         throw bad_input("c", "bounds that exclude each other", "a u with B u <= c");
       }
-      measure_slack(s);
+      s.rows.measure(p.rows(), s.x);
     }
     slant::apply(p.k(), s.x, s.r, s.k_workspace);
     count(s, 1, 0);
@@ -99,7 +88,7 @@ class schur_contact<P> {
     if (s.residual_scale == scalar(0)) s.residual_scale = norm(s.r);
     s.unit = unit_near(std::max<scalar>(s.residual_scale, norm(s.r)));
     slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
-    take_tight_rows(s);
+    s.rows.take_tight(p.rows());
     minimise_inside(s);
     check_inside(s);
     note(s);
@@ -119,7 +108,7 @@ class schur_contact<P> {
     if (!s.updated) return false;
     s.status = status::running;
     compute_residual(s);
-    measure_slack(s);
+    s.rows.measure(p_.get().rows(), s.x);
     s.directions.live = false;
     note(s);
     return true;
@@ -129,43 +118,7 @@ class schur_contact<P> {
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
   static constexpr scalar ε = std::numeric_limits<scalar>::epsilon();
 
-  // B --------------------------------------------------------------------------------------------
-
-  /// slack = c − B u, 0 where that cannot be told from 0: it is a difference of numbers that have
-  /// been as large as row_sizes says.
-  void measure_slack(state_type& s) const {
-    auto const& rows = p_.get().rows();
-    note_sizes(s, s.x);
-    s.slack.setConstant(infinity);
-    rows.for_each_product(s.x, [&](index i, scalar const& value, scalar const&) {
-      using std::abs;
-      scalar const gap = rows.c()[i] - value;
-      s.slack[i] = abs(gap) <= scalar(16) * ε * s.row_sizes[i] ? scalar(0) : gap;
-    });
-  }
-  void note_sizes(state_type& s, vector_type const& u) const {
-    auto const& rows = p_.get().rows();
-    rows.for_each_product(u, [&](index i, scalar const&, scalar const& size) {
-      using std::abs;
-      s.row_sizes[i] = std::max<scalar>(s.row_sizes[i], size + abs(rows.c()[i]));
-    });
-  }
-  static bool is_feasible(state_type const& s) { return (s.slack.array() >= scalar(0)).all(); }
-
-  /// (iv), (v).
-  void take_tight_rows(state_type& s) const {
-    change_active(s, [&](index i) { return !(s.slack[i] > scalar(0)); });
-  }
-  template <class In>
-  void change_active(state_type& s, In in) const {
-    index const changes = s.active.assign(p_.get().rows(), in);
-    s.active_rows_changed += changes;
-    s.active_changes += changes > 0 ? 1 : 0;
-    s.directions.live = false;
-  }
-
-  // C --------------------------------------------------------------------------------------------
-
+  // C
   void minimise_inside(state_type& s) const {
     slant::local(s.trial) = slant::local(s.x);
     p_.get().projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
@@ -189,13 +142,11 @@ class schur_contact<P> {
     });
   }
 
-  // D --------------------------------------------------------------------------------------------
-
-  /// φ, d, λ of r.
+  /// D: φ, d, λ of r.
   void note(state_type& s) const {
     auto const& rows = p_.get().rows();
-    s.active.project_on_kernel(rows, s.r, s.φ);
-    s.active.project_on_cone(rows, s.r, s.d, s.λ);
+    s.rows.active.project_on_kernel(rows, s.r, s.φ);
+    s.rows.active.project_on_cone(rows, s.r, s.d, s.λ);
     s.φ_norm = norm(s.φ);
     s.residual_norm = s.unit * norm(s.d);
     slant::local(s.trial) = slant::local(s.d) - slant::local(s.φ);
@@ -203,24 +154,16 @@ class schur_contact<P> {
     if (s.residual_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
   }
-
   /// (xii), (v)–(vii): rows leave J along which d moves away.
   void release(state_type& s) const {
-    auto const& rows = p_.get().rows();
-    s.rates.setZero();
-    rows.for_each_product(s.d, [&](index i, scalar const& value, scalar const& size) {
-      if (value < -scalar(32) * ε * size && !(s.λ[i] > scalar(0))) s.rates[i] = value;
-    });
-    index const before = s.active_changes;
-    change_active(s, [&](index i) { return s.active.contains(i) && !(s.rates[i] < scalar(0)); });
-    if (s.active_changes == before) return;
+    if (!s.rows.leave_along(p_.get().rows(), s.d, s.λ)) return;
+    s.directions.live = false;
     ++s.releases;
     minimise_inside(s);
     note(s);
   }
 
-  // E --------------------------------------------------------------------------------------------
-
+  /// E
   void conjugate_step(state_type& s) const {
     auto const& p = p_.get();
     auto& q = s.directions;
@@ -234,94 +177,35 @@ class schur_contact<P> {
       return;
     }
     scalar const α = flat ? infinity : scalar(slope / q.curvature);  // (xiv)
-    scalar const α1 = minimum(s.x, first_constraint(s));
-    if (flat && !(α1 < infinity)) {
-      s.status = status::unbounded;
-      slant::local(s.descent) = slant::local(q.q);
-      return;
-    }
+    scalar const α1 = minimum(s.x, s.rows.first_constraint(p.rows(), q.q, s.unit));
     if (α < α1) {
       advance(s, α);
       s.last_step = schur_contact_step::conjugate_gradient;
-    } else if (flat || !projected_step(s, α, α1, slope)) {
+    } else if (!(α1 < infinity)) {
+      s.status = status::unbounded;
+      slant::local(s.descent) = slant::local(q.q);
+      return;
+    } else if (flat || !projected_search(p, s, options_.projected_trials, α, α1)) {
       advance(s, α1);
-      take_blocking_rows(s, α1);
+      s.rows.take_blocking(p.rows(), α1);
+      q.live = false;
       s.last_step = schur_contact_step::blocked;
     }
     note(s);
   }
-
   /// (xv), (xvi).
   void advance(state_type& s, scalar const& α) const {
     slant::local(s.x) += (s.unit * α) * slant::local(s.directions.q);
     slant::local(s.r) -= α * slant::local(s.directions.Ap);
-    p_.get().rows().for_each_product(
-        s.directions.q,
-        [&](index i, scalar const& value, auto const&) { s.slack[i] -= (s.unit * α) * value; });
+    s.rows.advance(p_.get().rows(), s.directions.q, s.unit * α);
     s.updated = true;
-  }
-
-  /// α₁ per unit, with the rates b_iᵀq of the rows that q approaches; infinite if there is none.
-  scalar first_constraint(state_type& s) const {
-    scalar α1 = infinity;
-    s.rates.setZero();
-    p_.get().rows().for_each_product(
-        s.directions.q, [&](index i, scalar const& value, scalar const& size) {
-          if (s.active.contains(i) || !(value > scalar(32) * ε * size)) return;
-          s.rates[i] = s.unit * value;
-          α1 = std::min<scalar>(α1, std::max<scalar>(s.slack[i], scalar(0)) / s.rates[i]);
-        });
-    return α1;
-  }
-
-  /// (iv) after a step that ended at a constraint. Others that are as near are taken too.
-  void take_blocking_rows(state_type& s, scalar const& α1) const {
-    auto const reached = [&](index i) {
-      // slack before the step, of which what is left now is the rounding error
-      scalar const before = s.slack[i] + α1 * s.rates[i];
-      return s.rates[i] > scalar(0) && s.slack[i] <= scalar(8) * ε * before;
-    };
-    change_active(s, [&](index i) { return s.active.contains(i) || reached(i); });
-    for (index i = 0; i < s.slack.size(); ++i) {
-      if (s.rates[i] > scalar(0) && s.active.contains(i)) s.slack[i] = scalar(0);
-    }
-  }
-
-  /// P(u + t q); false if none is better than the step to α₁.
-  bool projected_step(state_type& s, scalar const& α, scalar const& α1, scalar const& slope) const {
-    auto const& p = p_.get();
-    auto& q = s.directions;
-    scalar const gain = α1 * (slope - α1 * q.curvature / scalar(2));
-    scalar t = α;
-    for (index i = 0; i < options_.projected_trials && t > α1; ++i, t /= scalar(2)) {
-      slant::local(s.trial) = slant::local(s.x) + (s.unit * t) * slant::local(q.q);
-      slant::local(s.d) = slant::local(s.trial);
-      note_sizes(s, s.trial);
-      (void)s.active.project_on_set(p.rows(), s.trial, s.λ);
-      slant::local(s.d) = (slant::local(s.trial) - slant::local(s.d)) * (scalar(1) / s.unit);
-      slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
-      slant::apply(p.k(), s.correction, s.d, s.k_workspace);
-      count(s, 1, 1);
-      slant::local(s.correction) += t * slant::local(q.q);
-      slant::local(s.d) = slant::local(s.r) - slant::local(s.d) - t * slant::local(q.Ap);
-      slant::local(s.trial) = slant::local(s.r) + slant::local(s.d);
-      if (!(inner_product(s.correction, s.trial) / scalar(2) >= gain)) continue;
-      slant::local(s.x) += s.unit * slant::local(s.correction);
-      slant::local(s.r) = slant::local(s.d);
-      s.updated = true;
-      measure_slack(s);
-      take_tight_rows(s);
-      s.last_step = schur_contact_step::projected;
-      return true;
-    }
-    return false;
   }
 
   /// Makes a flat q exact, and lets it point downhill; false if it is no direction of the kernel.
   bool polish(state_type& s) const {
     auto const& p = p_.get();
     auto& q = s.directions;
-    kernel_projector<scalar> const c(p.rows(), s.active);
+    kernel_projector<scalar> const c(p.rows(), s.rows.active);
     no_workspace none;
     auto const found = s.flat.polish(q, p.k(), s.k_workspace, c, none, p.projection(),
                                      s.q_workspace, global_size(s.x));
@@ -338,7 +222,6 @@ class schur_contact<P> {
     scalar const size = s.residual_scale / s.unit + norm(s.r);
     return slope > scalar(global_size(s.x)) * ε * norm(s.directions.q) * size;
   }
-
   /// The face is solved as well as the precision allows: rows are released, or nothing is left.
   void give_up_face(state_type& s) const {
     index const before = s.releases;
@@ -348,14 +231,13 @@ class schur_contact<P> {
     }
   }
 
-  /// j has fallen by something, or ‖d‖ is smaller than ever.
   void note_progress(state_type& s) const {
     auto const energy = [&] {
-      scalar const work_of_load = inner_product(p_.get().f(), s.x);
-      scalar const work_of_rest = s.unit * inner_product(s.r, s.x);
+      scalar const of_load = inner_product(p_.get().f(), s.x);
+      scalar const of_rest = s.unit * inner_product(s.r, s.x);
       using std::abs;
-      return std::pair(scalar(-(work_of_load + work_of_rest) / scalar(2)),
-                       scalar(scalar(8) * ε * (abs(work_of_load) + abs(work_of_rest))));
+      return std::pair(scalar(-(of_load + of_rest) / scalar(2)),
+                       scalar(scalar(8) * ε * (abs(of_load) + abs(of_rest))));
     };
     if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
       s.status = status::stalled;

@@ -6,9 +6,9 @@
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/krylov/projected_directions.hpp>
-#include <slant/methods/active_rows.hpp>
 #include <slant/methods/polyhedral_qp.hpp>
 #include <slant/methods/progress_watch.hpp>
+#include <slant/methods/row_slacks.hpp>
 
 #include <string>
 
@@ -33,11 +33,8 @@ struct schur_contact_state {
   vector_type trial;                             ///< scratch
   vector_type correction;                        ///< scratch
   vector_type descent;                           ///< direction without end, if unbounded
-  row_vector slack;                              ///< c − B u
-  row_vector row_sizes;                          ///< the largest |c| + |B||u| so far
-  row_vector rates;                              ///< B q; 0 where it is rounding error
   row_vector λ;                                  ///< multipliers, in multiples of unit
-  active_rows<scalar> active;                    ///< J
+  row_slacks<scalar> rows;                       ///< c − B u and J
   projected_directions<vector_type> directions;  ///< p, q = Q p, K q, qᵀKq
   workspace_t<typename P::operator_type, vector_type> k_workspace;
   workspace_t<typename P::projector_type, vector_type> q_workspace;
@@ -53,8 +50,6 @@ struct schur_contact_state {
   bool updated = false;      ///< r was updated since it was computed from x
 
   index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
-  index active_changes = 0;          ///< changes of J, however many rows came or went
-  index active_rows_changed = 0;     ///< rows that came or went
   index releases = 0;                ///< how often rows were released
   schur_contact_step last_step = schur_contact_step::none;
   index iteration = 0;
@@ -68,11 +63,8 @@ struct schur_contact_state {
         trial(r),
         correction(r),
         descent(r),
-        slack(p.rows().count()),
-        row_sizes(row_vector::Zero(slack.size())),
-        rates(row_vector::Zero(slack.size())),
-        λ(row_vector::Zero(slack.size())),
-        active(p.rows()),
+        λ(row_vector::Zero(p.rows().count())),
+        rows(p.rows()),
         directions(x0),
         k_workspace(workspace(p.k(), x0)),
         q_workspace(workspace(p.projection(), x0)),
