@@ -14,6 +14,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/projected_directions.hpp>
 
@@ -21,6 +22,13 @@
 #include <limits>
 
 namespace slant {
+
+/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
+template <class V, class S>
+[[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {
+  auto const noise = S(slant::global_size(d)) * std::numeric_limits<S>::epsilon();
+  return slope > noise * norm(d) * gradient_size;
+}
 
 /// What polish has spent and found.
 struct polished {
@@ -64,8 +72,8 @@ class flat_direction {
   /// Makes K q = 0 as exact as it can be, d.q ∈ range(Q C Qᵀ) staying there; d.Ap becomes K q. At
   /// most `steps` steps, one product and one application of Q and C each.
   template <class Directions, class K, class WK, class C, class WC, class Q, class WQ>
-  [[nodiscard]] polished polish(Directions& d, K const& k, WK& wk, C const& c, WC& wc,
-                                Q const& q, WQ& wq, index steps) {
+  [[nodiscard]] polished polish(Directions& d, K const& k, WK& wk, C const& c, WC& wc, Q const& q,
+                                WQ& wq, index steps) {
     scalar const ε = std::numeric_limits<scalar>::epsilon();
     polished spent{true, 0, 0};
     scalar const length = norm(d.q);

@@ -212,11 +212,11 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
                                      q_.get(), s.q_workspace, global_size(s.x));
     count(s, found.products, found.projections);
     scalar const slope = inner_product(s.r, d.q);
-    scalar const noise = scalar(global_size(s.x)) * std::numeric_limits<scalar>::epsilon() *
-                         norm(d.q) * norm(this->b()) / s.unit;
+    scalar const size = norm(this->b()) / s.unit;
+    bool const downhill = is_descent(slope, d.q, size) || is_descent(scalar(-slope), d.q, size);
     if (!found.flat) {
       s.status = before > scalar(0) ? status::stalled : status::breakdown;
-    } else if (slope > noise || -slope > noise) {
+    } else if (downhill) {
       s.status = status::unbounded;
       slant::local(s.descent) = (slope > scalar(0) ? scalar(-1) : scalar(1)) * slant::local(d.q);
     } else {

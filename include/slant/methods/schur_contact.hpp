@@ -82,7 +82,7 @@ class schur_contact<P> {
       s.rows.measure(p.rows(), s.x);
     }
     slant::apply(p.k(), s.x, s.r, s.k_workspace);
-    count(s, 1, 0);
+    ++s.work.operator_applications;
     detail::check_finite("K u0", s.r);
     s.residual_scale = norm(p.f());
     if (s.residual_scale == scalar(0)) s.residual_scale = norm(s.r);
@@ -116,18 +116,17 @@ class schur_contact<P> {
 
  private:
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
-  static constexpr scalar ε = std::numeric_limits<scalar>::epsilon();
 
   // C
   void minimise_inside(state_type& s) const {
     slant::local(s.trial) = slant::local(s.x);
     p_.get().projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
-    count(s, 0, 1);
+    ++s.projector_applications;
     compute_residual(s);
   }
   void compute_residual(state_type& s) const {
     slant::apply(p_.get().k(), s.x, s.r, s.k_workspace);
-    count(s, 1, 0);
+    ++s.work.operator_applications;
     slant::local(s.r) = (slant::local(p_.get().f()) - slant::local(s.r)) * (scalar(1) / s.unit);
     s.updated = false;
   }
@@ -169,10 +168,13 @@ class schur_contact<P> {
     auto& q = s.directions;
     q.advance(s.φ);                                                // (xviii)
     q.image(p.k(), s.k_workspace, p.projection(), s.q_workspace);  // (xiii)
-    count(s, 1, 1);
+    ++s.work.operator_applications;
+    ++s.projector_applications;
     bool const flat = s.flat.is_flat(q) && polish(s);
     scalar const slope = inner_product(s.r, q.q);
-    if (flat ? !is_downhill(s, slope) : !(q.curvature > scalar(0) && slope > scalar(0))) {
+    bool const downhill = flat ? is_descent(slope, q.q, s.residual_scale / s.unit + norm(s.r))
+                               : q.curvature > scalar(0) && slope > scalar(0);
+    if (!downhill) {
       give_up_face(s);
       return;
     }
@@ -209,18 +211,14 @@ class schur_contact<P> {
     no_workspace none;
     auto const found = s.flat.polish(q, p.k(), s.k_workspace, c, none, p.projection(),
                                      s.q_workspace, global_size(s.x));
-    count(s, found.products, found.projections);
+    s.work.operator_applications += found.products;
+    s.projector_applications += found.projections;
     q.live = false;
     if (inner_product(s.r, q.q) < scalar(0)) {
       slant::local(q.q) *= scalar(-1);
       slant::local(q.Ap) *= scalar(-1);
     }
     return found.flat;
-  }
-  /// Is the slope of a flat q more than the rounding errors of r?
-  bool is_downhill(state_type const& s, scalar const& slope) const {
-    scalar const size = s.residual_scale / s.unit + norm(s.r);
-    return slope > scalar(global_size(s.x)) * ε * norm(s.directions.q) * size;
   }
   /// The face is solved as well as the precision allows: rows are released, or nothing is left.
   void give_up_face(state_type& s) const {
@@ -242,11 +240,6 @@ class schur_contact<P> {
     if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
       s.status = status::stalled;
     }
-  }
-
-  static void count(state_type& s, index products, index projections) {
-    s.work.operator_applications += products;
-    s.projector_applications += projections;
   }
 
   held<P> p_;
