@@ -11,6 +11,7 @@
 // that redundant and repeated rows do no harm. C = V Vᵀ can be applied as an operator.
 #pragma once
 
+#include <slant/concepts/laws.hpp>
 #include <slant/methods/constraint_rows.hpp>
 #include <slant/methods/detail/nearest_point.hpp>
 
@@ -151,7 +152,8 @@ class active_rows {
   std::vector<room> rooms_;
 };
 
-/// C = V Vᵀ of an active set as an operator; for the time of a call.
+/// C = V Vᵀ of an active set as an operator, for the time of a call; it works in the room of the
+/// active set, so that only one thread may apply it.
 template <class S>
 class kernel_projector {
  public:

@@ -42,8 +42,8 @@ class constraint_rows {
   constraint_rows(Eigen::SparseMatrixBase<M> const& b, vector_type c)
       : unknowns_(b.cols()), c_(std::move(c)) {
     detail::check_size("c", c_.size(), b.rows(), "one entry per row of B,");
-    detail::require_finite_entries("B", b.derived());
     Eigen::SparseMatrix<S, Eigen::RowMajor> rows = b.derived();
+    detail::require_finite_entries("B", rows);
     rows.prune([](auto, auto, S const& value) { return value != S(0); });
     for (index i = 0; i < c_.size(); ++i) check_bound(i, rows.outerIndexPtr());
     collect(rows);
