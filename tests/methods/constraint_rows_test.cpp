@@ -159,14 +159,16 @@ TEST_CASE("slacks: tight up to the rounding of what they are the difference of")
   s.take_tight(rows);
   CHECK(s.active.contains(0));
   CHECK(s.active.size() == 1);
-  CHECK(s.first_constraint(rows, VectorXd{{0, 2}}, 0.5) == 0.5);
+  CHECK(s.first_constraint(rows, VectorXd{{0, 2}}, 0.5, 0.0) == 0.5);
+  CHECK(s.first_constraint(rows, VectorXd{{0, 2}}, 0.5, 1.5) == infinity);
+  CHECK(s.first_constraint(rows, VectorXd{{0, 2}}, 0.5, 1.0) == 0.5);
   s.advance(rows, VectorXd{{0, 2}}, 0.25);
   s.take_blocking(rows, 0.5);
   CHECK(s.active.size() == 2);
   CHECK(s.slack[1] == 0);
   CHECK(s.changes == 2);
   CHECK(s.rows_changed == 2);
-  CHECK(s.leave_along(rows, VectorXd{{-1, 0}}, VectorXd{{0, 0.1}}));
+  CHECK(s.leave_along(rows, VectorXd{{-1, 1}}, VectorXd{{-1, 0}}, VectorXd{{0, 0.1}}));
   CHECK(!s.active.contains(0));
   CHECK(s.active.contains(1));  // it has a multiplier
 }
@@ -183,7 +185,7 @@ TEST_CASE("no allocation after construction") {
   s.take_tight(rows);
   s.active.project_on_kernel(rows, x, d);
   s.active.project_on_cone(rows, x, d, λ);
-  (void)s.leave_along(rows, d, λ);
+  (void)s.leave_along(rows, x, d, λ);
   auto const allocations = guard.count();
   CHECK(allocations == 0);
 }

@@ -18,7 +18,7 @@
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/projected_directions.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace slant {
@@ -64,9 +64,14 @@ class flat_direction {
   /// Is qᵀKq zero up to rounding?
   template <class Directions>
   [[nodiscard]] bool is_flat(Directions const& d) {
-    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(d.q));
-    scalar const size = inner_product(image_, d.q);
-    return !(d.curvature > scalar(16) * std::numeric_limits<scalar>::epsilon() * size);
+    return !(d.curvature > scalar(16) * std::numeric_limits<scalar>::epsilon() * size(d));
+  }
+  /// Is it so small that q may be a direction of the kernel to half of the digits, so that the
+  /// minimum along it would be far away?
+  template <class Directions>
+  [[nodiscard]] bool is_nearly_flat(Directions const& d) {
+    using std::sqrt;
+    return !(d.curvature > sqrt(std::numeric_limits<scalar>::epsilon()) * size(d));
   }
 
   /// Makes K q = 0 as exact as it can be, d.q ∈ range(Q C Qᵀ) staying there; d.Ap becomes K q. At
@@ -100,6 +105,13 @@ class flat_direction {
   }
 
  private:
+  /// qᵀD q.
+  template <class Directions>
+  [[nodiscard]] scalar size(Directions const& d) {
+    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(d.q));
+    return inner_product(image_, d.q);
+  }
+
   V D_;      // diag(K)
   V image_;  // scratch
   projected_directions<V> directions_;
@@ -113,6 +125,10 @@ class flat_direction<V, true> {
   template <class Directions>
   [[nodiscard]] bool is_flat(Directions const& d) const {
     return !(d.curvature > scalar_t<V>(0));
+  }
+  template <class Directions>
+  [[nodiscard]] bool is_nearly_flat(Directions const& d) const {
+    return is_flat(d);
   }
   /// A curvature ≤ 0 of what was declared definite: there is no such direction.
   template <class... Parts>

@@ -58,6 +58,9 @@ class constraint_rows {
   /// Does row i act at all? It has entries and a finite bound.
   [[nodiscard]] bool acts(index i) const { return acts_[static_cast<std::size_t>(i)] != 0; }
 
+  /// ‖b_i‖ of a row that acts.
+  [[nodiscard]] S const& length(index i) const { return lengths_[i]; }
+
   /// f(i, b_iᵀv, |b_i|ᵀ|v|) for each row that acts: the product and the size of its terms, of which
   /// its rounding error is a small multiple of ε.
   template <class V, class F>
@@ -116,6 +119,7 @@ class constraint_rows {
         sets.join(entry(b, i).col(), e.col());
       }
     }
+    lengths_ = vector_type::Zero(b.rows());
     std::vector<index> cluster_of(static_cast<std::size_t>(unknowns_), -1);
     std::vector<index> place(static_cast<std::size_t>(unknowns_), -1);
     for (index i = 0; i < b.rows(); ++i) {
@@ -141,6 +145,7 @@ class constraint_rows {
         for (entry e(b, part.rows[j]); e; ++e) {
           part.e(place[static_cast<std::size_t>(e.col())], static_cast<index>(j)) = e.value();
         }
+        lengths_[part.rows[j]] = part.e.col(static_cast<index>(j)).stableNorm();
       }
     }
   }
@@ -148,6 +153,7 @@ class constraint_rows {
   index unknowns_;
   vector_type c_;
   std::vector<unsigned char> acts_;
+  vector_type lengths_;
   std::vector<cluster> clusters_;
 };
 

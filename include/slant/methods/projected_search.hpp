@@ -7,10 +7,13 @@
 //
 // are tried before the step α₁ to the first constraint. P changes no unknown of U, which follow by
 // Q: with e = P(u + t q) − (u + t q) the trial point is u + t q + Q e, and its residual r − t K q −
-// K Q e is again orthogonal to U. It is taken if j falls by as much as it would with α₁, so that
-// what is known of the finite termination remains. One product and one application of Q for each.
+// K Q e is again orthogonal to U. It is taken if j falls by as much as it would with α₁, and if no
+// row of J has left its bound: J then grows, as it does with α₁, and what is known of the finite
+// termination remains. One product and one application of Q for each. Directions that are flat to
+// half of the digits are not followed so far.
 #pragma once
 
+#include <slant/concepts/distributed.hpp>
 #include <slant/methods/schur_contact_state.hpp>
 
 namespace slant {
@@ -21,6 +24,7 @@ template <class P>
                                     typename P::scalar const& α, typename P::scalar const& α1) {
   using scalar = typename P::scalar;
   auto const& q = s.directions;
+  if (trials == 0 || s.flat.is_nearly_flat(q)) return false;
   scalar const gain = α1 * (inner_product(s.r, q.q) - α1 * q.curvature / scalar(2));
   scalar t = α;
   for (index i = 0; i < trials && t > α1; ++i, t /= scalar(2)) {
@@ -28,6 +32,7 @@ template <class P>
     slant::local(s.d) = slant::local(s.trial);
     s.rows.note_sizes(p.rows(), s.trial);
     (void)s.rows.active.project_on_set(p.rows(), s.trial, s.λ);
+    if (!everywhere(s.x, s.rows.are_tight(p.rows(), s.trial))) continue;
     slant::local(s.d) = (slant::local(s.trial) - slant::local(s.d)) * (scalar(1) / s.unit);
     slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
     slant::apply(p.k(), s.correction, s.d, s.k_workspace);

@@ -54,29 +54,45 @@ struct row_slacks {
   }
   [[nodiscard]] bool is_feasible() const { return (slack.array() >= S(0)).all(); }
 
+  /// Are the rows of J tight at v, which note_sizes has seen?
+  template <class V>
+  [[nodiscard]] bool are_tight(rows_type const& rows, V const& v) const {
+    bool tight = true;
+    rows.for_each_product(v, [&](index i, S const& value, S const&) {
+      using std::abs;
+      if (active.contains(i) && abs(rows.c()[i] - value) > S(16) * ε() * sizes[i]) tight = false;
+    });
+    return tight;
+  }
+
   /// J = { i : b_iᵀu = c_i }.
   void take_tight(rows_type const& rows) {
     (void)change(rows, [&](index i) { return !(slack[i] > S(0)); });
   }
 
   /// Rows along which d leaves the constraint leave J, except those with a multiplier; false if
-  /// there are none.
+  /// there are none. d is a part of r, whose rounding errors it has.
   template <class V>
-  [[nodiscard]] bool leave_along(rows_type const& rows, V const& d, vector_type const& λ) {
-    rates.setZero();
-    rows.for_each_product(d, [&](index i, S const& value, S const& size) {
-      if (value < -S(32) * ε() * size && !(λ[i] > S(0))) rates[i] = value;
+  [[nodiscard]] bool leave_along(rows_type const& rows, V const& r, V const& d,
+                                 vector_type const& λ) {
+    rows.for_each_product(r,
+                          [&](index i, S const&, S const& size) { rates[i] = S(32) * ε() * size; });
+    rows.for_each_product(d, [&](index i, S const& value, S const&) {
+      bool const leaves = value < -rates[i] && !(λ[i] > S(0));
+      rates[i] = leaves ? value : S(0);
     });
     return change(rows, [&](index i) { return active.contains(i) && !(rates[i] < S(0)); });
   }
 
-  /// α₁ = min slack_i / (unit b_iᵀq) over rows with b_iᵀq > 0; infinite if there is none.
+  /// α₁ = min slack_i / (unit b_iᵀq) over rows with b_iᵀq > 0; infinite if there is none. What is
+  /// at most noise ‖b_i‖ counts as 0.
   template <class V>
-  [[nodiscard]] S first_constraint(rows_type const& rows, V const& q, S const& unit) {
+  [[nodiscard]] S first_constraint(rows_type const& rows, V const& q, S const& unit,
+                                   S const& noise) {
     S α1 = std::numeric_limits<S>::infinity();
     rates.setZero();
     rows.for_each_product(q, [&](index i, S const& value, S const& size) {
-      if (active.contains(i) || !(value > S(32) * ε() * size)) return;
+      if (active.contains(i) || !(value > S(32) * ε() * size + noise * rows.length(i))) return;
       rates[i] = unit * value;
       α1 = std::min<S>(α1, std::max<S>(slack[i], S(0)) / rates[i]);
     });

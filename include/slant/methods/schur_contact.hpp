@@ -39,6 +39,7 @@
 
 #include <slant/concepts/distributed.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/methods/detail/schur_contact_parts.hpp>
 #include <slant/methods/projected_search.hpp>
 #include <slant/methods/schur_contact_options.hpp>
 #include <slant/methods/schur_contact_state.hpp>
@@ -89,15 +90,16 @@ class schur_contact<P> {
     s.unit = unit_near(std::max<scalar>(s.residual_scale, norm(s.r)));
     slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
     s.rows.take_tight(p.rows());
-    minimise_inside(s);
-    check_inside(s);
-    note(s);
+    detail::minimise_inside(p_.get(), s);
+    detail::check_inside(p_.get(), s);
+    detail::note_residual(p_.get(), s);
     return s;
   }
 
   void step(state_type& s) const {
     if (s.status != status::running) return;
-    if (s.β_norm > scalar(0) && s.φ_norm <= options_.release * s.β_norm) release(s);
+    if (s.β_norm > scalar(0) && s.φ_norm <= Γ(s) * s.β_norm) release(s);
+    if (s.status == status::running && s.φ_norm == scalar(0)) s.status = status::stalled;
     if (s.status == status::running) conjugate_step(s);
     if (s.status == status::running) note_progress(s);
     ++s.iteration;
@@ -107,69 +109,49 @@ class schur_contact<P> {
   bool refresh(state_type& s) const {
     if (!s.updated) return false;
     s.status = status::running;
-    compute_residual(s);
+    detail::compute_residual(p_.get(), s);
     s.rows.measure(p_.get().rows(), s.x);
     s.directions.live = false;
-    note(s);
+    detail::note_residual(p_.get(), s);
     return true;
   }
 
  private:
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
 
-  // C
-  void minimise_inside(state_type& s) const {
-    slant::local(s.trial) = slant::local(s.x);
-    p_.get().projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
-    ++s.projector_applications;
-    compute_residual(s);
-  }
-  void compute_residual(state_type& s) const {
-    slant::apply(p_.get().k(), s.x, s.r, s.k_workspace);
-    ++s.work.operator_applications;
-    slant::local(s.r) = (slant::local(p_.get().f()) - slant::local(s.r)) * (scalar(1) / s.unit);
-    s.updated = false;
-  }
-  /// B U = 0?
-  void check_inside(state_type& s) const {
-    slant::local(s.trial) -= slant::local(s.x);
-    p_.get().rows().for_each_product(s.trial, [](index i, scalar const& value, scalar const&) {
-      if (value != scalar(0)) {
-        throw bad_input("projector", "one that moves row " + detail::show(i) + " of B",
-                        "that of a U with B U = 0");
-      }
-    });
-  }
-
-  /// D: φ, d, λ of r.
-  void note(state_type& s) const {
-    auto const& rows = p_.get().rows();
-    s.rows.active.project_on_kernel(rows, s.r, s.φ);
-    s.rows.active.project_on_cone(rows, s.r, s.d, s.λ);
-    s.φ_norm = norm(s.φ);
-    s.residual_norm = s.unit * norm(s.d);
-    slant::local(s.trial) = slant::local(s.d) - slant::local(s.φ);
-    s.β_norm = norm(s.trial);
-    if (s.residual_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+  /// release, halved with each release after the first eight; what is below the least value is
+  /// rounding error of φ.
+  scalar Γ(state_type const& s) const {
+    using std::ldexp;
+    scalar const least = scalar(4096) * std::numeric_limits<scalar>::epsilon();
+    int const halvings = static_cast<int>(std::clamp<index>(s.releases - 8, 0, 2000));
+    return std::max<scalar>(least, ldexp(options_.release, -halvings));
   }
   /// (xii), (v)–(vii): rows leave J along which d moves away.
   void release(state_type& s) const {
-    if (!s.rows.leave_along(p_.get().rows(), s.d, s.λ)) return;
+    if (!s.rows.leave_along(p_.get().rows(), s.r, s.d, s.λ)) return;
     s.directions.live = false;
     ++s.releases;
-    minimise_inside(s);
-    note(s);
+    detail::minimise_inside(p_.get(), s);
+    detail::note_residual(p_.get(), s);
   }
 
+  /// (xviii), (xiii).
+  void next_direction(state_type& s) const {
+    auto const& p = p_.get();
+    s.directions.advance(s.φ);
+    s.directions.image(p.k(), s.k_workspace, p.projection(), s.q_workspace);
+    ++s.work.operator_applications;
+    ++s.projector_applications;
+  }
   /// E
   void conjugate_step(state_type& s) const {
     auto const& p = p_.get();
     auto& q = s.directions;
-    q.advance(s.φ);                                                // (xviii)
-    q.image(p.k(), s.k_workspace, p.projection(), s.q_workspace);  // (xiii)
-    ++s.work.operator_applications;
-    ++s.projector_applications;
+    next_direction(s);
+    // rᵀq = ‖φ‖² in exact arithmetic; where φ was all but a multiple of p nothing is left of it.
+    bool const lost = !(scalar(2) * inner_product(s.r, q.q) >= s.φ_norm * s.φ_norm);
+    if (lost && std::exchange(q.live, false)) next_direction(s);
     bool const flat = s.flat.is_flat(q) && polish(s);
     scalar const slope = inner_product(s.r, q.q);
     bool const downhill = flat ? is_descent(slope, q.q, s.residual_scale / s.unit + norm(s.r))
@@ -179,7 +161,11 @@ class schur_contact<P> {
       return;
     }
     scalar const α = flat ? infinity : scalar(slope / q.curvature);  // (xiv)
-    scalar const α1 = minimum(s.x, s.rows.first_constraint(p.rows(), q.q, s.unit));
+    // A flat q has rounding errors everywhere, also where it should not move at all.
+    using std::pow;
+    scalar const noise =
+        flat ? pow(std::numeric_limits<scalar>::epsilon(), scalar(0.75)) * norm(q.q) : scalar(0);
+    scalar const α1 = minimum(s.x, s.rows.first_constraint(p.rows(), q.q, s.unit, noise));
     if (α < α1) {
       advance(s, α);
       s.last_step = schur_contact_step::conjugate_gradient;
@@ -193,7 +179,7 @@ class schur_contact<P> {
       q.live = false;
       s.last_step = schur_contact_step::blocked;
     }
-    note(s);
+    detail::note_residual(p_.get(), s);
   }
   /// (xv), (xvi).
   void advance(state_type& s, scalar const& α) const {
@@ -235,7 +221,8 @@ class schur_contact<P> {
       scalar const of_rest = s.unit * inner_product(s.r, s.x);
       using std::abs;
       return std::pair(scalar(-(of_load + of_rest) / scalar(2)),
-                       scalar(scalar(8) * ε * (abs(of_load) + abs(of_rest))));
+                       scalar(scalar(8) * std::numeric_limits<scalar>::epsilon() *
+                              (abs(of_load) + abs(of_rest))));
     };
     if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
       s.status = status::stalled;
