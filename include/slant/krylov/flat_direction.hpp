@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Directions of the kernel of a semidefinite K, as conjugate gradients meet them: K q = 0 up to
-// rounding. A curvature qᵀKq is a sum of products that cancel; what is below
+// Directions of the kernel of a semidefinite K, as conjugate gradients meet them. Where the energy
+// has no minimum their directions turn towards the kernel step by step, while steps grow without
+// end; in exact arithmetic the last one is K q = 0 [D §3], in floating point nothing is left of r
+// by then. So a direction whose curvature is small to half of the digits,
 //
-//     16 ε qᵀD q,   D = diag(K),
+//     qᵀKq ≤ √ε qᵀD q,   D = diag(K),
 //
-// cannot be told from zero. Measured by the diagonal, a soft body beside a stiff one is not flat.
+// is split into δ and a direction of the kernel, q − δ, δ by conjugate gradients on the same range:
 //
-// A direction that CG finds flat is one up to √ε only, the energy being quadratic. polish takes out
-// the rest: δ with K-energy least for q − δ, by conjugate gradients on the same range,
+//     minimise   ½ δᵀKδ − (K q)ᵀδ   over   δ ∈ range(Q C Qᵀ)
 //
-//     minimise ½ δᵀKδ − (K q)ᵀδ   over   δ ∈ range(Q C Qᵀ),      q ← q − δ.
+// If that leaves a large part of q with K (q − δ) = 0 up to rounding, there is a kernel; if not, q
+// is as it was. Measured by the diagonal, a soft body beside a stiff one is not flat.
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
@@ -30,14 +32,14 @@ template <class V, class S>
   return slope > noise * norm(d) * gradient_size;
 }
 
-/// What polish has spent and found.
-struct polished {
-  bool flat;          ///< K q = 0 up to rounding, and q ≠ 0
+/// What split has spent and found.
+struct kernel_search {
+  bool found;         ///< K q = 0 up to rounding, and q ≠ 0
   index products;     ///< with K
   index projections;  ///< applications of Q
 };
 
-/// Tells flat directions and polishes them. For an operator declared definite it does nothing and
+/// Tells flat directions and splits them. For an operator declared definite it does nothing and
 /// holds nothing.
 template <class V, bool Definite>
 class flat_direction {
@@ -49,7 +51,9 @@ class flat_direction {
   template <class K>
   flat_direction(K const& k, V const& prototype, index& applications)
       : D_(like(prototype, slant::local(prototype).size())),
-        image_(like(prototype, slant::local(prototype).size())),
+        image_(D_),
+        q_(D_),
+        image_of_q_(D_),
         directions_(prototype) {
     if constexpr (has_diagonal<K, V>) {
       k.diagonal(D_);
@@ -64,35 +68,43 @@ class flat_direction {
   /// Is qᵀKq zero up to rounding?
   template <class Directions>
   [[nodiscard]] bool is_flat(Directions const& d) {
-    return !(d.curvature > scalar(16) * std::numeric_limits<scalar>::epsilon() * size(d));
+    using std::abs;
+    return abs(d.curvature) <= scalar(16) * std::numeric_limits<scalar>::epsilon() * size(d);
   }
-  /// Is it so small that q may be a direction of the kernel to half of the digits, so that the
-  /// minimum along it would be far away?
+  /// Is it so small that q may be near a direction of the kernel?
   template <class Directions>
   [[nodiscard]] bool is_nearly_flat(Directions const& d) {
     using std::sqrt;
     return !(d.curvature > sqrt(std::numeric_limits<scalar>::epsilon()) * size(d));
   }
 
-  /// Makes K q = 0 as exact as it can be, d.q ∈ range(Q C Qᵀ) staying there; d.Ap becomes K q. At
-  /// most `steps` steps, one product and one application of Q and C each.
+  /// ‖D x‖, the size of the forces of which K x is the sum; its rounding errors are ε times that.
+  [[nodiscard]] scalar force(V const& x) {
+    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(x));
+    return norm(image_);
+  }
+
+  /// Makes d.q ∈ range(Q C Qᵀ) a direction of the kernel that stays in this range, if there is one
+  /// near it; else d is as it was. At most `steps` steps, one product and one application of Q and
+  /// C each.
   template <class Directions, class K, class WK, class C, class WC, class Q, class WQ>
-  [[nodiscard]] polished polish(Directions& d, K const& k, WK& wk, C const& c, WC& wc, Q const& q,
-                                WQ& wq, index steps) {
-    scalar const ε = std::numeric_limits<scalar>::epsilon();
-    polished spent{true, 0, 0};
-    scalar const length = norm(d.q);
-    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(d.q));
-    scalar const enough = scalar(4) * ε * norm(image_);
+  [[nodiscard]] kernel_search split(Directions& d, K const& k, WK& wk, C const& c, WC& wc,
+                                    Q const& q, WQ& wq, index steps) {
+    kernel_search spent{false, 0, 0};
+    slant::local(q_) = slant::local(d.q);
+    slant::local(image_of_q_) = slant::local(d.Ap);
+    scalar const curvature = d.curvature;
+    scalar const half = norm(d.q) / scalar(2);
+    scalar const enough = scalar(4) * std::numeric_limits<scalar>::epsilon() * force(d.q);
     directions_.live = false;
-    for (index i = 0; i < steps; ++i) {
+    for (index i = 0; i < steps && norm(d.q) > half; ++i) {
       slant::apply(c, d.Ap, image_, wc);
       if (norm(image_) <= enough) break;
       directions_.advance(image_);
       directions_.image(k, wk, q, wq);
       ++spent.products;
       ++spent.projections;
-      if (is_flat(directions_)) break;
+      if (is_flat(directions_) || !(directions_.curvature > scalar(0))) break;
       scalar const α = inner_product(d.Ap, directions_.q) / directions_.curvature;
       slant::local(d.q) -= α * slant::local(directions_.q);
       slant::local(d.Ap) -= α * slant::local(directions_.Ap);
@@ -100,7 +112,12 @@ class flat_direction {
     slant::apply(k, d.q, d.Ap, wk);
     ++spent.products;
     d.curvature = inner_product(d.q, d.Ap);
-    spent.flat = is_flat(d) && norm(d.q) > length / scalar(2);
+    spent.found = norm(d.q) > half && is_flat(d);
+    if (!spent.found) {
+      slant::local(d.q) = slant::local(q_);
+      slant::local(d.Ap) = slant::local(image_of_q_);
+      d.curvature = curvature;
+    }
     return spent;
   }
 
@@ -114,6 +131,8 @@ class flat_direction {
 
   V D_;      // diag(K)
   V image_;  // scratch
+  V q_;      // the direction before it was split
+  V image_of_q_;
   projected_directions<V> directions_;
 };
 
@@ -123,16 +142,16 @@ class flat_direction<V, true> {
   template <class K>
   flat_direction(K const&, V const&, index&) {}
   template <class Directions>
-  [[nodiscard]] bool is_flat(Directions const& d) const {
-    return !(d.curvature > scalar_t<V>(0));
+  [[nodiscard]] bool is_flat(Directions const&) const {
+    return false;
   }
   template <class Directions>
-  [[nodiscard]] bool is_nearly_flat(Directions const& d) const {
-    return is_flat(d);
+  [[nodiscard]] bool is_nearly_flat(Directions const&) const {
+    return false;
   }
-  /// A curvature ≤ 0 of what was declared definite: there is no such direction.
+  [[nodiscard]] scalar_t<V> force(V const&) const { return scalar_t<V>(0); }
   template <class... Parts>
-  [[nodiscard]] polished polish(Parts const&...) const {
+  [[nodiscard]] kernel_search split(Parts const&...) const {
     return {false, 0, 0};
   }
 };

@@ -52,6 +52,7 @@ struct range_cg_state {
   scalar_t<V> computed_norm =
       std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
   bool updated = false;                              ///< r was updated since it was computed from x
+  bool regular = false;                              ///< no kernel was found where one may be
   index projector_applications = 0;                  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
   index iteration = 0;
   slant::status status = slant::status::running;
@@ -170,8 +171,10 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     d.advance(s.z);
     d.image(this->a(), s.a_workspace, q_.get(), s.q_workspace);
     count(s, 1, 1);
-    if (s.flat.is_flat(d)) {
-      judge_flat(s);
+    if (!s.regular && s.flat.is_nearly_flat(d)) look_for_kernel(s);
+    if (s.status != status::running) return;
+    if (!(d.curvature > scalar(0)) || s.flat.is_flat(d)) {
+      s.status = s.flat.is_flat(d) ? status::stalled : status::breakdown;
       return;
     }
     scalar const α = inner_product(s.r, d.q) / d.curvature;
@@ -204,23 +207,20 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
   }
 
-  /// The status of a direction without curvature.
-  void judge_flat(state_type& s) const {
+  /// Unbounded if the direction is near one of the kernel in which j falls.
+  void look_for_kernel(state_type& s) const {
     auto& d = s.directions;
-    scalar const before = d.curvature;
-    auto const found = s.flat.polish(d, this->a(), s.a_workspace, this->m(), s.c_workspace,
+    auto const search = s.flat.split(d, this->a(), s.a_workspace, this->m(), s.c_workspace,
                                      q_.get(), s.q_workspace, global_size(s.x));
-    count(s, found.products, found.projections);
+    count(s, search.products, search.projections);
+    s.regular = !search.found;
+    if (!search.found) return;
     scalar const slope = inner_product(s.r, d.q);
-    scalar const size = norm(this->b()) / s.unit;
-    bool const downhill = is_descent(slope, d.q, size) || is_descent(scalar(-slope), d.q, size);
-    if (!found.flat) {
-      s.status = before > scalar(0) ? status::stalled : status::breakdown;
-    } else if (downhill) {
+    scalar const size = (norm(this->b()) + s.flat.force(s.x)) / s.unit;
+    using std::abs;
+    if (is_descent(scalar(abs(slope)), d.q, size)) {
       s.status = status::unbounded;
       slant::local(s.descent) = (slope > scalar(0) ? scalar(-1) : scalar(1)) * slant::local(d.q);
-    } else {
-      s.status = status::stalled;
     }
   }
 

@@ -131,6 +131,7 @@ class schur_contact<P> {
   void release(state_type& s) const {
     if (!s.rows.leave_along(p_.get().rows(), s.r, s.d, s.λ)) return;
     s.directions.live = false;
+    s.regular = false;
     ++s.releases;
     detail::minimise_inside(p_.get(), s);
     detail::note_residual(p_.get(), s);
@@ -152,11 +153,9 @@ class schur_contact<P> {
     // rᵀq = ‖φ‖² in exact arithmetic; where φ was all but a multiple of p nothing is left of it.
     bool const lost = !(scalar(2) * inner_product(s.r, q.q) >= s.φ_norm * s.φ_norm);
     if (lost && std::exchange(q.live, false)) next_direction(s);
-    bool const flat = s.flat.is_flat(q) && polish(s);
+    bool const flat = !s.regular && s.flat.is_nearly_flat(q) && finds_kernel(s);
     scalar const slope = inner_product(s.r, q.q);
-    bool const downhill = flat ? is_descent(slope, q.q, s.residual_scale / s.unit + norm(s.r))
-                               : q.curvature > scalar(0) && slope > scalar(0);
-    if (!downhill) {
+    if (!flat && (s.flat.is_flat(q) || !(q.curvature > scalar(0) && slope > scalar(0)))) {
       give_up_face(s);
       return;
     }
@@ -189,30 +188,33 @@ class schur_contact<P> {
     s.updated = true;
   }
 
-  /// Makes a flat q exact, and lets it point downhill; false if it is no direction of the kernel.
-  bool polish(state_type& s) const {
+  /// Replaces q by a direction of the kernel near it in which j falls, if there is one.
+  bool finds_kernel(state_type& s) const {
     auto const& p = p_.get();
     auto& q = s.directions;
     kernel_projector<scalar> const c(p.rows(), s.rows.active);
     no_workspace none;
-    auto const found = s.flat.polish(q, p.k(), s.k_workspace, c, none, p.projection(),
+    auto const search = s.flat.split(q, p.k(), s.k_workspace, c, none, p.projection(),
                                      s.q_workspace, global_size(s.x));
-    s.work.operator_applications += found.products;
-    s.projector_applications += found.projections;
+    s.work.operator_applications += search.products;
+    s.projector_applications += search.projections;
+    s.regular = !search.found;
+    if (!search.found) return false;
     q.live = false;
     if (inner_product(s.r, q.q) < scalar(0)) {
       slant::local(q.q) *= scalar(-1);
       slant::local(q.Ap) *= scalar(-1);
     }
-    return found.flat;
+    scalar const size = (s.residual_scale + s.flat.force(s.x)) / s.unit;
+    return is_descent(inner_product(s.r, q.q), q.q, size);
   }
   /// The face is solved as well as the precision allows: rows are released, or nothing is left.
   void give_up_face(state_type& s) const {
     index const before = s.releases;
-    if (s.β_norm > scalar(0)) release(s);
-    if (s.releases == before && s.status == status::running) {
-      s.status = s.directions.curvature < scalar(0) ? status::breakdown : status::stalled;
-    }
+    bool const broken = s.directions.curvature < scalar(0) && !s.flat.is_flat(s.directions);
+    if (!broken && s.β_norm > scalar(0)) release(s);
+    if (broken) s.status = status::breakdown;
+    if (s.releases == before && s.status == status::running) s.status = status::stalled;
   }
 
   void note_progress(state_type& s) const {

@@ -47,6 +47,7 @@ struct schur_contact_state {
   scalar residual_scale{0};  ///< ‖f‖, or ‖K u₀‖ if f = 0
   scalar φ_norm{0};          ///< ‖φ‖ / unit
   scalar β_norm{0};          ///< ‖d − φ‖ / unit
+  bool regular = false;      ///< K has no kernel on this face
   bool updated = false;      ///< r was updated since it was computed from x
 
   index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
