@@ -48,7 +48,9 @@ class conjugate_projector_operator {
 
   /// For vectors with n entries; of the parts, the rows of one are not in another.
   conjugate_projector_operator(index n, std::vector<part> parts)
-      : rows_(n), parts_(std::move(parts)) {}
+      : rows_(n), parts_(std::move(parts)) {
+    for (part const& b : parts_) work_ += b.ku.nonZeros();
+  }
 
   [[nodiscard]] index rows() const noexcept { return rows_; }
   [[nodiscard]] index cols() const noexcept { return rows_; }
@@ -112,7 +114,7 @@ class conjugate_projector_operator {
   void sweep(matrix_type part::*right, matrix_type part::*left, S α, X const& x, Y& y, W& w) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
-    detail::parallel_for(bodies(), [&](index i) {
+    detail::parallel_for(bodies(), work_, [&](index i) {
       part const& b = at(i);
       room& r = w[static_cast<std::size_t>(i)];
       r.before.noalias() = (b.*right).transpose() * from;
@@ -134,6 +136,7 @@ class conjugate_projector_operator {
   [[nodiscard]] part const& at(index i) const { return parts_[static_cast<std::size_t>(i)]; }
 
   index rows_;
+  index work_ = 0;  // entries of K U: less than those of the factors
   std::vector<part> parts_;
 };
 

@@ -9,15 +9,17 @@
 #include <slant/concepts/scalar.hpp>
 
 #include <exception>
+#include <limits>
 #include <vector>
 
 namespace slant::detail {
 
-/// f(0), …, f(n − 1), in any order. f must not throw.
+/// f(0), …, f(n − 1), in any order. f must not throw. `work`: multiplications in all rounds
+/// together; threads are woken for as many as Eigen wakes them for in a sparse product.
 template <class F>
-void parallel_for(index n, F const& f) {
+void parallel_for(index n, [[maybe_unused]] index work, F const& f) {
 #ifdef _OPENMP
-  if (n > 1) {
+  if (n > 1 && work > 20000) {
 #pragma omp parallel for schedule(dynamic, 1)
     for (index i = 0; i < n; ++i) f(i);
     return;
@@ -31,7 +33,7 @@ void parallel_for(index n, F const& f) {
 template <class F>
 void parallel_for_throwing(index n, F const& f) {
   std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(n));
-  parallel_for(n, [&](index i) {
+  parallel_for(n, std::numeric_limits<index>::max(), [&](index i) {
     try {
       f(i);
     } catch (...) {
