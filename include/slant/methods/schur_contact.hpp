@@ -28,10 +28,13 @@
 // and rᵀd = ‖d‖² > 0: the step is longer than 0 and j falls. Steps with α₁ = 0 are possible only
 // where a further row has become tight; each adds a row to J that is independent of those there, so
 // that at most rank B of them follow each other, and none removes a row. With exact minimisation on
-// faces (release = 0) j at the minima of faces falls strictly from one release to the next: no
-// face comes back, and there are finitely many. For Γ = release > 0 faces are left early where β
-// outweighs φ: proportioning [Dostál 1997], with the same conclusion if no multiplier of the
-// solution vanishes.
+// faces j at the minima of faces falls strictly from one release to the next: no face comes back,
+// and there are finitely many. For Γ = release > 0 faces are left early where β outweighs φ, as in
+// proportioning [Dostál 1997]; Γ is halved with each release after the first eight, down to the
+// rounding errors of φ, so that there are finitely many early ones.
+//
+// No solution. A direction of the kernel of K along which j falls and that no row blocks ends the
+// run; how one is told from a direction of small curvature is in krylov/flat_direction.hpp.
 //
 // Rows leave in any number. More than one at a time enter by a search along the boundary, see
 // projected_search.hpp.
@@ -211,7 +214,7 @@ class schur_contact<P> {
   /// The face is solved as well as the precision allows: rows are released, or nothing is left.
   void give_up_face(state_type& s) const {
     index const before = s.releases;
-    bool const broken = s.directions.curvature < scalar(0) && !s.flat.is_flat(s.directions);
+    bool const broken = !(s.directions.curvature >= scalar(0)) && !s.flat.is_flat(s.directions);
     if (!broken && s.β_norm > scalar(0)) release(s);
     if (broken) s.status = status::breakdown;
     if (s.releases == before && s.status == status::running) s.status = status::stalled;

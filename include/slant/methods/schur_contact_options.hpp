@@ -12,12 +12,15 @@ namespace slant {
 template <scalar S = double>
 struct schur_contact_options {
   /// Γ ≥ 0 in the test of the residuum [D (ix)]: rows are released where ‖φ‖ ≤ Γ ‖β‖, φ = V Vᵀr
-  /// what the face can still gain and β what releasing rows can. 0: only where φ = 0 to the last
-  /// digit, as the paper has it, which rounding errors need not allow.
+  /// what the face can still gain and β what releasing rows can. 0: only where φ = 0 up to
+  /// rounding, as the paper has it. Measured on stacks of bricks: ½ and 1 alike, 0 three to four
+  /// times the steps.
   S release = S(0.5);
-  /// Points u(t) = P(u + t q), t = α, α/2, …, that are tried where the step to the minimum along q
-  /// leaves the set, before the step to the first constraint. Each costs one product and one
-  /// application of Q. 0: the paper's update, by one index as a rule.
+  /// Points P(u + t q), t = α, α/2, …, that are tried where the step to the minimum along q leaves
+  /// the set, before the step to the first constraint. Each costs one product and one application
+  /// of Q. 0: the paper's update, by one index as a rule. Measured on stacks of bricks with gaps: 1
+  /// and 3 alike, half of the products and a sixth of the changes of J that 0 needs; without gaps
+  /// no difference.
   index projected_trials = 1;
   index patience = 1000;  ///< steps in which neither the residual nor the energy falls: stalled
 
