@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <oracle/small_polyhedra.hpp>
 #include <string>
 #include <vector>
@@ -256,6 +257,42 @@ TEST_CASE("no allocation in a step; states are values; refresh; counts") {
   method.refresh(copy);
   CHECK(copy.x == s.x);
   CHECK(!method.refresh(s));
+}
+
+/// A stiffness that gives numbers for so many applications only.
+struct wearing_out {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+  MatrixXd k;
+  std::shared_ptr<int> left;
+  [[nodiscard]] Eigen::Index rows() const { return k.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return k.cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const {
+    y.noalias() = k * x;
+    if (--*left < 0) y[0] = std::numeric_limits<double>::quiet_NaN();
+  }
+  void diagonal(VectorXd& d) const { d = k.diagonal(); }
+};
+
+TEST_CASE("numbers that leave the range are a breakdown") {
+  MatrixXd const k = both(chain(5), chain(5)) + MatrixXd::Identity(10, 10);
+  VectorXd const f = VectorXd::LinSpaced(10, -1, 2);
+  sparse const B = MatrixXd(MatrixXd::Identity(10, 10).rightCols(6).transpose()).sparseView();
+  slant::contact::bodies const bodies(sparse(k.sparseView()), f, B, VectorXd::Constant(6, 0.1));
+  auto const qp = bodies.qp();
+  auto const left = std::make_shared<int>(1000);
+  auto const problem =
+      slant::polyhedral_qp{wearing_out{k, left}, qp.f(), qp.rows(), qp.projection()};
+  auto const run = [&](int applications) {
+    *left = applications;
+    return slant::solve(slant::schur_contact{problem}, bodies.zero(),
+                        slant::residual_below(1e-12) || slant::at_most(100));
+  };
+  auto const whole = run(1000);
+  REQUIRE(whole.converged());
+  for (int n = 2; n < whole.state.work.operator_applications; ++n) {
+    CAPTURE(n);
+    CHECK(run(n).status == status::breakdown);
+  }
 }
 
 TEST_CASE("vectors that are no Eigen objects") {

@@ -24,9 +24,9 @@
 
 #include <Eigen/SparseCore>
 
-#include <atomic>
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -233,11 +233,11 @@ class bodies {
   std::optional<conjugate_projector_operator<S, factors>> q_;
 };
 
-template <class M, class V, class N>
-bodies(Eigen::SparseMatrixBase<M> const&, V const&, Eigen::SparseMatrixBase<N> const&, V const&)
+template <class M, class F, class N, class C>
+bodies(Eigen::SparseMatrixBase<M> const&, F const&, Eigen::SparseMatrixBase<N> const&, C const&)
     -> bodies<typename M::Scalar>;
-template <class M, class V, class N, class Factor>
-bodies(Eigen::SparseMatrixBase<M> const&, V const&, Eigen::SparseMatrixBase<N> const&, V const&,
+template <class M, class F, class N, class C, class Factor>
+bodies(Eigen::SparseMatrixBase<M> const&, F const&, Eigen::SparseMatrixBase<N> const&, C const&,
        Factor const&) -> bodies<typename M::Scalar, Factor>;
 
 }  // namespace slant::contact
