@@ -18,6 +18,10 @@
 #   interior_brick        products of the interior-point method until the energy error is 1e-6
 #   interior_condition    condition of its systems with and without preconditioner
 #   interior_crossover    lift to the last digits: interior point, then the symmetric Newton method
+#   projector_steps       CG steps with and without the conjugate projector, brick refined
+#   projector_contact     the Schur complement contact algorithm on the brick without friction
+#   projector_search      the same on stacks of bricks: rules for leaving and entering constraints
+#   projector_threads     seconds with one and with two threads (with OpenMP), and whether bits agree
 #   active_sets    products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -29,7 +33,8 @@ here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
-  newton_floor interior_brick interior_condition interior_crossover active_sets)
+  newton_floor interior_brick interior_condition interior_crossover projector_steps
+  projector_contact projector_search projector_threads active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -81,6 +86,10 @@ run_interior_condition() {
 run_interior_crossover() {
   "$(program interior_point)" crossover >"$output/interior_crossover.csv"
 }
+run_projector_steps() { "$(program projector)" steps >"$output/projector_steps.csv"; }
+run_projector_contact() { "$(program projector)" contact >"$output/projector_contact.csv"; }
+run_projector_search() { "$(program projector)" search 3 5 >"$output/projector_search.csv"; }
+run_projector_threads() { "$(program projector)" threads 6 8 >"$output/projector_threads.csv"; }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
@@ -196,6 +205,10 @@ write_summary() {
   section interior_brick "Interior point: brick, relative energy error 1e-6, beside [K] Table 3"
   section interior_condition "Interior point: condition numbers along the iteration"
   section interior_crossover "Interior point, then symmetric Newton: lift to the last digits"
+  section projector_steps "Conjugate projector: steps of conjugate gradients, relative residual 1e-8"
+  section projector_contact "Schur complement contact algorithm: brick without friction, 1e-9"
+  section projector_search "Schur complement contact algorithm: three bricks, rules for the active set"
+  section projector_threads "Schur complement contact algorithm: four bricks, threads"
   section active_sets "Products of the published active set methods"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }

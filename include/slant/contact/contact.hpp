@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/contact/bodies.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/optimality.hpp>

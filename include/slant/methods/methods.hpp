@@ -4,8 +4,10 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/active_rows.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
+#include <slant/methods/constraint_rows.hpp>
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/estimated_diagonal.hpp>
@@ -30,7 +32,9 @@
 #include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_segment.hpp>
 #include <slant/methods/newton_state.hpp>
+#include <slant/methods/polyhedral_qp.hpp>
 #include <slant/methods/preconditioner_for.hpp>
+#include <slant/methods/projected_search.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/qpc.hpp>
 #include <slant/methods/qpc_options.hpp>
@@ -38,6 +42,10 @@
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/reduced_systems.hpp>
 #include <slant/methods/release_rules.hpp>
+#include <slant/methods/row_slacks.hpp>
+#include <slant/methods/schur_contact.hpp>
+#include <slant/methods/schur_contact_options.hpp>
+#include <slant/methods/schur_contact_state.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/methods/ssnm.hpp>

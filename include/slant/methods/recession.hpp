@@ -10,6 +10,7 @@
 
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/krylov/flat_direction.hpp>
 
 #include <limits>
 
@@ -35,13 +36,6 @@ template <bool Definite, class Directions, class S>
     }
     return flatness(d.p, σ);
   }
-}
-
-/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
-template <class V, class S>
-[[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {
-  auto const noise = S(slant::global_size(d)) * std::numeric_limits<S>::epsilon();
-  return slope > noise * norm(d) * gradient_size;
 }
 
 /// Compares iterates with an earlier one, which is replaced whenever the number of comparisons is a

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// Directions of the kernel of a semidefinite K, as conjugate gradients meet them. Where the energy
+// has no minimum their directions turn towards the kernel step by step, while steps grow without
+// end; in exact arithmetic the last one is K q = 0 [D §3], in floating point nothing is left of r
+// by then. So a direction whose curvature is small to half of the digits,
+//
+//     qᵀKq ≤ √ε qᵀD q,   D = diag(K),
+//
+// is split into δ and a direction of the kernel, q − δ, δ by conjugate gradients on the same range:
+//
+//     minimise   ½ δᵀKδ − (K q)ᵀδ   over   δ ∈ range(Q C Qᵀ)
+//
+// If that leaves a large part of q with K (q − δ) = 0 up to rounding, there is a kernel; if not, q
+// is as it was. Measured by the diagonal, a soft body beside a stiff one is not flat.
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/distributed.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/projected_directions.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace slant {
+
+/// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
+template <class V, class S>
+[[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {
+  auto const noise = S(slant::global_size(d)) * std::numeric_limits<S>::epsilon();
+  return slope > noise * norm(d) * gradient_size;
+}
+
+/// What split has spent and found.
+struct kernel_search {
+  bool found;         ///< K q = 0 up to rounding, and q ≠ 0
+  index products;     ///< with K
+  index projections;  ///< applications of Q
+};
+
+/// Tells flat directions and splits them. For an operator declared definite it does nothing and
+/// holds nothing.
+template <class V, bool Definite>
+class flat_direction {
+ public:
+  using scalar = scalar_t<V>;
+
+  /// D = diag(K), or the mean of it where K does not give its diagonal. Throws bad_input if that is
+  /// not finite. Adds the products spent to `applications`.
+  template <class K>
+  flat_direction(K const& k, V const& prototype, index& applications)
+      : D_(like(prototype, slant::local(prototype).size())),
+        image_(D_),
+        q_(D_),
+        image_of_q_(D_),
+        directions_(prototype) {
+    if constexpr (has_diagonal<K, V>) {
+      k.diagonal(D_);
+      detail::check_finite("the diagonal of K", D_);
+    } else {
+      auto const mean = mean_diagonal(k, prototype);
+      slant::local(D_).setConstant(mean.value);
+      applications += mean.applications;
+    }
+  }
+
+  /// Is qᵀKq zero up to rounding?
+  template <class Directions>
+  [[nodiscard]] bool is_flat(Directions const& d) {
+    using std::abs;
+    return abs(d.curvature) <= scalar(16) * std::numeric_limits<scalar>::epsilon() * size(d);
+  }
+  /// Is it so small that q may be near a direction of the kernel?
+  template <class Directions>
+  [[nodiscard]] bool is_nearly_flat(Directions const& d) {
+    using std::sqrt;
+    return !(d.curvature > sqrt(std::numeric_limits<scalar>::epsilon()) * size(d));
+  }
+
+  /// ‖D x‖, the size of the forces of which K x is the sum; its rounding errors are ε times that.
+  [[nodiscard]] scalar force(V const& x) {
+    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(x));
+    return norm(image_);
+  }
+
+  /// Makes d.q ∈ range(Q C Qᵀ) a direction of the kernel that stays in this range, if there is one
+  /// near it; else d is as it was. At most `steps` steps, one product and one application of Q and
+  /// C each.
+  template <class Directions, class K, class WK, class C, class WC, class Q, class WQ>
+  [[nodiscard]] kernel_search split(Directions& d, K const& k, WK& wk, C const& c, WC& wc,
+                                    Q const& q, WQ& wq, index steps) {
+    kernel_search spent{false, 0, 0};
+    slant::local(q_) = slant::local(d.q);
+    slant::local(image_of_q_) = slant::local(d.Ap);
+    scalar const curvature = d.curvature;
+    scalar const half = norm(d.q) / scalar(2);
+    scalar const enough = scalar(4) * std::numeric_limits<scalar>::epsilon() * force(d.q);
+    directions_.live = false;
+    for (index i = 0; i < steps && norm(d.q) > half; ++i) {
+      slant::apply(c, d.Ap, image_, wc);
+      if (norm(image_) <= enough) break;
+      directions_.advance(image_);
+      directions_.image(k, wk, q, wq);
+      ++spent.products;
+      ++spent.projections;
+      if (is_flat(directions_) || !(directions_.curvature > scalar(0))) break;
+      scalar const α = inner_product(d.Ap, directions_.q) / directions_.curvature;
+      slant::local(d.q) -= α * slant::local(directions_.q);
+      slant::local(d.Ap) -= α * slant::local(directions_.Ap);
+    }
+    slant::apply(k, d.q, d.Ap, wk);
+    ++spent.products;
+    d.curvature = inner_product(d.q, d.Ap);
+    spent.found = norm(d.q) > half && is_flat(d);
+    if (!spent.found) {
+      slant::local(d.q) = slant::local(q_);
+      slant::local(d.Ap) = slant::local(image_of_q_);
+      d.curvature = curvature;
+    }
+    return spent;
+  }
+
+ private:
+  /// qᵀD q.
+  template <class Directions>
+  [[nodiscard]] scalar size(Directions const& d) {
+    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(d.q));
+    return inner_product(image_, d.q);
+  }
+
+  V D_;      // diag(K)
+  V image_;  // scratch
+  V q_;      // the direction before it was split
+  V image_of_q_;
+  projected_directions<V> directions_;
+};
+
+template <class V>
+class flat_direction<V, true> {
+ public:
+  template <class K>
+  flat_direction(K const&, V const&, index&) {}
+  template <class Directions>
+  [[nodiscard]] bool is_flat(Directions const&) const {
+    return false;
+  }
+  template <class Directions>
+  [[nodiscard]] bool is_nearly_flat(Directions const&) const {
+    return false;
+  }
+  [[nodiscard]] scalar_t<V> force(V const&) const { return scalar_t<V>(0); }
+  template <class... Parts>
+  [[nodiscard]] kernel_search split(Parts const&...) const {
+    return {false, 0, 0};
+  }
+};
+
+}  // namespace slant

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+//
+// Conjugate gradients on the range of a semidefinite operator C [D §3], for a semidefinite K:
+//
+//     minimise   j(x) = ½ xᵀK x − bᵀx   over   x ∈ x₀ + range(C)
+//
+//     r = K x − b,  p ← C r − γ p,  γ = (C r)ᵀK p / pᵀK p,  x ← x − α p,  α = rᵀp / pᵀK p    [D
+//     (2), (3)]
+//
+// The minimum is reached where C r = 0. K p = 0 with C r ≠ 0 means that j falls for ever along p:
+// status unbounded, and the state has the direction.
+//
+// With a conjugate projector Q = I − U(UᵀKU)⁻¹UᵀK, range(U) ⊂ range(C), it is the projector
+// preconditioning of [D §4]: the exact minimum over range(U) first, then the same with Q C Qᵀ in
+// the place of C. Since Qᵀr = r from then on, a step costs one application of Q, of K and of C.
+#pragma once
+
+#include <slant/iteration/detail/part_to_blame.hpp>
+#include <slant/iteration/detail/refused.hpp>
+#include <slant/iteration/report.hpp>
+#include <slant/krylov/flat_direction.hpp>
+#include <slant/krylov/linear_system.hpp>
+#include <slant/krylov/projected_directions.hpp>
+#include <slant/operators/held.hpp>
+
+#include <concepts>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// State of range_cg.
+template <class V, class WK, class WC, class WQ, bool Definite>
+struct range_cg_state {
+  using flat_type = flat_direction<V, Definite>;
+
+  V x;                                 ///< iterate
+  V r;                                 ///< gradient K x − b, in multiples of unit
+  V z;                                 ///< C r
+  projected_directions<V> directions;  ///< p, q = Q p, K q, qᵀKq
+  V descent;                           ///< where j falls for ever, if the status is unbounded
+  WK a_workspace;                      ///< temporaries of K
+  WC c_workspace;                      ///< temporaries of C
+  WQ q_workspace;                      ///< temporaries of Q
+  slant::work work{};
+  flat_type flat;                 ///< tells directions of the kernel of K
+  scalar_t<V> unit{1};            ///< a power of two, see unit.hpp
+  scalar_t<V> residual_norm{0};   ///< ‖C r‖
+  scalar_t<V> residual_scale{0};  ///< ‖C b‖, or ‖C r₀‖ if that is 0
+  scalar_t<V> computed_norm =
+      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
+  bool updated = false;                              ///< r was updated since it was computed from x
+  bool regular = false;                              ///< no kernel was found where one may be
+  index projector_applications = 0;                  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  /// What a status other than running means here.
+  [[nodiscard]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the gradient vanishes on the range";
+      case slant::status::unbounded:
+        return "the function decreases for ever along `descent`";
+      case slant::status::stalled:
+        return "the gradient on the range is no larger than its rounding errors";
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or an operator is not semidefinite";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+template <class K, class V, class C, class Q = no_projector>
+class range_cg : public detail::refused_method<std::remove_cvref_t<V>> {
+  using k = detail::questions_about<std::remove_cvref_t<K>, std::remove_cvref_t<V>>;
+  using c = detail::questions_about<std::remove_cvref_t<C>, std::remove_cvref_t<V>>;
+  static constexpr bool good_vector = vector<std::remove_cvref_t<V>>;
+
+  static_assert(good_vector,
+                "range_cg: b must be a slant::vector; an expression or a view is none");
+  static_assert(linear_operator<typename k::whole, typename k::vector_type>,
+                "range_cg: K must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename k::part, typename k::vector_type>,
+                "range_cg: a part of K cannot be used on vectors like b");
+  static_assert(psd_operator<typename k::promise, typename k::vector_type>,
+                "range_cg: K must declare self_adjoint and positive_semidefinite");
+  static_assert(linear_operator<typename c::whole, typename c::vector_type>,
+                "range_cg: C must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename c::part, typename c::vector_type>,
+                "range_cg: a part of C cannot be used on vectors like b");
+  static_assert(psd_operator<typename c::promise, typename c::vector_type>,
+                "range_cg: C must declare self_adjoint and positive_semidefinite");
+  static_assert(!good_vector ||
+                    conjugate_projector_for<std::remove_cvref_t<Q>, typename k::vector_type>,
+                "range_cg: Q must have add_minimiser(a, b, y, w), as a conjugate_projector has");
+
+ public:
+  using range_cg::refused_method::refused_method;
+};
+
+/// The method at the top of this file: solve(range_cg{K, b, C}, zero, residual_below(1e-10)), or
+/// range_cg{K, b, C, Q}. Requires psd_operator of K and C. Statuses of its own: converged (C r =
+/// 0), unbounded, stalled, breakdown.
+template <class K, class V, class C, class Q>
+  requires vector<std::remove_cvref_t<V>> &&
+           psd_operator<std::remove_cvref_t<K>, std::remove_cvref_t<V>> &&
+           psd_operator<std::remove_cvref_t<C>, std::remove_cvref_t<V>> &&
+           conjugate_projector_for<std::remove_cvref_t<Q>, std::remove_cvref_t<V>>
+class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
+  using system = detail::preconditioned_system<K, V, C>;
+
+ public:
+  using typename system::operator_type;
+  using typename system::scalar;
+  using typename system::vector_type;
+  using projector_type = std::remove_cvref_t<Q>;
+  static constexpr bool projected = !std::same_as<projector_type, no_projector>;
+  using state_type = range_cg_state<vector_type, workspace_t<operator_type, vector_type>,
+                                    workspace_t<typename system::preconditioner_type, vector_type>,
+                                    workspace_t<projector_type, vector_type>,
+                                    declares_positive_definite<operator_type>>;
+
+  /// Throws bad_input if sizes do not match or b is not finite.
+  range_cg(held<K> k, held<V> b, held<C> c)
+    requires(!projected)
+      : system(std::move(k), std::move(b), std::move(c)),
+        q_(no_projector(slant::local(this->b()).size())) {}
+  range_cg(held<K> k, held<V> b, held<C> c, held<Q> q)
+      : system(std::move(k), std::move(b), std::move(c)), q_(std::move(q)) {
+    detail::check_size("rows of the projector", index(q_.get().rows()),
+                       slant::local(this->b()).size());
+  }
+
+  /// The state of x0, with a projector that of the minimum over x0 + range(U). Throws bad_input if
+  /// x0 or K x0 is not finite or of the wrong size.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    detail::check_start(x0, this->b());
+    auto const n = index(slant::local(x0).size());
+    slant::work spent{};
+    flat_direction<vector_type, declares_positive_definite<operator_type>> flat(
+        this->a(), x0, spent.setup_applications);
+    state_type s{x0,
+                 like(x0, n),
+                 like(x0, n),
+                 projected_directions<vector_type>(x0),
+                 like(x0, n),
+                 workspace(this->a(), x0),
+                 workspace(this->m(), x0),
+                 workspace(q_.get(), x0),
+                 spent,
+                 std::move(flat)};
+    slant::local(s.descent).setZero();
+    detail::start_residual(this->a(), this->b(), s);
+    s.status = status::running;
+    slant::apply(this->m(), this->b(), s.z, s.c_workspace);
+    s.residual_scale = norm(s.z);
+    if constexpr (projected) minimise_inside(s);
+    note(s);
+    if (s.residual_scale == scalar(0)) s.residual_scale = s.residual_norm;
+    return s;
+  }
+
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    auto& d = s.directions;
+    d.advance(s.z);
+    d.image(this->a(), s.a_workspace, q_.get(), s.q_workspace);
+    count(s, 1, 1);
+    if (!s.regular && s.flat.is_nearly_flat(d)) look_for_kernel(s);
+    if (s.status != status::running) return;
+    if (!(d.curvature > scalar(0)) || s.flat.is_flat(d)) {
+      s.status = s.flat.is_flat(d) ? status::stalled : status::breakdown;
+      return;
+    }
+    scalar const α = inner_product(s.r, d.q) / d.curvature;
+    slant::local(s.x) -= (s.unit * α) * slant::local(d.q);
+    slant::local(s.r) -= α * slant::local(d.Ap);
+    s.updated = true;
+    note(s);
+    ++s.iteration;
+  }
+
+  /// r from x, if steps have been updating it; the next direction is C r itself.
+  bool refresh(state_type& s) const {
+    s.directions.live = false;
+    return detail::refresh_residual(this->a(), this->b(), s, [this](state_type& t) { note(t); });
+  }
+
+ private:
+  /// The exact minimum over x + range(U), and r there.
+  void minimise_inside(state_type& s) const {
+    q_.get().add_minimiser(-s.unit, s.r, s.x, s.q_workspace);
+    slant::apply(this->a(), s.x, s.r, s.a_workspace);
+    slant::local(s.r) = (slant::local(s.r) - slant::local(this->b())) * (scalar(1) / s.unit);
+    count(s, 1, 1);
+  }
+
+  void note(state_type& s) const {
+    slant::apply(this->m(), s.r, s.z, s.c_workspace);
+    s.residual_norm = s.unit * norm(s.z);
+    if (s.residual_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+  }
+
+  /// Unbounded if the direction is near one of the kernel in which j falls.
+  void look_for_kernel(state_type& s) const {
+    auto& d = s.directions;
+    auto const search = s.flat.split(d, this->a(), s.a_workspace, this->m(), s.c_workspace,
+                                     q_.get(), s.q_workspace, global_size(s.x));
+    count(s, search.products, search.projections);
+    s.regular = !search.found;
+    if (!search.found) return;
+    scalar const slope = inner_product(s.r, d.q);
+    scalar const size = (norm(this->b()) + s.flat.force(s.x)) / s.unit;
+    using std::abs;
+    if (is_descent(scalar(abs(slope)), d.q, size)) {
+      s.status = status::unbounded;
+      slant::local(s.descent) = (slope > scalar(0) ? scalar(-1) : scalar(1)) * slant::local(d.q);
+    }
+  }
+
+  static void count(state_type& s, index products, index projections) {
+    s.work.operator_applications += products;
+    if constexpr (projected) s.projector_applications += projections;
+  }
+
+  held<Q> q_;
+};
+
+template <class K, class V, class C>
+range_cg(K&&, V&&, C&&) -> range_cg<kept_t<K>, kept_t<V>, kept_t<C>>;
+template <class K, class V, class C, class Q>
+range_cg(K&&, V&&, C&&, Q&&) -> range_cg<kept_t<K>, kept_t<V>, kept_t<C>, kept_t<Q>>;
+
+}  // namespace slant

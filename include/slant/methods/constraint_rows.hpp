@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+//
+// Linear inequalities B u ≤ c with a sparse B, in clusters: rows that share unknowns, directly or
+// by way of others, belong to one cluster, and clusters have nothing to do with each other. Contact
+// between matching grids has clusters of one row; where bodies meet at an edge, or a constraint was
+// written twice, there are a few rows. Each cluster is kept as a small dense block, so that
+// projections onto { B u ≤ c } and onto its faces split into small ones.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/operators/detail/matrix_entries.hpp>
+#include <slant/operators/detail/union_find.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace slant {
+
+/// B and c, see the top of this file. B has m rows and n columns, c has m entries; +infinity stands
+/// for a row that never acts.
+template <class S = double>
+class constraint_rows {
+ public:
+  using scalar = S;
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// Rows that share unknowns, with these unknowns.
+  struct cluster {
+    std::vector<index> unknowns;
+    std::vector<index> rows;
+    matrix_type e;  ///< column j: the entries of rows[j] at the unknowns
+  };
+
+  /// Throws bad_input if sizes do not match, an entry of B is not finite, an entry of c is NaN or
+  /// −infinity, or a row of zeros has c < 0.
+  template <class M>
+  constraint_rows(Eigen::SparseMatrixBase<M> const& b, vector_type c)
+      : unknowns_(b.cols()), c_(std::move(c)) {
+    detail::check_size("c", c_.size(), b.rows(), "one entry per row of B,");
+    Eigen::SparseMatrix<S, Eigen::RowMajor> rows = b.derived();
+    detail::require_finite_entries("B", rows);
+    rows.prune([](auto, auto, S const& value) { return value != S(0); });
+    for (index i = 0; i < c_.size(); ++i) check_bound(i, rows.outerIndexPtr());
+    collect(rows);
+  }
+
+  /// m.
+  [[nodiscard]] index count() const noexcept { return c_.size(); }
+  /// n.
+  [[nodiscard]] index unknowns() const noexcept { return unknowns_; }
+  [[nodiscard]] vector_type const& c() const noexcept { return c_; }
+  [[nodiscard]] std::vector<cluster> const& clusters() const noexcept { return clusters_; }
+  /// Does row i act at all? It has entries and a finite bound.
+  [[nodiscard]] bool acts(index i) const { return acts_[static_cast<std::size_t>(i)] != 0; }
+
+  /// ‖b_i‖ of a row that acts.
+  [[nodiscard]] S const& length(index i) const { return lengths_[i]; }
+
+  /// f(i, b_iᵀv, |b_i|ᵀ|v|) for each row that acts: the product and the size of its terms, of which
+  /// its rounding error is a small multiple of ε.
+  template <class V, class F>
+  void for_each_product(V const& v, F f) const {
+    using std::abs;
+    auto const& entries = slant::local(v);
+    for (cluster const& part : clusters_) {
+      for (std::size_t j = 0; j < part.rows.size(); ++j) {
+        S sum(0), size(0);
+        for (std::size_t k = 0; k < part.unknowns.size(); ++k) {
+          S const term = part.e(static_cast<index>(k), static_cast<index>(j)) *
+                         entries.coeff(part.unknowns[k]);
+          sum += term;
+          size += abs(term);
+        }
+        f(part.rows[j], sum, size);
+      }
+    }
+  }
+  /// y ← y − α Bᵀλ.
+  template <class V>
+  void subtract_adjoint(S const& α, vector_type const& λ, V& y) const {
+    auto& entries = slant::local(y);
+    for (cluster const& part : clusters_) {
+      for (std::size_t j = 0; j < part.rows.size(); ++j) {
+        S const t = α * λ[part.rows[j]];
+        if (t == S(0)) continue;
+        for (std::size_t k = 0; k < part.unknowns.size(); ++k) {
+          entries.coeffRef(part.unknowns[k]) -=
+              t * part.e(static_cast<index>(k), static_cast<index>(j));
+        }
+      }
+    }
+  }
+
+ private:
+  void check_bound(index i, int const* begin) const {
+    if (!(c_[i] > -std::numeric_limits<S>::infinity())) {
+      throw bad_input("c", detail::show(c_[i]), "a number or +inf").at(i);
+    }
+    if (begin[i] == begin[i + 1] && c_[i] < S(0)) {
+      throw bad_input("c", detail::show(c_[i]),
+                      "a number >= 0, since row " + detail::show(i) + " of B is zero")
+          .at(i);
+    }
+  }
+
+  void collect(Eigen::SparseMatrix<S, Eigen::RowMajor> const& b) {
+    using entry = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
+    detail::union_find sets(unknowns_);
+    acts_.assign(static_cast<std::size_t>(b.rows()), 0);
+    for (index i = 0; i < b.rows(); ++i) {
+      if (!(c_[i] < std::numeric_limits<S>::infinity())) continue;
+      for (entry e(b, i); e; ++e) {
+        acts_[static_cast<std::size_t>(i)] = 1;
+        sets.join(entry(b, i).col(), e.col());
+      }
+    }
+    lengths_ = vector_type::Zero(b.rows());
+    std::vector<index> cluster_of(static_cast<std::size_t>(unknowns_), -1);
+    std::vector<index> place(static_cast<std::size_t>(unknowns_), -1);
+    for (index i = 0; i < b.rows(); ++i) {
+      if (!acts(i)) continue;
+      auto& number = cluster_of[static_cast<std::size_t>(sets.find(entry(b, i).col()))];
+      if (number < 0) {
+        number = static_cast<index>(clusters_.size());
+        clusters_.emplace_back();
+      }
+      cluster& part = clusters_[static_cast<std::size_t>(number)];
+      part.rows.push_back(i);
+      for (entry e(b, i); e; ++e) {
+        index& at = place[static_cast<std::size_t>(e.col())];
+        if (at >= 0) continue;
+        at = static_cast<index>(part.unknowns.size());
+        part.unknowns.push_back(e.col());
+      }
+    }
+    for (cluster& part : clusters_) {
+      part.e.setZero(static_cast<index>(part.unknowns.size()),
+                     static_cast<index>(part.rows.size()));
+      for (std::size_t j = 0; j < part.rows.size(); ++j) {
+        for (entry e(b, part.rows[j]); e; ++e) {
+          part.e(place[static_cast<std::size_t>(e.col())], static_cast<index>(j)) = e.value();
+        }
+        lengths_[part.rows[j]] = part.e.col(static_cast<index>(j)).stableNorm();
+      }
+    }
+  }
+
+  index unknowns_;
+  vector_type c_;
+  std::vector<unsigned char> acts_;
+  vector_type lengths_;
+  std::vector<cluster> clusters_;
+};
+
+template <class M, class V>
+constraint_rows(Eigen::SparseMatrixBase<M> const&, V const&) -> constraint_rows<typename M::Scalar>;
+
+}  // namespace slant

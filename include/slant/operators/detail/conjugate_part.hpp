@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//
+// What a conjugate projector keeps of each body: its columns of U and of K U, and the factors of
+// UᵀKU.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/operators/detail/parallel_for.hpp>
+#include <slant/operators/detail/union_find.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::detail {
+
+template <class S, class F>
+struct conjugate_part {
+  Eigen::SparseMatrix<S> u;
+  Eigen::SparseMatrix<S> ku;
+  F factors;
+};
+
+/// The matrix of some columns of m.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> chosen_columns(Eigen::SparseMatrix<S> const& m,
+                                                    std::vector<index> const& columns) {
+  Eigen::SparseMatrix<S> part(m.rows(), static_cast<index>(columns.size()));
+  index entries = 0;
+  for (index const c : columns) entries += m.col(c).nonZeros();
+  part.reserve(entries);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    part.startVec(static_cast<index>(j));
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(m, columns[j]); e; ++e) {
+      part.insertBack(e.row(), static_cast<index>(j)) = e.value();
+    }
+  }
+  part.finalize();
+  return part;
+}
+
+/// The columns of each body, in increasing order; bodies in the order of their first column.
+/// Columns belong to one body if they or their images share a row. Throws bad_input for an empty
+/// column.
+template <class S>
+[[nodiscard]] std::vector<std::vector<index>> columns_by_body(Eigen::SparseMatrix<S> const& u,
+                                                              Eigen::SparseMatrix<S> const& ku) {
+  union_find rows(u.rows());
+  std::vector<index> first_row(static_cast<std::size_t>(u.cols()), -1);
+  for (index j = 0; j < u.cols(); ++j) {
+    index& first = first_row[static_cast<std::size_t>(j)];
+    for (auto const* m : {&u, &ku}) {
+      for (typename Eigen::SparseMatrix<S>::InnerIterator e(*m, j); e; ++e) {
+        if (first < 0) first = e.row();
+        rows.join(first, e.row());
+      }
+    }
+    if (first < 0) throw bad_input("U", "an empty column", "columns of full rank").at(j);
+  }
+  std::vector<index> body_of(static_cast<std::size_t>(u.rows()), -1);
+  std::vector<std::vector<index>> bodies;
+  for (index j = 0; j < u.cols(); ++j) {
+    index const root = rows.find(first_row[static_cast<std::size_t>(j)]);
+    index& number = body_of[static_cast<std::size_t>(root)];
+    if (number < 0) {
+      number = static_cast<index>(bodies.size());
+      bodies.emplace_back();
+    }
+    bodies[static_cast<std::size_t>(number)].push_back(j);
+  }
+  return bodies;
+}
+
+/// All parts, factored in parallel. Throws bad_input for the first that the factorisation refuses.
+template <class F, class S, class Factor>
+[[nodiscard]] std::vector<conjugate_part<S, F>> conjugate_parts(Eigen::SparseMatrix<S> const& k,
+                                                                Eigen::SparseMatrix<S> const& u,
+                                                                Factor const& factor) {
+  Eigen::SparseMatrix<S> const ku = k * u;
+  auto const bodies = columns_by_body(u, ku);
+  std::vector<std::optional<conjugate_part<S, F>>> made(bodies.size());
+  parallel_for_throwing(static_cast<index>(bodies.size()), [&](index i) {
+    auto const at = static_cast<std::size_t>(i);
+    auto own = chosen_columns(u, bodies[at]);
+    auto image = chosen_columns(ku, bodies[at]);
+    Eigen::SparseMatrix<S> const block = own.transpose() * image;
+    try {
+      made[at].emplace(conjugate_part<S, F>{std::move(own), std::move(image), factor(block)});
+    } catch (bad_input const& e) {
+      throw bad_input("U",
+                      "a U'KU of body " + show(i) + " that cannot be factored (" + e.what() + ")",
+                      "columns on which K is positive definite");
+    }
+  });
+  std::vector<conjugate_part<S, F>> parts;
+  parts.reserve(made.size());
+  for (auto& part : made) parts.push_back(std::move(*part));
+  return parts;
+}
+
+}  // namespace slant::detail
