@@ -13,6 +13,7 @@
 #include <slant/operators/counted.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/diagonal_blocks.hpp>
 #include <slant/operators/difference.hpp>
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
