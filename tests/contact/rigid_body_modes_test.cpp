@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/rigid_body_modes.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 namespace rigid_body_modes_test {

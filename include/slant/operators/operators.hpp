@@ -15,6 +15,7 @@
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/diagonal_blocks.hpp>
 #include <slant/operators/difference.hpp>
+#include <slant/operators/equality_constraints.hpp>
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
