@@ -4,6 +4,8 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/methods/approach_watch.hpp>
+#include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
 #include <slant/methods/curved_minimum.hpp>
@@ -13,6 +15,7 @@
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/inner_methods.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -39,6 +42,9 @@
 #include <slant/methods/release_rules.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/smalse.hpp>
+#include <slant/methods/smalse_options.hpp>
+#include <slant/methods/smalse_state.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/ssnm_options.hpp>
 #include <slant/methods/ssnm_problem.hpp>

@@ -83,6 +83,8 @@ class smalse<QP, C, Inner> {
 
     auto const inner_problem = augmented(b, ρ);
     auto inner = inner_method(inner_problem, ρ, σ).start(x0);
+    // Known, not learnt: what counts as a direction of the kernel depends on it.
+    if constexpr (requires { inner.σ; }) inner.σ = std::max<scalar>(bound.ritz, ρ);
     vector_type ν = like(x0, qp.size());
     slant::local(ν).setZero();
     state_type s{x0, ν, projected_b, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
@@ -92,7 +94,8 @@ class smalse<QP, C, Inner> {
     scalar const size = norm(s.projected_b);
     s.gradient_scale = size > scalar(0) ? size : ρ * norm(x_e);
     s.η = options_.precision * s.gradient_scale;
-    s.work.setup_applications = bound.applications + 1;
+    s.work = s.inner.work;
+    s.work.setup_applications += bound.applications + 1;
     look(s);
     return s;
   }
@@ -156,11 +159,11 @@ class smalse<QP, C, Inner> {
     work const before = inner.work;
     index const steps_before = inner.iteration;
     if (s.iteration > 0) method.resume(inner);
+    scalar const at_start = inner.reduced_gradient_norm;
     while (inner.status == status::running &&
            inner.iteration - steps_before < options_.inner_steps) {
       measure_offset(s, inner.x);
-      scalar const wanted = std::min<scalar>(s.M * s.feasibility_norm, s.η);
-      if (inner.reduced_gradient_norm <= std::max<scalar>(wanted, inner.rounding())) break;
+      if (inner.reduced_gradient_norm <= wanted(s, at_start)) break;
       method.step(inner);
     }
     measure_offset(s, inner.x);
@@ -168,6 +171,18 @@ class smalse<QP, C, Inner> {
     s.work.inner_iterations += s.inner_iterations;
     s.work.operator_applications += inner.work.operator_applications - before.operator_applications;
     s.work.setup_applications += inner.work.setup_applications - before.setup_applications;
+  }
+
+  /// min(M ‖Q x − x̄‖, η), but nothing that is lost in rounding errors (unless those are larger than
+  /// the whole gradient: then x is on its way to infinity). Where G x = e holds by itself, a part
+  /// of ‖r̃‖ takes the place of M ‖Q x − x̄‖.
+  [[nodiscard]] scalar wanted(state_type const& s, scalar const& at_start) const {
+    scalar const balanced = s.M * s.feasibility_norm, noise = s.inner.rounding();
+    scalar const least = scalar(64) * std::numeric_limits<scalar>::epsilon() * s.σ *
+                         (norm(s.inner.x) + norm(constraints_.get().nearest()));
+    scalar const most =
+        std::min<scalar>(s.η, balanced > least ? balanced : options_.shrink * at_start);
+    return noise < s.η ? std::max(most, noise) : most;
   }
 
   /// (3°), as far as it can be told from rounding errors.
@@ -209,28 +224,21 @@ class smalse<QP, C, Inner> {
     auto const relative = [](scalar size, scalar scale) {
       return scale > scalar(0) ? scalar(size / scale) : size;
     };
-    scalar const error = std::max(relative(s.reduced_gradient_norm, s.gradient_scale),
-                                  relative(s.feasibility_norm, s.feasibility_scale));
-    if (error < s.best) {
-      s.best = error;
-      s.best_iteration = s.iteration;
-    }
-    if (s.iteration - s.best_iteration < options_.patience) return;
+    scalar const distance = relative(s.feasibility_norm, s.feasibility_scale);
+    scalar const error = std::max(relative(s.reduced_gradient_norm, s.gradient_scale), distance);
+    if (!s.progress.stalled(s.iteration, error, distance, options_.patience)) return;
     s.status = status::stalled;
-    s.infeasible = separated(s);
+    s.infeasible = !s.progress.is_near(distance) && is_next_to_space(s);
   }
 
-  /// Is x the point of Λ next to the affine space, at a distance? Then (y − x)ᵀ(Q x − x̄) ≥ 0 for
-  /// all y ∈ Λ, and no y ∈ Λ is in the space.
-  [[nodiscard]] bool separated(state_type& s) const {
-    auto const ε = std::numeric_limits<scalar>::epsilon();
+  /// Does no step towards the affine space lead far? x is then next to the point y of Λ that is
+  /// nearest to it, and if that is at a distance, (z − y)ᵀ(Q y − x̄) ≥ 0 for all z ∈ Λ.
+  [[nodiscard]] bool is_next_to_space(state_type& s) const {
     vector_type &trial = s.inner.trial, &projected = s.inner.projected;
     slant::local(trial) = slant::local(s.x) - slant::local(s.offset);
     slant::project(qp_.get().set(), slant::local(trial), slant::local(projected));
     slant::local(trial) = slant::local(s.x) - slant::local(projected);
-    using std::sqrt;
-    return s.feasibility_norm > sqrt(ε) * s.feasibility_scale &&
-           norm(trial) <= scalar(1e-3) * s.feasibility_norm;
+    return norm(trial) <= s.feasibility_norm / scalar(2);
   }
 
   held<QP> qp_;

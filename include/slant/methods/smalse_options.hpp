@@ -13,7 +13,7 @@ namespace slant {
 template <class S = double, class Inner = kprgp_inner<S>>
 struct smalse_options {
   S penalty = S(1);  ///< ρ in multiples of σ_max(P A P); it does not grow
-  S balance = S(1);  ///< M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖
+  S balance = S(0.3);  ///< M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖
   S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
   S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
   index inner_steps = 5000;  ///< of one inner problem at most

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <slant/iteration/report.hpp>
+#include <slant/methods/approach_watch.hpp>
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -60,9 +60,8 @@ struct smalse_state {
   slant::status status = slant::status::running;
   slant::work work{};
 
-  scalar best = std::numeric_limits<scalar>::infinity();  ///< smallest relative error so far
-  index best_iteration = 0;                               ///< where that was
-  bool infeasible = false;  ///< no point of Λ satisfies G x = e: −offset separates them
+  approach_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  bool infeasible = false;  ///< x gets no nearer to G x = e, which no point of Λ satisfies
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {

@@ -22,7 +22,6 @@
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -128,16 +127,23 @@ class equality_constraints {
   /// Pivots of GGᵀ, G with rows of length 1, that can be told from zero.
   [[nodiscard]] static S smallest_square(index rows) { return detail::smallest_pivot(rows, S(1)); }
 
+  /// Cholesky of GGᵀ with diagonal pivoting (that of Eigen::LDLT looks at the diagonal before the
+  /// elimination), up to the first pivot that may be zero.
   static std::vector<index> independent_rows(sparse_type const& unit_rows) {
+    using std::sqrt;
     index const p = unit_rows.rows();
+    dense_type rest = dense_type(unit_rows * sparse_type(unit_rows.transpose()));
+    vector_type column(p);
     std::vector<index> kept;
-    if (p == 0) return kept;
-    Eigen::LDLT<dense_type> const ldlt(dense_type(unit_rows * sparse_type(unit_rows.transpose())));
-    Eigen::Matrix<index, Eigen::Dynamic, 1> order =
-        Eigen::Matrix<index, Eigen::Dynamic, 1>::LinSpaced(p, 0, p - 1);
-    order = ldlt.transpositionsP() * order;
-    for (index i = 0; i < p; ++i) {
-      if (ldlt.vectorD()[i] > smallest_square(p)) kept.push_back(order[i]);
+    while (static_cast<index>(kept.size()) < p) {
+      index i = 0;
+      S const pivot = rest.diagonal().maxCoeff(&i);
+      if (!(pivot > smallest_square(p))) break;
+      column = rest.col(i) / sqrt(pivot);
+      rest.noalias() -= column * column.transpose();
+      rest.col(i).setZero();
+      rest.row(i).setZero();
+      kept.push_back(i);
     }
     std::sort(kept.begin(), kept.end());
     return kept;
