@@ -14,7 +14,6 @@
 
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/preconditioner.hpp>
-#include <slant/contact/rigid_body_modes.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/iteration/feasible.hpp>
@@ -27,10 +26,10 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <fem/decomposition.hpp>
-#include <fem/steel_brick.hpp>
+#include <fem/decomposed_brick.hpp>
 #include <map>
 #include <string>
+#include <support/floating_parts.hpp>
 #include <vector>
 
 namespace {
@@ -44,33 +43,6 @@ constexpr int cells = 4;
 constexpr std::array<std::array<int, 3>, 7> all_cuts{
     {{2, 1, 1}, {2, 2, 1}, {2, 2, 2}, {4, 2, 2}, {3, 3, 3}, {4, 4, 2}, {4, 4, 4}}};
 
-/// The brick, whole and in parts.
-struct brick {
-  fem::contact_scene<3> scene;
-  fem::decomposed_scene parts;
-  slant::contact::floating_bodies<double> bodies;
-
-  brick(std::array<int, 3> const& cuts, fem::brick_load load) {
-    Eigen::Vector3d const size(cuts[0], cuts[1], cuts[2]);
-    auto const mesh =
-        fem::make_box_mesh<3>({cells * cuts[0], cells * cuts[1], cells * cuts[2]}, size);
-    auto const loading = fem::loading_of(load);
-    auto const steel = fem::lame(2.119e5, 0.277);
-    scene = fem::make_contact_scene<3>({.mesh = mesh,
-                                        .material = steel,
-                                        .fixed = fem::brick_side::left,
-                                        .contact = fem::brick_side::bottom,
-                                        .loads = loading.tractions,
-                                        .slip_bound = loading.slip_bound});
-    parts = fem::decompose<3>(scene, steel, fem::box_partition<3>(mesh, cuts));
-    bodies.K = parts.K;
-    for (auto const& nodes : parts.nodes)
-      bodies.R.push_back(slant::contact::rigid_body_modes(nodes));
-    bodies.B = parts.glue;
-    bodies.c = vector::Zero(parts.glue.rows());
-  }
-};
-
 struct run {
   std::string method;
   slant::index outer = 0, inner = 0, products = 0;
@@ -80,7 +52,7 @@ struct run {
 
 /// All methods on one brick.
 template <class Friction>
-std::vector<run> run_all(Friction friction, brick const& b,
+std::vector<run> run_all(Friction friction, fem::decomposed_brick const& b,
                          slant::contact::data<double> const& whole,
                          slant::contact::data<double> const& cut) {
   auto const factor = slant::factorize(b.scene.K);
@@ -89,7 +61,8 @@ std::vector<run> run_all(Friction friction, brick const& b,
                                       slant::reduced_gradient_below(1e-12) || slant::at_most(200));
   vector const expected = dual.displacement(reference.x());
 
-  slant::contact::total_feti const problem(friction, b.bodies, cut);
+  auto const bodies = examples::floating_parts(b.parts);
+  slant::contact::total_feti const problem(friction, bodies, cut);
   auto const qp = problem.qp();
   std::vector<run> runs;
   auto const add = [&](std::string name, auto const& options) {
@@ -104,7 +77,7 @@ std::vector<run> run_all(Friction friction, brick const& b,
                     (b.parts.mean * u - expected).norm() / expected.norm(),
                     (b.parts.glue * u).norm() / u.norm()});
   };
-  sparse const K = slant::contact::block_stiffness(b.bodies);
+  sparse const K = slant::contact::block_stiffness(bodies);
   preconditioner const lumped(slant::contact::lumped_preconditioner(K, problem.rows()));
   preconditioner const dirichlet(slant::contact::dirichlet_preconditioner(K, problem.rows()));
   using preconditioned = slant::smalse_options<double, slant::newton_inner<double, preconditioner>>;
@@ -115,15 +88,11 @@ std::vector<run> run_all(Friction friction, brick const& b,
   return runs;
 }
 
-std::vector<run> run_brick(brick const& b, bool friction) {
-  auto const& s = b.scene;
-  auto const& p = b.parts;
-  if (friction)
-    return run_all(slant::contact::friction_disc{}, b, {s.N, s.T, s.f, s.d, s.g},
-                   {p.N, p.T, p.f, s.d, s.g});
-  return run_all(slant::contact::frictionless{}, b,
-                 {s.N, sparse(0, s.f.size()), s.f, s.d, vector(0)},
-                 {p.N, sparse(0, p.f.size()), p.f, s.d, vector(0)});
+std::vector<run> run_brick(fem::decomposed_brick const& b, bool friction) {
+  auto const whole = examples::contact_data(b.scene, friction);
+  auto const cut = examples::contact_data(b.scene, b.parts, friction);
+  if (friction) return run_all(slant::contact::friction_disc{}, b, whole, cut);
+  return run_all(slant::contact::frictionless{}, b, whole, cut);
 }
 
 /// One load with all cuts; false if a run misses a limit.
@@ -131,7 +100,7 @@ bool table(fem::brick_load load, bool friction) {
   bool good = true;
   std::map<std::string, std::array<slant::index, 2>> few;  // the most of up to 8 subdomains
   for (auto const& cuts : all_cuts) {
-    brick const b(cuts, load);
+    auto const b = fem::make_decomposed_brick({.cubes = cuts, .cells = cells, .load = load});
     int const count = cuts[0] * cuts[1] * cuts[2];
     for (auto const& r : run_brick(b, friction)) {
       std::printf("%s,%s,%d,%ld,%ld,%s,%ld,%ld,%ld,%.1e,%.1e,%s\n",

@@ -23,7 +23,7 @@ using preconditioner =
 
 TEST_CASE("Newton's method in the face with the lumped and the Dirichlet preconditioner") {
   decomposed_brick const brick({2, 1, 1}, test::effort(3, 2), fem::brick_load::pull);
-  auto const expected = test::reference(brick.scene.K, test::contact_data(brick.scene)).u;
+  auto const expected = test::reference(brick.scene.K, examples::contact_data(brick.scene, true)).u;
   total_feti const problem(friction_disc{}, brick.bodies, brick.data(true));
   auto const qp = problem.qp();
   auto const K = slant::contact::block_stiffness(brick.bodies);

@@ -30,13 +30,15 @@ TEST_CASE("the displacements of the brick that was not cut, without and with fri
     CHECK((u - expected).norm() <= 1e-8 * expected.norm());
   };
   {
-    auto const expected = test::reference(brick.scene.K, test::frictionless_data(brick.scene)).u;
+    auto const expected =
+        test::reference(brick.scene.K, examples::contact_data(brick.scene, false)).u;
     total_feti const problem(frictionless{}, brick.bodies, brick.data(false));
     auto const qp = problem.qp();
     same(test::displacement(brick, problem, slant::smalse{qp, problem.constraints()}), expected);
   }
   {
-    auto const expected = test::reference(brick.scene.K, test::contact_data(brick.scene)).u;
+    auto const expected =
+        test::reference(brick.scene.K, examples::contact_data(brick.scene, true)).u;
     total_feti const problem(friction_disc{}, brick.bodies, brick.data(true));
     auto const qp = problem.qp();
     same(test::displacement(brick, problem, slant::smalse{qp, problem.constraints()}), expected);
@@ -57,32 +59,6 @@ TEST_CASE("by dense matrices: F on ker G does not depend on K+, G and e are thos
         1e-12 * brick.parts.f.norm());
   CHECK(given.constraints().redundant().empty());
   CHECK(given.constraints().rows() == 12);
-}
-
-TEST_CASE("decomposition: what is glued is the brick itself") {
-  decomposed_brick const brick({2, 2, 2}, 1, fem::brick_load::press);
-  auto const& parts = brick.parts;
-  // Displacements that agree at all copies have the energy and the work of the brick.
-  VectorXd const u = VectorXd::LinSpaced(brick.scene.f.size(), -1, 2);
-  VectorXd copies = VectorXd::Zero(parts.unknowns());
-  for (Eigen::Index j = 0; j < parts.mean.outerSize(); ++j) {
-    for (sparse::InnerIterator e(parts.mean, j); e; ++e) copies[e.col()] = u[e.row()];
-  }
-  double energy = 0;
-  Eigen::Index first = 0;
-  for (auto const& K : parts.K) {
-    VectorXd const own = copies.segment(first, K.rows());
-    energy += own.dot(K * own);
-    first += K.rows();
-  }
-  CHECK(first == parts.unknowns());
-  CHECK(energy == doctest::Approx(u.dot(brick.scene.K * u)).epsilon(1e-12));
-  CHECK(parts.f.dot(copies) == doctest::Approx(brick.scene.f.dot(u)).epsilon(1e-12));
-  CHECK((parts.glue * copies).norm() <= 1e-13 * copies.norm());
-  CHECK((parts.N * copies - brick.scene.N * u).norm() <= 1e-13 * u.norm());
-  MatrixXd const gram = MatrixXd(parts.glue * sparse(parts.glue.transpose()));
-  CHECK((gram - MatrixXd::Identity(gram.rows(), gram.cols())).norm() <= 1e-13);
-  CHECK(parts.glue.rows() == parts.unknowns() - brick.scene.f.size());
 }
 
 TEST_CASE("prescribed displacements: a brick whose end is moved") {
@@ -144,7 +120,7 @@ TEST_CASE("redundant gluing, a body with no constraint, loads that nothing bears
   CHECK(r.converged());
   VectorXd const u = problem.displacement(r.x(), method.multipliers(r.state));
   CHECK(u.tail(own).norm() == 0);
-  auto const expected = test::reference(brick.scene.K, test::contact_data(brick.scene)).u;
+  auto const expected = test::reference(brick.scene.K, examples::contact_data(brick.scene, true)).u;
   CHECK((brick.parts.mean * u.head(two) - expected).norm() <= 1e-8 * expected.norm());
 
   data.f[two + 1] = 0.5;
