@@ -18,6 +18,7 @@
 #   interior_brick        products of the interior-point method until the energy error is 1e-6
 #   interior_condition    condition of its systems with and without preconditioner
 #   interior_crossover    lift to the last digits: interior point, then the symmetric Newton method
+#   total_feti     Total-FETI: outer and inner steps on 2 to 64 subdomains
 #   active_sets    products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -29,7 +30,8 @@ here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
-  newton_floor interior_brick interior_condition interior_crossover active_sets)
+  newton_floor interior_brick interior_condition interior_crossover
+  active_sets total_feti)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -82,6 +84,7 @@ run_interior_crossover() {
   "$(program interior_point)" crossover >"$output/interior_crossover.csv"
 }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
+run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
   local status=0
@@ -197,6 +200,7 @@ write_summary() {
   section interior_condition "Interior point: condition numbers along the iteration"
   section interior_crossover "Interior point, then symmetric Newton: lift to the last digits"
   section active_sets "Products of the published active set methods"
+  section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 
