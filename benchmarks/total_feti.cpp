@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
 // Total-FETI: a steel brick cut into more and more cubes of 4 × 4 × 4 cells (H/h = 4), solved by
-// SMALSE-M around KPRGP and around the symmetric Newton method, without preconditioner, with the
-// lumped and with the Dirichlet preconditioner in the face:
+// SMALSE-M around KPRGP and around the symmetric Newton method, the latter without preconditioner,
+// with the lumped and with the Dirichlet preconditioner in the face; each of them also with Newton
+// steps for the multipliers of G λ = e (marked by +):
 //
 //     total_feti [LOAD...]       press, pull, lift; without names: press and pull
 //
 // prints comma-separated values: outer steps, inner steps and products by F = B K⁺Bᵀ until reduced
 // gradient and ‖G λ − e‖ are 1e-10; the difference of the displacements from those of the brick
 // that is not cut; and that of the copies of a node from each other. Exit status 1 if a run does
-// not converge, a difference exceeds 1e-8, or the work on 64 subdomains is more than three times
-// that on 2 and twice that on 8.
+// not converge, a difference exceeds 1e-8, or 16 to 64 subdomains take more than twice as many
+// outer steps or products as the most that 2 to 8 take. With load lift half of the contact opens,
+// and bodies lose what held them: only the runs with + are asked to converge, and in any number of
+// steps.
 
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/preconditioner.hpp>
@@ -65,7 +68,8 @@ std::vector<run> run_all(Friction friction, fem::decomposed_brick const& b,
   slant::contact::total_feti const problem(friction, bodies, cut);
   auto const qp = problem.qp();
   std::vector<run> runs;
-  auto const add = [&](std::string name, auto const& options) {
+  auto const solve = [&](std::string name, auto options, bool newton_multipliers) {
+    options.newton_multipliers = newton_multipliers;
     slant::smalse const method{qp, problem.constraints(), options};
     auto const r =
         slant::solve(method, problem.zero(),
@@ -76,6 +80,10 @@ std::vector<run> run_all(Friction friction, fem::decomposed_brick const& b,
                     r.state.work.operator_applications, r.converged() && reference.converged(),
                     (b.parts.mean * u - expected).norm() / expected.norm(),
                     (b.parts.glue * u).norm() / u.norm()});
+  };
+  auto const add = [&](std::string const& name, auto const& options) {
+    solve(name, options, false);
+    solve(name + "+", options, true);
   };
   sparse const K = slant::contact::block_stiffness(bodies);
   preconditioner const lumped(slant::contact::lumped_preconditioner(K, problem.rows()));
@@ -111,14 +119,18 @@ bool table(fem::brick_load load, bool friction) {
                   r.method.c_str(), static_cast<long>(r.outer), static_cast<long>(r.inner),
                   static_cast<long>(r.products), r.difference, r.jump, r.converged ? "yes" : "no");
       std::fflush(stdout);
-      good = good && r.converged && r.difference <= 1e-8 && r.jump <= 1e-8;
+      bool const exact = r.converged && r.difference <= 1e-8 && r.jump <= 1e-8;
+      if (load == fem::brick_load::lift) {
+        good = good && (exact || r.method.back() != '+');
+        continue;
+      }
       auto& [outer, products] = few[r.method];
       if (count <= 8) {
         outer = std::max(outer, r.outer);
         products = std::max(products, r.products);
       }
-      good = good && 10 * r.outer <= 16 * std::max<slant::index>(outer, 3) &&
-             10 * r.products <= 16 * products;
+      good = good && exact && r.outer <= 2 * std::max<slant::index>(outer, 3) &&
+             r.products <= 2 * products;
     }
   }
   return good;

@@ -42,6 +42,11 @@ TEST_CASE("the displacements of the brick that was not cut, without and with fri
     total_feti const problem(friction_disc{}, brick.bodies, brick.data(true));
     auto const qp = problem.qp();
     same(test::displacement(brick, problem, slant::smalse{qp, problem.constraints()}), expected);
+    slant::smalse_options<double> options;
+    options.newton_multipliers = true;
+    slant::smalse const newton{qp, problem.constraints(), options};
+    same(test::displacement(brick, problem, newton), expected);
+    CHECK(slant::solve(newton, problem.zero(), test::accurate()).iterations() <= 12);
   }
 }
 

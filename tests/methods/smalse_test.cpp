@@ -100,6 +100,18 @@ TEST_CASE("the known solution with its multipliers, by KPRGP and by Newton's met
   check_solution(slant::smalse{qp, constraints, newton_options{}}, p);
 }
 
+TEST_CASE("Newton steps for the multipliers: the same solution in fewer steps") {
+  known_problem const p;
+  auto const qp = p.qp();
+  auto const constraints = p.constraints();
+  auto const plain = check_solution(slant::smalse{qp, constraints}, p);
+  slant::smalse_options<double> options;
+  options.newton_multipliers = true;
+  auto const newton = check_solution(slant::smalse{qp, constraints, options}, p);
+  CHECK(2 * newton.iterations() <= plain.iterations());
+  CHECK(newton.state.work.operator_applications < plain.state.work.operator_applications);
+}
+
 TEST_CASE("semidefinite A, redundant rows, any units") {
   for (double const unit : {1e-100, 1.0, 1e100}) {
     known_problem p(unit, 21);

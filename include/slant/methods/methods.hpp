@@ -29,6 +29,7 @@
 #include <slant/methods/modified_newton_parts.hpp>
 #include <slant/methods/modified_newton_state.hpp>
 #include <slant/methods/mssn.hpp>
+#include <slant/methods/multiplier_newton.hpp>
 #include <slant/methods/newton_options.hpp>
 #include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_segment.hpp>

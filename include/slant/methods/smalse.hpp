@@ -16,12 +16,16 @@
 // by ½ ρ ‖Q x − x̄‖² a step. So the number of outer steps, and that of the inner ones, is bounded by
 // the spectra of P A P on ker G and by the accuracy, for any number of unknowns and constraints.
 //
+// With options.newton_multipliers a Newton step for x and ν together follows (3°), if it lowers the
+// error; see methods/multiplier_newton.hpp.
+//
 // Rows of G need not be orthonormal: they enter by the projectors Q onto range Gᵀ and P = I − Q
 // only, see methods/augmented_problem.hpp, and ‖Q x − x̄‖, the distance of x from { G x = e },
 // stands for ‖G x − e‖.
 #pragma once
 
 #include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/smalse_core.hpp>
 #include <slant/methods/smalse_options.hpp>
 #include <slant/methods/smalse_problem.hpp>
 #include <slant/methods/smalse_state.hpp>
@@ -41,24 +45,20 @@ namespace slant {
 /// unbounded, breakdown.
 template <class QP, class C, class Inner>
   requires smalse_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>>
-class smalse<QP, C, Inner> {
+class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
+  using core = detail::smalse_core<QP, C, Inner>;
+  using typename core::inner_qp;
+
  public:
-  using problem = std::remove_cvref_t<QP>;
-  using constraints = std::remove_cvref_t<C>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = smalse_options<scalar, Inner>;
-  using state_type = smalse_state<problem, constraints, Inner>;
+  using typename core::options;
+  using typename core::scalar;
+  using typename core::state_type;
+  using typename core::vector_type;
 
   smalse(held<QP> qp, held<C> c) : smalse(std::move(qp), std::move(c), options{}) {}
   /// Throws bad_input if the constraints are for another number of unknowns, or for options out of
   /// range.
-  smalse(held<QP> qp, held<C> c, options o)
-      : qp_(std::move(qp)), constraints_(std::move(c)), options_(std::move(o)) {
-    detail::check_size("columns of G", index(constraints_.get().size()), qp_.get().size(),
-                       "the size of b,");
-    options_.validate();
-  }
+  smalse(held<QP> qp, held<C> c, options o) : core(std::move(qp), std::move(c), std::move(o)) {}
 
   /// The state of P_Λ(x0) with ν = 0. Throws bad_input if x0 or A x0 is not finite or of the wrong
   /// size, or as the bound of σ_max and the inner method do.
@@ -111,6 +111,9 @@ class smalse<QP, C, Inner> {
     slant::local(s.ν) += s.ρ * slant::local(s.offset);
     ++s.iteration;
     look(s);
+    if constexpr (core::knows_rows) {
+      if (options_.newton_multipliers && s.status == status::running) improve(s);
+    }
     note_progress(s);
   }
 
@@ -136,21 +139,9 @@ class smalse<QP, C, Inner> {
   }
 
  private:
-  using inner_qp = detail::augmented_qp<problem, constraints>;
-
-  /// min L(·, ν, ρ) over Λ; refers to b.
-  [[nodiscard]] inner_qp augmented(vector_type const& b, scalar const& ρ) const {
-    return {augmented_hessian(qp_.get().a(), constraints_.get(), ρ), b, qp_.get().set()};
-  }
-  [[nodiscard]] auto inner_method(inner_qp const& qp, scalar const& ρ, scalar const& σ) const {
-    return options_.inner.make(qp, constraints_.get(), ρ, σ);
-  }
-
-  void form_linear_term(state_type& s) const {
-    slant::local(s.b) = slant::local(s.projected_b) - slant::local(s.ν) +
-                        s.ρ * slant::local(constraints_.get().nearest());
-    if (!detail::is_finite(norm(s.b))) s.status = status::breakdown;
-  }
+  using core::augmented, core::constraints_, core::form_linear_term, core::improve,
+      core::inner_method, core::look, core::measure_offset, core::note_progress, core::options_,
+      core::qp_;
 
   /// (1°). The inner method may end by itself: at the solution, or where it gets no further.
   template <class Method>
@@ -158,7 +149,9 @@ class smalse<QP, C, Inner> {
     auto& inner = s.inner;
     work const before = inner.work;
     index const steps_before = inner.iteration;
-    if (s.iteration > 0) method.resume(inner);
+    if (s.iteration > 0 && !s.resumed) method.resume(inner);
+    s.comparable = s.iteration > 0 && !s.resumed;
+    s.resumed = false;
     scalar const at_start = inner.reduced_gradient_norm;
     while (inner.status == status::running &&
            inner.iteration - steps_before < options_.inner_steps) {
@@ -195,55 +188,9 @@ class smalse<QP, C, Inner> {
     scalar const now = q + constant;
     scalar const growth =
         s.ρ * s.feasibility_norm * (s.feasibility_norm / s.inner.unit) / scalar(2);
-    if (s.iteration > 0 && now < s.lagrangian + growth - noise) s.M *= options_.shrink;
+    if (s.comparable && now < s.lagrangian + growth - noise) s.M *= options_.shrink;
     s.lagrangian = now;
   }
-
-  void measure_offset(state_type& s, vector_type const& x) const {
-    slant::apply(constraints_.get().range_projector(), x, s.offset, s.q_workspace);
-    slant::local(s.offset) -= slant::local(constraints_.get().nearest());
-    s.feasibility_norm = norm(s.offset);
-  }
-
-  /// What rules look at.
-  void look(state_type& s) const {
-    slant::local(s.x) = slant::local(s.inner.x);
-    measure_offset(s, s.x);
-    s.feasibility_scale = std::max<scalar>(norm(constraints_.get().nearest()), norm(s.x));
-    s.reduced_gradient_norm = s.inner.reduced_gradient_norm;
-    bool const solved = s.reduced_gradient_norm == scalar(0) && s.feasibility_norm == scalar(0);
-    if (solved) s.status = status::converged;
-    if (s.inner.status == status::unbounded || s.inner.status == status::breakdown) {
-      s.status = s.inner.status;
-    }
-    if (!detail::is_finite(s.feasibility_norm)) s.status = status::breakdown;
-  }
-
-  void note_progress(state_type& s) const {
-    if (s.status != status::running) return;
-    auto const relative = [](scalar size, scalar scale) {
-      return scale > scalar(0) ? scalar(size / scale) : size;
-    };
-    scalar const distance = relative(s.feasibility_norm, s.feasibility_scale);
-    scalar const error = std::max(relative(s.reduced_gradient_norm, s.gradient_scale), distance);
-    if (!s.progress.stalled(s.iteration, error, distance, options_.patience)) return;
-    s.status = status::stalled;
-    s.infeasible = !s.progress.is_near(distance) && is_next_to_space(s);
-  }
-
-  /// Does no step towards the affine space lead far? x is then next to the point y of Λ that is
-  /// nearest to it, and if that is at a distance, (z − y)ᵀ(Q y − x̄) ≥ 0 for all z ∈ Λ.
-  [[nodiscard]] bool is_next_to_space(state_type& s) const {
-    vector_type &trial = s.inner.trial, &projected = s.inner.projected;
-    slant::local(trial) = slant::local(s.x) - slant::local(s.offset);
-    slant::project(qp_.get().set(), slant::local(trial), slant::local(projected));
-    slant::local(trial) = slant::local(s.x) - slant::local(projected);
-    return norm(trial) <= s.feasibility_norm / scalar(2);
-  }
-
-  held<QP> qp_;
-  held<C> constraints_;
-  options options_;
 };
 
 }  // namespace slant

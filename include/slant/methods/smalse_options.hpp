@@ -16,7 +16,8 @@ struct smalse_options {
   S balance = S(0.3);  ///< M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖
   S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
   S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
-  index inner_steps = 5000;  ///< of one inner problem at most
+  bool newton_multipliers = false;  ///< Newton steps for ν between the others; they allocate
+  index inner_steps = 5000;         ///< of one inner problem at most
   index patience = 30;  ///< outer steps in which neither ‖r̃‖ nor ‖G x − e‖ falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
   Inner inner{};                      ///< the inner method with its options

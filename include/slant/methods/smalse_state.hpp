@@ -61,6 +61,10 @@ struct smalse_state {
   slant::work work{};
 
   approach_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  bool resumed = false;               ///< the inner method has been told of ν already
+  bool comparable = false;            ///< L may be compared with that of the step before
+  index pause = 0;          ///< steps to wait after the next failure of Newton's method for ν
+  index wait = 0;           ///< steps until it is tried again
   bool infeasible = false;  ///< x gets no nearer to G x = e, which no point of Λ satisfies
 
   /// What a status other than running means here.

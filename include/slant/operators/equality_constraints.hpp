@@ -84,6 +84,9 @@ class equality_constraints {
     return declare<self_adjoint, projector>(difference(identity(size()), range_projector()));
   }
   auto kernel_projector() const&& = delete;
+  /// The rows of G that are independent, each divided by its length.
+  [[nodiscard]] sparse_type const& unit_rows() const& { return G_; }
+  sparse_type const& unit_rows() const&& = delete;
   /// x̄.
   [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
   vector_type const& nearest() const&& = delete;
