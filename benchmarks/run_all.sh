@@ -22,6 +22,7 @@
 #   projector_contact     the Schur complement contact algorithm on the brick without friction
 #   projector_search      the same on stacks of bricks: rules for leaving and entering constraints
 #   projector_threads     seconds with one and with two threads (with OpenMP), and whether bits agree
+#   total_feti            Total-FETI: outer and inner steps on 2 to 64 subdomains
 #   active_sets    products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -34,7 +35,7 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads active_sets)
+  projector_contact projector_search projector_threads total_feti active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -91,6 +92,7 @@ run_projector_contact() { "$(program projector)" contact >"$output/projector_con
 run_projector_search() { "$(program projector)" search 3 5 >"$output/projector_search.csv"; }
 run_projector_threads() { "$(program projector)" threads 6 8 >"$output/projector_threads.csv"; }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
+run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
   local status=0
@@ -210,6 +212,7 @@ write_summary() {
   section projector_search "Schur complement contact algorithm: three bricks, rules for the active set"
   section projector_threads "Schur complement contact algorithm: four bricks, threads"
   section active_sets "Products of the published active set methods"
+  section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

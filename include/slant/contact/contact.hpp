@@ -10,5 +10,7 @@
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
+#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>
 // IWYU pragma: end_exports

@@ -18,6 +18,7 @@
 #include <slant/concepts/factorization.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/detail/friction_law.hpp>
+#include <slant/contact/detail/gap_loads.hpp>
 #include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/congruence.hpp>
@@ -53,7 +54,7 @@ class dual {
     slant::apply(Kinv, f_, free_displacement_);
     check_range(free_displacement_);
     b_.noalias() = B_ * free_displacement_;
-    subtract_gaps(c);
+    detail::subtract_gaps(c, b_);
   }
   dual(dual const&) = delete;
   dual& operator=(dual const&) = delete;
@@ -97,22 +98,6 @@ class dual {
                             slant::detail::show(u(i)),
                         "displacements within the range of the scalar type");
       }
-    }
-  }
-
-  /// b −= c. A node with an infinite gap, whose row of B is empty, gets a negative load instead: it
-  /// keeps the multiplier at 0 and is small enough not to show in ‖b‖. Its size is that of the
-  /// other entries, which are lengths too; without any, λ = 0 is the solution and no length is
-  /// needed.
-  void subtract_gaps(data<S> const& c) {
-    auto const closes = [&](index i) { return slant::detail::is_finite(c.d(i)); };
-    for (index i = 0; i < c.nodes(); ++i) {
-      if (closes(i)) b_(i) -= c.d(i);
-    }
-    auto const m = static_cast<S>(static_cast<double>(c.nodes()));
-    S const size = b_.cwiseAbs().maxCoeff() / m;
-    for (index i = 0; i < c.nodes(); ++i) {
-      if (!closes(i)) b_(i) = size > S(0) ? S(-size) : S(-1);
     }
   }
 

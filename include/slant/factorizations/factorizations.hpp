@@ -4,7 +4,10 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/generalized_inverse.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
 #include <slant/factorizations/ldlt.hpp>
 // IWYU pragma: end_exports

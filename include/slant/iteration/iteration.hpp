@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/nested.hpp>
 #include <slant/iteration/observers.hpp>

@@ -26,6 +26,8 @@ class descent_takeover {
   using options = kprgp_options<scalar>;
 
   [[nodiscard]] bool at_work() const { return at_work_; }
+  /// No longer at work: the problem has changed.
+  void leave() { at_work_ = false; }
   /// How often it had to take over.
   [[nodiscard]] index count() const { return count_; }
   /// The state of KPRGP, once there was need for it.

@@ -5,6 +5,8 @@
 
 // IWYU pragma: begin_exports
 #include <slant/methods/active_rows.hpp>
+#include <slant/methods/approach_watch.hpp>
+#include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
 #include <slant/methods/constraint_rows.hpp>
@@ -15,6 +17,7 @@
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>
+#include <slant/methods/inner_methods.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -28,6 +31,7 @@
 #include <slant/methods/modified_newton_parts.hpp>
 #include <slant/methods/modified_newton_state.hpp>
 #include <slant/methods/mssn.hpp>
+#include <slant/methods/multiplier_newton.hpp>
 #include <slant/methods/newton_options.hpp>
 #include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_segment.hpp>
@@ -48,6 +52,9 @@
 #include <slant/methods/schur_contact_state.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/smalse.hpp>
+#include <slant/methods/smalse_options.hpp>
+#include <slant/methods/smalse_state.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/ssnm_options.hpp>
 #include <slant/methods/ssnm_problem.hpp>

@@ -68,6 +68,16 @@ class proportioning<QP, Rule> {
     note_progress(s);
   }
 
+  /// Goes on from s.x after b of the problem has changed: r, r̃ and the face anew, everything else
+  /// (units, scales, bounds) as it is. One application; no allocation.
+  void resume(state_type& s) const {
+    s.status = status::running;
+    s.progress = {};
+    s.recession.forget();
+    s.gradient(qp_.get());
+    restart(s);
+  }
+
   /// r and r̃ from x, if CG steps have been updating r instead; whether they have. One application.
   bool refresh(state_type& s) const {
     if (s.since_refresh == 0) return false;

@@ -48,6 +48,9 @@ class recession_watch {
   /// For vectors of n entries like the prototype.
   recession_watch(V const& prototype, index n) : x_(like(prototype, n)), r_(like(prototype, n)) {}
 
+  /// Forgets the iterates so far: they belong to another gradient.
+  void forget() { seen_ = 0; }
+
   /// Looks at s.x and its gradient s.r, in multiples of s.unit. If true, s.directions.p is the
   /// negative direction.
   template <class Set, class State>

@@ -108,6 +108,18 @@ class symmetric_newton<QP, M> {
     note_progress(s);
   }
 
+  /// Goes on from s.x after b of the problem has changed: r and r̃ anew, everything else (units,
+  /// scales, ρ) as it is. One product; no allocation.
+  void resume(state_type& s) const {
+    s.status = status::running;
+    s.progress = {};
+    s.descent.leave();
+    measure(s);
+    restart(s);
+    s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
+    s.forcing.first_error = s.gradient_scale;
+  }
+
   /// r from x where KPRGP has been updating it; whether it has. One product.
   bool refresh(state_type& s) const {
     return s.descent.at_work() && s.descent.refresh(qp_.get(), options_.descent, s);

@@ -14,7 +14,9 @@
 #include <slant/operators/counted.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/diagonal_blocks.hpp>
 #include <slant/operators/difference.hpp>
+#include <slant/operators/equality_constraints.hpp>
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>

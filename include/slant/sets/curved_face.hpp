@@ -78,6 +78,21 @@ class curved_face {
     transform(range_weight, slant::local(x), slant::local(y));
   }
 
+  /// f(row, column, value) for the entries of Π that are not zero because of where they stand.
+  template <class F>
+  void projector_entries(F f) const {
+    std::vector<bool> curved(static_cast<std::size_t>(mask_.size()), false);
+    for (index const component : components_) curved[static_cast<std::size_t>(component)] = true;
+    for (index i = 0; i < mask_.size(); ++i) {
+      if (!curved[static_cast<std::size_t>(i)] && mask_[i] != S(0)) f(i, i, S(1));
+    }
+    for_each([&](auto entry, index const* component, index n) {
+      for (index j = 0; j < n; ++j) {
+        for (index l = 0; l < n; ++l) f(component[j], component[l], entry(range_projector, j, l));
+      }
+    });
+  }
+
   /// y ← y + α C x.
   template <class X, class Y>
   void add_curvature(S const& α, X const& x, Y& y) const {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// The linear term of dual contact problems, b = B u⁰ − c with the displacement u⁰ without contact.
+#pragma once
+
+#include <slant/contact/contact_data.hpp>
+
+namespace slant::contact::detail {
+
+/// b −= c for the normal multipliers, which are the first entries of b. A node with an infinite
+/// gap, whose row of B is empty, gets a negative load instead: it keeps the multiplier at 0 and is
+/// small enough not to show in ‖b‖. Its size is that of the other entries, which are lengths too;
+/// without any, λ = 0 is the solution and no length is needed.
+template <class S, class B>
+void subtract_gaps(data<S> const& c, B&& b) {
+  auto const closes = [&](index i) { return slant::detail::is_finite(c.d(i)); };
+  for (index i = 0; i < c.nodes(); ++i) {
+    if (closes(i)) b(i) -= c.d(i);
+  }
+  auto const m = static_cast<S>(static_cast<double>(c.nodes()));
+  S const size = b.cwiseAbs().maxCoeff() / m;
+  for (index i = 0; i < c.nodes(); ++i) {
+    if (!closes(i)) b(i) = size > S(0) ? S(-size) : S(-1);
+  }
+}
+
+}  // namespace slant::contact::detail

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The rigid-body modes of linear elasticity, the kernel of the stiffness matrix of a body that is
+// held nowhere: translations, and the linearised rotations ω × (x − x̄) about its centre.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
+
+#include <Eigen/Core>
+
+#include <limits>
+
+namespace slant::contact {
+
+/// Orthonormal basis of the motions of n nodes, D n × 3 in the plane (D = 2) and D n × 6 in space;
+/// fewer where nodes on a line, or a single one, leave rotations without effect. `nodes` has D rows
+/// and a column for each node; node i has the unknowns D i … D i + D − 1. Throws bad_input for
+/// another number of rows, coordinates that are not finite, or no nodes.
+template <class M>
+[[nodiscard]] auto rigid_body_modes(Eigen::MatrixBase<M> const& nodes)
+    -> Eigen::Matrix<typename M::Scalar, Eigen::Dynamic, Eigen::Dynamic> {
+  using S = typename M::Scalar;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  index const D = nodes.rows(), n = nodes.cols();
+  if (D != 2 && D != 3) {
+    throw bad_input("rows of nodes", slant::detail::show(D), "2 or 3 coordinates");
+  }
+  if (n < 1) throw bad_input("columns of nodes", slant::detail::show(n), "at least one node");
+  slant::detail::require_finite_entries("nodes", nodes.derived());
+
+  Eigen::Matrix<S, Eigen::Dynamic, 1> const centre = nodes.rowwise().mean();
+  matrix_type x = nodes.colwise() - centre;
+  // Coordinates that are equal up to rounding are equal: a line must not become a rotation.
+  S const rounding = S(16) * std::numeric_limits<S>::epsilon() * nodes.cwiseAbs().maxCoeff();
+  x = (x.array().abs() <= rounding).select(S(0), x);
+
+  matrix_type R = matrix_type::Zero(D * n, D == 2 ? 3 : 6);
+  for (index i = 0; i < n; ++i) {
+    index const row = D * i;
+    for (index axis = 0; axis < D; ++axis) R(row + axis, axis) = S(1);
+    index mode = D;
+    for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
+      for (index b = a + 1; b < D; ++b, ++mode) {
+        R(row + a, mode) = -x(b, i);
+        R(row + b, mode) = x(a, i);
+      }
+    }
+  }
+  return slant::detail::orthonormal_basis<S>(std::move(R));
+}
+
+}  // namespace slant::contact

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+//
+// Total-FETI [K refs 11, 12]: contact with Tresca friction of a structure that is cut into bodies
+// which all float, since Dirichlet conditions and gluing are multipliers as well.
+//
+//     primal   min ½ uᵀK u − fᵀu + Σ gᵢ‖(T u)ᵢ‖   s.t.  B_E u = c_E,  N u ≤ d,     K = diag(K₁ …
+//     K_p)
+//
+//     dual     min ½ λᵀFλ − bᵀλ   over   λ_ν ≥ 0,  ‖λ_t,i‖ ≤ gᵢ,  G λ = e,     λ = (λ_E, λ_ν, λ_t)
+//              F = B K⁺ Bᵀ,   b = B K⁺ f − c,   G = RᵀBᵀ,   e = Rᵀf,           B = [B_E; N; T]
+//
+//     back     u = K⁺ (f − Bᵀλ) + R α,     α = −μ, the multipliers of G λ = e
+//
+// K⁺ is one generalised inverse for each body and R the kernels of all. G λ = e says that the
+// forces on each body are in equilibrium, and its projector is the coarse problem that keeps the
+// number of iterations bounded when there are more bodies of the same number of elements.
+#pragma once
+
+#include <slant/contact/detail/friction_law.hpp>
+#include <slant/contact/detail/gap_loads.hpp>
+#include <slant/contact/detail/stacked_constraints.hpp>
+#include <slant/factorizations/generalized_inverse.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/congruence.hpp>
+#include <slant/operators/diagonal_blocks.hpp>
+#include <slant/operators/equality_constraints.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::contact {
+
+/// Bodies that float, and what holds them together.
+template <class S = double>
+struct floating_bodies {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  std::vector<sparse_type> K;  ///< n_i × n_i, positive semidefinite
+  std::vector<dense_type> R;   ///< n_i × d_i, their kernels; empty: computed
+  sparse_type B;               ///< B_E, m_E × Σ n_i: Dirichlet conditions and gluing
+  vector_type c;               ///< c_E, m_E: prescribed displacements; 0 for gluing
+};
+
+namespace detail {
+
+/// Matrices as blocks on the diagonal of a sparse one, `of(block)` of each.
+template <class S, class Blocks, class F>
+[[nodiscard]] Eigen::SparseMatrix<S> diagonal_of(Blocks const& blocks, F of) {
+  std::vector<Eigen::Triplet<S>> entries;
+  index rows = 0, cols = 0;
+  for (auto const& block : blocks) {
+    auto const& m = of(block);
+    slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
+      entries.emplace_back(static_cast<int>(rows + i), static_cast<int>(cols + j), value);
+    });
+    rows += m.rows();
+    cols += m.cols();
+  }
+  Eigen::SparseMatrix<S> whole(rows, cols);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  return whole;
+}
+
+}  // namespace detail
+
+/// diag(K₁ … K_p), for preconditioners.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> block_stiffness(floating_bodies<S> const& bodies) {
+  return detail::diagonal_of<S>(bodies.K, [](auto const& K) -> auto const& { return K; });
+}
+
+/// The dual problem of decomposed contact. Holds all it needs. Not movable: its operators refer to
+/// one another; what refers to it is not to be had from a temporary.
+///
+///     slant::contact::total_feti problem(slant::contact::friction_disc{}, bodies, data);
+///     auto const qp = problem.qp();
+///     slant::smalse method{qp, problem.constraints()};
+///     auto r = slant::solve(method, problem.zero(), …);
+///     auto u = problem.displacement(r.x(), method.multipliers(r.state));
+template <class Friction, class S>
+class total_feti {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  /// One factorisation for each body (two, if its kernel is not given). The data are for the
+  /// unknowns of all bodies, one after the other. Throws bad_input if sizes do not match, if the
+  /// data or a kernel are not what they should be, or if the load moves a body in a way that no
+  /// constraint opposes.
+  total_feti(Friction friction, floating_bodies<S> const& bodies, data<S> const& c)
+      : inverse_(generalized_inverses(bodies)),
+        R_(detail::diagonal_of<S>(bodies_of(inverse_),
+                                  [](auto const* body) -> auto const& { return body->kernel(); })),
+        f_(detail::validated(friction, c, inverse_.rows()).f),
+        B_(stacked(bodies, c)),
+        set_(cartesian(free_components<S>(bodies.B.rows()), detail::feasible_set(friction, c))),
+        constraints_(equilibrium()),
+        b_(B_.rows()) {
+    vector_type u(f_.size());
+    slant::apply(inverse_, f_, u);
+    b_.noalias() = B_ * u;
+    b_.head(bodies.c.size()) -= bodies.c;
+    detail::subtract_gaps(c, b_.tail(b_.size() - bodies.c.size()));
+  }
+  total_feti(total_feti const&) = delete;
+  total_feti& operator=(total_feti const&) = delete;
+
+  /// F = B K⁺ Bᵀ, never formed.
+  [[nodiscard]] auto a() const& { return congruence(B_, inverse_); }
+  auto a() const&& = delete;
+  /// The dual problem without G λ = e; refers to this object.
+  [[nodiscard]] auto qp() const& { return separable_qp{a(), b_, set_}; }
+  auto qp() const&& = delete;
+  /// G λ = e.
+  [[nodiscard]] equality_constraints<S> const& constraints() const& { return constraints_; }
+  equality_constraints<S> const& constraints() const&& = delete;
+  /// B = [B_E; N; T], for preconditioners.
+  [[nodiscard]] sparse_type const& rows() const& { return B_; }
+  sparse_type const& rows() const&& = delete;
+  /// R, all kernels.
+  [[nodiscard]] sparse_type const& kernel() const& { return R_; }
+  sparse_type const& kernel() const&& = delete;
+  /// λ = 0.
+  [[nodiscard]] vector_type zero() const { return vector_type::Zero(b_.size()); }
+
+  /// u = K⁺ (f − Bᵀλ) − R μ with the multipliers μ of G λ = e: one solve for each body.
+  [[nodiscard]] vector_type displacement(vector_type const& λ, vector_type const& μ) const {
+    slant::detail::check_size("lambda", λ.size(), b_.size());
+    slant::detail::check_size("mu", μ.size(), R_.cols(), "the dimension of all kernels,");
+    vector_type load = f_;
+    load.noalias() -= B_.transpose() * λ;
+    vector_type u(load.size());
+    slant::apply(inverse_, load, u);
+    u.noalias() -= R_ * μ;
+    return u;
+  }
+
+ private:
+  using inverse_type = diagonal_blocks_operator<generalized_inverse<S>>;
+  using set_type = decltype(cartesian(
+      free_components<S>(index{}),
+      detail::feasible_set(std::declval<Friction>(), std::declval<data<S> const&>())));
+
+  static inverse_type generalized_inverses(floating_bodies<S> const& bodies) {
+    if (bodies.K.empty()) throw bad_input("K", "no bodies", "at least one");
+    if (!bodies.R.empty()) {
+      slant::detail::check_size("R", static_cast<index>(bodies.R.size()),
+                                static_cast<index>(bodies.K.size()), "one kernel per body,");
+    }
+    std::vector<generalized_inverse<S>> inverses;
+    inverses.reserve(bodies.K.size());
+    for (std::size_t i = 0; i < bodies.K.size(); ++i) {
+      if (bodies.R.empty()) {
+        inverses.emplace_back(bodies.K[i]);
+      } else {
+        inverses.emplace_back(bodies.K[i], bodies.R[i]);
+      }
+    }
+    return diagonal_blocks(std::move(inverses));
+  }
+
+  static std::vector<generalized_inverse<S> const*> bodies_of(inverse_type const& inverse) {
+    std::vector<generalized_inverse<S> const*> list;
+    for (index i = 0; i < inverse.block_count(); ++i) list.push_back(&inverse.block(i));
+    return list;
+  }
+
+  /// G λ = e. Not movable, so made in place.
+  [[nodiscard]] equality_constraints<S> equilibrium() const {
+    vector_type const resultants = R_.transpose() * f_;
+    sparse_type const G = R_.transpose() * sparse_type(B_.transpose());
+    try {
+      return equality_constraints<S>(G, resultants);
+    } catch (bad_input const&) {
+      throw bad_input("f",
+                      "a load that moves body " + slant::detail::show(moving_body(G, resultants)),
+                      "one that the constraints can bear");
+    }
+  }
+
+  /// The body with the largest part of the resultants that is not in the range of G.
+  [[nodiscard]] index moving_body(sparse_type const& G, vector_type const& resultants) const {
+    using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+    dense_type const gram = dense_type(G * sparse_type(G.transpose()));
+    vector_type const rest = resultants - gram * gram.colPivHouseholderQr().solve(resultants);
+    index row = 0, body = 0;
+    rest.cwiseAbs().maxCoeff(&row);
+    while (row >= inverse_.block(body).kernel().cols())
+      row -= inverse_.block(body++).kernel().cols();
+    return body;
+  }
+
+  static sparse_type stacked(floating_bodies<S> const& bodies, data<S> const& c) {
+    slant::detail::check_size("columns of B", bodies.B.cols(), c.f.size(), "the size of f,");
+    slant::detail::check_size("c", bodies.c.size(), bodies.B.rows(), "the rows of B,");
+    slant::detail::require_finite_entries("B", bodies.B);
+    slant::detail::check_finite("c", bodies.c);
+    sparse_type const contact = detail::stacked_constraints(c);
+    std::vector<Eigen::Triplet<S>> entries;
+    entries.reserve(static_cast<std::size_t>(bodies.B.nonZeros() + contact.nonZeros()));
+    auto const append = [&](sparse_type const& m, index first) {
+      slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
+        entries.emplace_back(static_cast<int>(first + i), static_cast<int>(j), value);
+      });
+    };
+    append(bodies.B, 0);
+    append(contact, bodies.B.rows());
+    sparse_type whole(bodies.B.rows() + contact.rows(), c.f.size());
+    whole.setFromTriplets(entries.begin(), entries.end());
+    return whole;
+  }
+
+  inverse_type inverse_;  // K⁺
+  sparse_type R_;
+  vector_type f_;
+  sparse_type B_;
+  set_type set_;
+  equality_constraints<S> constraints_;
+  vector_type b_;
+};
+
+template <class Friction, class S>
+total_feti(Friction, floating_bodies<S> const&, data<S> const&) -> total_feti<Friction, S>;
+
+}  // namespace slant::contact

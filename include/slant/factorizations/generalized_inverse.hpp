@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// A generalised inverse of a symmetric positive semidefinite matrix K with kernel R, for bodies
+// that float [K refs 6, 15]: with J the fixing rows of R (kernel_basis.hpp) and I the others,
+//
+//     K⁺ = [ K_II⁻¹  0 ]          K K⁺ K = K,    K⁺ K K⁺ = K⁺,    K⁺ symmetric, semidefinite.
+//          [ 0       0 ]
+//
+// K_II is definite, so that one ordinary factorisation does. x = K⁺ b solves K x = b whenever Rᵀb =
+// 0 and is the solution with x_J = 0; all solutions are x + R α. Another choice of J changes x by
+// some R α; what the projector onto the orthogonal complement of R leaves of it is the same, that
+// of the Moore–Penrose inverse [K refs 42, 44].
+//
+//     auto Kplus = slant::generalized_inverse(K, slant::rigid_body_modes(nodes));
+//     auto F = slant::congruence(B, Kplus);
+#pragma once
+
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/factorizations/computed_kernel.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant {
+
+/// y = K⁺ x. Owns its factors and the kernel; copies share the factors.
+template <class S = double>
+class generalized_inverse {
+ public:
+  using scalar = S;
+  using sparse_type = Eigen::SparseMatrix<S>;
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+
+  /// K of which the kernel is not known; see computed_kernel.hpp. Two factorisations.
+  explicit generalized_inverse(sparse_type const& K)
+      : generalized_inverse(K, slant::computed_kernel(K)) {}
+
+  /// K with the kernel that the columns of R span, none for a regular K. One factorisation. Throws
+  /// bad_input if the columns are dependent or not in the kernel (with ‖K R‖ and what was
+  /// expected), if they are not all of it, or if K is not symmetric or not semidefinite.
+  generalized_inverse(sparse_type const& K, dense_type const& R)
+      : generalized_inverse(checked{}, K, basis(K, R), nullptr) {}
+
+  /// The same with given fixing rows, as many as R has columns: for those who know better than
+  /// fixing_rows. Throws bad_input also if a row is out of range or the rows of R are dependent.
+  generalized_inverse(sparse_type const& K, dense_type const& R, std::vector<index> const& fixing)
+      : generalized_inverse(checked{}, K, basis(K, R), &fixing) {}
+
+  [[nodiscard]] index rows() const noexcept { return kernel_.rows(); }
+  [[nodiscard]] index cols() const noexcept { return kernel_.rows(); }
+  /// R, n × d, with orthonormal columns: the kernel operator is matrix(kernel()).
+  [[nodiscard]] dense_type const& kernel() const& noexcept { return kernel_; }
+  [[nodiscard]] dense_type kernel() && noexcept { return std::move(kernel_); }
+  /// J, in increasing order.
+  [[nodiscard]] std::vector<index> const& fixing() const& noexcept { return fixing_; }
+  std::vector<index> const& fixing() const&& = delete;
+
+  /// Room for the components I.
+  template <class X>
+    requires std::same_as<scalar_t<X>, S>
+  [[nodiscard]] auto workspace(X const& x) const {
+    auto right = slant::like(slant::local(x), static_cast<index>(kept_.size()));
+    auto solution = right;
+    auto inner = slant::workspace(factors_, right);
+    return temporaries<decltype(right), decltype(inner)>{std::move(right), std::move(solution),
+                                                         std::move(inner)};
+  }
+  template <class X, class Y, class W>
+    requires std::same_as<scalar_t<X>, S>
+  void apply(X const& x, Y& y, W& w) const {
+    auto const& from = slant::local(x);
+    auto&& to = slant::local(y);
+    for (index j = 0; j < from.cols(); ++j) {
+      index i = 0;
+      for (index const k : kept_) w.right.coeffRef(i++, j) = from.coeff(k, j);
+    }
+    solve(w);
+    to.setZero();
+    for (index j = 0; j < from.cols(); ++j) {
+      index i = 0;
+      for (index const k : kept_) to.coeffRef(k, j) = w.solution.coeff(i++, j);
+    }
+  }
+
+ private:
+  struct checked {};
+  using factors_type = decltype(slant::factorize(std::declval<sparse_type const&>()));
+
+  template <class V, class Inner>
+  struct temporaries {
+    V right;     // x_I
+    V solution;  // K_II⁻¹ x_I
+    Inner inner;
+  };
+
+  generalized_inverse(checked, sparse_type const& K, dense_type kernel,
+                      std::vector<index> const* fixing)
+      : kernel_(std::move(kernel)),
+        fixing_(fixing != nullptr ? *fixing : fixing_rows(kernel_)),
+        kept_(complement(kernel_, fixing_)),
+        factors_(factored(K, kept_, kernel_.cols())) {}
+
+  template <class W>
+  void solve(W& w) const {
+    if constexpr (requires { factors_.solve(w.right, w.solution, w.inner); }) {
+      factors_.solve(w.right, w.solution, w.inner);
+    } else {
+      factors_.solve(w.right, w.solution);
+    }
+  }
+
+  /// Orthonormal columns, after a look at K and R.
+  static dense_type basis(sparse_type const& K, dense_type const& R) {
+    detail::require_symmetric_matrix("K", K);
+    detail::check_size("rows of R", R.rows(), K.rows(), "the size of K,");
+    detail::require_finite_entries("R", R);
+    dense_type basis = detail::orthonormal_basis<S>(R);
+    if (basis.cols() < R.cols()) {
+      throw bad_input("columns of R", "rank " + detail::show(index(basis.cols())),
+                      detail::show(index(R.cols())) + " independent ones");
+    }
+    detail::require_kernel(K, basis);
+    return basis;
+  }
+
+  /// The rows that are not in J, after a look at those that are.
+  static std::vector<index> complement(dense_type const& R, std::vector<index> const& fixing) {
+    detail::check_size("number of fixing rows", static_cast<index>(fixing.size()), R.cols(),
+                       "the columns of R,");
+    std::vector<bool> taken(static_cast<std::size_t>(R.rows()), false);
+    for (index const row : fixing) {
+      bool const usable = row >= 0 && row < R.rows() && !taken[static_cast<std::size_t>(row)];
+      if (!usable) {
+        throw bad_input("fixing", detail::show(row),
+                        "different rows of R, from 0 to " + detail::show(index(R.rows() - 1)));
+      }
+      taken[static_cast<std::size_t>(row)] = true;
+    }
+    if (!fixing.empty()) {
+      dense_type const held = R(fixing, Eigen::all);
+      if (detail::orthonormal_basis<S>(held).cols() < R.cols()) {
+        throw bad_input("fixing", "rows of R that are dependent",
+                        "rows that hold the body: a regular block of R");
+      }
+    }
+    std::vector<index> rest;
+    for (index i = 0; i < R.rows(); ++i) {
+      if (!taken[static_cast<std::size_t>(i)]) rest.push_back(i);
+    }
+    return rest;
+  }
+
+  static factors_type factored(sparse_type const& K, std::vector<index> const& rows, index d) {
+    std::vector<int> place(static_cast<std::size_t>(K.rows()), -1);
+    int count = 0;
+    for (index const row : rows) place[static_cast<std::size_t>(row)] = count++;
+    std::vector<Eigen::Triplet<S>> entries;
+    entries.reserve(static_cast<std::size_t>(K.nonZeros()));
+    detail::for_each_entry(K, [&](index i, index j, S const& value) {
+      int const row = place[static_cast<std::size_t>(i)], col = place[static_cast<std::size_t>(j)];
+      if (row >= 0 && col >= 0) entries.emplace_back(row, col, value);
+    });
+    sparse_type block(count, count);
+    block.setFromTriplets(entries.begin(), entries.end());
+    try {
+      return slant::factorize(block);
+    } catch (bad_input const& refusal) {
+      throw bad_input("R",
+                      detail::show(d) + " directions, and with as many rows fixed still " +
+                          std::string(refusal.what()),
+                      "the whole kernel of a positive semidefinite K");
+    }
+  }
+
+  dense_type kernel_;          // R
+  std::vector<index> fixing_;  // J
+  std::vector<index> kept_;    // I
+  factors_type factors_;       // of K_II
+};
+
+}  // namespace slant

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+//
+// Bases of the kernel of a symmetric positive semidefinite matrix K, and the rows at which to hold
+// a body so that it cannot move along them.
+//
+// Fixing rows. Let R (n × d, orthonormal columns) span ker K and J be d rows with regular R_J. Then
+// K without the rows and columns J is regular, and everything that is computed with it is amplified
+// by R R_J⁻¹ at most: that is the motion of the whole body when the unknowns J move by one. So J is
+// chosen as a submatrix of locally maximal volume [Goreinov, Oseledets, Savostyanov, Tyrtyshnikov,
+// Zamarashkin 2010]: QR with column pivoting of Rᵀ, then rows are exchanged as long as |det R_J|
+// grows. At the end no entry of R R_J⁻¹ exceeds 1 by more than a twentieth, whatever the shape of
+// the body: its rows are as far apart as the body is long. Three nodes anywhere, the middle and two
+// neighbours say, would give R R_J⁻¹ the size of the ratio of length and distance.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/operators/detail/matrix_entries.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace slant {
+
+namespace detail {
+
+/// Orthonormal columns that span those of R, as many as R has independent ones: up to 1024 ε, each
+/// column measured by its own length. Entries are finite.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> orthonormal_basis(
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> R) {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  for (index j = 0; j < R.cols(); ++j) {
+    S const largest = R.rows() > 0 ? S(R.col(j).cwiseAbs().maxCoeff()) : S(0);
+    if (!(largest > S(0))) continue;
+    R.col(j) /= largest;
+    R.col(j) /= R.col(j).norm();
+  }
+  if (R.rows() == 0 || R.cols() == 0) return matrix_type(R.rows(), 0);
+  Eigen::ColPivHouseholderQR<matrix_type> qr;
+  qr.setThreshold(S(1024) * std::numeric_limits<S>::epsilon());
+  qr.compute(R);
+  return qr.householderQ() * matrix_type::Identity(R.rows(), qr.rank());
+}
+
+/// The largest sum of |K_ij| over a row i: ‖K‖ in the maximum norm, and a bound of its eigenvalues.
+template <class S>
+[[nodiscard]] S largest_row_sum(Eigen::SparseMatrix<S> const& K) {
+  using std::abs;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> sums = Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(K.rows());
+  for_each_entry(K, [&](index i, index, S const& value) { sums[i] += abs(value); });
+  return K.rows() > 0 ? S(sums.maxCoeff()) : S(0);
+}
+
+/// ‖K R‖ / (‖K‖ ‖R‖) that rounding errors of the assembly of K and of R may make.
+template <class S>
+[[nodiscard]] S kernel_rounding() {
+  return S(1024) * std::numeric_limits<S>::epsilon();
+}
+
+/// Throws bad_input with the measured and the expected ‖K R‖ unless K R = 0 up to rounding, in the
+/// maximum norm. Sizes match, entries are finite.
+template <class S, class R>
+void require_kernel(Eigen::SparseMatrix<S> const& K, R const& kernel) {
+  if (kernel.size() == 0) return;
+  S const size = largest_row_sum(K) * kernel.cwiseAbs().maxCoeff();
+  S const residual = (K * kernel).cwiseAbs().maxCoeff();
+  S const most = kernel_rounding<S>() * size;
+  if (residual <= most) return;
+  throw bad_input("R", "max |K R| = " + show(residual),
+                  "columns in the kernel of K: max |K R| at most " + show(most) + " = " +
+                      show(kernel_rounding<S>()) + " max |R| times the largest row sum of |K|");
+}
+
+}  // namespace detail
+
+/// Rows J of R, as many as it has columns, for which R_J is regular and |R R_J⁻¹| ≤ 1.05: see the
+/// top of this file. In increasing order. The columns of R are independent, else bad_input.
+template <class M>
+[[nodiscard]] std::vector<index> fixing_rows(Eigen::MatrixBase<M> const& R) {
+  using S = typename M::Scalar;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  detail::require_finite_entries("R", R.derived());
+  index const d = R.cols();
+  std::vector<index> rows;
+  if (d == 0) return rows;
+  Eigen::ColPivHouseholderQR<matrix_type> qr;
+  qr.setThreshold(S(1024) * std::numeric_limits<S>::epsilon());
+  qr.compute(R.transpose());
+  if (qr.rank() < d) {
+    throw bad_input("columns of R", "rank " + detail::show(index(qr.rank())),
+                    detail::show(d) + " independent ones");
+  }
+  auto const& order = qr.colsPermutation().indices();
+  for (index j = 0; j < d; ++j) rows.push_back(order[j]);
+  // Each exchange multiplies the volume by more than 1.05, so there are few.
+  while (true) {
+    matrix_type const held = R(rows, Eigen::all);
+    qr.compute(held.transpose());
+    matrix_type const amplification = qr.solve(R.transpose());
+    index j = 0, i = 0;
+    if (!(amplification.cwiseAbs().maxCoeff(&j, &i) > S(1.05))) break;
+    rows[static_cast<std::size_t>(j)] = i;
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace slant

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// SMALSE-M, semimonotonic augmented Lagrangians for separable and equality constraints [K §3.1.2;
+// K refs 9, 13]: Dostál, Kučera, SIAM J. Optim. 20 (2010), for
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m,   G x = e
+//
+//     L(x, ν, ρ) = ½ xᵀP A P x − (P (b − A x̄))ᵀx + νᵀ(Q x − x̄) + ½ ρ ‖Q x − x̄‖²,   ν = Gᵀμ
+//
+//     (1°) x ∈ Λ with ‖r̃(x)‖ ≤ min(M ‖Q x − x̄‖, η), r̃ the reduced gradient of L(·, ν, ρ)
+//     (2°) ν ← ν + ρ (Q x − x̄)
+//     (3°) if L(xᵏ, νᵏ, ρ) < L(xᵏ⁻¹, νᵏ⁻¹, ρ) + ½ ρ ‖Q xᵏ − x̄‖²:   M ← β M
+//
+// Instead of the penalty ρ, which would spoil the spectrum of the inner problems, M is adapted; it
+// falls below a bound that depends on the spectrum alone only finitely often, after which L grows
+// by ½ ρ ‖Q x − x̄‖² a step. So the number of outer steps, and that of the inner ones, is bounded by
+// the spectra of P A P on ker G and by the accuracy, for any number of unknowns and constraints.
+//
+// With options.newton_multipliers a Newton step for x and ν together follows (3°), if it lowers the
+// error; see methods/multiplier_newton.hpp.
+//
+// Rows of G need not be orthonormal: they enter by the projectors Q onto range Gᵀ and P = I − Q
+// only, see methods/augmented_problem.hpp, and ‖Q x − x̄‖, the distance of x from { G x = e },
+// stands for ‖G x − e‖.
+#pragma once
+
+#include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/smalse_core.hpp>
+#include <slant/methods/smalse_options.hpp>
+#include <slant/methods/smalse_problem.hpp>
+#include <slant/methods/smalse_state.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// The method at the top of this file: solve(smalse{qp, constraints}, x0, reduced_gradient_below(
+/// 1e-8) && feasibility_below(1e-8) || at_most(100)); options last, with the inner method in them.
+/// Requires of the problem what kprgp does; constraints are equality_constraints{G, e}. Spends one
+/// application of A an outer step besides those of the inner method, and at the start those for the
+/// bound of σ_max(P A P). Statuses of its own: converged, stalled (see state.infeasible),
+/// unbounded, breakdown.
+template <class QP, class C, class Inner>
+  requires smalse_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>>
+class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
+  using core = detail::smalse_core<QP, C, Inner>;
+  using typename core::inner_qp;
+
+ public:
+  using typename core::options;
+  using typename core::scalar;
+  using typename core::state_type;
+  using typename core::vector_type;
+
+  smalse(held<QP> qp, held<C> c) : smalse(std::move(qp), std::move(c), options{}) {}
+  /// Throws bad_input if the constraints are for another number of unknowns, or for options out of
+  /// range.
+  smalse(held<QP> qp, held<C> c, options o) : core(std::move(qp), std::move(c), std::move(o)) {}
+
+  /// The state of P_Λ(x0) with ν = 0. Throws bad_input if x0 or A x0 is not finite or of the wrong
+  /// size, or as the bound of σ_max and the inner method do.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    auto const& c = constraints_.get();
+    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
+    detail::check_finite("x0", x0);
+
+    auto const bound =
+        largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0, options_.spectrum);
+    scalar const ρ = options_.penalty * (bound.ritz > scalar(0) ? bound.ritz : scalar(1));
+    scalar const σ = std::max(bound.upper, ρ);  // of P A P + ρ Q: both act on spaces of their own
+
+    vector_type const& x_e = c.nearest();
+    vector_type rest = qp.b(), projected_b = qp.b();
+    slant::apply(qp.a(), x_e, rest);
+    slant::local(rest) = slant::local(qp.b()) - slant::local(rest);
+    slant::apply(c.kernel_projector(), rest, projected_b);
+    vector_type b = projected_b;
+    slant::local(b) += ρ * slant::local(x_e);
+
+    auto const inner_problem = augmented(b, ρ);
+    auto inner = inner_method(inner_problem, ρ, σ).start(x0);
+    // Known, not learnt: what counts as a direction of the kernel depends on it.
+    if constexpr (requires { inner.σ; }) inner.σ = std::max<scalar>(bound.ritz, ρ);
+    vector_type ν = like(x0, qp.size());
+    slant::local(ν).setZero();
+    state_type s{x0, ν, projected_b, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
+    s.σ = σ;
+    s.ρ = ρ;
+    s.M = options_.balance * ρ;
+    scalar const size = norm(s.projected_b);
+    s.gradient_scale = size > scalar(0) ? size : ρ * norm(x_e);
+    s.η = options_.precision * s.gradient_scale;
+    s.work = s.inner.work;
+    s.work.setup_applications += bound.applications + 1;
+    look(s);
+    return s;
+  }
+
+  /// One inner problem and the update of ν.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    form_linear_term(s);
+    if (s.status != status::running) return;
+    auto const inner_problem = augmented(s.b, s.ρ);
+    minimise(s, inner_method(inner_problem, s.ρ, s.σ));
+    adapt_precision(s, inner_problem);
+    slant::local(s.ν) += s.ρ * slant::local(s.offset);
+    ++s.iteration;
+    look(s);
+    if constexpr (core::knows_rows) {
+      if (options_.newton_multipliers && s.status == status::running) improve(s);
+    }
+    note_progress(s);
+  }
+
+  /// r̃ from x, if the inner method has been updating it; whether it has. One application.
+  bool refresh(state_type& s) const {
+    auto const inner_problem = augmented(s.b, s.ρ);
+    if (!inner_method(inner_problem, s.ρ, s.σ).refresh(s.inner)) return false;
+    ++s.work.operator_applications;
+    s.status = status::running;
+    look(s);
+    return true;
+  }
+
+  /// μ of G x = e, as many as G has rows: the gradient A x − b + Gᵀμ, reduced, vanishes at the
+  /// solution. One application of A.
+  [[nodiscard]] auto multipliers(state_type const& s) const {
+    auto const& qp = qp_.get();
+    vector_type feasible = s.x, v = s.x;
+    slant::local(feasible) -= slant::local(s.offset);  // P x + x̄
+    slant::apply(qp.a(), feasible, v);
+    slant::local(v) = slant::local(s.ν) - slant::local(v) + slant::local(qp.b());
+    return constraints_.get().multipliers(v);
+  }
+
+ private:
+  using core::augmented, core::constraints_, core::form_linear_term, core::improve,
+      core::inner_method, core::look, core::measure_offset, core::note_progress, core::options_,
+      core::qp_;
+
+  /// (1°). The inner method may end by itself: at the solution, or where it gets no further.
+  template <class Method>
+  void minimise(state_type& s, Method const& method) const {
+    auto& inner = s.inner;
+    work const before = inner.work;
+    index const steps_before = inner.iteration;
+    if (s.iteration > 0 && !s.resumed) method.resume(inner);
+    s.comparable = s.iteration > 0 && !s.resumed;
+    s.resumed = false;
+    scalar const at_start = inner.reduced_gradient_norm;
+    while (inner.status == status::running &&
+           inner.iteration - steps_before < options_.inner_steps) {
+      measure_offset(s, inner.x);
+      if (inner.reduced_gradient_norm <= wanted(s, at_start)) break;
+      method.step(inner);
+    }
+    measure_offset(s, inner.x);
+    s.inner_iterations = inner.iteration - steps_before;
+    s.work.inner_iterations += s.inner_iterations;
+    s.work.operator_applications += inner.work.operator_applications - before.operator_applications;
+    s.work.setup_applications += inner.work.setup_applications - before.setup_applications;
+  }
+
+  /// min(M ‖Q x − x̄‖, η), but nothing that is lost in rounding errors (unless those are larger than
+  /// the whole gradient: then x is on its way to infinity). Where G x = e holds by itself, a part
+  /// of ‖r̃‖ takes the place of M ‖Q x − x̄‖.
+  [[nodiscard]] scalar wanted(state_type const& s, scalar const& at_start) const {
+    scalar const balanced = s.M * s.feasibility_norm, noise = s.inner.rounding();
+    scalar const least = scalar(64) * std::numeric_limits<scalar>::epsilon() * s.σ *
+                         (norm(s.inner.x) + norm(constraints_.get().nearest()));
+    scalar const most =
+        std::min<scalar>(s.η, balanced > least ? balanced : options_.shrink * at_start);
+    return noise < s.η ? std::max(most, noise) : most;
+  }
+
+  /// (3°), as far as it can be told from rounding errors.
+  void adapt_precision(state_type& s, inner_qp const& qp) const {
+    auto const [q, noise] = s.inner.energy(qp);
+    auto const& x_e = constraints_.get().nearest();
+    // L − q: the constant terms −νᵀx̄ + ½ ρ ‖x̄‖², and what is left of L's.
+    scalar const constant =
+        (s.ρ * inner_product(x_e, x_e) / scalar(2) - inner_product(s.ν, x_e)) / s.inner.unit;
+    scalar const now = q + constant;
+    scalar const growth =
+        s.ρ * s.feasibility_norm * (s.feasibility_norm / s.inner.unit) / scalar(2);
+    if (s.comparable && now < s.lagrangian + growth - noise) s.M *= options_.shrink;
+    s.lagrangian = now;
+  }
+};
+
+}  // namespace slant

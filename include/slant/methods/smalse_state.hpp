@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// The state of SMALSE-M.
+#pragma once
+
+#include <slant/iteration/report.hpp>
+#include <slant/methods/approach_watch.hpp>
+#include <slant/methods/augmented_problem.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+namespace detail {
+
+/// The inner problem: its operator is owned, its linear term and set are referenced.
+template <class QP, class C>
+using augmented_qp = separable_qp<decltype(slant::augmented_hessian(
+                                      std::declval<typename QP::operator_type const&>(),
+                                      std::declval<C const&>(), typename QP::scalar(1))),
+                                  typename QP::vector_type const&, typename QP::set_type const&>;
+
+template <class QP, class C, class Inner>
+using inner_method_t = decltype(std::declval<Inner const&>().make(
+    std::declval<augmented_qp<QP, C> const&>(), std::declval<C const&>(), typename QP::scalar(1),
+    typename QP::scalar(1)));
+
+}  // namespace detail
+
+/// State of smalse for a separable_qp of type QP, constraints C and an inner method.
+template <class QP, class C, class Inner>
+struct smalse_state {
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+  using inner_state = typename detail::inner_method_t<QP, C, Inner>::state_type;
+
+  vector_type x;            ///< in Λ; close to the affine space
+  vector_type ν;            ///< Gᵀμ, the multiplier of G x = e, a gradient
+  vector_type projected_b;  ///< P (b − A x̄)
+  vector_type b;            ///< linear term of the last inner problem
+  vector_type offset;       ///< Q x − x̄
+  inner_state inner;        ///< of the method for L(·, ν, ρ); its r, r̃ belong to b
+  workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace;
+
+  scalar σ{1};           ///< σ_max(P A P), from above
+  scalar ρ{1};           ///< penalty
+  scalar M{1};           ///< inner problems are solved until ‖r̃‖ ≤ M ‖Q x − x̄‖
+  scalar η{0};           ///< and ‖r̃‖ ≤ η
+  scalar lagrangian{0};  ///< L(x, ν, ρ) of the last inner problem, in units of inner.unit
+  scalar feasibility_norm{0};       ///< ‖Q x − x̄‖, distance of x from the affine space
+  scalar feasibility_scale{0};      ///< max(‖x̄‖, ‖x‖)
+  scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of the Lagrangian with the new ν
+  scalar gradient_scale{0};         ///< ‖P (b − A x̄)‖; if that is 0, ρ ‖x̄‖
+  index inner_iterations = 0;       ///< of the last outer step
+  index iteration = 0;              ///< outer steps: updates of ν
+  slant::status status = slant::status::running;
+  slant::work work{};
+
+  approach_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  bool resumed = false;               ///< the inner method has been told of ν already
+  bool comparable = false;            ///< L may be compared with that of the step before
+  index pause = 0;          ///< steps to wait after the next failure of Newton's method for ν
+  index wait = 0;           ///< steps until it is tried again
+  bool infeasible = false;  ///< x gets no nearer to G x = e, which no point of Λ satisfies
+
+  /// What a status other than running means here.
+  [[nodiscard]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the reduced gradient and the residual of the equality constraints vanish";
+      case slant::status::stalled:
+        return infeasible ? "no point of the set satisfies the equality constraints"
+                          : "neither the reduced gradient nor the residual of the equality "
+                            "constraints has fallen any more";
+      case slant::status::unbounded:
+        return "the function decreases for ever along a direction of the set";
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or A is not positive semidefinite";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+}  // namespace slant

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "spd_examples.hpp"
+
+#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/factorizations/generalized_inverse.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Eigenvalues>
+
+#include <fem/box_mesh.hpp>
+#include <fem/elasticity.hpp>
+#include <support/allocation_guard.hpp>
+#include <support/dense_of.hpp>
+#include <support/effort.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace generalized_inverse_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using sparse = Eigen::SparseMatrix<double>;
+using slant::generalized_inverse;
+
+/// A steel box that nothing holds.
+template <int D>
+struct floating_box {
+  fem::box_mesh<D> mesh;
+  sparse K;
+  MatrixXd R;
+
+  explicit floating_box(std::array<int, D> const& cells, Eigen::Matrix<double, D, 1> const& origin =
+                                                             Eigen::Matrix<double, D, 1>::Zero()) {
+    Eigen::Matrix<double, D, 1> size;
+    for (int axis = 0; axis < D; ++axis) size[axis] = cells[static_cast<std::size_t>(axis)];
+    mesh = fem::make_box_mesh<D>(cells, size, origin);
+    auto const unknowns = fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
+    K = fem::stiffness<D>(mesh, unknowns, fem::lame(2.119e5, 0.277));
+    R = slant::contact::rigid_body_modes(mesh.nodes);
+  }
+};
+
+double size_of(sparse const& K) {
+  return slant::detail::largest_row_sum(K);
+}
+
+/// max |K K⁺ K − K| / max |K|, the columns of K⁺K one by one.
+double first_law(sparse const& K, generalized_inverse<double> const& inverse) {
+  double worst = 0;
+  VectorXd y(K.rows());
+  auto w = slant::workspace(inverse, y);
+  for (Eigen::Index j = 0; j < K.cols(); ++j) {
+    VectorXd const column = K.col(j);
+    slant::apply(inverse, column, y, w);
+    worst = std::max(worst, (K * y - column).cwiseAbs().maxCoeff());
+  }
+  return worst / K.coeffs().cwiseAbs().maxCoeff();
+}
+
+/// P K⁺ P with the projector P onto the orthogonal complement of the kernel.
+MatrixXd projected(generalized_inverse<double> const& inverse) {
+  MatrixXd const& R = inverse.kernel();
+  MatrixXd const P = MatrixXd::Identity(R.rows(), R.rows()) - R * R.transpose();
+  return P * test::dense_of(inverse) * P;
+}
+
+/// Rows that hold a body, at random.
+std::vector<slant::index> random_fixing(MatrixXd const& R, unsigned seed) {
+  std::vector<slant::index> rows(static_cast<std::size_t>(R.rows()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::mt19937 generator(seed);
+  while (true) {
+    std::shuffle(rows.begin(), rows.end(), generator);
+    std::vector<slant::index> const chosen(rows.begin(), rows.begin() + R.cols());
+    MatrixXd const held = R(chosen, Eigen::all);
+    if (held.colPivHouseholderQr().rank() == R.cols()) return chosen;
+  }
+}
+
+TEST_CASE("K K+ K = K for slender bodies from 1:1 to 1:100") {
+  for (int const length : {1, 10, test::effort(100, 30)}) {
+    CAPTURE(length);
+    floating_box<3> const box({length, 1, 1});
+    generalized_inverse<double> const given(box.K, box.R);
+    CHECK(first_law(box.K, given) <= 1e-11);
+    CHECK((box.K * given.kernel()).norm() <= 1e-13 * size_of(box.K));
+    generalized_inverse<double> const computed(box.K);
+    CHECK(computed.kernel().cols() == 6);
+    CHECK((box.K * computed.kernel()).norm() <= 1e-12 * size_of(box.K));
+    CHECK(first_law(box.K, computed) <= 1e-10);
+    // Both bases span the same space.
+    MatrixXd const& R = given.kernel();
+    CHECK((computed.kernel() - R * (R.transpose() * computed.kernel())).norm() <= 1e-5);
+  }
+  floating_box<2> const strip({test::effort(400, 100), 4});
+  generalized_inverse<double> const plane(strip.K, strip.R);
+  CHECK(plane.kernel().cols() == 3);
+  CHECK(first_law(strip.K, plane) <= 1e-11);
+  CHECK(generalized_inverse<double>(strip.K).kernel().cols() == 3);
+}
+
+TEST_CASE("far from the origin and in any units") {
+  floating_box<3> const box({12, 2, 1}, {1e6, -2e6, 3e6});
+  CHECK(first_law(box.K, generalized_inverse<double>(box.K, box.R)) <= 1e-11);
+  for (double const unit : {1e-150, 1e150}) {
+    sparse const K = unit * box.K;
+    CHECK(first_law(K, generalized_inverse<double>(K, box.R)) <= 1e-11);
+    CHECK(generalized_inverse<double>(K).kernel().cols() == 6);
+  }
+}
+
+TEST_CASE("the fixing rows lie far apart: no motion of the body exceeds that of its fixed points") {
+  for (int const length : {1, 10, 100}) {
+    floating_box<3> const box({length, 1, 1});
+    generalized_inverse<double> const inverse(box.K, box.R);
+    MatrixXd const& R = inverse.kernel();
+    MatrixXd const held = R(inverse.fixing(), Eigen::all);
+    MatrixXd const amplification = held.transpose().colPivHouseholderQr().solve(R.transpose());
+    CHECK(amplification.cwiseAbs().maxCoeff() <= 1.05 + 1e-12);
+  }
+}
+
+TEST_CASE("three nodes side by side would lose digits of a slender body") {
+  floating_box<3> const box({test::effort(100, 40), 1, 1});
+  generalized_inverse<double> const chosen(box.K, box.R);
+  generalized_inverse<double> const corner(box.K, box.R, {0, 1, 2, 3, 4, 6});
+  CHECK(first_law(box.K, corner) >= 100 * first_law(box.K, chosen));
+}
+
+TEST_CASE("for any fixing rows the projected operator is the Moore-Penrose inverse") {
+  floating_box<3> const box({test::effort(16, 6), 1, 1});
+  generalized_inverse<double> const inverse(box.K, box.R);
+  Eigen::SelfAdjointEigenSolver<MatrixXd> const eigen{MatrixXd(box.K)};
+  VectorXd reciprocal = eigen.eigenvalues().cwiseInverse();
+  reciprocal.head(6).setZero();
+  MatrixXd const pseudo =
+      eigen.eigenvectors() * reciprocal.asDiagonal() * eigen.eigenvectors().transpose();
+  CHECK((projected(inverse) - pseudo).norm() <= 1e-9 * pseudo.norm());
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    generalized_inverse<double> const other(box.K, box.R, random_fixing(inverse.kernel(), seed));
+    CHECK((projected(other) - pseudo).norm() <= 1e-9 * pseudo.norm());
+    CHECK(first_law(box.K, other) <= 1e-10);
+  }
+  slant::testing::check_operator_laws(inverse, {.roundings = 1e5});
+}
+
+TEST_CASE("two bodies in one matrix, unknowns without stiffness, a regular matrix, nothing") {
+  sparse const one = test::grid_laplacian(3, 0.0);
+  sparse two(55, 55);
+  std::vector<Eigen::Triplet<double>> entries;
+  slant::detail::for_each_entry(one, [&](auto i, auto j, double value) {
+    entries.emplace_back(int(i), int(j), value);
+    entries.emplace_back(27 + int(i), 27 + int(j), 1e-6 * value);  // much softer
+  });
+  two.setFromTriplets(entries.begin(), entries.end());
+  generalized_inverse<double> const inverse(two);
+  CHECK(inverse.kernel().cols() == 3);  // two constants, and the last unknown
+  CHECK(first_law(two, inverse) <= 1e-12);
+
+  sparse const regular = test::grid_laplacian(3, 0.5);
+  generalized_inverse<double> const ordinary(regular);
+  CHECK(ordinary.kernel().cols() == 0);
+  CHECK(first_law(regular, ordinary) <= 1e-12);
+  CHECK(generalized_inverse<double>(sparse(3, 3)).kernel().cols() == 3);
+  CHECK(generalized_inverse<double>(sparse(0, 0)).rows() == 0);
+}
+
+TEST_CASE("what is no kernel is refused with what was measured") {
+  floating_box<3> const box({3, 1, 1});
+  auto const complaint = [&](sparse const& K, MatrixXd const& R) -> std::string {
+    try {
+      generalized_inverse<double> const inverse(K, R);
+      return "accepted";
+    } catch (slant::bad_input const& e) {
+      return e.what();
+    }
+  };
+  CHECK(complaint(box.K, box.R) == "accepted");
+  MatrixXd wrong = box.R;
+  wrong(0, 0) += 1e-6;
+  CHECK(test::contains(complaint(box.K, wrong), "R: got max |K R| = "));
+  CHECK(test::contains(complaint(box.K, wrong), "expected columns in the kernel of K"));
+  std::string const incomplete = complaint(box.K, box.R.leftCols(5));
+  CHECK(test::contains(incomplete, "R: got 5 directions"));
+  CHECK(test::contains(incomplete, "expected the whole kernel"));
+  MatrixXd twice(box.R.rows(), 7);
+  twice << box.R, box.R.col(2);
+  CHECK(test::contains(complaint(box.K, twice), "columns of R: got rank 6"));
+  CHECK(test::contains(complaint(box.K, box.R.topRows(4)), "rows of R"));
+  sparse const negative = -box.K;
+  CHECK(complaint(negative, box.R) != "accepted");
+  CHECK_THROWS_AS(generalized_inverse<double>{negative}, slant::bad_input);
+  CHECK_THROWS_AS(generalized_inverse<double>(box.K, box.R, {0, 1, 2, 3, 4}), slant::bad_input);
+  CHECK_THROWS_AS(generalized_inverse<double>(box.K, box.R, {0, 1, 2, 3, 4, 4}), slant::bad_input);
+  CHECK_THROWS_AS(generalized_inverse<double>(box.K, box.R, {0, 1, 2, 3, 4, 999}),
+                  slant::bad_input);
+  // Three nodes, of which two are not fixed in any direction across the line through them.
+  CHECK_THROWS_AS(generalized_inverse<double>(box.K, box.R, {0, 3, 6, 9, 12, 15}),
+                  slant::bad_input);
+}
+
+TEST_CASE("an application does not allocate") {
+  floating_box<3> const box({4, 1, 1});
+  generalized_inverse<double> const inverse(box.K, box.R);
+  VectorXd const x = VectorXd::Ones(box.K.rows());
+  VectorXd y(x.size());
+  auto w = slant::workspace(inverse, x);
+  slant::testing::allocation_guard guard;
+  inverse.apply(x, y, w);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+}  // namespace generalized_inverse_test

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <slant/methods/multiplier_newton.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/LU>
+
+#include <random>
+
+namespace multiplier_newton_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using sparse = Eigen::SparseMatrix<double>;
+
+MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> gaussian;
+  return MatrixXd::NullaryExpr(rows, cols, [&] { return gaussian(generator); });
+}
+
+TEST_CASE("the saddle point system of the face, as solved by dense matrices") {
+  // Two free components, two half lines (one at its bound), a disc that slides and one that sticks.
+  auto const set = slant::cartesian(slant::free_components(2), slant::half_lines(2),
+                                    slant::discs(VectorXd{{1.0, 1.0}}));
+  VectorXd const z{{3.0, -2.0, -1.0, 2.0, 1.2, 1.6, 0.1, 0.2}};
+  MatrixXd const root = random_matrix(8, 8, 1);
+  MatrixXd const A = root * root.transpose() + MatrixXd::Identity(8, 8);
+  MatrixXd const N = random_matrix(2, 8, 2);
+  VectorXd const r = random_matrix(8, 1, 3), offset = N.transpose() * random_matrix(2, 1, 4);
+  double const α = 0.7;
+
+  // The free directions: all but the closed half line and the normal of the sliding disc, whose
+  // projection shrinks by 1/2 along the tangent: C = 2 − 1 there.
+  MatrixXd basis = MatrixXd::Zero(8, 6);
+  basis(0, 0) = basis(1, 1) = basis(3, 2) = basis(6, 3) = basis(7, 4) = 1;
+  VectorXd const tangent{{-0.8, 0.6}};
+  basis.block<2, 1>(4, 5) = tangent;
+  MatrixXd H = basis.transpose() * A * basis;
+  H(5, 5) += 1 / α;
+  MatrixXd saddle = MatrixXd::Zero(8, 8);
+  saddle << H, (N * basis).transpose(), N * basis, MatrixXd::Zero(2, 2);
+  VectorXd right(8);
+  right << -(basis.transpose() * r), -(N * offset);
+  VectorXd const solution = saddle.partialPivLu().solve(right);
+
+  slant::multiplier_newton<double> newton;
+  sparse const rows = N.sparseView();
+  auto const a = slant::matrix(A);
+  slant::no_workspace w;
+  REQUIRE(newton.assign(rows, set, z));
+  REQUIRE(newton.solve(a, w, rows, r, offset, α, 1e-14, 100));
+  CHECK((newton.t - basis * solution.head(6)).norm() <= 1e-12);
+  CHECK((newton.dν - N.transpose() * solution.tail(2)).norm() <= 1e-11);
+  CHECK(newton.iterations <=
+        7);  // one for the second row, four dimensions besides, rounding errors
+}
+
+TEST_CASE("a face that leaves an equation nothing to act on has no such step") {
+  auto const set = slant::half_lines(3);
+  sparse N(2, 3);
+  N.insert(0, 0) = 1;
+  N.insert(1, 1) = 1;
+  slant::multiplier_newton<double> newton;
+  CHECK(newton.assign(N, set, VectorXd{{1.0, 1.0, 1.0}}));
+  CHECK(!newton.assign(N, set, VectorXd{{1.0, -1.0, 1.0}}));
+  sparse dependent(2, 3);
+  dependent.insert(0, 0) = dependent.insert(1, 0) = dependent.insert(1, 1) = 1;
+  CHECK(!newton.assign(dependent, set, VectorXd{{1.0, -1.0, 1.0}}));
+}
+
+TEST_CASE("an operator that is not definite on the face is found out") {
+  auto const set = slant::free_components(3);
+  sparse N(1, 3);
+  N.insert(0, 0) = 1;
+  MatrixXd const A = VectorXd{{1.0, 1.0, 0.0}}.asDiagonal();
+  VectorXd const r{{1.0, 1.0, 1.0}}, offset = VectorXd::Zero(3);
+  slant::multiplier_newton<double> newton;
+  slant::no_workspace w;
+  REQUIRE(newton.assign(N, set, r));
+  CHECK(!newton.solve(slant::matrix(A), w, N, r, offset, 1.0, 1e-12, 100));
+}
+
+}  // namespace multiplier_newton_test
