@@ -49,7 +49,7 @@ int solve_flow(settings const& s) {
 /// "13/200 5.2s"
 std::string with_seconds(stokes::flow_run const& run) {
   std::array<char, 32> seconds{};
-  std::snprintf(seconds.data(), seconds.size(), " %.2gs", run.seconds);
+  std::snprintf(seconds.data(), seconds.size(), " %.2fs", run.seconds);
   return examples::steps_and_products(run.work) + seconds.data();
 }
 
