@@ -241,6 +241,7 @@ bool crossover(char const* preconditioner, int k, Interior const& interior, Newt
     auto const r = slant::solve_then(
         interior, slant::reduced_gradient_below(handover) || slant::at_most(60),
         [&](auto const& s) { return newton(s.step_length); }, zero, stop);
+    if (!r.second) continue;
     std::printf("crossover at %g,%s,%d,%td+%td,%td+%td,%.1e\n", handover, preconditioner, k,
                 r.first.iterations(), r.second->iterations(), products(r.first.state.work),
                 products(r.second->state.work),

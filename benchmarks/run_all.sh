@@ -5,25 +5,25 @@
 #
 #   benchmarks/run_all.sh [--only NAME]… [--output FOLDER]
 #
-#   composition    instructions of composed operators, beside loops written by hand
-#   slanting       instructions of F°(y) by the chain rule, beside hand-derived formulas
-#   compile_time   seconds and memory of the compiler for a few includes
-#   projections    largest error of the projections at a million points each
-#   example_1      products of KPRGP for eleven Γ, beside the printed ones
-#   wire           active constraints of the wire, beside the printed ones
-#   brick          error of KPRGP against work: the steel brick, three sizes, three loads
-#   newton_brick   products of Newton's methods on the brick until the energy error is 1e-8
-#   newton_wire    Newton steps on the wire, from zero and by nested iteration
-#   newton_floor   the accuracy at which the symmetric Newton method stalls, against κ(A)
-#   interior_brick        products of the interior-point method until the energy error is 1e-6
-#   interior_condition    condition of its systems with and without preconditioner
-#   interior_crossover    lift to the last digits: interior point, then the symmetric Newton method
-#   projector_steps       CG steps with and without the conjugate projector, brick refined
-#   projector_contact     the Schur complement contact algorithm on the brick without friction
-#   projector_search      the same on stacks of bricks: rules for leaving and entering constraints
-#   projector_threads     seconds with one and with two threads (with OpenMP), and whether bits agree
-#   total_feti            Total-FETI: outer and inner steps on 2 to 64 subdomains
-#   active_sets    products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
+#   composition         instructions of composed operators, beside loops written by hand
+#   slanting            instructions of F°(y) by the chain rule, beside hand-derived formulas
+#   compile_time        seconds and memory of the compiler for a few includes
+#   projections         largest error of the projections at a million points each
+#   example_1           products of KPRGP for eleven Γ, beside the printed ones
+#   wire                active constraints of the wire, beside the printed ones
+#   brick               error of KPRGP against work: the steel brick, three sizes, three loads
+#   newton_brick        products of Newton's methods on the brick until the energy error is 1e-8
+#   newton_wire         Newton steps on the wire, from zero and by nested iteration
+#   newton_floor        the accuracy at which the symmetric Newton method stalls, against κ(A)
+#   interior_brick      products of the interior-point method until the energy error is 1e-6
+#   interior_condition  condition of its systems with and without preconditioner
+#   interior_crossover  lift to the last digits: interior point, then the symmetric Newton method
+#   projector_steps     CG steps with and without the conjugate projector, brick refined
+#   projector_contact   the Schur complement contact algorithm on the brick without friction
+#   projector_search    the same on stacks of bricks: rules for leaving and entering constraints
+#   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
+#   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
+#   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
 # Exit status 1 if one of them fails or misses a limit that it knows.

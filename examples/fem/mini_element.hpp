@@ -4,9 +4,11 @@
 // affine plus a bubble  β = 27 φ₁φ₂φ₃  per component, pressures are affine. As ∇φ_a is constant,
 // ∫ ∇φ_a·∇β = 0: the stiffness of the bubbles is a number per triangle, and they are condensed,
 //
-//     [ A   0    Bᵀ ] [ u ]   [ l ]        A u + Bᵀp = l
-//     [ 0   A_β  B_βᵀ] [ u_β] = [ l_β ]  ⇒   B u − E p = c,     E = B_β A_β⁻¹ B_βᵀ,  c = −B_β A_β⁻¹
-//     l_β. [ B   B_β  0  ] [ p ]   [ 0 ]
+//     [ A  0    Bᵀ   ] [ u   ]   [ l   ]       A u + Bᵀp = l
+//     [ 0  A_β  B_βᵀ ] [ u_β ] = [ l_β ]  ⇒    B u − E p = c
+//     [ B  B_β  0    ] [ p   ]   [ 0   ]
+//
+//     E = B_β A_β⁻¹ B_βᵀ,   c = −B_β A_β⁻¹ l_β
 //
 // With g_a = ∇φ_a, V the area, s = Σ‖g_a‖²:  ∫β = 9V/20,  ∫‖∇β‖² = 81 V s/20,  ∫φ_a ∂β = −g_a ∫β.
 #pragma once

@@ -26,8 +26,14 @@ struct stokes_balance {
   double inflow;   ///< ∮ (−u·n)₊ over the edges outside the wall, volume per time
   double outflow;  ///< ∮ (u·n)₊
 
+  /// The largest violation; NaN if one is.
   [[nodiscard]] double residual() const {
-    return std::max({momentum, mass, penetration, above_bound, wrong_slip});
+    double largest = 0;
+    for (double const v : {momentum, mass, penetration, above_bound, wrong_slip}) {
+      if (std::isnan(v)) return v;
+      largest = std::max(largest, v);
+    }
+    return largest;
   }
 };
 
@@ -36,7 +42,7 @@ struct stokes_balance {
 [[nodiscard]] inline stokes_balance check_balance(stokes_flow const& flow,
                                                   stokes_scene const& scene,
                                                   stokes_solution const& s) {
-  auto const over = [](double part, double whole) { return part > 0 ? part / whole : 0.0; };
+  auto const over = [](double part, double whole) { return part == 0 ? 0.0 : part / whole; };
   Eigen::Matrix2Xd const velocity = scene.velocity(s.u);
   double const speed = velocity.colwise().norm().maxCoeff();
   stokes_balance balance{};

@@ -4,10 +4,11 @@
 //
 //     min ½ λᵀA λ − bᵀλ   over   |λ_t,i| ≤ ω_i g(x_i),  λ_n and p free,      λ = (λ_t, λ_n, p)
 //
-//     C = [ T ]      A = C A_κ⁻¹ Cᵀ + [ 0     ]      b = C A_κ⁻¹ l − [ 0 ]      u = A_κ⁻¹ (l − Cᵀλ)
+//     C = [ T ]      A = C A_κ⁻¹ Cᵀ + [ 0     ]      b = C A_κ⁻¹ l − [ 0 ]
 //         [ N ]                       [   0   ]                      [ 0 ]
-//         [ B ]                       [     E ],                     [ c ],     r(λ) = −(C u − (0,
-//         0, E p + c))
+//         [ B ]                       [     E ]                      [ c ]
+//
+//     u = A_κ⁻¹ (l − Cᵀλ),   r(λ) = −(C u − (0, 0, E p + c))
 //
 // (In [K (28)] E and c stand in front; there the order of λ is another one than in the text above.)
 // A is definite, although C has more rows than independent ones: E p = 0 leaves p constant, and a

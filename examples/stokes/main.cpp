@@ -2,7 +2,9 @@
 //
 // Stokes flow past a round obstacle on which the fluid sticks or slips [K §2.2, Example 4], and the
 // products of the lecture's Table 4 beside ours.
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <fem/channel_flow.hpp>
 #include <fem/stokes_table.hpp>
 #include <support/command_line.hpp>
@@ -44,12 +46,20 @@ int solve_flow(settings const& s) {
   return run.work.converged() ? examples::succeeded : examples::not_converged;
 }
 
-/// Steps/products of every method beside the printed ones.
+/// "13/200 5.2s"
+std::string with_seconds(stokes::flow_run const& run) {
+  std::array<char, 32> seconds{};
+  std::snprintf(seconds.data(), seconds.size(), " %.2fs", run.seconds);
+  return examples::steps_and_products(run.work) + seconds.data();
+}
+
+/// Steps/products and seconds of every method beside the printed products.
 int print_table(settings const& s) {
   std::printf(
       "Stokes flow with a stick-slip wall [K Table 4]: printed products of the active-set (AS) "
       "and\n"
-      "path-following (PF) methods; ours: steps/products to a relative accuracy of %g\n\n",
+      "path-following (PF) methods; ours: steps/products and seconds to a relative accuracy of "
+      "%g\n\n",
       s.limits.tolerance);
   std::vector<std::string> names{"n_u/n_p/n_c", "g", "AS", "PF"};
   examples::for_each_method(stokes::methods(),
@@ -74,7 +84,7 @@ int print_table(settings const& s) {
       examples::for_each_method(stokes::methods(), [&](auto const& method) {
         auto const run = stokes::run(method.name, problem, s.limits);
         converged = converged && run.work.converged();
-        line.push_back(examples::steps_and_products(run.work));
+        line.push_back(with_seconds(run));
       });
       table.print_row(line);
     }

@@ -77,7 +77,7 @@ class flow_problem {
                     examples::named_method{"active_set", active_set}};
 }
 
-/// "newton, plain_newton or active_set".
+/// "newton, … or active_set".
 [[nodiscard]] inline std::string method_names() {
   std::vector<std::string> names;
   examples::for_each_method(methods(), [&](auto const& method) { names.push_back(method.name); });

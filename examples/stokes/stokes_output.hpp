@@ -50,8 +50,7 @@ inline void print_result(std::string_view method, flow_run const& run,
   if (!run.work.converged()) std::printf(": %s", run.reason.c_str());
   std::printf("\n  accuracy       %.1e, relative norm of the reduced gradient\n", run.accuracy);
   std::printf("  steps          %td\n", run.work.steps);
-  std::printf("  products       %td, and %td for the step length\n", run.work.products,
-              run.work.setup);
+  std::printf("  products       %td, and %td to prepare\n", run.work.products, run.work.setup);
   std::printf("  seconds        %.3f\n", run.seconds);
   std::printf("  memory         %.0f MB\n", peak_memory());
   std::printf("  wall nodes     %td stick, %td slip\n", field.count(fem::wall_state::stick),

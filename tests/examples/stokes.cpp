@@ -3,6 +3,7 @@
 // The program stokes: does it run, say the right thing, write its files, and name what is missing?
 #include <doctest/doctest.h>
 
+#include <sstream>
 #include <string>
 
 #include "run_program.hpp"
@@ -40,6 +41,29 @@ TEST_CASE("stokes: the table, by all methods") {
   CHECK(contains(ran.out, "862/526/30       10     6867      208"));
   CHECK(contains(ran.out, "862/526/30       30      682      181"));
   CHECK(contains(ran.out, "all runs converged\n"));
+}
+
+TEST_CASE("stokes: path following takes no more products than the lecture's") {
+  struct printed {
+    char const* options;
+    int products;
+  };
+  for (auto const& [options, products] :
+       {printed{"--refinement 1 --g 10", 208}, printed{"--refinement 1 --g 30", 181},
+        printed{"--refinement 2 --g 10", 283}, printed{"--refinement 2 --g 30", 268}}) {
+    CAPTURE(options);
+    auto const ran =
+        run("stokes", std::string(options) + " --method interior_point --tolerance 1e-6");
+    CHECK(ran.status == 0);
+    auto const at = ran.out.find("products ");
+    REQUIRE(at != std::string::npos);
+    std::istringstream line(ran.out.substr(at));
+    std::string word, more;
+    int spent = 0, before = 0;
+    line >> word >> spent >> more >> more >> before;
+    CHECK(before > 0);
+    CHECK(spent + before <= products);
+  }
 }
 
 TEST_CASE("stokes: not converged is not success") {

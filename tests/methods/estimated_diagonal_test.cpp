@@ -62,12 +62,19 @@ TEST_CASE(
   static_cast<void>(slant::estimate_diagonal(archetype::psd_operator(M), set, {}, d));
   CHECK(d.local() == VectorXd::Ones(4));
   M(3, 3) = 8;
-  static_cast<void>(slant::estimate_diagonal(archetype::psd_operator(M), set, {}, d));
+  auto const estimate = [&](slant::index samples) {
+    return slant::estimate_diagonal(archetype::psd_operator(M), set, {.samples = samples}, d, "M");
+  };
+  CHECK(estimate(1).applications == 2);
   CHECK(d.local() == VectorXd{{2.0, 2.0, 4.0, 4.0}});
+  // As many products as entries: they are the entries.
+  CHECK(estimate(2).applications == 4);
+  CHECK(d.local() == VectorXd{{2.0, 2.0, 2.0, 8.0}});
   M(0, 0) = -1;
-  CHECK_THROWS_AS(
-      static_cast<void>(slant::estimate_diagonal(archetype::psd_operator(M), set, {}, d)),
-      slant::bad_input);
+  for (slant::index const samples : {1, 2}) {
+    CHECK_THROWS_WITH_AS(static_cast<void>(estimate(samples)),
+                         doctest::Contains("M: got mean of the diagonal -"), slant::bad_input);
+  }
 }
 
 }  // namespace estimated_diagonal_test

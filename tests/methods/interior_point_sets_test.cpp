@@ -74,6 +74,22 @@ TEST_CASE(
   CHECK(s.x.segment(n - 5, 2) == Eigen::Vector2d(0.7, -0.2));
 }
 
+TEST_CASE("a narrow cone at an angle: no axis leads from its apex to the inside") {
+  auto const set = slant::power(slant::rotated(slant::second_order_cone<2>(0.3),
+                                               Eigen::Matrix2d(Eigen::Rotation2Dd(0.785).matrix())),
+                                4);
+  auto const A = test::spd(test::with_spectrum(test::log_spaced(8, 10), 3));
+  slant::separable_qp const qp{A, VectorXd(test::random_vector(8, 4)), set};
+  VectorXd const zero = VectorXd::Zero(8);
+  auto const exact = slant::solve(slant::symmetric_newton{qp}, zero,
+                                  slant::reduced_gradient_below(1e-13) || slant::at_most(300));
+  REQUIRE(exact.converged());
+  auto const r = slant::solve(slant::interior_point{qp}, zero,
+                              slant::reduced_gradient_below(1e-9) || slant::at_most(80));
+  CHECK(r.converged());
+  CHECK((r.x() - exact.x()).norm() <= 1e-6 * exact.x().norm());
+}
+
 TEST_CASE("cones of any opening: apex, mantle and interior") {
   for (double μ : {1e-3, 0.5, 1.0, 30.0}) {
     CAPTURE(μ);

@@ -160,6 +160,36 @@ TEST_CASE("a semidefinite A: with a minimum, and without") {
   CHECK(d.minCoeff() >= 0);
 }
 
+TEST_CASE("no minimum along unknowns without constraint: the direction at which CG ends") {
+  // A is the projection along a random unit vector k, b has a part along k, everything is free.
+  VectorXd const k = test::random_vector(6).normalized();
+  MatrixXd const M = MatrixXd::Identity(6, 6) - k * k.transpose();
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
+  slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(6)), slant::free_components(6)};
+  auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(6)),
+                              slant::reduced_gradient_below(1e-10) || slant::at_most(50));
+  CHECK(r.status == slant::status::unbounded);
+  VectorXd const d = r.state.step.normalized();
+  CHECK((M * d).norm() <= 1e-7);
+  CHECK(d.sum() > 0);
+}
+
+TEST_CASE("a semidefinite A whose kernel holds the first gradient up to rounding") {
+  // b lies in the kernel of A but for rounding; half lines bound the descent along it from above.
+  VectorXd const k = -VectorXd::LinSpaced(5, 1.0, 2.0).normalized();
+  MatrixXd const M = MatrixXd::Identity(5, 5) - k * k.transpose();
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
+  slant::separable_qp const qp{A, k, slant::half_lines(VectorXd::Constant(5, -3.0).eval())};
+  auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(5)),
+                              slant::reduced_gradient_below(1e-9) || slant::at_most(60));
+  CHECK(r.converged());
+  auto const exact = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(5)),
+                                  slant::reduced_gradient_below(1e-12) || slant::at_most(200));
+  REQUIRE(exact.converged());
+  auto const q = [&](VectorXd const& x) { return x.dot(M * x) / 2 - k.dot(x); };
+  CHECK(q(r.x()) == doctest::Approx(q(exact.x())).epsilon(1e-7));
+}
+
 TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   problem p;
   p.b.setZero();

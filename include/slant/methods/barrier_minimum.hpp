@@ -23,6 +23,7 @@
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/operators/identity.hpp>
 
+#include <limits>
 #include <type_traits>
 
 namespace slant {
@@ -33,15 +34,18 @@ class barrier_minimum {
  public:
   using scalar = scalar_t<V>;
 
-  V t;      ///< the step
-  V image;  ///< A t
+  V t;                ///< the step
+  V image;            ///< A t
+  V direction;        ///< the last direction of the iteration
+  V direction_image;  ///< A times it
+  bool flat = false;  ///< it has no curvature
 
   barrier_minimum(V const& prototype, index n, M const& m)
       : t(like(prototype, n)),
         image(like(prototype, n)),
+        direction(like(prototype, n)),
+        direction_image(like(prototype, n)),
         g_(like(prototype, n)),
-        p_(like(prototype, n)),
-        Ap_(like(prototype, n)),
         z_(like(prototype, n)),
         near_(like(prototype, preconditioned ? n : 0)),
         far_(like(prototype, preconditioned ? n : 0)),
@@ -70,6 +74,7 @@ class barrier_minimum {
       forget();
     }
     known_ = true;
+    flat = false;
     scalar size = norm(g_), gz(0);
     bool finite = detail::is_finite(size);
     index k = 0;
@@ -79,20 +84,27 @@ class barrier_minimum {
       finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;
       if (k == 0) {
-        slant::local(p_) = -slant::local(z_);
+        slant::local(direction) = -slant::local(z_);
       } else {
-        slant::local(p_) = (next / gz) * slant::local(p_) - slant::local(z_);
+        slant::local(direction) = (next / gz) * slant::local(direction) - slant::local(z_);
       }
       gz = next;
-      slant::apply(a, p_, Ap_, a_workspace);
+      slant::apply(a, direction, direction_image, a_workspace);
       ++k;
-      add_stiffness(barrier, p_, Ap_, z_);
-      scalar const bend = inner_product(p_, z_);
+      add_stiffness(barrier, direction, direction_image, z_);
+      scalar const bend = inner_product(direction, z_);
       finite = finite && detail::is_finite(bend);
-      if (!(bend > scalar(0))) break;  // a direction without curvature: the step ends here
+      if (!(bend > scalar(0))) {  // a direction without curvature: the step ends here
+        // W is semidefinite up to rounding; is A?
+        scalar const noise = scalar(64) * std::numeric_limits<scalar>::epsilon() * norm(direction) *
+                             norm(direction_image);
+        flat = true;
+        finite = finite && -inner_product(direction, direction_image) <= noise;
+        break;
+      }
       scalar const α = gz / bend;
-      slant::local(t) += α * slant::local(p_);
-      slant::local(image) += α * slant::local(Ap_);
+      slant::local(t) += α * slant::local(direction);
+      slant::local(image) += α * slant::local(direction_image);
       slant::local(g_) += α * slant::local(z_);
       size = norm(g_);
     }
@@ -143,8 +155,6 @@ class barrier_minimum {
   }
 
   V g_;           // g₀ + J_SC t
-  V p_;           // direction
-  V Ap_;          // its image
   V z_;           // preconditioned g, then J_SC p
   V near_, far_;  // parts of the preconditioned g
   workspace_t<M, V> m_workspace_;

@@ -9,6 +9,7 @@
 #include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
+#include <slant/methods/recession.hpp>
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
@@ -62,7 +63,7 @@ class interior_point_core {
     auto const of_a = [&] {
       if constexpr (preconditioned) {
         static_cast<void>(
-            estimate_diagonal(m_.get(), qp.set(), options_.mean_diagonal, s.diagonal));
+            estimate_diagonal(m_.get(), qp.set(), options_.mean_diagonal, s.diagonal, "M"));
         slant::local(s.diagonal) = slant::local(s.diagonal).cwiseInverse();
         return mean_diagonal(qp.a(), s.x, options_.mean_diagonal);
       } else {
@@ -71,6 +72,7 @@ class interior_point_core {
     };
     auto const mean = of_a();
     s.work.setup_applications += mean.applications;
+    s.trace = mean.value * scalar(slant::global_size(s.x));
     if (options_.step_length) {
       s.step_length = *options_.step_length;
       return;
@@ -91,7 +93,7 @@ class interior_point_core {
     ++s.work.setup_applications;
     scalar const bend = inner_product(s.reduced, s.lagrangian);
     scalar const best = inner_product(s.reduced, s.reduced) / bend;
-    bool const bent = bend > scalar(0) && is_finite(best);
+    bool const bent = bend > flatness(s.reduced, s.trace) && is_finite(best);
     return s.reduced_gradient_norm * (bent ? best : s.step_length);
   }
 
@@ -137,7 +139,7 @@ class interior_point_core {
         slant::local(s.multipliers) + slant::local(s.multiplier_step);
     scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);
     if (!(growth > options_.raise_above) || !is_finite(growth) ||
-        options_.raise_above * way_out(s) > scalar(1)) {
+        options_.raise_above * way_out(s, s.step) > scalar(1)) {
       return false;
     }
     slant::local(s.multipliers) *= growth;
@@ -168,10 +170,10 @@ class interior_point_core {
     return slant::minimum(s.x, least);
   }
 
-  /// sup{α : x + α Δx ∈ Λ} on all processes.
-  scalar way_out(state_type const& s) const {
-    return slant::minimum(
-        s.x, scalar(blocks().step_to_boundary(slant::local(s.x), slant::local(s.step))));
+  /// sup{α : x + α d ∈ Λ} on all processes.
+  scalar way_out(state_type const& s, vector_type const& d) const {
+    return slant::minimum(s.x,
+                          scalar(blocks().step_to_boundary(slant::local(s.x), slant::local(d))));
   }
 
   /// The point at the fraction α of the step: 1 if it will do, else the factor that shortens α.
@@ -198,8 +200,8 @@ class interior_point_core {
     return scalar(1);
   }
 
-  /// Blocks of the trial point that were rounded onto their boundary go back by a few units of the
-  /// last digit, towards their middle.
+  /// Blocks of the trial point that were rounded onto their boundary go back towards their middle,
+  /// by rounding errors, so that A x is what it was.
   void draw_inside(state_type& s) const {
     slant::visit_blocks(blocks(), [&](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
@@ -208,7 +210,8 @@ class interior_point_core {
         auto const middle = place.value(s.centre);
         auto at = from;
         scalar back = scalar(2) * std::numeric_limits<scalar>::epsilon();
-        while (!(block.inequality(at).maxCoeff() < scalar(0)) && back < scalar(1e-6)) {
+        while (!(block.inequality(at).maxCoeff() < scalar(0)) &&
+               back < scalar(1024) * std::numeric_limits<scalar>::epsilon()) {
           at = from + back * (middle - from);
           back *= scalar(2);
         }

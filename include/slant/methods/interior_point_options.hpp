@@ -12,8 +12,10 @@
 
 namespace slant {
 
-/// Options of interior_point. The constants of [K §3.2.4] are the defaults where it has them;
-/// lengths and forces of the start are multiples of those of the data, which [K] has not.
+/// Options of interior_point. Defaults are the constants of [K §3.2.4] but for c_min (1e-30 there),
+/// the inner accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with
+/// the fewest products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples
+/// of those of the data).
 template <scalar S = double>
 struct interior_point_options {
   /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
@@ -21,18 +23,17 @@ struct interior_point_options {
   mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
 
   /// c_z > 0: first slacks of sets without an end, in natural lengths; c_ν > 0: first multipliers,
-  /// in natural forces. Measured on bricks (k = 8, energy error 1e-6, press, pull, lift): 3 and 0.3
-  /// 196, 107, 107 products, 1 and 1 212, 109, 118; a tenth of these lengths doubles the steps.
+  /// in natural forces. On bricks 3 and 0.3 take fewer products than 1 and 1; with a tenth of these
+  /// lengths there are twice as many steps.
   S start_length = S(3);
   S start_force = S(0.3);
   /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
-  /// more of x0 and lies nearer to the boundary: with 0.1 two or three times the steps on bricks.
+  /// more of x0 and lies nearer to the boundary, which costs more steps than it saves.
   S start_depth = S(1);
 
   /// > 1: where, before any long step, a Newton step would leave Λ within 1/raise_above of its
-  /// length and predicts multipliers so many times as large, ν and ϑ are raised to them. Measured:
-  /// flow past an obstacle (3566 velocities, g = 10, accuracy 1e-6) 15 steps and 286 products,
-  /// without it 32 and 740; the bricks are not affected.
+  /// length and predicts multipliers so many times as large, ν and ϑ are raised to them. Halves the
+  /// steps of a flow past an obstacle (examples/stokes, g = 10) and leaves the bricks as they are.
   S raise_above = S(5);
   index raises = 10;  ///< at most so often in all; 0: never
 

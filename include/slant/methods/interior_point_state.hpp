@@ -24,7 +24,8 @@ struct interior_point_state : gradient_point<QP> {
   using typename gradient_point<QP>::scalar;
 
   slant::barrier<scalar> barrier;  ///< inequalities, G, W, P_SC at x
-  vector_type multipliers;         ///< ν > 0, in multiples of unit; 0 where there is no bound
+  vector_type multipliers;         ///< ν > 0; 0 where there is no bound. The multiplier of f_i is
+                                   ///< unit · ν_i · barrier.per_unit()_i
   vector_type slacks;              ///< z = −f(x)/σ > 0, lengths
   vector_type lagrangian;          ///< ∇L = r + G ν, in multiples of unit
   vector_type diagonal;            ///< D ≈ diag(A), of M if there is one
@@ -39,6 +40,7 @@ struct interior_point_state : gradient_point<QP> {
   progress_watch<scalar> progress;              ///< looks for steps that get nowhere
 
   index constraints = 0;      ///< number of inequalities with a bound, on all processes
+  scalar trace{0};            ///< of A, at least its largest eigenvalue; an estimate
   scalar measure{0};          ///< ϑ = νᵀz / constraints, in multiples of unit
   scalar lagrangian_norm{0};  ///< ‖∇L‖
   scalar residual_bound{0};   ///< β

@@ -3,12 +3,14 @@
 // A point in the interior of a product of small convex sets, known by nothing but how far one can
 // go in them: from any point of a block, go to the middle of the chord along each axis in turn;
 // from a chord of infinite length take a piece of the length δ at its end. Two rounds centre a
-// ball, a box, and a cone of any opening; in an ellipse, however long, they come to its middle as
-// well.
+// ball, a box, a cone about an axis and an ellipse along the axes. From a corner that no axis
+// enters, as of a narrow cone at an angle, one goes first to the mean of the projections of points
+// all around: it is in the set, and inside if they are not all in one face.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/slanting/detail/inequality_layout.hpp>
 
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -55,8 +58,37 @@ template <class Block, class X>
   return c;
 }
 
-[[noreturn]] inline void refuse_empty_interior(index block) {
-  throw bad_input("block " + show(block) + " of the set", "an empty interior",
+/// The mean of the projections of x ± δ e, e along all axes and diagonals (of the first six axes).
+template <class Block, class X>
+[[nodiscard]] X mean_of_projections(Block const& block, X const& x, typename X::Scalar const& δ) {
+  using S = typename X::Scalar;
+  index const n = index(x.size());
+  X sum = X::Zero(n);
+  S count(0);
+  auto const add = [&](X const& e) {
+    sum += X(block.project(X(x + δ * e)));
+    count += S(1);
+  };
+  for (index j = 0; j < n; ++j) {
+    add(X::Unit(n, j));
+    add(X(-X::Unit(n, j)));
+  }
+  index const turning = std::min<index>(n, 6);
+  for (unsigned signs = 0; signs < 1U << turning; ++signs) {
+    X e = X::Ones(n);
+    for (index j = 0; j < turning; ++j) {
+      if ((signs >> j & 1U) != 0) e(j) = S(-1);
+    }
+    add(e);
+  }
+  return sum / count;
+}
+
+/// `block`: its number, none if it is on another process.
+[[noreturn]] inline void refuse_empty_interior(std::optional<index> block) {
+  throw bad_input(block ? "block " + show(*block) + " of the set"
+                        : std::string("a block of the set on another process"),
+                  "an empty interior",
                   "points with f(x) < 0; use slant::point for components with one value, "
                   "slant::free_components for those without bounds, or another method "
                   "(symmetric_newton, kprgp)");
@@ -66,23 +98,28 @@ template <class Block, class X>
 
 /// x ∈ Λ moves the fraction `pull` of the way to the interior; the middle it moves towards goes to
 /// `centre`, and 1/σ of every inequality, 0 for those without a bound, to per_unit (see
-/// barrier.hpp). Throws bad_input naming a block that has no interior.
+/// barrier.hpp). Throws bad_input, on all processes, naming a block that has no interior: none that
+/// a number can tell, also a ball of a radius whose square underflows.
 template <class C, class V, class R>
 void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull, V& x, V& centre,
                     R& per_unit) {
   using S = scalar_t<V>;
   index row = 0;
+  std::optional<index> empty;
   slant::local(centre) = slant::local(x);
   slant::visit_blocks(set, [&](auto const& block, auto const& place) {
     using block_type = std::remove_cvref_t<decltype(block)>;
     constexpr int k = detail::inequalities_of<block_type>;
     if constexpr (k > 0) {
       auto const start = place.value(x);
-      auto const c = detail::centre_by_chords(block, start, δ);
+      auto c = detail::centre_by_chords(block, start, δ);
+      if (!(block.inequality(c.point).maxCoeff() < S(0))) {
+        c = detail::centre_by_chords(block, detail::mean_of_projections(block, start, δ), δ);
+      }
       auto const f = block.inequality(c.point).eval();
       for (int i = 0; i < k; ++i) {
         S const depth = -f(i);
-        if (!(depth > S(0))) detail::refuse_empty_interior(place.index());
+        if (!(depth > S(0)) && !empty) empty = place.index();
         per_unit(row + i) =
             detail::is_finite(depth) ? S(1) / unit_near(S(depth / c.distance)) : S(0);
       }
@@ -92,6 +129,7 @@ void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull
       if (!(block.inequality(place.value(x)).maxCoeff() < S(0))) place.put(x, c.point);
     }
   });
+  if (!slant::everywhere(x, !empty)) detail::refuse_empty_interior(empty);
 }
 
 }  // namespace slant

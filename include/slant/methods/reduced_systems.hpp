@@ -27,11 +27,13 @@
 
 namespace slant {
 
-/// J_SC = A + W; refers to both.
+/// J_SC = A + W; refers to the barrier, and to A if it is an lvalue.
 template <class A, class S>
-[[nodiscard]] auto schur_system(A const& a, barrier<S> const& b) {
-  return sum(a, b.stiffness());
+[[nodiscard]] auto schur_system(A&& a, barrier<S> const& b) {
+  return sum(std::forward<A>(a), b.stiffness());
 }
+template <class A, class S>
+void schur_system(A&& a, barrier<S> const&& b) = delete;
 
 /// D₂₂ = N⁻¹Z for multipliers > 0; `unit` is theirs.
 template <class M, class Z, class S>
@@ -40,14 +42,18 @@ template <class M, class Z, class S>
   return column((slant::local(z).array() / slant::local(ν).array() / unit).matrix());
 }
 
-/// J_AM for D₂₂; refers to A and the barrier.
+/// J_AM for D₂₂; refers to the barrier, and to A if it is an lvalue.
 template <class A, class S>
-[[nodiscard]] auto augmented_system(A const& a, barrier<S> const& b,
+[[nodiscard]] auto augmented_system(A&& a, barrier<S> const& b,
                                     typename barrier<S>::column const& d22) {
   using column = typename barrier<S>::column;
-  return declare<self_adjoint>(block(block_row(sum(a, b.curvature()), adjoint(b.jacobian())),
-                                     block_row(b.jacobian(), slant::diagonal(column(-d22)))));
+  return declare<self_adjoint>(
+      block(block_row(sum(std::forward<A>(a), b.curvature()), adjoint(b.jacobian())),
+            block_row(b.jacobian(), slant::diagonal(column(-d22)))));
 }
+
+template <class A, class S>
+void augmented_system(A&& a, barrier<S> const&& b, typename barrier<S>::column const& d22) = delete;
 
 /// P_AM⁻¹ by elimination of the second row: x = P_SC⁻¹ (r₁ + G D₂₂⁻¹ r₂), ν = D₂₂⁻¹ (Gᵀ x − r₂).
 template <class S>
@@ -60,8 +66,9 @@ class augmented_preconditioner {
     column head, tail, gradient;
   };
 
-  /// Refers to both.
-  augmented_preconditioner(barrier<S> const& b, column const& d22) : barrier_(&b), d22_(&d22) {}
+  /// Refers to the barrier.
+  augmented_preconditioner(barrier<S> const& b, column d22) : barrier_(&b), d22_(std::move(d22)) {}
+  augmented_preconditioner(barrier<S> const&& b, column d22) = delete;
 
   [[nodiscard]] index rows() const { return barrier_->stiffness().rows() + barrier_->rows(); }
   [[nodiscard]] index cols() const { return rows(); }
@@ -77,17 +84,17 @@ class augmented_preconditioner {
     auto& to = slant::local(y);
     index const n = w.head.size(), m = w.tail.size();
     w.gradient = from.head(n);
-    w.tail = from.tail(m).cwiseQuotient(*d22_);
+    w.tail = from.tail(m).cwiseQuotient(d22_);
     barrier_->jacobian().apply_adjoint_add(S(1), w.tail, w.gradient);
     barrier_->preconditioner().apply(w.gradient, w.head);
     barrier_->jacobian().apply(w.head, w.tail);
     to.head(n) = w.head;
-    to.tail(m) = (w.tail - from.tail(m)).cwiseQuotient(*d22_);
+    to.tail(m) = (w.tail - from.tail(m)).cwiseQuotient(d22_);
   }
 
  private:
   barrier<S> const* barrier_;
-  column const* d22_;
+  column d22_;
 };
 
 }  // namespace slant
