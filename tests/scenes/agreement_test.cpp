@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Each method of the list below solves every scene from zero to the accuracy that it is asked for: its energy error
-// against the reference is a small multiple of the tolerance, down to where digits end. So any two
-// of them agree to the sum of their errors, and find the same active constraints.
+// Each method of the list below solves every scene from zero to the accuracy that it is asked for:
+// its energy error against the reference is a small multiple of the tolerance, down to where digits
+// end. So any two of them agree to the sum of their errors, and find the same active constraints.
 #include <slant/iteration/sequel.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/gimssn.hpp>
