@@ -59,8 +59,9 @@ std::string refusal(Problem const& p) {
 
 TEST_CASE("an empty interior: the block, and what to use instead") {
   std::string const words =
-      " of the set: got an empty interior, expected points with f(x) < 0; use slant::point for "
-      "components with one value, slant::free_components for those without bounds, or another "
+      " of the set: got no point inside that f(x) tells, expected points with f(x) < 0; use "
+      "slant::point for components with one value, slant::free_components for those without "
+      "bounds, or another "
       "method (symmetric_newton, kprgp)";
   problem p;
   p.g(1) = 0;
@@ -172,6 +173,18 @@ TEST_CASE("no minimum along unknowns without constraint: the direction at which 
   VectorXd const d = r.state.step.normalized();
   CHECK((M * d).norm() <= 1e-7);
   CHECK(d.sum() > 0);
+}
+
+TEST_CASE("no minimum over a large kernel, seen through rounding") {
+  MatrixXd B(40, 5);
+  for (int j = 0; j < 5; ++j) B.col(j) = test::random_vector(40, 30U + static_cast<unsigned>(j));
+  MatrixXd const M = B * B.transpose();
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(
+      MatrixXd((M + M.transpose()) / 2));
+  slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(40)), slant::free_components(40)};
+  auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(40)),
+                              slant::reduced_gradient_below(1e-10) || slant::at_most(50));
+  CHECK(r.status == slant::status::unbounded);
 }
 
 TEST_CASE("a semidefinite A whose kernel holds the first gradient up to rounding") {

@@ -21,9 +21,9 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/recession.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <limits>
 #include <type_traits>
 
 namespace slant {
@@ -61,11 +61,12 @@ class barrier_minimum {
   }
 
   /// t with ‖g₀ + J_SC t‖ ≤ target, or the last one after at most `most` steps. t has the units of
-  /// g₀ over those of A; d is the diagonal of D. `warm`: begins at a multiple of the t that is
-  /// there.
+  /// g₀ over those of A; d is the diagonal of D, trace that of A. `warm`: begins at a multiple of
+  /// the t that is there.
   template <class A, class WA, class B>
   inner_result<scalar> solve(A const& a, WA& a_workspace, M const& m, B const& barrier, V const& d,
-                             V const& g0, scalar const& target, index most, bool warm) {
+                             V const& g0, scalar const& target, index most, bool warm,
+                             scalar const& trace) {
     slant::local(g_) = slant::local(g0);
     barrier.keep_fixed(g_);
     if (warm && known_) {
@@ -96,10 +97,9 @@ class barrier_minimum {
       finite = finite && detail::is_finite(bend);
       if (!(bend > scalar(0))) {  // a direction without curvature: the step ends here
         // W is semidefinite up to rounding; is A?
-        scalar const noise = scalar(64) * std::numeric_limits<scalar>::epsilon() * norm(direction) *
-                             norm(direction_image);
         flat = true;
-        finite = finite && -inner_product(direction, direction_image) <= noise;
+        finite = finite && -inner_product(direction, direction_image) <=
+                               scalar(64) * flatness(direction, trace);
         break;
       }
       scalar const α = gz / bend;

@@ -161,7 +161,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     scalar const target = std::max<scalar>(s.forcing.next(options_.forcing) * norm(s.rhs),
                                            std::numeric_limits<scalar>::epsilon() * norm(s.r));
     auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
-                                     target, options_.inner_steps, options_.warm_start);
+                                     target, options_.inner_steps, options_.warm_start, s.trace);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;

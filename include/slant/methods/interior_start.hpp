@@ -88,7 +88,7 @@ template <class Block, class X>
 [[noreturn]] inline void refuse_empty_interior(std::optional<index> block) {
   throw bad_input(block ? "block " + show(*block) + " of the set"
                         : std::string("a block of the set on another process"),
-                  "an empty interior",
+                  "no point inside that f(x) tells",
                   "points with f(x) < 0; use slant::point for components with one value, "
                   "slant::free_components for those without bounds, or another method "
                   "(symmetric_newton, kprgp)");
@@ -99,7 +99,7 @@ template <class Block, class X>
 /// x ∈ Λ moves the fraction `pull` of the way to the interior; the middle it moves towards goes to
 /// `centre`, and 1/σ of every inequality, 0 for those without a bound, to per_unit (see
 /// barrier.hpp). Throws bad_input, on all processes, naming a block that has no interior: none that
-/// a number can tell, also a ball of a radius whose square underflows.
+/// a number can tell, also a ball of a radius whose square leaves the range of the numbers.
 template <class C, class V, class R>
 void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull, V& x, V& centre,
                     R& per_unit) {
