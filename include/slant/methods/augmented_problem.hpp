@@ -50,7 +50,7 @@ template <class A, class C, class S>
 /// P M P + Q/ρ ≈ (P A P + ρ Q)⁻¹ for M ≈ A⁻¹; refers to both. Throws bad_input unless 1/ρ is
 /// finite.
 template <class M, class C, class S>
-[[nodiscard]] auto augmented_preconditioner(M const& m, C const& constraints, S const& ρ) {
+[[nodiscard]] auto projected_preconditioner(M const& m, C const& constraints, S const& ρ) {
   return sum(congruence(constraints.kernel_projector(), m),
              scaled(positive(S(S(1) / ρ)), constraints.range_projector()));
 }

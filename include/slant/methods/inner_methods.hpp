@@ -50,7 +50,7 @@ struct newton_inner {
     if constexpr (std::is_same_v<M, identity_operator>) {
       return symmetric_newton<QP const&, identity_operator>{qp, own};
     } else {
-      auto m = augmented_preconditioner(*preconditioner, constraints, ρ);
+      auto m = projected_preconditioner(*preconditioner, constraints, ρ);
       return symmetric_newton<QP const&, decltype(m)>{qp, std::move(m), own};
     }
   }
