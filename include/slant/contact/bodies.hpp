@@ -25,6 +25,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -121,10 +122,11 @@ class bodies {
     }
     auto const found = detail::bodies_of(k);
     std::vector<outcome> outcomes(found.size());
-    slant::detail::parallel_for_throwing(static_cast<index>(found.size()), [&](index i) {
-      auto const at = static_cast<std::size_t>(i);
-      outcomes[at] = prepare(k, f, found[at], touched, factor);
-    });
+    slant::detail::parallel_for(static_cast<index>(found.size()), std::numeric_limits<index>::max(),
+                                [&](index i) {
+                                  auto const at = static_cast<std::size_t>(i);
+                                  outcomes[at] = prepare(k, f, found[at], touched, factor);
+                                });
     count_ = static_cast<index>(found.size());
     idle_displacement_ = vector_type::Zero(size_);
     for (std::size_t i = 0; i < found.size(); ++i) note(found[i], outcomes[i]);

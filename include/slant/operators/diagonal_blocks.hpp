@@ -2,13 +2,15 @@
 //
 // diag(A₁, …, A_p) with as many blocks as there are when the program runs, all of one type: the
 // bodies or subdomains of a problem. Blocks of different types, known when it is compiled, are
-// block_diagonal. Closure: the laws of the blocks.
+// block_diagonal. With OpenMP, blocks are applied in parallel, with the same bits for any number of
+// threads (detail/parallel_for.hpp). Closure: the laws of the blocks.
 #pragma once
 
 #include <slant/operators/adjoint.hpp>
 #include <slant/operators/as_operator.hpp>
 #include <slant/operators/detail/block_part.hpp>
 #include <slant/operators/detail/closure.hpp>
+#include <slant/operators/detail/parallel_for.hpp>
 
 #include <utility>
 #include <vector>
@@ -48,10 +50,10 @@ class diagonal_blocks_operator {
   template <class X, class Y, class W>
     requires detail::block_part<A, X>
   void apply(X const& x, Y& y, W& w) const {
-    for (index i = 0; i < block_count(); ++i) {
+    detail::parallel_for(block_count(), rows() + cols(), [&](index i) {
       detail::apply_part<true>(block(i), scalar_t<X>(1), x, col_begin(i), y, row_begin(i),
                                w[static_cast<std::size_t>(i)]);
-    }
+    });
   }
 
   template <class X>
@@ -62,10 +64,10 @@ class diagonal_blocks_operator {
   template <class X, class Y, class W>
     requires detail::block_part<adjoint_operator<A const&>, X>
   void apply_adjoint(X const& x, Y& y, W& w) const {
-    for (index i = 0; i < block_count(); ++i) {
+    detail::parallel_for(block_count(), rows() + cols(), [&](index i) {
       detail::apply_part<true>(transposed(block(i)), scalar_t<X>(1), x, row_begin(i), y,
                                col_begin(i), w[static_cast<std::size_t>(i)]);
-    }
+    });
   }
 
  private:

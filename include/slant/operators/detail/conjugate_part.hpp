@@ -10,6 +10,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,7 +83,7 @@ template <class F, class S, class Factor>
   Eigen::SparseMatrix<S> const ku = k * u;
   auto const bodies = columns_by_body(u, ku);
   std::vector<std::optional<conjugate_part<S, F>>> made(bodies.size());
-  parallel_for_throwing(static_cast<index>(bodies.size()), [&](index i) {
+  parallel_for(static_cast<index>(bodies.size()), std::numeric_limits<index>::max(), [&](index i) {
     auto const at = static_cast<std::size_t>(i);
     auto own = chosen_columns(u, bodies[at]);
     auto image = chosen_columns(ku, bodies[at]);

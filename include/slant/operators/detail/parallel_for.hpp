@@ -9,40 +9,35 @@
 #include <slant/concepts/scalar.hpp>
 
 #include <exception>
-#include <limits>
-#include <vector>
 
 namespace slant::detail {
 
-/// f(0), …, f(n − 1), in any order. f must not throw. `work`: multiplications in all rounds
-/// together; threads are woken for as many as Eigen wakes them for in a sparse product.
+/// f(0), …, f(n − 1), in any order; throws what the first round that throws has thrown, the first
+/// in order, not in time. `work`: multiplications in all rounds together, or fewer; threads are
+/// woken for as many as Eigen wakes them for in a sparse product.
 template <class F>
 void parallel_for(index n, [[maybe_unused]] index work, F const& f) {
 #ifdef _OPENMP
   if (n > 1 && work > 20000) {
+    std::exception_ptr thrown;  // none may leave a parallel region
+    index thrower = n;
 #pragma omp parallel for schedule(dynamic, 1)
-    for (index i = 0; i < n; ++i) f(i);
+    for (index i = 0; i < n; ++i) {
+      try {
+        f(i);
+      } catch (...) {
+#pragma omp critical(slant_parallel_for)
+        if (i < thrower) {
+          thrower = i;
+          thrown = std::current_exception();
+        }
+      }
+    }
+    if (thrown) std::rethrow_exception(thrown);
     return;
   }
 #endif
   for (index i = 0; i < n; ++i) f(i);
-}
-
-/// The same for an f that may throw: all rounds are run, then the exception of the first round that
-/// threw is thrown on. Allocates; for set-up.
-template <class F>
-void parallel_for_throwing(index n, F const& f) {
-  std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(n));
-  parallel_for(n, std::numeric_limits<index>::max(), [&](index i) {
-    try {
-      f(i);
-    } catch (...) {
-      thrown[static_cast<std::size_t>(i)] = std::current_exception();
-    }
-  });
-  for (auto const& e : thrown) {
-    if (e) std::rethrow_exception(e);
-  }
 }
 
 }  // namespace slant::detail
