@@ -11,9 +11,6 @@
 #if defined(_GLIBCXX_REGEX)
 #error "<slant/slant.hpp> includes <regex>"
 #endif
-#if defined(EIGEN_SVD_MODULE_H) || defined(EIGEN_EIGENVALUES_MODULE_H)
-#error "<slant/slant.hpp> includes a part of Eigen that is slow to compile"
-#endif
 #if defined(DOCTEST_LIBRARY_INCLUDED) || defined(PUGIXML_VERSION)
 #error "<slant/slant.hpp> includes a header of a component"
 #endif
