@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <oracle/small_polyhedra.hpp>
 #include <string>
@@ -119,6 +120,32 @@ TEST_CASE("a set without points is found out") {
   u.setOnes();
   CHECK(single.project_on_set(point, u, λ));
   CHECK((u - VectorXd{{-1, -1}}).norm() <= 1e-15);
+}
+
+TEST_CASE("rows that all but depend on each other: near the set, or said to be empty") {
+  std::srand(6);
+  int found = 0;
+  for (int round = 0; round < 300; ++round) {
+    MatrixXd b = MatrixXd::Zero(12, 5);
+    b.topRows(4) = MatrixXd::Random(4, 5);
+    for (int i = 4; i < 12; ++i) {
+      b.row(i) = b.row(i % 4) + std::pow(10.0, -8 - round % 9) * MatrixXd::Random(1, 5);
+    }
+    VectorXd const c = round % 2 == 0 ? VectorXd::Zero(12) : VectorXd(VectorXd::Random(12));
+    auto const rows = rows_of(b, c);
+    slant::active_rows<double> active(rows);
+    VectorXd const start = 100 * VectorXd::Random(5);
+    VectorXd u = start, λ(12);
+    if (!active.project_on_set(rows, u, λ)) {
+      CHECK(round % 2 == 1);  // with c = 0 there is a point
+      continue;
+    }
+    ++found;
+    CAPTURE(round);
+    VectorXd const size = b.cwiseAbs() * start.cwiseAbs().cwiseMax(u.cwiseAbs()) + c.cwiseAbs();
+    CHECK(((b * u - c).array() <= 5000 * 2.2e-16 * size.array()).all());
+  }
+  CHECK(found >= 150);
 }
 
 TEST_CASE("C = V Vᵀ is a projector") {

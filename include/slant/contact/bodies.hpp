@@ -20,8 +20,7 @@
 #pragma once
 
 #include <slant/contact/detail/body_graph.hpp>
-#include <slant/factorizations/computed_kernel.hpp>
-#include <slant/factorizations/kernel_basis.hpp>
+#include <slant/contact/detail/prepared_body.hpp>
 #include <slant/methods/polyhedral_qp.hpp>
 #include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/matrix.hpp>
@@ -112,14 +111,7 @@ class bodies {
   using list = std::vector<index>;
   using entry = typename sparse_type::InnerIterator;
 
-  /// What becomes of a body.
-  struct outcome {
-    std::optional<part> inside;  // rows numbered as in the body; none if U is empty
-    vector_type displacement;    // if idle
-    index attempts = 0;
-    bool idle = false;
-    bool fixed = false;
-  };
+  using outcome = detail::prepared_body<S, factors>;
 
   void split(sparse_type const& k, vector_type const& f, constraint_rows<S> const& rows,
              Factor const& factor) {
@@ -135,11 +127,11 @@ class bodies {
       }
     }
     std::vector<outcome> outcomes(found.size());
-    slant::detail::parallel_for(static_cast<index>(found.size()), std::numeric_limits<index>::max(),
-                                [&](index i) {
-                                  auto const at = static_cast<std::size_t>(i);
-                                  outcomes[at] = prepare(k, f, found[at], number, touched, factor);
-                                });
+    slant::detail::parallel_for(
+        static_cast<index>(found.size()), std::numeric_limits<index>::max(), [&](index i) {
+          auto const at = static_cast<std::size_t>(i);
+          outcomes[at] = detail::prepare_body<factors>(k, f, found[at], number, touched, factor);
+        });
     count_ = static_cast<index>(found.size());
     idle_displacement_ = vector_type::Zero(size_);
     list begins;  // of the parts, among the unknowns of qp()
@@ -148,94 +140,6 @@ class bodies {
       parts_[i].u = moved_down(parts_[i].u, begins[i]);
       parts_[i].ku = moved_down(parts_[i].ku, begins[i]);
     }
-  }
-
-  /// Tries U = what no row touches, then without fixing rows, then none.
-  [[nodiscard]] static outcome prepare(sparse_type const& k, vector_type const& f, list const& body,
-                                       list const& number,
-                                       std::vector<unsigned char> const& touched,
-                                       Factor const& factor) {
-    outcome result;
-    list inside;
-    for (index const i : body) {
-      if (touched[static_cast<std::size_t>(i)] == 0) inside.push_back(i);
-    }
-    bool const free = inside.size() == body.size();
-    if (inside.empty()) return result;
-    sparse_type block = chosen(k, number, body, inside, true);
-    if (!factored(k, number, body, inside, block, factor, result)) {
-      result.fixed = true;
-      try {
-        ++result.attempts;
-        list const fixing = fixing_rows(computed_kernel(block));
-        for (std::size_t j = fixing.size(); j-- > 0;) {
-          inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(fixing[j]));
-        }
-        if (inside.empty() || fixing.empty()) return result;
-        block = chosen(k, number, body, inside, true);
-        (void)factored(k, number, body, inside, block, factor, result);
-      } catch (bad_input const&) {  // no kernel that can be told from the rest
-      }
-    } else if (free) {
-      vector_type load(static_cast<index>(body.size()));
-      for (std::size_t i = 0; i < body.size(); ++i) load[static_cast<index>(i)] = f[body[i]];
-      result.displacement.resize(load.size());
-      auto w = slant::workspace(result.inside->factors, load);
-      if constexpr (requires { result.inside->factors.solve(load, result.displacement, w); }) {
-        result.inside->factors.solve(load, result.displacement, w);
-      } else {
-        result.inside->factors.solve(load, result.displacement);
-      }
-      result.idle = true;
-    }
-    return result;
-  }
-
-  /// Takes U of these unknowns, if the factorisation takes the block of K.
-  [[nodiscard]] static bool factored(sparse_type const& k, list const& number, list const& body,
-                                     list const& inside, sparse_type const& block,
-                                     Factor const& factor, outcome& result) {
-    ++result.attempts;
-    try {
-      auto factors_of_block = factor(block);
-      sparse_type u(static_cast<index>(body.size()), block.cols());
-      u.reserve(block.cols());
-      for (index j = 0; j < u.cols(); ++j) {
-        u.startVec(j);
-        u.insertBack(number[static_cast<std::size_t>(inside[static_cast<std::size_t>(j)])], j) =
-            S(1);
-      }
-      u.finalize();
-      result.inside.emplace(
-          part{std::move(u), chosen(k, number, body, inside, false), std::move(factors_of_block)});
-      return true;
-    } catch (bad_input const&) {
-      return false;
-    }
-  }
-
-  /// The columns of K of some unknowns of a body with the rows of the body, or of these unknowns.
-  [[nodiscard]] static sparse_type chosen(sparse_type const& k, list const& number,
-                                          list const& body, list const& inside, bool square) {
-    list row(body.size(), -1);
-    for (std::size_t i = 0; i < (square ? inside : body).size(); ++i) {
-      row[static_cast<std::size_t>(number[static_cast<std::size_t>((square ? inside : body)[i])])] =
-          static_cast<index>(i);
-    }
-    index entries = 0;
-    for (index const j : inside) entries += k.col(j).nonZeros();
-    sparse_type m(static_cast<index>((square ? inside : body).size()),
-                  static_cast<index>(inside.size()));
-    m.reserve(entries);
-    for (index j = 0; j < m.cols(); ++j) {
-      m.startVec(j);
-      for (entry e(k, inside[static_cast<std::size_t>(j)]); e; ++e) {
-        index const i = row[static_cast<std::size_t>(number[static_cast<std::size_t>(e.row())])];
-        if (i >= 0) m.insertBack(i, j) = e.value();
-      }
-    }
-    m.finalize();
-    return m;
   }
 
   void note(list const& body, outcome& result, list& begins) {

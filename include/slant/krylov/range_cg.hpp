@@ -201,22 +201,10 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     ++s.iteration;
   }
 
-  /// r from x, if steps have been updating it; the next direction is C r itself. With a projector x
-  /// is minimised over range(U) once more if r turns out to be larger than it was updated to: Uᵀr =
-  /// 0 has not been looked at since the start.
+  /// r from x, if steps have been updating it; the next direction is C r itself.
   bool refresh(state_type& s) const {
     s.directions.live = false;
-    scalar const updated = s.residual_norm;
-    auto const take_down = [this, updated](state_type& t) {
-      note(t);
-      if constexpr (projected) {
-        if (!(t.residual_norm > scalar(2) * updated)) return;
-        t.status = status::running;
-        minimise_inside(t);
-        note(t);
-      }
-    };
-    return detail::refresh_residual(this->a(), this->b(), s, take_down);
+    return detail::refresh_residual(this->a(), this->b(), s, [this](state_type& t) { note(t); });
   }
 
  private:

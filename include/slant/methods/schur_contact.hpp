@@ -114,8 +114,8 @@ class schur_contact<P> {
     ++s.iteration;
   }
 
-  /// Slacks and r from x, if steps have been updating them. One product, or two if that shows that
-  /// rounding errors have piled up, which are then removed as far as x can be changed for it.
+  /// Slacks and r from x, if steps have been updating them. One product, or two where rounding
+  /// errors have carried x over a bound or away from one, which is then put right.
   bool refresh(state_type& s) const {
     if (!s.updated) return false;
     s.status = status::running;
