@@ -7,10 +7,12 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include <fem/contact_scene.hpp>
+#include <fem/require.hpp>
 #include <fem/two_bodies.hpp>
 
 namespace fem {
@@ -34,6 +36,8 @@ struct chain_scene {
 /// Assembles the chain. Throws std::invalid_argument for numbers out of range.
 [[nodiscard]] inline chain_scene make_plate_chain(chain_options const& options) {
   require(options.plates >= 1, "plates", options.plates, "at least one plate");
+  require(options.touching >= 0, "touching", options.touching, "a number >= 0");
+  require(options.gap >= 0 && std::isfinite(options.gap), "gap", options.gap, "a number >= 0");
   require(options.touching <= options.plates, "touching", options.touching,
           "no more than there are plates");
   auto const mesh = make_box_mesh<2>({options.k, options.k}, {1, 1});

@@ -3,6 +3,7 @@
 // A stack of floating bricks in a corner, held by contact alone, by the Schur complement algorithm
 // [D]: a load that holds it, one that lifts it, one that tips it over.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <fem/stacked_bricks.hpp>
@@ -114,7 +115,8 @@ int main(int argc, char** argv) {
       ->check(examples::expects<int>("a whole number from 1 to 100",
                                      [](int k) { return k >= 1 && k <= 100; }));
   app.add_option("--gap", s.gap, "between the bricks and to the floor")
-      ->check(examples::expects<double>("a number >= 0", [](double g) { return g >= 0; }));
+      ->check(examples::expects<double>("a number >= 0",
+                                        [](double g) { return g >= 0 && std::isfinite(g); }));
   app.add_option("--tolerance", s.tolerance, "relative norm of the residual")
       ->check(examples::expects_tolerance());
   app.add_option("--max-iterations", s.max_iterations, "steps at most")

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "support/allocation_guard.hpp"
 
@@ -45,7 +46,7 @@ MatrixXd ring(int n) {
     k(j, i) -= stiffness;
   };
   for (int i = 0; i < n; ++i) join(i, (i + 1) % n, 1 + i % 5);
-  for (int i = 0; i < n / 2; ++i) join(i, i + n / 2, 0.1);
+  for (int i = 0; i < n / 2; ++i) join(i, i + n / 2, 0.125);
   return k;
 }
 
@@ -153,6 +154,73 @@ TEST_CASE("projector preconditioning: the same minimum, sooner; one product and 
   CHECK(quick.state.projector_applications == quick.iterations() + 1);
   CHECK(K.applications() == quick.state.work.operator_applications);
   CHECK(K.applications() <= quick.iterations() + 2);  // the first residual and refresh
+}
+
+TEST_CASE("a soft mode beside a kernel hides neither") {
+  MatrixXd k = MatrixXd::Zero(4, 4);
+  k.bottomRightCorner(2, 2) << 1, -1, -1, 1;
+  for (double const soft : {1e-9, 1e-10, 1e-12}) {
+    for (double const push : {0.3, 1e-3, 3.0}) {
+      CAPTURE(soft);
+      CAPTURE(push);
+      k.topLeftCorner(2, 2) << 1 + soft, -1, -1, 1 + soft;
+      VectorXd const load{{1, 1, push, push}};
+      auto const K = psd(k);
+      auto const r = slant::solve(slant::range_cg{K, load, slant::identity_operator(4)},
+                                  VectorXd(VectorXd::Zero(4)), slant::at_most(50));
+      CAPTURE(r.reason);
+      REQUIRE(r.status == slant::status::unbounded);
+      VectorXd const d = r.state.descent.normalized();
+      CHECK((d - VectorXd{{0, 0, 1, 1}} / std::sqrt(2)).norm() <= 1e-6);
+    }
+  }
+}
+
+TEST_CASE("without a diagonal nothing soft is taken for a kernel") {
+  // Two bodies held by the first, 15 orders of magnitude apart.
+  MatrixXd k = MatrixXd::Zero(4, 4);
+  k.topLeftCorner(2, 2) << 2, -1, -1, 1;
+  k.bottomRightCorner(2, 2) << 2e-15, -1e-15, -1e-15, 1e-15;
+  VectorXd const b{{1, 1, 1, 1}};
+  VectorXd const zero = VectorXd::Zero(4);
+  auto const I = slant::identity_operator(4);
+  auto const K = psd(k);
+  auto const known = slant::solve(slant::range_cg{K, b, I}, zero, stop);
+  REQUIRE(known.converged());
+  CHECK((known.x() - VectorXd{{2, 3, 2e15, 3e15}}).norm() <= 1e-9 * 3e15);
+  archetype::psd_operator const A(k);
+  archetype::psd_operator const C(MatrixXd(MatrixXd::Identity(4, 4)));
+  auto const r =
+      slant::solve(slant::range_cg{A, archetype::vector(b), C}, archetype::vector(zero), stop);
+  CHECK(r.status == slant::status::stalled);
+  CHECK(r.reason.ends_with("K gives no diagonal"));
+}
+
+TEST_CASE("a projector beside the range is found out where that can be seen") {
+  MatrixXd const k{{2, -1, 0}, {-1, 2, -1}, {0, -1, 2}};
+  Eigen::SparseMatrix<double> const sparse = k.sparseView();
+  Eigen::SparseMatrix<double> u(3, 1);
+  u.insert(0, 0) = 1;
+  auto const Q = slant::conjugate_projector(sparse, u);
+  VectorXd const b = VectorXd::Ones(3);
+  VectorXd const zero = VectorXd::Zero(3);
+  for (Eigen::Index const held : {0, 2}) {
+    MatrixXd c = MatrixXd::Identity(3, 3);
+    c(held, held) = 0;
+    auto const C = slant::matrix<slant::self_adjoint, slant::projector>(c);
+    auto const K = psd(sparse);
+    slant::range_cg const method{K, b, C, Q};
+    if (held == 0) {
+      CHECK_THROWS_WITH_AS((void)method.start(zero),
+                           "Q: got range(U) not in range(C): it moves x0 by y with C y != y, "
+                           "expected a U within range(C)",
+                           slant::bad_input);
+    } else {
+      auto const r = slant::solve(method, zero, stop);
+      REQUIRE(r.converged());
+      CHECK((r.x() - VectorXd{{1, 1, 0}}).norm() <= 1e-14);
+    }
+  }
 }
 
 TEST_CASE("no allocation; archetypes; data that do not fit") {

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <slant/methods/schur_contact.hpp>
 
-#include <slant/contact/bodies.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/operators/counted.hpp>
+#include <slant/operators/conjugate_projector.hpp>
 #include <slant/testing/archetypes/linear_operator.hpp>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <oracle/small_polyhedra.hpp>
 #include <string>
+#include <support/two_processes.hpp>
+#include <utility>
 #include <vector>
 
 #include "support/allocation_guard.hpp"
@@ -52,31 +55,90 @@ struct small_problem {
   VectorXd c;
 };
 
+/// A stiffness that counts its applications and gives numbers for so many of them only. All tests
+/// use it, so that the method is compiled for one type of problem.
+struct stiffness {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+  MatrixXd k;
+  std::shared_ptr<int> applications = std::make_shared<int>(0);
+  int most = 1'000'000;
+  [[nodiscard]] Eigen::Index rows() const { return k.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return k.cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const {
+    y.noalias() = k * x;
+    if (++*applications > most) y[0] = std::numeric_limits<double>::quiet_NaN();
+  }
+  void diagonal(VectorXd& d) const { d = k.diagonal(); }
+};
+using projector = slant::conjugate_projector_operator<double, slant::ldlt<double>>;
+using row_set = slant::constraint_rows<double>;
+
+auto problem(stiffness const& K, VectorXd const& f, row_set const& rows, projector const& Q) {
+  return slant::polyhedral_qp{K, f, rows, Q};
+}
+using problem_type =
+    decltype(problem(std::declval<stiffness const&>(), std::declval<VectorXd const&>(),
+                     std::declval<row_set const&>(), std::declval<projector const&>()));
+using method = slant::schur_contact<problem_type const&>;
+using options = slant::schur_contact_options<double>;
+
+auto minimise(problem_type const& qp, VectorXd const& u0, options const& o = {}) {
+  return slant::solve(method(qp, o), u0, slant::residual_below(1e-12) || slant::at_most(500));
+}
+using report_type = decltype(minimise(std::declval<problem_type const&>(), VectorXd()));
+
+/// The projector of some columns.
+projector projector_of(MatrixXd const& k, MatrixXd const& u) {
+  return slant::conjugate_projector(sparse(k.sparseView()), sparse(u.sparseView()));
+}
+/// The one of the unknowns that no row touches, without the first few if the others are free.
+projector projector_of(small_problem const& p) {
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index j = 0; j < p.K.cols(); ++j) {
+    VectorXd const entries = (p.c.array() < infinity).select(p.B.col(j), 0.0);
+    if (entries.isZero(0)) inside.push_back(j);
+  }
+  while (true) {
+    try {
+      return projector_of(p.K, MatrixXd::Identity(p.K.rows(), p.K.cols())(Eigen::all, inside));
+    } catch (slant::bad_input const&) {
+      inside.erase(inside.begin());
+    }
+  }
+}
+
+/// What a problem of the method refers to.
+struct body_list {
+  small_problem p;
+  stiffness K{p.K};
+  row_set rows{p.B.sparseView(), p.c};
+  projector Q = projector_of(p);
+  [[nodiscard]] VectorXd zero() const { return VectorXd::Zero(p.f.size()); }
+  [[nodiscard]] auto qp() const { return problem(K, p.f, rows, Q); }
+};
+
 template <class Check>
-void solve(small_problem const& p, slant::schur_contact_options<double> const& options,
-           Check check) {
-  slant::contact::bodies const bodies(sparse(p.K.sparseView()), p.f, sparse(p.B.sparseView()), p.c);
-  auto const qp = bodies.qp();
-  auto const r = slant::solve(slant::schur_contact{qp, options}, bodies.zero(),
-                              slant::residual_below(1e-12) || slant::at_most(500));
+void solve(small_problem const& p, options const& o, Check check) {
+  body_list const bodies{p};
+  auto const r = minimise(bodies.qp(), bodies.zero(), o);
   check(bodies, r);
 }
 
 /// Solves and compares with every active set.
-void compare(small_problem const& p, slant::schur_contact_options<double> const& options = {}) {
+void compare(small_problem const& p, options const& o = {}) {
   auto const reference = oracle::minimum_over_polyhedron(p.K, p.f, p.B, p.c);
-  solve(p, options, [&](auto const& bodies, auto const& r) {
+  solve(p, o, [&](body_list const&, report_type const& r) {
     CAPTURE(r.reason);
     if (!reference) {
       REQUIRE(r.status == status::unbounded);
-      VectorXd const d = bodies.direction(r.state.descent).normalized();
+      VectorXd const d = r.state.descent.normalized();
       CHECK((p.K * d).norm() <= 1e-13 * p.K.norm());
       CHECK((p.B * d).maxCoeff() <= 1e-13);
       CHECK(p.f.dot(d) > 1e-12 * p.f.norm());
       return;
     }
     REQUIRE(r.converged());
-    VectorXd const u = bodies.displacement(r.x());
+    VectorXd const u = r.x();
     VectorXd const λ = r.state.multipliers();
     double const size = p.f.norm();
     CHECK((p.K * u + p.B.transpose() * λ - p.f).norm() <= 1e-11 * size);
@@ -125,14 +187,12 @@ TEST_CASE("without constraints in reach: the solution of a linear system") {
   MatrixXd b = MatrixXd::Zero(1, 9);
   b(0, 2) = 1;
   small_problem const p{k, f, b, VectorXd{{100}}};
-  solve(p, {}, [&](auto const& bodies, auto const& r) {
+  solve(p, {}, [&](body_list const&, report_type const& r) {
     REQUIRE(r.converged());
     VectorXd const exact = k.llt().solve(f);
-    CHECK((bodies.displacement(r.x()) - exact).norm() <= 1e-13 * exact.norm());
+    CHECK((r.x() - exact).norm() <= 1e-13 * exact.norm());
     CHECK(r.iterations() <= 1);  // one unknown is not inside
     CHECK(r.state.multipliers().norm() == 0);
-    CHECK(bodies.idle() == 1);
-    CHECK(bodies.factorizations() == 2);
   });
 }
 
@@ -147,9 +207,9 @@ TEST_CASE("redundant and repeated rows") {
   compare(p);
   p.c[3] = 0.5;
   compare(p);
-  solve(p, {}, [&](auto const& bodies, auto const& r) {
+  solve(p, {}, [&](body_list const&, report_type const& r) {
     CHECK(r.converged());
-    CHECK(bodies.displacement(r.x())[2] == doctest::Approx(1));
+    CHECK(r.x()[2] == doctest::Approx(1));
     // Forces of the copies add up to the load.
     CHECK((p.B.transpose() * r.state.multipliers())[2] == doctest::Approx(2));
   });
@@ -167,7 +227,7 @@ TEST_CASE("a corner where more rows are tight than there are directions: no cycl
     }
     p.f << std::cos(0.8 * turn), 0.1, std::sin(0.8 * turn);
     compare(p);
-    solve(p, {.release = 0, .projected_trials = 0}, [&](auto const&, auto const& r) {
+    solve(p, {.release = 0, .projected_trials = 0}, [&](body_list const&, report_type const& r) {
       CHECK(r.converged());
       // Each face of the corner at most once.
       CHECK(r.state.releases <= 8);
@@ -184,7 +244,7 @@ TEST_CASE("starts out of the set, sets without points, loads without a state of 
   p.B(1, 0) = -1;
   p.B(1, 2) = 0;
   p.c[1] = 0;  // u₀ ≥ 0
-  CHECK_THROWS_WITH_AS(solve(p, {}, [](auto const&, auto const&) {}),
+  CHECK_THROWS_WITH_AS(solve(p, {}, [](body_list const&, report_type const&) {}),
                        "c: got bounds that exclude each other, expected a u with B u <= c",
                        slant::bad_input);
   // Pulled away from the wall.
@@ -193,7 +253,7 @@ TEST_CASE("starts out of the set, sets without points, loads without a state of 
   // No load, no constraint that acts: zero is a solution.
   small_problem const idle{chain(3), VectorXd::Zero(3), MatrixXd(VectorXd::Unit(3, 0).transpose()),
                            VectorXd{{infinity}}};
-  solve(idle, {}, [](auto const&, auto const& r) {
+  solve(idle, {}, [](body_list const&, report_type const& r) {
     CHECK(r.status == status::converged);
     CHECK(r.iterations() == 0);
     CHECK(r.x().norm() == 0);
@@ -216,10 +276,10 @@ TEST_CASE("the same in other units, bit for bit in the steps") {
     q.K *= std::ldexp(1.0, e / 2);
     q.f *= force;
     q.c *= std::ldexp(1.0, e - e / 2);
-    solve(q, {}, [&](auto const& bodies, auto const& r) {
+    solve(q, {}, [&](body_list const&, report_type const& r) {
       REQUIRE(r.converged());
       steps.push_back(r.iterations());
-      VectorXd const u = bodies.displacement(r.x()) * std::ldexp(1.0, e / 2 - e);
+      VectorXd const u = r.x() * std::ldexp(1.0, e / 2 - e);
       if (first.size() == 0) first = u;
       CHECK(u == first);
     });
@@ -237,55 +297,36 @@ TEST_CASE("no allocation in a step; states are values; refresh; counts") {
   p.B(1, 11) = 1;
   p.B(2, 0) = -1;
   p.B(3, 4) = 1;
-  slant::contact::bodies const bodies(sparse(p.K.sparseView()), p.f, sparse(p.B.sparseView()), p.c);
+  body_list const bodies = body_list{p};
   auto const qp = bodies.qp();
-  auto const K = slant::counted(qp.k());
-  auto const counted = slant::polyhedral_qp{K, qp.f(), qp.rows(), qp.projection()};
-  slant::schur_contact const method{counted};
-  auto s = method.start(bodies.zero());
-  CHECK(K.applications() == s.work.operator_applications);
+  stiffness const& K = qp.k();
+  method const steps(qp);
+  auto s = steps.start(bodies.zero());
+  CHECK(*K.applications == s.work.operator_applications);
   auto copy = s;
   slant::testing::allocation_guard guard;
-  for (int i = 0; i < 30; ++i) method.step(s);
-  method.refresh(s);
+  for (int i = 0; i < 30; ++i) steps.step(s);
+  steps.refresh(s);
   auto const allocations = guard.count();
   CHECK(allocations == 0);
-  CHECK(K.applications() == s.work.operator_applications);
+  CHECK(*K.applications == s.work.operator_applications);
   CHECK(s.status != status::breakdown);
   CHECK(s.residual_norm <= 1e-13 * s.residual_scale);
-  for (int i = 0; i < 30; ++i) method.step(copy);
-  method.refresh(copy);
+  for (int i = 0; i < 30; ++i) steps.step(copy);
+  steps.refresh(copy);
   CHECK(copy.x == s.x);
-  CHECK(!method.refresh(s));
+  CHECK(!steps.refresh(s));
 }
 
-/// A stiffness that gives numbers for so many applications only.
-struct wearing_out {
-  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
-  MatrixXd k;
-  std::shared_ptr<int> left;
-  [[nodiscard]] Eigen::Index rows() const { return k.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return k.cols(); }
-  void apply(VectorXd const& x, VectorXd& y) const {
-    y.noalias() = k * x;
-    if (--*left < 0) y[0] = std::numeric_limits<double>::quiet_NaN();
-  }
-  void diagonal(VectorXd& d) const { d = k.diagonal(); }
-};
-
 TEST_CASE("numbers that leave the range are a breakdown") {
-  MatrixXd const k = both(chain(5), chain(5)) + MatrixXd::Identity(10, 10);
-  VectorXd const f = VectorXd::LinSpaced(10, -1, 2);
-  sparse const B = MatrixXd(MatrixXd::Identity(10, 10).rightCols(6).transpose()).sparseView();
-  slant::contact::bodies const bodies(sparse(k.sparseView()), f, B, VectorXd::Constant(6, 0.1));
+  small_problem const p{
+      both(chain(5), chain(5)) + MatrixXd::Identity(10, 10), VectorXd::LinSpaced(10, -1, 2),
+      MatrixXd::Identity(10, 10).rightCols(6).transpose(), VectorXd::Constant(6, 0.1)};
+  body_list const bodies = body_list{p};
   auto const qp = bodies.qp();
-  auto const left = std::make_shared<int>(1000);
-  auto const problem =
-      slant::polyhedral_qp{wearing_out{k, left}, qp.f(), qp.rows(), qp.projection()};
   auto const run = [&](int applications) {
-    *left = applications;
-    return slant::solve(slant::schur_contact{problem}, bodies.zero(),
-                        slant::residual_below(1e-12) || slant::at_most(100));
+    stiffness const K{p.K, std::make_shared<int>(0), applications};
+    return minimise(problem(K, qp.f(), qp.rows(), qp.projection()), bodies.zero());
   };
   auto const whole = run(1000);
   REQUIRE(whole.converged());
@@ -319,6 +360,14 @@ TEST_CASE("vectors that are no Eigen objects") {
   REQUIRE(r.converged());
   auto const reference = oracle::minimum_over_polyhedron(k, f, b, c);
   CHECK((r.x().local() - reference->u).norm() <= 1e-12);
+
+  // The same projector where it moves a row, which nobody can see before it does.
+  slant::constraint_rows<double> const moved(MatrixXd{{0, 1, 0}, {0, 0, -1}}.sparseView(), c);
+  auto const wrong =
+      slant::solve(slant::schur_contact{slant::polyhedral_qp{K, load, moved, injected{}}}, zero,
+                   slant::residual_below(1e-13) || slant::at_most(20));
+  CHECK(wrong.status == status::breakdown);
+  CHECK(wrong.reason == "the projector moves a row of B: it is not that of a U with B U = 0");
 }
 
 TEST_CASE("what does not fit is named") {
@@ -330,30 +379,240 @@ TEST_CASE("what does not fit is named") {
     }
     return "nothing thrown";
   };
-  MatrixXd const k = chain(3) + MatrixXd::Identity(3, 3);
-  sparse const K = k.sparseView();
-  VectorXd const f = VectorXd::Ones(3);
-  sparse const B = MatrixXd{{1, 0, 0}}.sparseView();
-  slant::contact::bodies const bodies(K, f, B, VectorXd{{1}});
-  auto const qp = bodies.qp();
-  CHECK(message([&] {
-          (void)slant::schur_contact{qp, {.release = -1}};
-        }) == "release: got -1, expected a number >= 0");
-  CHECK(message([&] {
-          (void)slant::schur_contact{qp, {.projected_trials = -1}};
-        }) == "projected_trials: got -1, expected a number >= 0");
-  CHECK(message([&] {
-          (void)slant::schur_contact{qp, {.patience = -2}};
-        }) == "patience: got -2, expected a number >= 0");
-  CHECK(message([&] { (void)slant::schur_contact{qp}.start(VectorXd(2)); }) ==
-        "u0: got 2, expected the size of f, 3");
-  // A projector that moves a contact row.
-  sparse u(3, 1);
-  u.insert(0, 0) = 1;
-  auto const Q = slant::conjugate_projector(K, u);
-  auto const wrong = slant::polyhedral_qp{qp.k(), qp.f(), qp.rows(), Q};
-  CHECK(message([&] { (void)slant::schur_contact{wrong}.start(bodies.zero()); }) ==
+  small_problem const p{chain(3) + MatrixXd::Identity(3, 3), VectorXd{{0, 0, 1}},
+                        MatrixXd{{1, 0, 0}}, VectorXd{{0}}};
+  stiffness const K{p.K};
+  row_set const rows(p.B.sparseView(), p.c);
+  auto const started = [&](projector const& Q, options const& o, VectorXd const& u0) {
+    return message([&] {
+      auto const qp = problem(K, p.f, rows, Q);
+      (void)method(qp, o).start(u0);
+    });
+  };
+  VectorXd const zero = VectorXd::Zero(3);
+  projector const good = projector_of(p.K, VectorXd::Unit(3, 1));
+  CHECK(started(good, {.release = -1}, zero) == "release: got -1, expected a number >= 0");
+  CHECK(started(good, {.projected_trials = -1}, zero) ==
+        "projected_trials: got -1, expected a number >= 0");
+  CHECK(started(good, {.patience = -2}, zero) == "patience: got -2, expected a number >= 0");
+  CHECK(started(good, {}, VectorXd(2)) == "u0: got 2, expected the size of f, 3");
+  // A projector that moves a row of B is named, also where the load does not show it.
+  CHECK(started(projector_of(p.K, VectorXd::Unit(3, 0)), {}, zero) ==
         "projector: got one that moves row 0 of B, expected that of a U with B U = 0");
+}
+
+TEST_CASE("a U that moves no row up to rounding is as good as one that moves none") {
+  std::srand(8);
+  small_problem p{chain(3) + MatrixXd::Identity(3, 3), VectorXd(3), MatrixXd{{1, 1, 1}},
+                  VectorXd{{1}}};
+  stiffness const K{p.K};
+  row_set const rows(p.B.sparseView(), p.c);
+  projector const Q = projector_of(p.K, VectorXd{{0.1, 0.2, -0.3}});
+  for (int round = 0; round < 20; ++round) {
+    p.f = 3 * VectorXd::Random(3);
+    auto const r = minimise(problem(K, p.f, rows, Q), VectorXd::Zero(3));
+    REQUIRE(r.converged());
+    auto const reference = oracle::minimum_over_polyhedron(p.K, p.f, p.B, p.c);
+    CHECK((r.x() - reference->u).norm() <= 1e-11 * p.f.norm());
+  }
+}
+
+TEST_CASE("rows of any size: the same displacements, multipliers in the units of the rows") {
+  small_problem const p{
+      both(chain(4), chain(4)), VectorXd{{0, 1, 0, 2, 0, 0, -1, 1}},
+      MatrixXd{{0, 0, 0, 1, -1, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 1}, {-1, 0, 0, 0, 0, 0, 0, 0}},
+      VectorXd{{0.5, 1, 0}}};
+  VectorXd u, λ;
+  solve(p, {}, [&](body_list const&, report_type const& r) {
+    u = r.x();
+    λ = r.state.multipliers();
+  });
+  REQUIRE(λ.maxCoeff() > 0);
+  for (auto const& exponents : {std::array{500, 500, 500}, std::array{-500, -500, -500},
+                                std::array{-560, 530, 3}, std::array{900, -900, 0}}) {
+    small_problem q = p;
+    VectorXd forces = λ;
+    for (int i = 0; i < 3; ++i) {
+      double const unit = std::ldexp(1.0, exponents[std::size_t(i)]);
+      q.B.row(i) *= unit;
+      q.c[i] *= unit;
+      forces[i] /= unit;
+    }
+    solve(q, {}, [&](body_list const&, report_type const& r) {
+      REQUIRE(r.converged());
+      CHECK(r.x() == u);
+      CHECK(r.state.multipliers() == forces);
+    });
+  }
+}
+
+TEST_CASE("a start far away is forgotten") {
+  small_problem const p{chain(3) + MatrixXd::Identity(3, 3), VectorXd{{3, 0, 1}},
+                        MatrixXd{{1, 0, 0}, {0, 0, 1}}, VectorXd{{0.5, 0.3}}};
+  auto const reference = oracle::minimum_over_polyhedron(p.K, p.f, p.B, p.c);
+  body_list const bodies = body_list{p};
+  auto const qp = bodies.qp();
+  stiffness const K{p.K};
+  for (double const far : {0.0, 1e8, 1e12, 1e14, 1e16, 1e40}) {
+    for (double const side : {-1.0, 1.0}) {
+      CAPTURE(side * far);
+      auto const r = minimise(problem(K, qp.f(), qp.rows(), qp.projection()),
+                              VectorXd::Constant(3, side * far));
+      CHECK(r.converged());
+      CHECK((r.x() - reference->u).norm() <= 1e-12);
+      CHECK((p.B * r.x() - p.c).maxCoeff() <= 1e-14);
+    }
+  }
+}
+
+TEST_CASE("no solution, with a soft mode beside the kernel") {
+  auto const pair = [](double soft) { return MatrixXd{{1 + soft, -1}, {-1, 1 + soft}}; };
+  for (double const soft : {1e-9, 1e-10, 1e-12}) {
+    small_problem const p{both(pair(soft), pair(0)), VectorXd{{1, 1, 0.3, 0.3}},
+                          -MatrixXd::Identity(4, 4), VectorXd::Constant(4, 1e30)};
+    CAPTURE(soft);
+    solve(p, {}, [&](body_list const&, report_type const& r) {
+      CAPTURE(r.reason);
+      REQUIRE(r.status == status::unbounded);
+      VectorXd const d = r.state.descent.normalized();
+      CHECK((d - VectorXd{{0, 0, 1, 1}} / std::sqrt(2)).norm() <= 1e-7);
+      CHECK((p.K * d).norm() <= 1e-14);
+    });
+  }
+  // A kernel of two directions and a soft one, at random angles to each other.
+  std::srand(11);
+  int unbounded = 0;
+  for (int round = 0; round < 60; ++round) {
+    MatrixXd A = MatrixXd::Random(6, 8);
+    MatrixXd Z = MatrixXd::Random(8, 2);
+    Z.col(0).normalize();
+    Z.col(1) -= Z.col(0).dot(Z.col(1)) * Z.col(0);
+    Z.col(1).normalize();
+    A -= A * Z * Z.transpose();
+    A.row(0) *= 1e-4;
+    small_problem p{A.transpose() * A, VectorXd::Random(8), MatrixXd::Zero(6, 8),
+                    VectorXd::Random(6).cwiseAbs()};
+    p.B.leftCols(6) = MatrixXd::Random(6, 6);
+    // How fast j falls along the kernel at least as fast as it leaves the rows.
+    double margin = -1;
+    for (int k = 0; k < 360; ++k) {
+      VectorXd const d = Z * Eigen::Vector2d(std::cos(k * 0.017453), std::sin(k * 0.017453));
+      margin = std::max(margin, std::min(p.f.dot(d), -(p.B * d).maxCoeff()));
+    }
+    if (margin < 0.02) continue;
+    ++unbounded;
+    CAPTURE(round);
+    solve(p, {}, [&](body_list const&, report_type const& r) {
+      CAPTURE(r.reason);
+      REQUIRE(r.status == status::unbounded);
+      VectorXd const d = r.state.descent.normalized();
+      CHECK((p.K * d).norm() <= 1e-12 * p.K.norm());
+      CHECK((p.B * d).maxCoeff() <= 1e-10);
+      CHECK(p.f.dot(d) > 0);
+    });
+  }
+  CHECK(unbounded >= 5);
+}
+
+TEST_CASE(
+    "finite termination: no face comes back, and none takes more steps than it has dimensions") {
+  std::srand(2);
+  slant::index total = 0;
+  for (int round = 0; round < 40; ++round) {
+    MatrixXd const A = MatrixXd::Random(9, 9);
+    small_problem p{A.transpose() * A + 0.1 * MatrixXd::Identity(9, 9), 5 * VectorXd::Random(9),
+                    MatrixXd::Zero(8, 9), VectorXd::Random(8).cwiseAbs()};
+    p.B.leftCols(7) = MatrixXd::Random(8, 7);  // two unknowns inside
+    if (round % 2 == 0) p.c.setZero();         // all rows meet in one point
+    body_list const bodies = body_list{p};
+    auto const qp = bodies.qp();
+    method const steps(qp, {.release = 0, .projected_trials = 0});
+    auto s = steps.start(bodies.zero());
+    std::vector<std::vector<bool>> left;
+    auto const face = [&] {
+      std::vector<bool> J(8);
+      for (int i = 0; i < 8; ++i) J[std::size_t(i)] = s.rows.active.contains(i);
+      return J;
+    };
+    slant::index on_face = 0;
+    auto before = face();
+    while (s.status == status::running && s.residual_norm > 1e-12 * s.residual_scale &&
+           s.iteration < 500) {
+      auto const releases = s.releases;
+      steps.step(s);
+      if (s.releases > releases) {
+        CHECK(std::count(left.begin(), left.end(), before) == 0);
+        left.push_back(before);
+      }
+      auto const now = face();
+      on_face = now == before ? on_face + 1 : 1;
+      auto const rank = std::min<slant::index>(7, s.rows.active.size());
+      if (now == before) CHECK(on_face <= 7 - rank + 1);
+      before = now;
+    }
+    CAPTURE(round);
+    CHECK(s.residual_norm <= 1e-12 * s.residual_scale);
+    total += s.releases;
+  }
+  CHECK(total >= 30);
+}
+
+/// K of one process: no unknown of the one is joined to one of the other.
+struct shared_stiffness {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  MatrixXd k;
+  [[nodiscard]] Eigen::Index rows() const { return k.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return k.cols(); }
+  void apply(test::shared_vector const& x, test::shared_vector& y) const {
+    y.local().noalias() = k * x.local();
+  }
+};
+struct nothing_inside : slant::no_projector {
+  using slant::no_projector::no_projector;
+};
+
+TEST_CASE("two processes, each with rows of its own") {
+  std::srand(4);
+  for (int round = 0; round < 6; ++round) {
+    MatrixXd const A = MatrixXd::Random(9, 9);
+    std::array const blocks{
+        MatrixXd(A.topLeftCorner(5, 5).transpose() * A.topLeftCorner(5, 5) +
+                 0.1 * MatrixXd::Identity(5, 5)),
+        MatrixXd(A.bottomRightCorner(4, 4).transpose() * A.bottomRightCorner(4, 4) +
+                 MatrixXd::Identity(4, 4))};
+    small_problem p{both(blocks[0], blocks[1]), 4 * VectorXd::Random(9), MatrixXd::Zero(7, 9),
+                    VectorXd::Random(7).cwiseAbs()};
+    p.B.topLeftCorner(4, 5) = MatrixXd::Random(4, 5);
+    p.B.bottomRightCorner(3, 4) = MatrixXd::Random(3, 4);
+    p.c.head(4).setZero();  // the first starts in a corner, and has rows to release
+    test::two_processes group;
+    std::array<VectorXd, 2> u;
+    std::array<slant::index, 2> releases{};
+    bool const finished = test::two_processes::run([&](int rank) {
+      auto const at = std::size_t(rank);
+      int const first = 5 * rank, count = 5 - rank;
+      MatrixXd const b = p.B.block(4 * rank, first, 4 - rank, count);
+      row_set const rows(b.sparseView(), VectorXd(p.c.segment(4 * rank, 4 - rank)));
+      shared_stiffness const K{blocks[at]};
+      test::shared_vector const f(group, rank, p.f.segment(first, count));
+      auto u0 = f;
+      u0.local().setZero();
+      auto const r = slant::solve(
+          slant::schur_contact{slant::polyhedral_qp{K, f, rows, nothing_inside(count)}}, u0,
+          slant::residual_below(1e-12) || slant::at_most(300));
+      if (!r.converged()) return;
+      u[at] = r.x().local();
+      releases[at] = r.state.releases;
+    });
+    REQUIRE(finished);
+    REQUIRE(u[0].size() == 5);
+    REQUIRE(u[1].size() == 4);
+    VectorXd both_parts(9);
+    both_parts << u[0], u[1];
+    auto const reference = oracle::minimum_over_polyhedron(p.K, p.f, p.B, p.c);
+    CHECK((both_parts - reference->u).norm() <= 1e-9 * (1 + reference->u.norm()));
+    CHECK(releases[0] == releases[1]);
+  }
 }
 
 }  // namespace schur_contact_test

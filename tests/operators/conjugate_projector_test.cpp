@@ -148,6 +148,13 @@ TEST_CASE("data that do not fit are named") {
   sparse skew = k;
   skew.coeffRef(0, 1) = 3;
   CHECK(message(skew, injection(3, {1})).starts_with("K(1, 0): got -1, expected a symmetric"));
+  sparse negative = k;
+  negative.coeffRef(2, 2) = -1;
+  CHECK(message(negative, injection(3, {1})) ==
+        "K(2, 2): got -1, expected a number >= 0 on the diagonal of a semidefinite matrix");
+  negative.coeffRef(2, 2) = 0;
+  CHECK(message(negative, injection(3, {1})) ==
+        "K(2, 2): got 0, expected a number > 0, since row 2 has other entries");
   sparse hole = k;
   hole.coeffRef(1, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK(message(hole, injection(3, {1})).starts_with("K(1, 1): got nan"));

@@ -10,14 +10,17 @@
 //     idle bodies    no row of B touches them, and K_i is definite: solved once, here; no iteration
 //                    sees them
 //     inside         of the others, U: the unknowns that no row of B touches, one factor per body
-//     fixing nodes   where K_i is singular even on those (a body that nothing holds along a contact
-//                    plane, or with too few contact nodes), a few nodes far apart are left out of
-//                    U, so that UᵀKU is definite; conjugate gradients find out about the rest
+//     fixing rows    where K_i is singular even on those (a body that nothing holds along a contact
+//                    plane, or with too few contact nodes), as many unknowns as the kernel has
+//                    dimensions are left out of U, those of factorizations/kernel_basis.hpp, so
+//                    that UᵀKU is definite; conjugate gradients find out about the rest. Where
+//                    rounding errors hide the kernel (chains of hinges), the body has no U
 //
 // Rows with an infinite bound never act and touch nothing.
 #pragma once
 
 #include <slant/contact/detail/body_graph.hpp>
+#include <slant/contact/detail/prepared_body.hpp>
 #include <slant/methods/polyhedral_qp.hpp>
 #include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/matrix.hpp>
@@ -47,8 +50,8 @@ class bodies {
   using factors = std::remove_cvref_t<decltype(std::declval<Factor const&>()(
       std::declval<sparse_type const&>()))>;
 
-  /// Throws bad_input if sizes do not match, K is not symmetric, a number is not finite (c may be
-  /// +infinity), or a body cannot be factored on any U.
+  /// Throws bad_input if sizes do not match, K is not symmetric, its diagonal shows that it is not
+  /// semidefinite, or a number is not finite (c may be +infinity).
   template <class M, class N>
   bodies(Eigen::SparseMatrixBase<M> const& k, vector_type const& f,
          Eigen::SparseMatrixBase<N> const& b, vector_type const& c, Factor const& factor = {})
@@ -62,6 +65,7 @@ class bodies {
     stiffness.makeCompressed();
     slant::detail::require_finite_entries("K", stiffness);
     slant::detail::require_symmetric_entries("K", stiffness);
+    slant::detail::require_semidefinite_diagonal("K", stiffness);
     split(stiffness, f, constraint_rows<S>(b, c), factor);
     sparse_type const live = injection(live_);
     f_ = live.transpose() * f;
@@ -91,12 +95,12 @@ class bodies {
     return displacement(d) - idle_displacement_;
   }
 
-  /// All bodies, those that were solved here, and those that needed fixing nodes.
+  /// All bodies, those that were solved here, and those that needed fixing rows or have no U.
   [[nodiscard]] index count() const noexcept { return count_; }
   [[nodiscard]] index idle() const noexcept { return idle_; }
   [[nodiscard]] index fixed() const noexcept { return fixed_; }
-  /// Matrices factored: one for each body, and one more for each choice of U that turned out
-  /// singular.
+  /// Matrices factored: one for each body with unknowns inside, and two more where that turned out
+  /// singular: to find the kernel, and without the fixing rows.
   [[nodiscard]] index factorizations() const noexcept { return factorizations_; }
   /// Unknowns of qp(), and those of them in U.
   [[nodiscard]] index live_size() const noexcept { return static_cast<index>(live_.size()); }
@@ -105,14 +109,9 @@ class bodies {
  private:
   using part = slant::detail::conjugate_part<S, factors>;
   using list = std::vector<index>;
+  using entry = typename sparse_type::InnerIterator;
 
-  /// What becomes of a body.
-  struct outcome {
-    std::optional<part> inside;  // columns of U and K U, rows numbered as in K; none if idle
-    vector_type displacement;    // if idle
-    index attempts = 0;
-    bool fixed = false;
-  };
+  using outcome = detail::prepared_body<S, factors>;
 
   void split(sparse_type const& k, vector_type const& f, constraint_rows<S> const& rows,
              Factor const& factor) {
@@ -121,72 +120,31 @@ class bodies {
       for (index const i : cluster.unknowns) touched[static_cast<std::size_t>(i)] = 1;
     }
     auto const found = detail::bodies_of(k);
+    list number(static_cast<std::size_t>(size_));  // of an unknown among those of its body
+    for (list const& body : found) {
+      for (std::size_t i = 0; i < body.size(); ++i) {
+        number[static_cast<std::size_t>(body[i])] = static_cast<index>(i);
+      }
+    }
     std::vector<outcome> outcomes(found.size());
-    slant::detail::parallel_for(static_cast<index>(found.size()), std::numeric_limits<index>::max(),
-                                [&](index i) {
-                                  auto const at = static_cast<std::size_t>(i);
-                                  outcomes[at] = prepare(k, f, found[at], touched, factor);
-                                });
+    slant::detail::parallel_for(
+        static_cast<index>(found.size()), std::numeric_limits<index>::max(), [&](index i) {
+          auto const at = static_cast<std::size_t>(i);
+          outcomes[at] = detail::prepare_body<factors>(k, f, found[at], number, touched, factor);
+        });
     count_ = static_cast<index>(found.size());
     idle_displacement_ = vector_type::Zero(size_);
-    for (std::size_t i = 0; i < found.size(); ++i) note(found[i], outcomes[i]);
-    number_parts();
+    list begins;  // of the parts, among the unknowns of qp()
+    for (std::size_t i = 0; i < found.size(); ++i) note(found[i], outcomes[i], begins);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      parts_[i].u = moved_down(parts_[i].u, begins[i]);
+      parts_[i].ku = moved_down(parts_[i].ku, begins[i]);
+    }
   }
 
-  /// Tries U = what no row touches, then leaves out nodes far apart.
-  [[nodiscard]] outcome prepare(sparse_type const& k, vector_type const& f, list const& body,
-                                std::vector<unsigned char> touched, Factor const& factor) const {
-    outcome result;
-    list sources;
-    for (index const i : body) {
-      if (touched[static_cast<std::size_t>(i)] != 0) sources.push_back(i);
-    }
-    bool const free = sources.empty();
-    constexpr index patience = 8;
-    while (true) {
-      list inside;
-      for (index const i : body) {
-        if (touched[static_cast<std::size_t>(i)] == 0) inside.push_back(i);
-      }
-      sparse_type u = injection(inside);
-      sparse_type ku = k * u;
-      sparse_type const block = u.transpose() * ku;
-      ++result.attempts;
-      try {
-        result.inside.emplace(part{std::move(u), std::move(ku), factor(block)});
-        break;
-      } catch (bad_input const&) {
-        if (result.attempts == patience || inside.empty()) throw;
-      }
-      // Three nodes that are not on a line hold a body in space.
-      list fixing = result.fixed ? sources : list{};
-      for (int node = result.fixed ? 2 : 0; node < 3; ++node) {
-        auto const chosen = detail::node_of(
-            k, detail::farthest_unknown(k, body, fixing.empty() ? sources : fixing));
-        fixing.insert(fixing.end(), chosen.begin(), chosen.end());
-      }
-      for (index const i : fixing) touched[static_cast<std::size_t>(i)] = 1;
-      sources = fixing;
-      result.fixed = true;
-    }
-    if (free && !result.fixed) {
-      vector_type load(static_cast<index>(body.size()));
-      for (std::size_t i = 0; i < body.size(); ++i) load[static_cast<index>(i)] = f[body[i]];
-      result.displacement.resize(load.size());
-      auto w = slant::workspace(result.inside->factors, load);
-      if constexpr (requires { result.inside->factors.solve(load, result.displacement, w); }) {
-        result.inside->factors.solve(load, result.displacement, w);
-      } else {
-        result.inside->factors.solve(load, result.displacement);
-      }
-      result.inside.reset();
-    }
-    return result;
-  }
-
-  void note(list const& body, outcome& result) {
+  void note(list const& body, outcome& result, list& begins) {
     factorizations_ += result.attempts;
-    if (!result.inside) {
+    if (result.idle) {
       ++idle_;
       for (std::size_t i = 0; i < body.size(); ++i) {
         idle_displacement_[body[i]] = result.displacement[static_cast<index>(i)];
@@ -194,18 +152,24 @@ class bodies {
       return;
     }
     fixed_ += result.fixed ? 1 : 0;
-    inside_size_ += result.inside->u.cols();
+    if (result.inside) {
+      inside_size_ += result.inside->u.cols();
+      begins.push_back(live_size());
+      parts_.push_back(std::move(*result.inside));
+    }
     live_.insert(live_.end(), body.begin(), body.end());
-    parts_.push_back(std::move(*result.inside));
   }
 
-  /// Rows of the parts from the numbers of K to those of qp().
-  void number_parts() {
-    sparse_type const to_live = sparse_type(injection(live_).transpose());
-    for (part& p : parts_) {
-      p.u = sparse_type(to_live * p.u);
-      p.ku = sparse_type(to_live * p.ku);
+  /// Rows of a body as rows of qp(), where they begin with this one.
+  [[nodiscard]] sparse_type moved_down(sparse_type const& m, index begin) const {
+    sparse_type moved(live_size(), m.cols());
+    moved.reserve(m.nonZeros());
+    for (index j = 0; j < m.cols(); ++j) {
+      moved.startVec(j);
+      for (entry e(m, j); e; ++e) moved.insertBack(begin + e.row(), j) = e.value();
     }
+    moved.finalize();
+    return moved;
   }
 
   /// The columns of I with these numbers.

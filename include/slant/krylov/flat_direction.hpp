@@ -11,8 +11,10 @@
 //
 //     minimise   ½ δᵀKδ − (K q)ᵀδ   over   δ ∈ range(Q C Qᵀ)
 //
-// If that leaves a large part of q with K (q − δ) = 0 up to rounding, there is a kernel; if not, q
-// is as it was. Measured by the diagonal, a soft body beside a stiff one is not flat.
+// If that leaves a part of q with K (q − δ) = 0 up to rounding, ‖K (q − δ)‖ ≤ c ε ‖D (q − δ)‖,
+// there is a kernel; if not, q is as it was. Measured by the diagonal, a soft body beside a stiff
+// one is not flat. An operator without a diagonal is measured by the mean of it, by which a soft
+// body that is held cannot be told from a free one: then K (q − δ) = 0 must hold exactly.
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
@@ -54,7 +56,8 @@ class flat_direction {
         image_(D_),
         q_(D_),
         image_of_q_(D_),
-        directions_(prototype) {
+        directions_(prototype),
+        exact_(has_diagonal<K, V>) {
     if constexpr (has_diagonal<K, V>) {
       k.diagonal(D_);
       detail::check_finite("the diagonal of K", D_);
@@ -84,6 +87,9 @@ class flat_direction {
     return norm(image_);
   }
 
+  /// Does K give its diagonal? If not, what is flat is a guess.
+  [[nodiscard]] bool is_exact() const noexcept { return exact_; }
+
   /// Makes d.q ∈ range(Q C Qᵀ) a direction of the kernel that stays in this range, if there is one
   /// near it; else d is as it was. At most `steps` steps, one product and one application of Q and
   /// C each.
@@ -91,37 +97,58 @@ class flat_direction {
   [[nodiscard]] kernel_search split(Directions& d, K const& k, WK& wk, C const& c, WC& wc,
                                     Q const& q, WQ& wq, index steps) {
     kernel_search spent{false, 0, 0};
+    index passes = 0;
     slant::local(q_) = slant::local(d.q);
     slant::local(image_of_q_) = slant::local(d.Ap);
-    scalar const curvature = d.curvature;
-    scalar const half = norm(d.q) / scalar(2);
+    curvature_of_q_ = d.curvature;
+    scalar const least = norm(d.q) / scalar(128);
     scalar const enough = scalar(4) * std::numeric_limits<scalar>::epsilon() * force(d.q);
+    // δ to the precision of K q, then K q anew: where it has become smaller there are more digits.
+    for (scalar before = norm(d.Ap);; before = norm(d.Ap)) {
+      spent.projections += take_out(d, k, wk, c, wc, q, wq, steps, least, enough);
+      slant::apply(k, d.q, d.Ap, wk);
+      spent.products = spent.projections + ++passes;
+      if (passes == 3 || !(norm(d.Ap) > scalar(0) && norm(d.Ap) < before / scalar(2))) break;
+    }
+    d.curvature = inner_product(d.q, d.Ap);
+    scalar const noise = scalar(1024) * std::numeric_limits<scalar>::epsilon() * force(d.q);
+    spent.found = norm(d.q) > least && is_flat(d) && norm(d.Ap) <= (exact_ ? noise : scalar(0));
+    if (!spent.found) restore(d);
+    return spent;
+  }
+  /// d as it was before it was split.
+  template <class Directions>
+  void restore(Directions& d) const {
+    slant::local(d.q) = slant::local(q_);
+    slant::local(d.Ap) = slant::local(image_of_q_);
+    d.curvature = curvature_of_q_;
+  }
+
+ private:
+  /// d.q and d.Ap without δ; how many products with K and applications of Q it took.
+  template <class Directions, class K, class WK, class C, class WC, class Q, class WQ>
+  [[nodiscard]] index take_out(Directions& d, K const& k, WK& wk, C const& c, WC& wc, Q const& q,
+                               WQ& wq, index steps, scalar least, scalar enough) {
+    index products = 0;
+    scalar last = std::numeric_limits<scalar>::infinity();
     directions_.live = false;
-    for (index i = 0; i < steps && norm(d.q) > half; ++i) {
+    while (products < steps && norm(d.q) > least) {
       slant::apply(c, d.Ap, image_, wc);
-      if (norm(image_) <= enough) break;
+      // Below the rounding errors of K q the parts of soft modes still fall, and only they.
+      scalar const now = norm(image_);
+      if (now == scalar(0) || (now <= enough && !(now < last / scalar(2)))) break;
+      last = now;
       directions_.advance(image_);
       directions_.image(k, wk, q, wq);
-      ++spent.products;
-      ++spent.projections;
+      ++products;
       if (is_flat(directions_) || !(directions_.curvature > scalar(0))) break;
       scalar const α = inner_product(d.Ap, directions_.q) / directions_.curvature;
       slant::local(d.q) -= α * slant::local(directions_.q);
       slant::local(d.Ap) -= α * slant::local(directions_.Ap);
     }
-    slant::apply(k, d.q, d.Ap, wk);
-    ++spent.products;
-    d.curvature = inner_product(d.q, d.Ap);
-    spent.found = norm(d.q) > half && is_flat(d);
-    if (!spent.found) {
-      slant::local(d.q) = slant::local(q_);
-      slant::local(d.Ap) = slant::local(image_of_q_);
-      d.curvature = curvature;
-    }
-    return spent;
+    return products;
   }
 
- private:
   /// qᵀD q.
   template <class Directions>
   [[nodiscard]] scalar size(Directions const& d) {
@@ -134,6 +161,8 @@ class flat_direction {
   V q_;      // the direction before it was split
   V image_of_q_;
   projected_directions<V> directions_;
+  bool exact_;
+  scalar curvature_of_q_{0};
 };
 
 template <class V>
@@ -149,7 +178,10 @@ class flat_direction<V, true> {
   [[nodiscard]] bool is_nearly_flat(Directions const&) const {
     return false;
   }
+  [[nodiscard]] bool is_exact() const noexcept { return true; }
   [[nodiscard]] scalar_t<V> force(V const&) const { return scalar_t<V>(0); }
+  template <class Directions>
+  void restore(Directions const&) const {}
   template <class... Parts>
   [[nodiscard]] kernel_search split(Parts const&...) const {
     return {false, 0, 0};

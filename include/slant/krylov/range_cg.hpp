@@ -13,6 +13,9 @@
 // With a conjugate projector Q = I − U(UᵀKU)⁻¹UᵀK, range(U) ⊂ range(C), it is the projector
 // preconditioning of [D §4]: the exact minimum over range(U) first, then the same with Q C Qᵀ in
 // the place of C. Since Qᵀr = r from then on, a step costs one application of Q, of K and of C.
+// Where range(U) ⊄ range(C) the minimum over range(U) leads out of x₀ + range(C), and the result is
+// that of another problem. That can be seen if C declares to be a projector: then C y = y is
+// required of the first step y over range(U). Otherwise it is up to whoever chooses U.
 #pragma once
 
 #include <slant/iteration/detail/part_to_blame.hpp>
@@ -52,8 +55,9 @@ struct range_cg_state {
   scalar_t<V> computed_norm =
       std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
   bool updated = false;                              ///< r was updated since it was computed from x
-  bool regular = false;                              ///< no kernel was found where one may be
-  index projector_applications = 0;                  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
+  bool regular = false;              ///< a kernel was looked for, and j does not fall in it
+  bool flat_ended = false;           ///< it stalled on a direction without curvature
+  index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
   index iteration = 0;
   slant::status status = slant::status::running;
 
@@ -65,7 +69,13 @@ struct range_cg_state {
       case slant::status::unbounded:
         return "the function decreases for ever along `descent`";
       case slant::status::stalled:
-        return "the gradient on the range is no larger than its rounding errors";
+        if (!flat_ended) return "the gradient computed from x has not fallen any more";
+        return flat.is_exact() ? "the curvature of the next direction is that of rounding errors, "
+                                 "and no kernel "
+                                 "was found near it"
+                               : "the curvature of the next direction is that of rounding errors, "
+                                 "as far as the "
+                                 "mean of the diagonal tells; K gives no diagonal";
       case slant::status::breakdown:
         return "a number left the range of the scalar, or an operator is not semidefinite";
       default:
@@ -137,7 +147,8 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
   }
 
   /// The state of x0, with a projector that of the minimum over x0 + range(U). Throws bad_input if
-  /// x0 or K x0 is not finite or of the wrong size.
+  /// x0 or K x0 is not finite or of the wrong size, or if a projector C shows that range(U) is not
+  /// in its range.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, this->b());
     auto const n = index(slant::local(x0).size());
@@ -159,7 +170,10 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     s.status = status::running;
     slant::apply(this->m(), this->b(), s.z, s.c_workspace);
     s.residual_scale = norm(s.z);
-    if constexpr (projected) minimise_inside(s);
+    if constexpr (projected) {
+      minimise_inside(s);
+      check_range(x0, s);
+    }
     note(s);
     if (s.residual_scale == scalar(0)) s.residual_scale = s.residual_norm;
     return s;
@@ -171,10 +185,12 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     d.advance(s.z);
     d.image(this->a(), s.a_workspace, q_.get(), s.q_workspace);
     count(s, 1, 1);
-    if (!s.regular && s.flat.is_nearly_flat(d)) look_for_kernel(s);
+    // Before stalling a kernel is looked for also where none was found before.
+    if (s.flat.is_flat(d) || (!s.regular && s.flat.is_nearly_flat(d))) look_for_kernel(s);
     if (s.status != status::running) return;
     if (!(d.curvature > scalar(0)) || s.flat.is_flat(d)) {
-      s.status = s.flat.is_flat(d) ? status::stalled : status::breakdown;
+      s.flat_ended = s.flat.is_flat(d);
+      s.status = s.flat_ended ? status::stalled : status::breakdown;
       return;
     }
     scalar const α = inner_product(s.r, d.q) / d.curvature;
@@ -200,6 +216,23 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     count(s, 1, 1);
   }
 
+  /// See the top of this file.
+  void check_range([[maybe_unused]] vector_type const& x0, [[maybe_unused]] state_type& s) const {
+    using C_type = typename system::preconditioner_type;
+    if constexpr (declares_projector<C_type> && !std::same_as<C_type, identity_operator>) {
+      slant::local(s.descent) = slant::local(s.x) - slant::local(x0);
+      slant::apply(this->m(), s.descent, s.z, s.c_workspace);
+      slant::local(s.z) -= slant::local(s.descent);
+      auto const ε = std::numeric_limits<scalar>::epsilon();
+      scalar const size = norm(s.descent) + norm(s.x);
+      slant::local(s.descent).setZero();
+      using std::sqrt;
+      if (norm(s.z) <= sqrt(ε) * size) return;
+      throw bad_input("Q", "range(U) not in range(C): it moves x0 by y with C y != y",
+                      "a U within range(C)");
+    }
+  }
+
   void note(state_type& s) const {
     slant::apply(this->m(), s.r, s.z, s.c_workspace);
     s.residual_norm = s.unit * norm(s.z);
@@ -213,7 +246,7 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     auto const search = s.flat.split(d, this->a(), s.a_workspace, this->m(), s.c_workspace,
                                      q_.get(), s.q_workspace, global_size(s.x));
     count(s, search.products, search.projections);
-    s.regular = !search.found;
+    s.regular = true;
     if (!search.found) return;
     scalar const slope = inner_product(s.r, d.q);
     scalar const size = (norm(this->b()) + s.flat.force(s.x)) / s.unit;
@@ -221,7 +254,9 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     if (is_descent(scalar(abs(slope)), d.q, size)) {
       s.status = status::unbounded;
       slant::local(s.descent) = (slope > scalar(0) ? scalar(-1) : scalar(1)) * slant::local(d.q);
+      return;
     }
+    s.flat.restore(d);
   }
 
   static void count(state_type& s, index products, index projections) {

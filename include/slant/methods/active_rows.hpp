@@ -8,7 +8,7 @@
 //     onto { u : B u ≤ c }
 //
 // all of them cluster by cluster, by least squares with independent rows only (row_basis.hpp), so
-// that redundant and repeated rows do no harm. C = V Vᵀ can be applied as an operator.
+// that redundant and repeated rows do no harm.
 #pragma once
 
 #include <slant/concepts/laws.hpp>
@@ -152,6 +152,8 @@ class active_rows {
   std::vector<room> rooms_;
 };
 
+namespace detail {
+
 /// C = V Vᵀ of an active set as an operator, for the time of a call; it works in the room of the
 /// active set, so that only one thread may apply it.
 template <class S>
@@ -172,5 +174,7 @@ class kernel_projector {
   constraint_rows<S> const& rows_;
   active_rows<S>& active_;
 };
+
+}  // namespace detail
 
 }  // namespace slant

@@ -5,15 +5,26 @@
 // between matching grids has clusters of one row; where bodies meet at an edge, or a constraint was
 // written twice, there are a few rows. Each cluster is kept as a small dense block, so that
 // projections onto { B u ≤ c } and onto its faces split into small ones.
+//
+// Units. Each row and its bound are kept as multiples of a power of two, so that the largest entry
+// of a row lies in [1, 2): b_i = units_i b̃_i, c_i = units_i c̃_i. That is exact and changes no
+// point of the set; rows of any size can then stand beside each other. Multipliers of the rows as
+// they were given are those of the kept ones divided by units_i.
+//
+// Limitation. Rows that chain through shared unknowns over a whole surface, as those of mortar
+// methods do, are one cluster of m rows and n unknowns: a dense block of m n numbers, and work of
+// that order in each product.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/krylov/unit.hpp>
 #include <slant/operators/detail/matrix_entries.hpp>
 #include <slant/operators/detail/union_find.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -46,6 +57,7 @@ class constraint_rows {
     detail::require_finite_entries("B", rows);
     rows.prune([](auto, auto, S const& value) { return value != S(0); });
     for (index i = 0; i < c_.size(); ++i) check_bound(i, rows.outerIndexPtr());
+    take_units(rows);
     collect(rows);
   }
 
@@ -53,15 +65,18 @@ class constraint_rows {
   [[nodiscard]] index count() const noexcept { return c_.size(); }
   /// n.
   [[nodiscard]] index unknowns() const noexcept { return unknowns_; }
+  /// c̃, in the units of the rows.
   [[nodiscard]] vector_type const& c() const noexcept { return c_; }
+  /// b_i = units_i b̃_i: powers of two, 1 for rows of zeros.
+  [[nodiscard]] vector_type const& units() const noexcept { return units_; }
   [[nodiscard]] std::vector<cluster> const& clusters() const noexcept { return clusters_; }
   /// Does row i act at all? It has entries and a finite bound.
   [[nodiscard]] bool acts(index i) const { return acts_[static_cast<std::size_t>(i)] != 0; }
 
-  /// ‖b_i‖ of a row that acts.
+  /// ‖b̃_i‖ of a row that acts.
   [[nodiscard]] S const& length(index i) const { return lengths_[i]; }
 
-  /// f(i, b_iᵀv, |b_i|ᵀ|v|) for each row that acts: the product and the size of its terms, of which
+  /// f(i, b̃_iᵀv, |b̃_i|ᵀ|v|) for each row that acts: the product and the size of its terms, of which
   /// its rounding error is a small multiple of ε.
   template <class V, class F>
   void for_each_product(V const& v, F f) const {
@@ -80,21 +95,6 @@ class constraint_rows {
       }
     }
   }
-  /// y ← y − α Bᵀλ.
-  template <class V>
-  void subtract_adjoint(S const& α, vector_type const& λ, V& y) const {
-    auto& entries = slant::local(y);
-    for (cluster const& part : clusters_) {
-      for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        S const t = α * λ[part.rows[j]];
-        if (t == S(0)) continue;
-        for (std::size_t k = 0; k < part.unknowns.size(); ++k) {
-          entries.coeffRef(part.unknowns[k]) -=
-              t * part.e(static_cast<index>(k), static_cast<index>(j));
-        }
-      }
-    }
-  }
 
  private:
   void check_bound(index i, int const* begin) const {
@@ -104,6 +104,25 @@ class constraint_rows {
     if (begin[i] == begin[i + 1] && c_[i] < S(0)) {
       throw bad_input("c", detail::show(c_[i]),
                       "a number >= 0, since row " + detail::show(i) + " of B is zero")
+          .at(i);
+    }
+  }
+
+  void take_units(Eigen::SparseMatrix<S, Eigen::RowMajor>& b) {
+    using std::abs;
+    units_ = vector_type::Ones(b.rows());
+    for (index i = 0; i < b.rows(); ++i) {
+      using entry = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
+      S largest(0);
+      for (entry e(b, i); e; ++e) largest = std::max<S>(largest, abs(e.value()));
+      if (largest == S(0)) continue;
+      units_[i] = unit_near(largest) / S(2);
+      S const reciprocal = S(1) / units_[i];
+      for (entry e(b, i); e; ++e) e.valueRef() *= reciprocal;
+      c_[i] *= reciprocal;
+      if (c_[i] > -std::numeric_limits<S>::infinity()) continue;
+      throw bad_input("c", "a bound " + detail::show(units_[i]) + " times a number out of range",
+                      "one that a u of numbers within the range can satisfy")
           .at(i);
     }
   }
@@ -152,6 +171,7 @@ class constraint_rows {
 
   index unknowns_;
   vector_type c_;
+  vector_type units_;
   std::vector<unsigned char> acts_;
   vector_type lengths_;
   std::vector<cluster> clusters_;

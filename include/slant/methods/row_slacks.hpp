@@ -5,7 +5,8 @@
 //
 // A slack c_i − b_iᵀu is a difference of numbers that may have been much larger in an earlier
 // iterate than they are at its end; what is smaller than the rounding error of the largest so far
-// counts as 0.
+// counts as 0. What an iterate far away has left behind is forgotten where slacks are measured anew
+// from u alone.
 #pragma once
 
 #include <slant/methods/active_rows.hpp>
@@ -21,8 +22,8 @@ struct row_slacks {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  vector_type slack;       ///< c − B u; +infinity for rows that never act
-  vector_type sizes;       ///< the largest |b_i|ᵀ|u| + |c_i| so far
+  vector_type slack;       ///< c − B u in the units of the rows; +infinity for rows that never act
+  vector_type sizes;       ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
   vector_type rates;       ///< b_iᵀq of the rows that q approaches, else 0
   active_rows<S> active;   ///< J
   index changes = 0;       ///< changes of J, however many rows came or went
@@ -52,6 +53,8 @@ struct row_slacks {
       sizes[i] = std::max<S>(sizes[i], size + abs(rows.c()[i]));
     });
   }
+  /// No earlier iterate matters any more.
+  void forget() { sizes.setZero(); }
   [[nodiscard]] bool is_feasible() const { return (slack.array() >= S(0)).all(); }
 
   /// Are the rows of J tight at v, which note_sizes has seen?

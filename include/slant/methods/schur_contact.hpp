@@ -26,12 +26,13 @@
 //
 // Finite termination. Along d, the first direction of the new face, no tight row blocks (b_iᵀd ≤ 0)
 // and rᵀd = ‖d‖² > 0: the step is longer than 0 and j falls. Steps with α₁ = 0 are possible only
-// where a further row has become tight; each adds a row to J that is independent of those there, so
-// that at most rank B of them follow each other, and none removes a row. With exact minimisation on
-// faces j at the minima of faces falls strictly from one release to the next: no face comes back,
-// and there are finitely many. For Γ = release > 0 faces are left early where β outweighs φ, as in
-// proportioning [Dostál 1997]; Γ is halved with each release after the first eight, down to the
-// rounding errors of φ, so that there are finitely many early ones.
+// where a further row has become tight, along which a direction of ker B^J leaves: the rank of B^J
+// grows with each, so that at most rank B of them follow each other, and none removes a row. (Rows
+// that are met at the same point enter together, also those that depend on the others.) With exact
+// minimisation on faces j at the minima of faces falls strictly from one release to the next: no
+// face comes back, and there are finitely many. For Γ = release > 0 faces are left early where β
+// outweighs φ, as in proportioning [Dostál 1997]; Γ is halved with each release after the first
+// eight, down to the rounding errors of φ, so that there are finitely many early ones.
 //
 // No solution. A direction of the kernel of K along which j falls and that no row blocks ends the
 // run; how one is told from a direction of small curvature is in krylov/flat_direction.hpp.
@@ -42,6 +43,7 @@
 
 #include <slant/concepts/distributed.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/methods/detail/moved_rows.hpp>
 #include <slant/methods/detail/schur_contact_parts.hpp>
 #include <slant/methods/projected_search.hpp>
 #include <slant/methods/schur_contact_options.hpp>
@@ -77,12 +79,16 @@ class schur_contact<P> {
     auto const& p = p_.get();
     detail::check_size("u0", index(slant::local(u0).size()), p.size(), "the size of f,");
     detail::check_finite("u0", u0);
+    detail::check_projector(p.rows(), p.projection());
     state_type s(p, u0);
     s.rows.measure(p.rows(), s.x);
-    if (!everywhere(s.x, s.rows.is_feasible())) {
+    // From far away the nearest point has the rounding errors of the way to it; from there it has
+    // not.
+    for (int tries = 0; tries < 3 && !everywhere(s.x, s.rows.is_feasible()); ++tries) {
       if (!everywhere(s.x, s.rows.active.project_on_set(p.rows(), s.x, s.λ))) {
         throw bad_input("c", "bounds that exclude each other", "a u with B u <= c");
       }
+      s.rows.forget();
       s.rows.measure(p.rows(), s.x);
     }
     slant::apply(p.k(), s.x, s.r, s.k_workspace);
@@ -93,29 +99,27 @@ class schur_contact<P> {
     s.unit = unit_near(std::max<scalar>(s.residual_scale, norm(s.r)));
     slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
     s.rows.take_tight(p.rows());
-    detail::minimise_inside(p_.get(), s);
-    detail::check_inside(p_.get(), s);
-    detail::note_residual(p_.get(), s);
+    detail::minimise_inside(p, s);
+    detail::note_residual(p, s);
     return s;
   }
 
   void step(state_type& s) const {
     if (s.status != status::running) return;
     if (s.β_norm > scalar(0) && s.φ_norm <= Γ(s) * s.β_norm) release(s);
-    if (s.status == status::running && s.φ_norm == scalar(0)) s.status = status::stalled;
+    if (s.status == status::running && s.φ_norm == scalar(0)) stall(s);
     if (s.status == status::running) conjugate_step(s);
     if (s.status == status::running) note_progress(s);
+    if (s.status == status::stalled) look_again(s);
     ++s.iteration;
   }
 
-  /// r from x, if steps have been updating it. One product.
+  /// Slacks and r from x, if steps have been updating them. One product, or two where rounding
+  /// errors have carried x over a bound or away from one, which is then put right.
   bool refresh(state_type& s) const {
     if (!s.updated) return false;
     s.status = status::running;
-    detail::compute_residual(p_.get(), s);
-    s.rows.measure(p_.get().rows(), s.x);
-    s.directions.live = false;
-    detail::note_residual(p_.get(), s);
+    detail::measure_anew(p_.get(), s, false);
     return true;
   }
 
@@ -132,7 +136,9 @@ class schur_contact<P> {
   }
   /// (xii), (v)–(vii): rows leave J along which d moves away.
   void release(state_type& s) const {
-    if (!s.rows.leave_along(p_.get().rows(), s.r, s.d, s.λ)) return;
+    // Every process has rows of its own; what follows is done by all of them or by none.
+    bool const left = s.rows.leave_along(p_.get().rows(), s.r, s.d, s.λ);
+    if (everywhere(s.x, !left)) return;
     s.directions.live = false;
     s.regular = false;
     ++s.releases;
@@ -153,16 +159,27 @@ class schur_contact<P> {
     auto const& p = p_.get();
     auto& q = s.directions;
     next_direction(s);
+    bool const moved =
+        detail::moves_rows(p.rows(), p.projection(), q.p, q.q, s.trial, s.rows.rates);
+    if (!everywhere(s.x, !moved)) {
+      s.trouble = schur_contact_trouble::moved_row;
+      s.status = status::breakdown;
+      return;
+    }
     // rᵀq = ‖φ‖² in exact arithmetic; where φ was all but a multiple of p nothing is left of it.
     bool const lost = !(scalar(2) * inner_product(s.r, q.q) >= s.φ_norm * s.φ_norm);
     if (lost && std::exchange(q.live, false)) next_direction(s);
-    bool const flat = !s.regular && s.flat.is_nearly_flat(q) && finds_kernel(s);
-    scalar const slope = inner_product(s.r, q.q);
-    if (!flat && (s.flat.is_flat(q) || !(q.curvature > scalar(0) && slope > scalar(0)))) {
+    auto const leads_nowhere = [&] {
+      return s.flat.is_flat(q) || !(q.curvature > scalar(0) && inner_product(s.r, q.q) > scalar(0));
+    };
+    // Before the face is given up a kernel is looked for also where none was found before.
+    bool const last = leads_nowhere();
+    bool const flat = (last || !s.regular) && s.flat.is_nearly_flat(q) && finds_kernel(s);
+    if (last && !flat) {
       give_up_face(s);
       return;
     }
-    scalar const α = flat ? infinity : scalar(slope / q.curvature);  // (xiv)
+    scalar const α = flat ? infinity : scalar(inner_product(s.r, q.q) / q.curvature);  // (xiv)
     // A flat q has rounding errors everywhere, also where it should not move at all.
     using std::pow;
     scalar const noise =
@@ -195,21 +212,27 @@ class schur_contact<P> {
   bool finds_kernel(state_type& s) const {
     auto const& p = p_.get();
     auto& q = s.directions;
-    kernel_projector<scalar> const c(p.rows(), s.rows.active);
+    detail::kernel_projector<scalar> const c(p.rows(), s.rows.active);
     no_workspace none;
     auto const search = s.flat.split(q, p.k(), s.k_workspace, c, none, p.projection(),
                                      s.q_workspace, global_size(s.x));
     s.work.operator_applications += search.products;
     s.projector_applications += search.projections;
-    s.regular = !search.found;
+    s.regular = true;  // until a row leaves
     if (!search.found) return false;
-    q.live = false;
-    if (inner_product(s.r, q.q) < scalar(0)) {
-      slant::local(q.q) *= scalar(-1);
-      slant::local(q.Ap) *= scalar(-1);
-    }
+    bool const down = inner_product(s.r, q.q) >= scalar(0);
     scalar const size = (s.residual_scale + s.flat.force(s.x)) / s.unit;
-    return is_descent(inner_product(s.r, q.q), q.q, size);
+    using std::abs;
+    if (!is_descent(scalar(abs(inner_product(s.r, q.q))), q.q, size)) {
+      s.flat.restore(q);
+      return false;
+    }
+    q.live = false;
+    s.regular = false;
+    if (down) return true;
+    slant::local(q.q) *= scalar(-1);
+    slant::local(q.Ap) *= scalar(-1);
+    return true;
   }
   /// The face is solved as well as the precision allows: rows are released, or nothing is left.
   void give_up_face(state_type& s) const {
@@ -217,7 +240,25 @@ class schur_contact<P> {
     bool const broken = !(s.directions.curvature >= scalar(0)) && !s.flat.is_flat(s.directions);
     if (!broken && s.β_norm > scalar(0)) release(s);
     if (broken) s.status = status::breakdown;
-    if (s.releases == before && s.status == status::running) s.status = status::stalled;
+    if (s.releases == before && s.status == status::running) stall(s);
+  }
+  void stall(state_type& s) const {
+    s.trouble = schur_contact_trouble::precision;
+    s.status = status::stalled;
+  }
+  /// Rounding errors of iterates that are long past may be what it has stalled on; goes on as long
+  /// as looking at x alone gives half of the residual that it gave the last time.
+  void look_again(state_type& s) const {
+    auto const trouble = s.trouble;
+    s.status = status::running;
+    detail::measure_anew(p_.get(), s, true);
+    if (s.status != status::running) return;
+    s.progress = {};
+    if (!(s.residual_norm < s.computed_norm / scalar(2))) {
+      s.status = status::stalled;
+      s.trouble = trouble;
+    }
+    s.computed_norm = s.residual_norm;
   }
 
   void note_progress(state_type& s) const {
@@ -230,6 +271,7 @@ class schur_contact<P> {
                               (abs(of_load) + abs(of_rest))));
     };
     if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
+      s.trouble = schur_contact_trouble::patience;
       s.status = status::stalled;
     }
   }

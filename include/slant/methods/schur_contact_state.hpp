@@ -10,6 +10,7 @@
 #include <slant/methods/progress_watch.hpp>
 #include <slant/methods/row_slacks.hpp>
 
+#include <limits>
 #include <string>
 
 namespace slant {
@@ -17,6 +18,9 @@ namespace slant {
 /// What the last step did: a conjugate gradient step to the minimum along q, one to the first
 /// constraint, or one beyond it along the boundary. Rows may have been released before it.
 enum class schur_contact_step : unsigned char { none, conjugate_gradient, blocked, projected };
+
+/// Why a run has ended as stalled or with a breakdown.
+enum class schur_contact_trouble : unsigned char { none, precision, patience, moved_row };
 
 /// State of schur_contact for a polyhedral_qp of type P.
 template <class P>
@@ -33,7 +37,8 @@ struct schur_contact_state {
   vector_type trial;                             ///< scratch
   vector_type correction;                        ///< scratch
   vector_type descent;                           ///< direction without end, if unbounded
-  row_vector λ;                                  ///< multipliers, in multiples of unit
+  row_vector λ;                                  ///< multipliers, see multipliers()
+  row_vector row_units;                          ///< in which the rows of B are kept
   row_slacks<scalar> rows;                       ///< c − B u and J
   projected_directions<vector_type> directions;  ///< p, q = Q p, K q, qᵀKq
   workspace_t<typename P::operator_type, vector_type> k_workspace;
@@ -48,7 +53,10 @@ struct schur_contact_state {
   scalar φ_norm{0};          ///< ‖φ‖ / unit
   scalar β_norm{0};          ///< ‖d − φ‖ / unit
   bool regular = false;      ///< K has no kernel on this face
-  bool updated = false;      ///< r was updated since it was computed from x
+  bool updated = false;      ///< x has moved since slacks were measured at it
+
+  scalar computed_norm = std::numeric_limits<scalar>::infinity();  ///< when it last seemed stalled
+  schur_contact_trouble trouble = schur_contact_trouble::none;     ///< see reason()
 
   index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
   index releases = 0;                ///< how often rows were released
@@ -65,6 +73,7 @@ struct schur_contact_state {
         correction(r),
         descent(r),
         λ(row_vector::Zero(p.rows().count())),
+        row_units(p.rows().units()),
         rows(p.rows()),
         directions(x0),
         k_workspace(workspace(p.k(), x0)),
@@ -73,8 +82,9 @@ struct schur_contact_state {
     slant::local(descent).setZero();
   }
 
-  /// The Lagrange multipliers of B u ≤ c, ≥ 0: forces.
-  [[nodiscard]] row_vector multipliers() const { return unit * λ; }
+  /// The Lagrange multipliers of B u ≤ c, ≥ 0: forces. In λ they are in multiples of unit, and
+  /// belong to the rows of B in the units of those.
+  [[nodiscard]] row_vector multipliers() const { return unit * λ.cwiseQuotient(row_units); }
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {
@@ -84,8 +94,14 @@ struct schur_contact_state {
       case slant::status::unbounded:
         return "no solution: the energy falls for ever along `descent`";
       case slant::status::stalled:
-        return "neither the residual nor the energy has fallen any more";
+        if (trouble == schur_contact_trouble::patience) {
+          return "neither the residual nor the energy has fallen any more";
+        }
+        return "rounding errors leave no direction in which the energy falls";
       case slant::status::breakdown:
+        if (trouble == schur_contact_trouble::moved_row) {
+          return "the projector moves a row of B: it is not that of a U with B U = 0";
+        }
         return "a number left the range of the scalar, or K is not positive semidefinite";
       default:
         return std::string(to_string(status));

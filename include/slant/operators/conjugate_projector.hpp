@@ -46,9 +46,11 @@ class conjugate_projector_operator {
 
   using part = detail::conjugate_part<S, F>;
 
-  /// For vectors with n entries; of the parts, the rows of one are not in another.
+  /// For vectors with n entries. Throws bad_input if the matrices of a part do not fit, or if a row
+  /// is in two parts: sweeps over them would write to the same entry.
   conjugate_projector_operator(index n, std::vector<part> parts)
       : rows_(n), parts_(std::move(parts)) {
+    detail::check_parts(n, parts_);
     for (part const& b : parts_) work_ += b.ku.nonZeros();
   }
 
@@ -142,7 +144,8 @@ class conjugate_projector_operator {
 
 /// Q of a sparse K and a sparse U with as many rows. factor(matrix) factors the block of a body;
 /// with slant::cholmod, bits may depend on the threads of its BLAS. Throws bad_input if K is not
-/// square and symmetric, an entry is not finite, U does not fit, or UᵀKU is not definite.
+/// square and symmetric, an entry is not finite, its diagonal shows that it is not semidefinite, U
+/// does not fit, or UᵀKU is not definite.
 template <class M, class N, class Factor = factor_by_ldlt>
   requires detail::is_sparse_matrix<M> && detail::is_sparse_matrix<N>
 [[nodiscard]] auto conjugate_projector(M const& k, N const& u, Factor const& factor = {}) {
@@ -153,6 +156,7 @@ template <class M, class N, class Factor = factor_by_ldlt>
   detail::require_finite_entries("U", u);
   detail::require_finite_entries("K", k);
   detail::require_symmetric_entries("K", k);
+  detail::require_semidefinite_diagonal("K", k);
   using F = std::remove_cvref_t<decltype(factor(std::declval<matrix_type const&>()))>;
   return conjugate_projector_operator<S, F>(
       k.rows(), detail::conjugate_parts<F, S>(matrix_type(k), matrix_type(u), factor));

@@ -17,7 +17,8 @@
 namespace slant::testing {
 
 /// The laws that Q was found to break, each once, with the numbers that show it. Tolerances are
-/// multiples of ε ‖K‖ (1 + ‖Q‖)² ‖x‖; a U'KU of large condition may need options.roundings.
+/// multiples of ε max(‖K x‖, ‖K Q x‖) (1 + ‖Q x‖ / ‖x‖)² for the sample x; a U'KU of large
+/// condition may need options.roundings.
 template <class Q, class K, slant::vector V = Eigen::VectorXd>
   requires has_adjoint<Q, V> && linear_operator<Q, V> && linear_operator<K, V>
 [[nodiscard]] std::vector<breach> conjugacy_breaches(Q const& q, K const& k,

@@ -52,7 +52,9 @@ struct nearest_point {
       if (q < 0) return true;
       if (!add(e, q)) return false;
     }
-    return true;  // rounding errors send rows in circles: all violations are of their size
+    // Rounding errors send rows in circles, as they do where rows are all but dependent: x may be
+    // near the set all the same, with more of them than a row that was met leaves.
+    return worst(e, S(256)) < 0;
   }
 
  private:
@@ -86,14 +88,15 @@ struct nearest_point {
     return worst(e) < 0;
   }
 
-  /// The most violated row, measured in lengths; −1 if none is violated.
-  [[nodiscard]] index worst(matrix_type const& e) const {
+  /// The most violated row, measured in lengths; −1 if none is violated by more than `allowed`
+  /// times its noise.
+  [[nodiscard]] index worst(matrix_type const& e, S const& allowed = S(1)) const {
     index row = -1;
     S most(0);
     for (index i = 0; i < e.cols(); ++i) {
-      if (used_[i] != 0 || !bounded(i)) continue;
+      if ((used_[i] != 0 && allowed == S(1)) || !bounded(i)) continue;
       S const v = violation(e, i);
-      if (!(v > noise(e, i))) continue;
+      if (!(v > allowed * noise(e, i))) continue;
       S const distance = v / e.col(i).norm();
       if (distance > most) {
         most = distance;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/methods/schur_contact_state.hpp>
 
 #include <limits>
@@ -18,29 +19,14 @@ void compute_residual(P const& p, schur_contact_state<P>& s) {
   slant::apply(p.k(), s.x, s.r, s.k_workspace);
   ++s.work.operator_applications;
   slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
-  s.updated = false;
 }
 /// (vi), (vii).
 template <class P>
 void minimise_inside(P const& p, schur_contact_state<P>& s) {
-  slant::local(s.trial) = slant::local(s.x);
   p.projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
   ++s.projector_applications;
   compute_residual(p, s);
 }
-/// Throws bad_input unless B U = 0, as far as minimise_inside has just shown.
-template <class P>
-void check_inside(P const& p, schur_contact_state<P>& s) {
-  using scalar = typename P::scalar;
-  slant::local(s.trial) -= slant::local(s.x);
-  p.rows().for_each_product(s.trial, [](index i, scalar const& value, scalar const&) {
-    if (value != scalar(0)) {
-      throw bad_input("projector", "one that moves row " + detail::show(i) + " of B",
-                      "that of a U with B U = 0");
-    }
-  });
-}
-
 /// (viii), (x): φ, d, λ of r, and what follows from them for the status.
 template <class P>
 void note_residual(P const& p, schur_contact_state<P>& s) {
@@ -62,5 +48,29 @@ void note_residual(P const& p, schur_contact_state<P>& s) {
   s.β_norm = size > zero ? norm(s.trial) : scalar(0);
   if (size <= zero) s.status = status::converged;
   if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+}
+
+/// Slacks, J and r of s.x from s.x alone. What rounding errors of iterates far away have made of it
+/// is put right: rows that are violated by more than those of x itself, or that have left their
+/// bound while they were in J. u is minimised over U again if `inside`, and
+/// where that has moved x.
+template <class P>
+void measure_anew(P const& p, schur_contact_state<P>& s, bool inside) {
+  s.updated = false;
+  s.directions.live = false;
+  s.rows.forget();
+  s.rows.measure(p.rows(), s.x);
+  bool const sound = everywhere(s.x, s.rows.is_feasible() && s.rows.are_tight(p.rows(), s.x));
+  if (!sound) {
+    (void)s.rows.active.project_on_set(p.rows(), s.x, s.λ);
+    s.rows.measure(p.rows(), s.x);
+    s.rows.take_tight(p.rows());
+    s.regular = false;
+  }
+  compute_residual(p, s);
+  note_residual(p, s);
+  if (sound && !inside) return;
+  minimise_inside(p, s);
+  note_residual(p, s);
 }
 }  // namespace slant::detail

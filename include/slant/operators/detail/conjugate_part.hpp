@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/checks.hpp>
 #include <slant/operators/detail/parallel_for.hpp>
 #include <slant/operators/detail/union_find.hpp>
 
@@ -24,6 +25,41 @@ struct conjugate_part {
   Eigen::SparseMatrix<S> ku;
   F factors;
 };
+
+/// Throws bad_input unless U and K U of each part have n rows and as many columns as its factors,
+/// and no row is in two parts.
+template <class S, class F>
+void check_parts(index n, std::vector<conjugate_part<S, F>> const& parts) {
+  std::vector<index> owner(static_cast<std::size_t>(n), -1);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto const number = static_cast<index>(i);
+    auto const check = [&](char const* what, Eigen::SparseMatrix<S> const& m) {
+      if (m.rows() != n || m.cols() != parts[i].u.cols()) {
+        throw bad_input(what, show(index(m.rows())) + " x " + show(index(m.cols())),
+                        show(n) + " x " + show(index(parts[i].u.cols())))
+            .at(number);
+      }
+      for (index j = 0; j < m.cols(); ++j) {
+        for (typename Eigen::SparseMatrix<S>::InnerIterator e(m, j); e; ++e) {
+          index& of_row = owner[static_cast<std::size_t>(e.row())];
+          if (of_row >= 0 && of_row != number) {
+            throw bad_input("parts", "row " + show(index(e.row())) + " of " + show(of_row),
+                            "parts without common rows")
+                .at(number);
+          }
+          of_row = number;
+        }
+      }
+    };
+    check("U", parts[i].u);
+    check("K U", parts[i].ku);
+    if (index(parts[i].factors.rows()) != parts[i].u.cols()) {
+      throw bad_input("factors", show(index(parts[i].factors.rows())) + " rows",
+                      "as many as columns of U, " + show(index(parts[i].u.cols())))
+          .at(number);
+    }
+  }
+}
 
 /// The matrix of some columns of m.
 template <class S>

@@ -91,6 +91,27 @@ template <class S>
   return ldexp(S(1), e);
 }
 
+/// Throws bad_input for a diagonal entry that no positive semidefinite matrix has: a negative one,
+/// or 0 in a row with other entries. The matrix is sparse, symmetric and finite.
+template <class M>
+void require_semidefinite_diagonal(std::string_view name, M const& m) {
+  using S = typename M::Scalar;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> const diagonal = m.diagonal();
+  auto const refuse = [&](index i, std::string const& expectation) {
+    throw bad_input(entry_text(name, i, i), show(diagonal[i]), expectation);
+  };
+  for (index i = 0; i < diagonal.size(); ++i) {
+    if (diagonal[i] < S(0)) refuse(i, "a number >= 0 on the diagonal of a semidefinite matrix");
+  }
+  for_each_entry(m, [&](index i, index j, S const& value) {
+    using std::abs;
+    S const noise = S(32) * std::numeric_limits<S>::epsilon() * diagonal[j];
+    if (diagonal[i] == S(0) && abs(value) > noise) {
+      refuse(i, "a number > 0, since row " + show(i) + " has other entries");
+    }
+  });
+}
+
 /// Throws bad_input naming the worst pair unless
 ///     |m_ij − m_ji| ≤ 1024 ε √(|m_ii| |m_jj|)   for all i, j,
 /// the size of the rounding errors of an assembly from many symmetric parts. Measured by the
