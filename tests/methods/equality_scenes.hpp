@@ -101,8 +101,9 @@ struct wedge {
       : constraints(sparse(MatrixXd{{std::sin(θ), std::cos(θ)}}.sparseView()),
                     VectorXd(VectorXd::Constant(1, std::sin(θ)))) {}
   [[nodiscard]] auto qp() const {
-    return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A),
-                               b, cartesian(slant::free_components(0), slant::half_lines(2), slant::discs(VectorXd()))};
+    return slant::separable_qp{
+        slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b,
+        cartesian(slant::free_components(0), slant::half_lines(2), slant::discs(VectorXd()))};
   }
 };
 

@@ -14,8 +14,9 @@
 // K⁺ is one generalised inverse for each body and R the kernels of all. G λ = e says that the
 // forces on each body are in equilibrium, and its projector is the coarse problem. Methods:
 // constrained_newton, whose coarse problem is that of the face, so that its iterations stay bounded
-// when there are more bodies of the same number of elements, also where contact opens; smalse, whose
-// iterations do so where the contact that is left holds the bodies well (benchmarks/total_feti.cpp).
+// when there are more bodies of the same number of elements, also where contact opens; smalse,
+// whose iterations do so where the contact that is left holds the bodies well
+// (benchmarks/total_feti.cpp).
 #pragma once
 
 #include <slant/contact/detail/friction_law.hpp>
@@ -186,10 +187,9 @@ class total_feti {
     // 64: each of the sums has as many roundings as a body has unknowns, most of which cancel.
     S const rounding = S(64) * std::numeric_limits<S>::epsilon();
     vector_type const errors = rounding * (sizes_of_R.transpose() * f_.cwiseAbs());
-    sparse_type const G = without_rounding(sparse_type(R_.transpose() * sparse_type(B_.transpose())),
-                                           sparse_type(sizes_of_R.transpose() *
-                                                       sparse_type(B_.cwiseAbs().transpose())),
-                                           rounding);
+    sparse_type const G = without_rounding(
+        sparse_type(R_.transpose() * sparse_type(B_.transpose())),
+        sparse_type(sizes_of_R.transpose() * sparse_type(B_.cwiseAbs().transpose())), rounding);
     try {
       return equality_constraints<S>(G, resultants, errors);
     } catch (bad_input const& complaint) {

@@ -76,20 +76,30 @@ template <class A, class V>
   return length > S(0) ? S(norm(image) / length) : S(0);
 }
 
-/// P (b − A x̄); zero where it consists of rounding errors of b and A x̄, which would be taken for a
-/// load otherwise. One application of A.
+/// The linear term at x̄.
+template <class V>
+struct load_at_nearest {
+  V projected;  ///< P (b − A x̄)
+  V opposed;    ///< −Q (b − A x̄), a multiplier that leaves b − A x̄ as it is
+};
+
+/// P (b − A x̄) is zero where it consists of rounding errors of b and A x̄, which would be taken for
+/// a load otherwise. One application of A.
 template <class QP, class C>
-[[nodiscard]] auto projected_load(QP const& qp, C const& c) -> typename QP::vector_type {
+[[nodiscard]] auto projected_load(QP const& qp, C const& c)
+    -> load_at_nearest<typename QP::vector_type> {
   using S = typename QP::scalar;
   using std::sqrt;
-  typename QP::vector_type rest = qp.b(), load = qp.b();
+  load_at_nearest<typename QP::vector_type> load{qp.b(), qp.b()};
+  typename QP::vector_type rest = qp.b();
   slant::apply(qp.a(), c.nearest(), rest);
   S const terms = norm(qp.b()) + norm(rest);
   slant::local(rest) = slant::local(qp.b()) - slant::local(rest);
-  slant::apply(c.kernel_projector(), rest, load);
+  slant::apply(c.kernel_projector(), rest, load.projected);
+  slant::local(load.opposed) = slant::local(load.projected) - slant::local(rest);
   auto const n = static_cast<S>(static_cast<double>(slant::global_size(qp.b())));
-  if (norm(load) <= S(32) * sqrt(n) * std::numeric_limits<S>::epsilon() * terms) {
-    slant::local(load).setZero();
+  if (norm(load.projected) <= S(32) * sqrt(n) * std::numeric_limits<S>::epsilon() * terms) {
+    slant::local(load.projected).setZero();
   }
   return load;
 }

@@ -78,22 +78,19 @@ class constrained_newton<QP, C, M> {
       : constrained_newton(std::move(qp), std::move(c), std::move(m), options{}) {}
   /// Throws bad_input if sizes do not match, or for options out of range.
   constrained_newton(held<QP> qp, held<C> c, held<M> m, options o)
-      : qp_(std::move(qp)),
-        constraints_(std::move(c)),
-        m_(std::move(m)),
-        options_(std::move(o)) {
+      : qp_(std::move(qp)), constraints_(std::move(c)), m_(std::move(m)), options_(std::move(o)) {
     check();
   }
 
-  /// The state of P_Λ(x0) with ν = 0. Throws bad_input if x0 or A x0 is not finite or of the wrong
-  /// size.
+  /// The state of P_Λ(x0) with ν = 0 or, if ‖r̃‖ is less, ν = −Q (b − A x̄). Throws bad_input if x0
+  /// or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
     detail::check_size("x0", x0.size(), qp.size(), "the size of b,");
     detail::check_finite("x0", x0);
-    vector_type const load = detail::projected_load(qp, constraints_.get());
-    state_type s(projected(load), constraints_.get(), m_.get(), x0, load);
-    s.load = norm(load);
+    auto const load = detail::projected_load(qp, constraints_.get());
+    state_type s(projected(load.projected), constraints_.get(), m_.get(), x0, load.projected);
+    s.load = norm(load.projected);
     ++s.work.setup_applications;
     set_sizes(s);
     slant::project(qp.set(), x0, s.x);
@@ -103,6 +100,7 @@ class constrained_newton<QP, C, M> {
     s.size_of_b = s.load / s.unit;
     s.r *= scalar(1) / s.unit;
     look(s);
+    choose_multiplier(s, load.opposed);
     restart(s);
     s.forcing = forcing_history<scalar>::starting_at(s.merit);
     return s;
@@ -144,6 +142,20 @@ class constrained_newton<QP, C, M> {
   [[nodiscard]] auto fallback() const {
     return smalse<problem const&, constraints const&>{qp_.get(), constraints_.get(),
                                                       options_.fallback};
+  }
+
+  /// 0 or another ν, whichever leaves less of r̃; see smalse.
+  void choose_multiplier(state_type& s, vector_type const& other) const {
+    index const spent = s.work.operator_applications;
+    scalar const with_none = s.reduced_gradient_norm;
+    s.ν = other;
+    measure(s);
+    if (s.status == status::running && !(s.reduced_gradient_norm < with_none)) {
+      s.ν.setZero();
+      measure(s);
+    }
+    s.work.setup_applications += s.work.operator_applications - spent;
+    s.work.operator_applications = spent;
   }
 
   /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
@@ -207,8 +219,7 @@ class constrained_newton<QP, C, M> {
     scalar β(1);
     for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
       // residual_at needs two vectors: the gradient of the model is not needed any more.
-      scalar const of_x =
-          s.segment.residual_at(qp_.get().set(), β, s.projected, s.gradient_at_end);
+      scalar const of_x = s.segment.residual_at(qp_.get().set(), β, s.projected, s.gradient_at_end);
       s.gradient_at_end = (scalar(1) - β) * s.offset_y + β * s.target_offset;
       scalar const merit = merit_of(s, of_x, norm(s.gradient_at_end));
       scalar const enough = (scalar(1) - options_.sufficient * β) * s.merit;
@@ -313,8 +324,7 @@ class constrained_newton<QP, C, M> {
     auto& other = *s.fallback;
     work const before = other.work;
     if (other.status == status::running) fallback().step(other);
-    s.work.operator_applications +=
-        other.work.operator_applications - before.operator_applications;
+    s.work.operator_applications += other.work.operator_applications - before.operator_applications;
     s.inner_iterations = other.inner_iterations;
     s.work.inner_iterations += other.inner_iterations;
     s.last_step = constrained_newton_step::fallback;

@@ -19,9 +19,10 @@ struct constrained_newton_options {
   /// Inner accuracy, relative to the merit function.
   eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  S sufficient = S(0.1);  ///< c in (0, 1): a step of length β lowers the merit by c β of it at least
-  index halvings = 20;          ///< β = 1, ½, …: so often at most
-  index patience = 100;         ///< steps in which the merit does not fall that mean stalled
+  S sufficient =
+      S(0.1);  ///< c in (0, 1): a step of length β lowers the merit by c β of it at least
+  index halvings = 20;           ///< β = 1, ½, …: so often at most
+  index patience = 100;          ///< steps in which the merit does not fall that mean stalled
   smalse_options<S> fallback{};  ///< of the method that takes over where Newton's fails
 
   /// Throws bad_input naming the option, its value and what was expected.

@@ -56,8 +56,7 @@ class constrained_newton
 template <class QP, class C>
 constrained_newton(QP&&, C&&) -> constrained_newton<kept_t<QP>, kept_t<C>, identity_operator>;
 template <class QP, class C>
-constrained_newton(QP&&, C&&,
-                   constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+constrained_newton(QP&&, C&&, constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
     -> constrained_newton<kept_t<QP>, kept_t<C>, identity_operator>;
 template <class QP, class C, class M>
 constrained_newton(QP&&, C&&, M&&) -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;

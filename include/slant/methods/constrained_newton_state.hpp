@@ -24,10 +24,10 @@ namespace detail {
 
 /// ½ xᵀP A P x − bᵀx with b = P (b − A x̄) − ν: its operator is owned, the rest is referenced.
 template <class QP, class C>
-using projected_qp = separable_qp<decltype(slant::projected_hessian(
-                                      std::declval<typename QP::operator_type const&>(),
-                                      std::declval<C const&>())),
-                                  typename QP::vector_type const&, typename QP::set_type const&>;
+using projected_qp =
+    separable_qp<decltype(slant::projected_hessian(
+                     std::declval<typename QP::operator_type const&>(), std::declval<C const&>())),
+                 typename QP::vector_type const&, typename QP::set_type const&>;
 
 }  // namespace detail
 
@@ -57,19 +57,19 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   vector_type gradient_at_end;           ///< scratch: gradients of the quadratic model
   vector_type dν;                        ///< step of ν, in units
   workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace;
-  forcing_history<scalar> forcing{};           ///< errors and inner tolerances so far
-  progress_watch<scalar> progress{};           ///< looks for steps that get nowhere
+  forcing_history<scalar> forcing{};              ///< errors and inner tolerances so far
+  progress_watch<scalar> progress{};              ///< looks for steps that get nowhere
   std::optional<smalse_state<QP, C>> fallback{};  ///< of SMALSE-M, once there was need for it
   bool fallback_at_work = false;
-  scalar goal{0};           ///< what the fallback has to reach
+  scalar goal{0};            ///< what the fallback has to reach
   index fallback_count = 0;  ///< how often it had to take over
 
-  scalar merit{0};                 ///< √(‖F‖² + ‖Q y − x̄‖²)/α, in units of the gradient
-  scalar feasibility_norm{0};      ///< ‖Q x − x̄‖, distance of x from the affine space
-  scalar feasibility_scale{0};     ///< max(‖x̄‖, ‖x‖)
-  scalar load{0};                  ///< ‖P (b − A x̄)‖
-  scalar preconditioner_size{1};   ///< s = mean(diag M)
-  bool at_projection = false;      ///< x = P_Λ(z)
+  scalar merit{0};  ///< √(‖F‖² + ‖Q y − x̄‖²)/α, in units of the gradient
+  scalar feasibility_norm{0};     ///< ‖Q x − x̄‖, distance of x from the affine space
+  scalar feasibility_scale{0};    ///< max(‖x̄‖, ‖x‖)
+  scalar load{0};                 ///< ‖P (b − A x̄)‖
+  scalar preconditioner_size{1};  ///< s = mean(diag M)
+  bool at_projection = false;     ///< x = P_Λ(z)
   constrained_newton_step last_step = constrained_newton_step::none;
   scalar step_fraction{1};     ///< β of the last Newton step
   index inner_iterations = 0;  ///< of the last step

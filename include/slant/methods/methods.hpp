@@ -8,8 +8,12 @@
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
+#include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/constrained_newton_options.hpp>
+#include <slant/methods/constrained_newton_state.hpp>
 #include <slant/methods/constraint_rows.hpp>
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/cut_face.hpp>
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/estimated_multipliers.hpp>

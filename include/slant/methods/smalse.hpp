@@ -38,10 +38,10 @@
 namespace slant {
 
 /// The method at the top of this file: solve(smalse{qp, constraints}, x0, reduced_gradient_below(
-/// 1e-8) && feasibility_below(1e-8) || at_most(100)); options last. Requires of the problem what kprgp
-/// does; constraints are equality_constraints{G, e}. Spends one application of A an outer step
-/// besides those of KPRGP, and at the start those for the bound of σ_max(P A P). Statuses of its own: converged, stalled (see state.infeasible),
-/// unbounded, breakdown.
+/// 1e-8) && feasibility_below(1e-8) || at_most(100)); options last. Requires of the problem what
+/// kprgp does; constraints are equality_constraints{G, e}. Spends one application of A an outer
+/// step besides those of KPRGP, and at the start those for the bound of σ_max(P A P). Statuses of
+/// its own: converged, stalled (see state.infeasible), unbounded, breakdown.
 template <class QP, class C>
   requires smalse_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>>
 class smalse<QP, C> : private detail::smalse_core<QP, C> {
@@ -59,8 +59,8 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
   /// range.
   smalse(held<QP> qp, held<C> c, options o) : core(std::move(qp), std::move(c), std::move(o)) {}
 
-  /// The state of P_Λ(x0) with ν = 0. Throws bad_input if x0 or A x0 is not finite or of the wrong
-  /// size, or as the bound of σ_max and the inner method do.
+  /// The state of P_Λ(x0) with ν = 0 or, if ‖r̃‖ is less, ν = −Q (b − A x̄). Throws bad_input if x0
+  /// or A x0 is not finite or of the wrong size, or as the bound of σ_max and the inner method do.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
     auto const& c = constraints_.get();
@@ -73,14 +73,12 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
     }
     scalar const whole = detail::size_on_ones(qp.a(), x0);
     // P A P may consist of rounding errors of A; any penalty will do then.
-    bool const told =
-        bound.ritz > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole;
-    scalar const ρ =
-        options_.penalty * (told ? bound.ritz : whole > scalar(0) ? whole : scalar(1));
+    bool const told = bound.ritz > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole;
+    scalar const ρ = options_.penalty * (told ? bound.ritz : whole > scalar(0) ? whole : scalar(1));
     scalar const σ = std::max(bound.upper, ρ);  // of P A P + ρ Q: both act on spaces of their own
 
-    vector_type const load = detail::projected_load(qp, c);
-    vector_type b = load;
+    auto const load = detail::projected_load(qp, c);
+    vector_type b = load.projected;
     slant::local(b) += ρ * slant::local(c.nearest());
 
     auto const inner_problem = augmented(b, ρ);
@@ -88,14 +86,15 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
     inner.σ = std::max<scalar>(bound.ritz, ρ);  // known: what counts as a direction of the kernel
     vector_type ν = like(x0, qp.size());
     slant::local(ν).setZero();
-    state_type s{x0, ν, load, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
+    state_type s{x0, ν, load.projected, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
     s.σ = σ;
     s.ρ = ρ;
     s.M = options_.balance * ρ;
-    s.load = norm(load);
+    s.load = norm(load.projected);
     s.work = s.inner.work;
     s.work.setup_applications += bound.applications + 2;
     look(s);
+    choose_multiplier(s, x0, load.opposed);
     s.η = options_.precision * std::max(s.load, s.gradient_scale);
     return s;
   }
@@ -144,9 +143,22 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
   }
 
  private:
-  using core::augmented, core::constraints_, core::form_linear_term,
-      core::inner_method, core::look, core::measure_offset, core::note_progress, core::options_,
-      core::qp_, core::restart;
+  using core::augmented, core::constraints_, core::form_linear_term, core::inner_method, core::look,
+      core::measure_offset, core::note_progress, core::options_, core::qp_, core::restart;
+
+  /// 0 or another ν, whichever leaves less of r̃: the load of a bound that is far away (a large gap)
+  /// is best left where the bound absorbs it, and P would spread it.
+  void choose_multiplier(state_type& s, vector_type const& x0, vector_type const& other) const {
+    index const spent = s.work.operator_applications;
+    scalar const with_none = s.reduced_gradient_norm;
+    vector_type const none = s.ν;
+    resume(s, x0, other);
+    if (s.status == status::running && !(s.reduced_gradient_norm < with_none)) {
+      resume(s, x0, none);
+    }
+    s.work.setup_applications += s.work.operator_applications - spent;
+    s.work.operator_applications = spent;
+  }
 
   /// (1°). The inner method may end by itself: at the solution, or where it gets no further.
   template <class Method>

@@ -4,14 +4,13 @@
 // judgement of progress.
 #pragma once
 
-#include <slant/methods/kprgp.hpp>
 #include <slant/methods/detail/separation.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/methods/smalse_options.hpp>
 #include <slant/methods/smalse_state.hpp>
 #include <slant/operators/held.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -84,31 +83,21 @@ class smalse_core {
     if (!is_finite(s.feasibility_norm)) s.status = status::breakdown;
   }
 
-  static scalar relative(scalar const& size, scalar const& scale) {
-    return scale > scalar(0) ? scalar(size / scale) : size;
-  }
-  static scalar relative_error(state_type const& s) {
-    return std::max(relative(s.reduced_gradient_norm, s.gradient_scale),
-                    relative(s.feasibility_norm, s.feasibility_scale));
+  /// In lengths, by a factor that does not change: x may be much larger on the way than at its end.
+  [[nodiscard]] static scalar error(state_type const& s) {
+    return std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
   }
 
   /// Infeasible constraints are recognised by a plane that separates them from Λ, and by nothing
   /// else: where the two meet at a small angle, progress is as slow as if they did not.
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
-    using std::sqrt;
-    scalar const distance = relative(s.feasibility_norm, s.feasibility_scale);
-    if (distance > sqrt(std::numeric_limits<scalar>::epsilon())) {
-      s.infeasible = separates(qp_.get().set(), s.x, s.offset, constraints_.get().nearest(),
-                               s.inner.trial, s.inner.projected);
-    }
     auto const no_energy = [] {
       return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
     };
-    if (s.infeasible ||
-        s.progress.stalled(s.iteration, relative_error(s), options_.patience, no_energy)) {
-      s.status = status::stalled;
-    }
+    if (!s.progress.stalled(s.iteration, error(s), options_.patience, no_energy)) return;
+    s.status = status::stalled;
+    s.infeasible = is_apart(qp_.get().set(), constraints_.get(), s.x);
   }
 
   held<QP> qp_;

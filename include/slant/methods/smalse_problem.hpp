@@ -45,8 +45,7 @@ class smalse : public detail::refused_method<typename std::remove_cvref_t<QP>::v
 /// A problem that was told so already.
 template <class QP, class C>
   requires detail::was_refused<std::remove_cvref_t<QP>>
-class smalse<QP, C>
-    : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+class smalse<QP, C> : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
  public:
   using smalse::refused_method::refused_method;
 };

@@ -46,13 +46,13 @@ struct smalse_state {
   scalar M{1};           ///< inner problems are solved until ‖r̃‖ ≤ M ‖Q x − x̄‖
   scalar η{0};           ///< and ‖r̃‖ ≤ η
   scalar lagrangian{0};  ///< L(x, ν, ρ) of the last inner problem, in units of inner.unit
-  scalar feasibility_norm{0};       ///< ‖Q x − x̄‖, distance of x from the affine space
-  scalar feasibility_scale{0};      ///< max(‖x̄‖, ‖x‖)
+  scalar feasibility_norm{0};   ///< ‖Q x − x̄‖, distance of x from the affine space
+  scalar feasibility_scale{0};  ///< max(‖x̄‖, ‖x‖)
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of L(·, ν, 0) with the new ν: of A x − b + ν on ker G
-  scalar gradient_scale{0};         ///< min(‖P (b − A x̄)‖, ρ feasibility_scale), see step
-  scalar load{0};                   ///< ‖P (b − A x̄)‖
-  index inner_iterations = 0;       ///< of the last outer step
-  index iteration = 0;              ///< outer steps: updates of ν
+  scalar gradient_scale{0};    ///< min(‖P (b − A x̄)‖, ρ feasibility_scale), see step
+  scalar load{0};              ///< ‖P (b − A x̄)‖
+  index inner_iterations = 0;  ///< of the last outer step
+  index iteration = 0;         ///< outer steps: updates of ν
   slant::status status = slant::status::running;
   slant::work work{};
 

@@ -195,12 +195,11 @@ class equality_constraints {
       if (rest.norm() > rounding) refuse_row(i, rest.norm());
       S const implied = combination.dot(kept_e);
       S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(kept_e.cwiseAbs());
-      S const allowed =
-          rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
+      S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
       if (abs(implied - unit_e[i]) <= allowed) continue;
-      throw bad_input("e", detail::show(S(e[i])),
-                      detail::show(S(implied * lengths_[i])) +
-                          ", which other rows of G imply for this one")
+      throw bad_input(
+          "e", detail::show(S(e[i])),
+          detail::show(S(implied * lengths_[i])) + ", which other rows of G imply for this one")
           .at(i);
     }
   }

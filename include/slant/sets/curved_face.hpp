@@ -101,7 +101,8 @@ class curved_face {
     for_each([&](auto entry, index const* component, index n) {
       for (index j = 0; j < n; ++j) {
         S sum(0);
-        for (index l = 0; l < n; ++l) sum += entry(range_curvature, j, l) * from.coeff(component[l]);
+        for (index l = 0; l < n; ++l)
+          sum += entry(range_curvature, j, l) * from.coeff(component[l]);
         to.coeffRef(component[j]) += α * sum;
       }
     });
