@@ -109,7 +109,7 @@ limits limits_of(fem::brick_load load, std::string const& method) {
   if (method == "newton") return {opens ? 20 : 10, 220};
   if (method == "newton_lumped") return {opens ? 20 : 10, 150};
   if (method == "newton_dirichlet") return {opens ? 20 : 10, opens ? 110 : 60};
-  return {30, 1200};
+  return {40, 1200};
 }
 
 /// One load with all cuts; false if a run misses a limit.

@@ -99,14 +99,14 @@ class total_feti {
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// One factorisation for each body (two, if its kernel is not given). The data are for the
-  /// unknowns of all bodies, one after the other. Throws bad_input if sizes do not match, if the
+  /// unknowns of all bodies, one after the other, with any number of contact nodes. Throws bad_input if sizes do not match, if the
   /// data or a kernel are not what they should be, or if the load moves a body in a way that no
   /// constraint opposes.
   total_feti(Friction friction, floating_bodies<S> const& bodies, data<S> const& c)
       : inverse_(generalized_inverses(bodies)),
         R_(detail::diagonal_of<S>(bodies_of(inverse_),
                                   [](auto const* body) -> auto const& { return body->kernel(); })),
-        f_(detail::validated(friction, c, inverse_.rows()).f),
+        f_(checked_load(friction, c, inverse_.rows())),
         B_(stacked(bodies, c)),
         set_(cartesian(free_components<S>(bodies.B.rows()), detail::feasible_set(friction, c))),
         constraints_(equilibrium()),
@@ -178,6 +178,17 @@ class total_feti {
     std::vector<generalized_inverse<S> const*> list;
     for (index i = 0; i < inverse.block_count(); ++i) list.push_back(&inverse.block(i));
     return list;
+  }
+
+  /// f of valid data; without contact nodes the problem is one of gluing alone, and linear.
+  static vector_type const& checked_load(Friction friction, data<S> const& c, index unknowns) {
+    if (c.nodes() > 0) return detail::validated(friction, c, unknowns).f;
+    slant::detail::check_size("rows of T", c.T.rows(), 0, "no contact nodes,");
+    slant::detail::check_size("d", c.d.size(), 0, "no contact nodes,");
+    slant::detail::check_size("g", c.g.size(), 0, "no contact nodes,");
+    slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
+    slant::detail::check_finite("f", c.f);
+    return c.f;
   }
 
   /// G λ = e. Not movable, so made in place.
