@@ -21,7 +21,8 @@ using test::decomposed_brick;
 using preconditioner =
     slant::any_operator<VectorXd, slant::laws<slant::self_adjoint, slant::positive_semidefinite>>;
 
-TEST_CASE("without preconditioner, lumped and Dirichlet in the face, contact that holds and opens") {
+TEST_CASE(
+    "without preconditioner, lumped and Dirichlet in the face, contact that holds and opens") {
   for (auto const load : {fem::brick_load::pull, fem::brick_load::lift}) {
     decomposed_brick const brick({2, 1, 1}, test::effort(3, 2), load);
     auto const expected =
@@ -46,8 +47,9 @@ TEST_CASE("without preconditioner, lumped and Dirichlet in the face, contact tha
     CAPTURE(without);
     CAPTURE(lumped);
     CAPTURE(dirichlet);
-    CHECK(lumped < 0.8 * without);
-    CHECK(dirichlet < lumped);
+    CHECK(lumped < 0.6 * without);
+    CHECK(dirichlet <
+          0.6 * without);  // with two cells along an edge not better than the lumped one
   }
 }
 

@@ -99,9 +99,9 @@ class total_feti {
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// One factorisation for each body (two, if its kernel is not given). The data are for the
-  /// unknowns of all bodies, one after the other, with any number of contact nodes. Throws bad_input if sizes do not match, if the
-  /// data or a kernel are not what they should be, or if the load moves a body in a way that no
-  /// constraint opposes.
+  /// unknowns of all bodies, one after the other, with any number of contact nodes. Throws
+  /// bad_input if sizes do not match, if the data or a kernel are not what they should be, or if
+  /// the load moves a body in a way that no constraint opposes.
   total_feti(Friction friction, floating_bodies<S> const& bodies, data<S> const& c)
       : inverse_(generalized_inverses(bodies)),
         R_(detail::diagonal_of<S>(bodies_of(inverse_),
