@@ -47,6 +47,15 @@ TEST_CASE("nodes on a line do not turn about it, a single one not at all") {
   for (int i = 0; i < 4; ++i) line.col(i) = Eigen::Vector3d(0.1, 0.2, 0.3) * i;
   CHECK(rigid_body_modes(line).cols() == 5);
   CHECK(rigid_body_modes(Matrix3Xd(line.col(1))).cols() == 3);
+  for (double const far : {1e3, 1e6}) {
+    CHECK(rigid_body_modes(Matrix3Xd(line.array() + far)).cols() == 5);
+  }
+  for (double const size : {1e-300, 1e308}) {
+    CHECK(rigid_body_modes(Matrix3Xd(size * line)).cols() == 5);
+    Matrix3Xd corner = size * line;
+    corner(0, 3) = 0;
+    CHECK(rigid_body_modes(corner).cols() == 6);
+  }
   Matrix3Xd axis = Matrix3Xd::Constant(3, 4, 0.7);
   axis.row(1) << 1e6 + 1, 1e6 + 2, 1e6 + 4, 1e6 + 5;
   CHECK(rigid_body_modes(axis).cols() == 5);

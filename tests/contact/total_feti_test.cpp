@@ -2,9 +2,7 @@
 #include "feti_scenes.hpp"
 #include "scenes.hpp"
 
-#include <slant/iteration/feasible.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/smalse.hpp>
+#include <slant/methods/constrained_newton.hpp>
 
 #include <doctest/doctest.h>
 
@@ -12,6 +10,8 @@
 #include <support/effort.hpp>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace total_feti_test {
 
@@ -19,33 +19,51 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::contact::friction_disc;
-using slant::contact::frictionless;
 using slant::contact::total_feti;
 using test::decomposed_brick;
 
-TEST_CASE("the displacements of the brick that was not cut, without and with friction") {
-  auto const load = fem::brick_load::pull;
-  decomposed_brick const brick({2, test::effort(2, 1), 1}, 2, load);
-  auto const same = [&](VectorXd const& u, VectorXd const& expected) {
-    CHECK((u - expected).norm() <= 1e-8 * expected.norm());
-  };
-  {
-    auto const expected =
-        test::reference(brick.scene.K, examples::contact_data(brick.scene, false)).u;
-    total_feti const problem(frictionless{}, brick.bodies, brick.data(false));
-    auto const qp = problem.qp();
-    same(test::displacement(brick, problem, slant::smalse{qp, problem.constraints()}), expected);
+/// What the load rests on, or why it cannot.
+template <class Bodies, class Data>
+auto solved(Bodies const& bodies, Data const& data) {
+  total_feti const problem(friction_disc{}, bodies, data);
+  auto const qp = problem.qp();
+  slant::constrained_newton const method{qp, problem.constraints()};
+  auto r = slant::solve(method, problem.zero(), test::accurate());
+  VectorXd u = problem.displacement(r.x(), method.multipliers(r.state));
+  VectorXd const rest =
+      slant::contact::block_stiffness(bodies) * u - data.f + problem.rows().transpose() * r.x();
+  CHECK((!r.converged() || rest.norm() <= 1e-8 * data.f.norm()));
+  return std::pair(std::move(r), std::move(u));
+}
+
+/// What is said of bodies and data that are refused; nothing if they are not.
+template <class Bodies, class Data>
+std::string complaint(Bodies const& bodies, Data const& data) {
+  try {
+    total_feti const problem(friction_disc{}, bodies, data);
+  } catch (slant::bad_input const& e) {
+    return e.what();
   }
-  {
-    auto const expected =
-        test::reference(brick.scene.K, examples::contact_data(brick.scene, true)).u;
-    total_feti const problem(friction_disc{}, brick.bodies, brick.data(true));
+  return "";
+}
+
+TEST_CASE(
+    "the displacements of the brick that was not cut, one node close and far from the ground") {
+  decomposed_brick const brick({2, test::effort(2, 1), 1}, 2, fem::brick_load::pull);
+  for (double const far : {0.0, 1e2}) {
+    CAPTURE(far);
+    auto whole = examples::contact_data(brick.scene, true);
+    auto cut = brick.data(true);
+    whole.d[1] += far;
+    cut.d[1] += far;
+    auto const expected = test::reference(brick.scene.K, whole).u;
+    total_feti const problem(friction_disc{}, brick.bodies, cut);
     auto const qp = problem.qp();
-    same(test::displacement(brick, problem, slant::smalse{qp, problem.constraints()}), expected);
-    slant::smalse_options<double> options;
-    options.newton_multipliers = true;
-    slant::smalse const newton{qp, problem.constraints(), options};
-    same(test::displacement(brick, problem, newton), expected);
+    VectorXd const u = test::displacement(brick, problem, slant::smalse{qp, problem.constraints()});
+    CHECK((u - expected).norm() <= 1e-8 * expected.norm());
+    slant::constrained_newton const newton{qp, problem.constraints()};
+    VectorXd const v = test::displacement(brick, problem, newton);
+    CHECK((v - expected).norm() <= 1e-8 * expected.norm());
     CHECK(slant::solve(newton, problem.zero(), test::accurate()).iterations() <= 12);
   }
 }
@@ -66,14 +84,13 @@ TEST_CASE("by dense matrices: F on ker G does not depend on K+, G and e are thos
   CHECK(given.constraints().rows() == 12);
 }
 
-TEST_CASE("prescribed displacements: a brick whose end is moved") {
+TEST_CASE("prescribed displacements: a brick whose end is moved, with no contact at all") {
   decomposed_brick brick({2, 1, 1}, 2, fem::brick_load::press);
   // The fixed nodes have the rows with a single entry.
   Eigen::Index const rows = brick.bodies.B.rows();
-  VectorXd const count = brick.bodies.B.cwiseAbs2() * VectorXd::Ones(brick.parts.unknowns());
-  auto data = brick.data(false);
-  data.f.setZero();
-  data.d.setConstant(std::numeric_limits<double>::infinity());  // nothing is touched
+  auto const n = brick.parts.unknowns();
+  slant::contact::data<double> const data{sparse(0, n), sparse(0, n), VectorXd::Zero(n),
+                                          VectorXd(0), VectorXd(0)};
   VectorXd entries = VectorXd::Zero(rows);
   for (Eigen::Index j = 0; j < brick.bodies.B.outerSize(); ++j) {
     for (sparse::InnerIterator e(brick.bodies.B, j); e; ++e) entries[e.row()] += 1;
@@ -82,13 +99,8 @@ TEST_CASE("prescribed displacements: a brick whose end is moved") {
   for (Eigen::Index i = 0; i < rows; ++i) {
     if (entries[i] == 1) brick.bodies.c[i] = axis++ % 3 == 2 ? 0.25 : 0.0;
   }
-  CHECK(count.minCoeff() > 0);
-  total_feti const problem(frictionless{}, brick.bodies, data);
-  auto const qp = problem.qp();
-  slant::smalse const method{qp, problem.constraints()};
-  auto const r = slant::solve(method, problem.zero(), test::accurate());
+  auto const [r, u] = solved(brick.bodies, data);
   CHECK(r.converged());
-  VectorXd const u = problem.displacement(r.x(), method.multipliers(r.state));
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     CHECK(u[i] == doctest::Approx(i % 3 == 2 ? 0.25 : 0.0).epsilon(1e-9).scale(0.25));
   }
@@ -117,25 +129,76 @@ TEST_CASE("redundant gluing, a body with no constraint, loads that nothing bears
   data.f.conservativeResize(two + own);
   data.f.tail(own).setZero();
 
-  total_feti const problem(friction_disc{}, bodies, data);
-  CHECK(problem.constraints().redundant().size() == 6);
-  auto const qp = problem.qp();
-  slant::smalse const method{qp, problem.constraints()};
-  auto const r = slant::solve(method, problem.zero(), test::accurate());
+  {
+    total_feti const problem(friction_disc{}, bodies, data);
+    CHECK(problem.constraints().redundant().size() == 6);
+  }
+  auto const [r, u] = solved(bodies, data);
   CHECK(r.converged());
-  VectorXd const u = problem.displacement(r.x(), method.multipliers(r.state));
   CHECK(u.tail(own).norm() == 0);
   auto const expected = test::reference(brick.scene.K, examples::contact_data(brick.scene, true)).u;
   CHECK((brick.parts.mean * u.head(two) - expected).norm() <= 1e-8 * expected.norm());
 
-  data.f[two + 1] = 0.5;
-  std::string complaint;
-  try {
-    total_feti const pushed(friction_disc{}, bodies, data);
-  } catch (slant::bad_input const& e) {
-    complaint = e.what();
+  for (double const push : {0.5, 1e-8, 1e-12}) {
+    data.f[two + 1] = push;
+    CHECK(complaint(bodies, data).find("f: got a load that moves body 2") == 0);
   }
-  CHECK(complaint.find("f: got a load that moves body 2") == 0);
+  // A load in equilibrium with itself is fine, however large.
+  VectorXd const shape = VectorXd::LinSpaced(own, -1, 1).array().sin();
+  data.f.tail(own) = 1e3 * (bodies.K.back() * shape);
+  auto const [deformed, v] = solved(bodies, data);
+  CHECK(deformed.converged());
+}
+
+/// One cube without Dirichlet conditions, held at given unknowns.
+decomposed_brick cube_held_at(std::vector<Eigen::Index> const& unknowns) {
+  decomposed_brick cube({1, 1, 1}, 1, fem::brick_load::press);
+  auto const rows = static_cast<Eigen::Index>(unknowns.size());
+  cube.bodies.B = sparse(rows, cube.parts.unknowns());
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    cube.bodies.B.insert(i, unknowns[static_cast<std::size_t>(i)]) = 1;
+  }
+  cube.bodies.c = VectorXd::Zero(rows);
+  return cube;
+}
+
+TEST_CASE("a body held in six directions, and in five") {
+  auto const n = decomposed_brick({1, 1, 1}, 1, fem::brick_load::press).parts.unknowns();
+  auto const nodes = decomposed_brick({1, 1, 1}, 1, fem::brick_load::press).parts.nodes.front();
+  auto const R = slant::contact::rigid_body_modes(nodes);
+  auto const six = slant::fixing_rows(R);
+  VectorXd const f = VectorXd::LinSpaced(n, -1, 2).array().cos();
+  slant::contact::data<double> data{sparse(0, n), sparse(0, n), f, VectorXd(0), VectorXd(0)};
+  auto const held = cube_held_at(six);
+  auto const [r, u] = solved(held.bodies, data);
+  CHECK(r.converged());
+  CHECK((held.bodies.B * u).norm() <= 1e-10 * u.norm());
+
+  auto const loose = cube_held_at({six.begin(), six.end() - 1});
+  CHECK(complaint(loose.bodies, data).find("f: got a load that moves body 0") == 0);
+  // The motion that is left, and a load without a component along it.
+  MatrixXd const image = loose.bodies.B * R;
+  VectorXd const motion = R * image.fullPivLu().kernel();
+  data.f = f - motion * (motion.dot(f) / motion.squaredNorm());
+  total_feti const problem(friction_disc{}, loose.bodies, data);
+  CHECK(problem.constraints().redundant().size() == 1);
+  auto const [bearable, v] = solved(loose.bodies, data);
+  CHECK(bearable.converged());
+}
+
+TEST_CASE("a body that only contact holds: pressed on, and pulled off") {
+  auto cube = cube_held_at({});
+  auto data = cube.data(true);
+  data.d.setZero();
+  data.g.setOnes();
+  for (double const sign : {1.0, -1.0}) {
+    // Each normal multiplier alike, pressing or pulling.
+    data.f = sign * (cube.parts.N.transpose() * VectorXd::Ones(cube.parts.N.rows()));
+    auto const [r, u] = solved(cube.bodies, data);
+    CAPTURE(r.reason);
+    CHECK(r.converged() == (sign > 0));
+    CHECK(r.state.infeasible == (sign < 0));
+  }
 }
 
 TEST_CASE("bad input") {
@@ -153,7 +216,8 @@ TEST_CASE("bad input") {
   refused([](auto& b) { b.c.conservativeResize(3); });
   refused([](auto& b) { b.B.conservativeResize(b.B.rows(), 3); });
   refused([](auto& b) { b.c[0] = std::numeric_limits<double>::quiet_NaN(); });
-  CHECK_THROWS_AS((total_feti(frictionless{}, brick.bodies, data)), slant::bad_input);
+  CHECK_THROWS_AS((total_feti(slant::contact::frictionless{}, brick.bodies, data)),
+                  slant::bad_input);
 }
 
 }  // namespace total_feti_test

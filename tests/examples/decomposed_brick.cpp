@@ -26,7 +26,7 @@ double number_behind(std::string const& text, std::string const& caption) {
 
 TEST_CASE("decomposed_brick: the displacements of the whole brick, by both methods") {
   for (std::string const options :
-       {"", " --frictionless", " --method kprgp", " --frictionless --method kprgp"}) {
+       {"", " --frictionless", " --method smalse", " --frictionless --method smalse"}) {
     CAPTURE(options);
     auto const ran = run("decomposed_brick", "--cubes 2 1 1 --cells 2 --tolerance 1e-10" + options);
     CHECK(ran.status == 0);

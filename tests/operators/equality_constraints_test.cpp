@@ -83,6 +83,28 @@ TEST_CASE("redundant rows in any units are named and left out; contradictions ar
   CHECK_THROWS_AS(slant::equality_constraints(sparse_G, VectorXd(5)), slant::bad_input);
 }
 
+TEST_CASE("rows next to each other are refused by name, not dropped; agreement is judged by row") {
+  auto const complaint = [](MatrixXd const& G, VectorXd const& e, VectorXd const& error) {
+    try {
+      slant::equality_constraints const constraints(sparse(G.sparseView()), e, error);
+      return std::string();
+    } catch (slant::bad_input const& refusal) {
+      return std::string(refusal.what());
+    }
+  };
+  MatrixXd const close{{1.0, 0.0, 0.0}, {1.0, 5e-8, 0.0}};
+  CHECK(complaint(close, VectorXd{{1.0, 1.0 + 5e-8}}, VectorXd::Zero(2)).find("G: got row ") == 0);
+
+  // A row of zeros has nothing to do with the size of other rows, nor have tiny equations.
+  MatrixXd const zero{{1.0, 0.0}, {0.0, 0.0}}, twice{{1.0, 0.0}, {2.0, 0.0}};
+  VectorXd const none = VectorXd::Zero(2);
+  CHECK(complaint(zero, VectorXd{{1.0, 1e-8}}, none).find("e[1]: got 1e-08") == 0);
+  CHECK(complaint(zero, VectorXd{{1.0, 1e-8}}, VectorXd{{0.0, 1e-7}}).empty());
+  CHECK(complaint(twice, VectorXd{{1e-18, -2e-18}}, none).find("e[") == 0);
+  CHECK(complaint(twice, VectorXd{{1e-18, 2e-18}}, none).empty());
+  CHECK(complaint(twice, VectorXd{{1e-18, -2e-18}}, VectorXd{{1e-17, 0.0}}).empty());
+}
+
 TEST_CASE("no rows at all") {
   slant::equality_constraints const constraints(sparse(0, 4), VectorXd(0));
   CHECK(test::dense_of(constraints.kernel_projector()) == MatrixXd::Identity(4, 4));

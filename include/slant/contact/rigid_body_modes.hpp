@@ -6,12 +6,37 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
+#include <slant/krylov/unit.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/SVD>
 
+#include <cmath>
 #include <limits>
 
 namespace slant::contact {
+
+namespace detail {
+
+/// Coordinates about the mean of all nodes, in multiples of the largest one. Directions in which
+/// they differ by no more than its rounding errors are left out: a line must not become a rotation,
+/// wherever it lies.
+template <class S, class M>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> about_centre(M const& nodes) {
+  using std::sqrt;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  S const largest = nodes.cwiseAbs().maxCoeff();
+  matrix_type x = nodes * (S(1) / unit_near(largest));
+  x.colwise() -= Eigen::Matrix<S, Eigen::Dynamic, 1>(x.rowwise().mean());
+  Eigen::JacobiSVD<matrix_type> const svd(x, Eigen::ComputeThinU);
+  auto const n = static_cast<S>(static_cast<double>(nodes.cols()));
+  S const rounding = S(16) * sqrt(n) * std::numeric_limits<S>::epsilon();
+  index const rank = (svd.singularValues().array() > rounding).count();
+  matrix_type const axes = svd.matrixU().leftCols(rank);
+  return axes * (axes.transpose() * x);
+}
+
+}  // namespace detail
 
 /// Orthonormal basis of the motions of n nodes, D n × 3 in the plane (D = 2) and D n × 6 in space;
 /// fewer where nodes on a line, or a single one, leave rotations without effect. `nodes` has D rows
@@ -29,12 +54,7 @@ template <class M>
   if (n < 1) throw bad_input("columns of nodes", slant::detail::show(n), "at least one node");
   slant::detail::require_finite_entries("nodes", nodes.derived());
 
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const centre = nodes.rowwise().mean();
-  matrix_type x = nodes.colwise() - centre;
-  // Coordinates that are equal up to rounding are equal: a line must not become a rotation.
-  S const rounding = S(16) * std::numeric_limits<S>::epsilon() * nodes.cwiseAbs().maxCoeff();
-  x = (x.array().abs() <= rounding).select(S(0), x);
-
+  matrix_type const x = detail::about_centre<S>(nodes);
   matrix_type R = matrix_type::Zero(D * n, D == 2 ? 3 : 6);
   for (index i = 0; i < n; ++i) {
     index const row = D * i;

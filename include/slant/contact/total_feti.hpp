@@ -3,8 +3,8 @@
 // Total-FETI [K refs 11, 12]: contact with Tresca friction of a structure that is cut into bodies
 // which all float, since Dirichlet conditions and gluing are multipliers as well.
 //
-//     primal   min ½ uᵀK u − fᵀu + Σ gᵢ‖(T u)ᵢ‖   s.t.  B_E u = c_E,  N u ≤ d,     K = diag(K₁ …
-//     K_p)
+//     primal   min ½ uᵀK u − fᵀu + Σ gᵢ‖(T u)ᵢ‖   s.t.  B_E u = c_E,  N u ≤ d,
+//              K = diag(K₁ … K_p)
 //
 //     dual     min ½ λᵀFλ − bᵀλ   over   λ_ν ≥ 0,  ‖λ_t,i‖ ≤ gᵢ,  G λ = e,     λ = (λ_E, λ_ν, λ_t)
 //              F = B K⁺ Bᵀ,   b = B K⁺ f − c,   G = RᵀBᵀ,   e = Rᵀf,           B = [B_E; N; T]
@@ -12,8 +12,11 @@
 //     back     u = K⁺ (f − Bᵀλ) + R α,     α = −μ, the multipliers of G λ = e
 //
 // K⁺ is one generalised inverse for each body and R the kernels of all. G λ = e says that the
-// forces on each body are in equilibrium, and its projector is the coarse problem that keeps the
-// number of iterations bounded when there are more bodies of the same number of elements.
+// forces on each body are in equilibrium, and its projector is the coarse problem. Methods:
+// constrained_newton, whose coarse problem is that of the face, so that its iterations stay bounded
+// when there are more bodies of the same number of elements, also where contact opens; smalse,
+// whose iterations do so where the contact that is left holds the bodies well
+// (benchmarks/total_feti.cpp).
 #pragma once
 
 #include <slant/contact/detail/friction_law.hpp>
@@ -31,7 +34,10 @@
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
 
+#include <cmath>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -83,7 +89,7 @@ template <class S>
 ///
 ///     slant::contact::total_feti problem(slant::contact::friction_disc{}, bodies, data);
 ///     auto const qp = problem.qp();
-///     slant::smalse method{qp, problem.constraints()};
+///     slant::constrained_newton method{qp, problem.constraints()};
 ///     auto r = slant::solve(method, problem.zero(), …);
 ///     auto u = problem.displacement(r.x(), method.multipliers(r.state));
 template <class Friction, class S>
@@ -93,14 +99,14 @@ class total_feti {
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// One factorisation for each body (two, if its kernel is not given). The data are for the
-  /// unknowns of all bodies, one after the other. Throws bad_input if sizes do not match, if the
-  /// data or a kernel are not what they should be, or if the load moves a body in a way that no
-  /// constraint opposes.
+  /// unknowns of all bodies, one after the other, with any number of contact nodes. Throws
+  /// bad_input if sizes do not match, if the data or a kernel are not what they should be, or if
+  /// the load moves a body in a way that no constraint opposes.
   total_feti(Friction friction, floating_bodies<S> const& bodies, data<S> const& c)
       : inverse_(generalized_inverses(bodies)),
         R_(detail::diagonal_of<S>(bodies_of(inverse_),
                                   [](auto const* body) -> auto const& { return body->kernel(); })),
-        f_(detail::validated(friction, c, inverse_.rows()).f),
+        f_(checked_load(friction, c, inverse_.rows())),
         B_(stacked(bodies, c)),
         set_(cartesian(free_components<S>(bodies.B.rows()), detail::feasible_set(friction, c))),
         constraints_(equilibrium()),
@@ -174,17 +180,45 @@ class total_feti {
     return list;
   }
 
+  /// f of valid data; without contact nodes the problem is one of gluing alone, and linear.
+  static vector_type const& checked_load(Friction friction, data<S> const& c, index unknowns) {
+    if (c.nodes() > 0) return detail::validated(friction, c, unknowns).f;
+    slant::detail::check_size("rows of T", c.T.rows(), 0, "no contact nodes,");
+    slant::detail::check_size("d", c.d.size(), 0, "no contact nodes,");
+    slant::detail::check_size("g", c.g.size(), 0, "no contact nodes,");
+    slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
+    slant::detail::check_finite("f", c.f);
+    return c.f;
+  }
+
   /// G λ = e. Not movable, so made in place.
   [[nodiscard]] equality_constraints<S> equilibrium() const {
     vector_type const resultants = R_.transpose() * f_;
-    sparse_type const G = R_.transpose() * sparse_type(B_.transpose());
+    sparse_type const sizes_of_R = R_.cwiseAbs();
+    // 64: each of the sums has as many roundings as a body has unknowns, most of which cancel.
+    S const rounding = S(64) * std::numeric_limits<S>::epsilon();
+    vector_type const errors = rounding * (sizes_of_R.transpose() * f_.cwiseAbs());
+    sparse_type const G = without_rounding(
+        sparse_type(R_.transpose() * sparse_type(B_.transpose())),
+        sparse_type(sizes_of_R.transpose() * sparse_type(B_.cwiseAbs().transpose())), rounding);
     try {
-      return equality_constraints<S>(G, resultants);
-    } catch (bad_input const&) {
+      return equality_constraints<S>(G, resultants, errors);
+    } catch (bad_input const& complaint) {
+      if (!std::string_view(complaint.what()).starts_with("e[")) throw;
       throw bad_input("f",
                       "a load that moves body " + slant::detail::show(moving_body(G, resultants)),
                       "one that the constraints can bear");
     }
+  }
+
+  /// G without entries that are rounding errors of their terms: a motion that B does not see would
+  /// become a row of its own, because rows count by their directions.
+  static sparse_type without_rounding(sparse_type G, sparse_type const& terms, S const& rounding) {
+    using std::abs;
+    G.prune([&](index i, index j, S const& value) {
+      return abs(value) > rounding * terms.coeff(i, j);
+    });
+    return G;
   }
 
   /// The body with the largest part of the resultants that is not in the range of G.

@@ -22,6 +22,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cstdint>
 #include <random>
 #include <utility>
 
@@ -54,6 +55,12 @@ template <class S>
   return ((K * X).colwise().norm().array() <= limit).count();
 }
 
+/// In [−1, 1): from the bits themselves, since standard libraries differ in their distributions.
+template <class S>
+[[nodiscard]] S uniform(std::uint64_t bits) {
+  return static_cast<S>(static_cast<double>(bits >> 11U) * 0x1p-52 - 1.0);
+}
+
 }  // namespace detail
 
 /// An orthonormal basis of ker K, n × d, d ≥ 0. Costs one factorisation and a few solves with eight
@@ -80,10 +87,9 @@ template <class S>
 
   S const limit = detail::kernel_rounding<S>() * detail::largest_row_sum(scaled) / S(4);
   std::mt19937_64 generator(2013);
-  std::normal_distribution<double> gaussian;
   for (index width = std::min<index>(n, 8);; width = std::min<index>(n, 2 * width)) {
     matrix_type X(n, width);
-    for (index i = 0; i < X.size(); ++i) X(i) = S(gaussian(generator));
+    for (index i = 0; i < X.size(); ++i) X(i) = detail::uniform<S>(generator());
     index found = -1;
     for (int step = 0; step < 20; ++step) {
       detail::inverse_iteration(scaled, factors, X);

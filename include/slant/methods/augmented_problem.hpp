@@ -9,13 +9,19 @@
 // eigenvalue ρ, and P A P does not depend on the choice of a generalised inverse in A [K ref 44].
 #pragma once
 
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/scaled.hpp>
 #include <slant/operators/sum.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
+#include <limits>
+#include <utility>
 
 namespace slant {
 
@@ -47,12 +53,80 @@ template <class A, class C, class S>
   }
 }
 
-/// P M P + Q/ρ ≈ (P A P + ρ Q)⁻¹ for M ≈ A⁻¹; refers to both. Throws bad_input unless 1/ρ is
-/// finite.
-template <class M, class C, class S>
-[[nodiscard]] auto projected_preconditioner(M const& m, C const& constraints, S const& ρ) {
-  return sum(congruence(constraints.kernel_projector(), m),
-             scaled(positive(S(S(1) / ρ)), constraints.range_projector()));
+namespace detail {
+
+/// Is x̄ the only point of the affine space? Told by spaces that know their independent rows.
+template <class C>
+[[nodiscard]] bool is_one_point(C const& c) {
+  if constexpr (requires { c.unit_rows().rows(); }) {
+    return index(c.unit_rows().rows()) == index(c.size());
+  } else {
+    return false;
+  }
 }
+
+/// ‖A v‖/‖v‖ for v of ones: what rounding errors of P A P are small against.
+template <class A, class V>
+[[nodiscard]] auto size_on_ones(A const& a, V const& prototype) {
+  using S = scalar_t<V>;
+  V v = like(prototype, slant::local(prototype).size()), image = v;
+  slant::local(v).setOnes();
+  slant::apply(a, v, image);
+  S const length = norm(v);
+  return length > S(0) ? S(norm(image) / length) : S(0);
+}
+
+/// The linear term at x̄.
+template <class V>
+struct load_at_nearest {
+  V projected;  ///< P (b − A x̄)
+  V opposed;    ///< −Q (b − A x̄), a multiplier that leaves b − A x̄ as it is
+};
+
+/// P (b − A x̄) is zero where it consists of rounding errors of b and A x̄, which would be taken for
+/// a load otherwise. One application of A.
+template <class QP, class C>
+[[nodiscard]] auto projected_load(QP const& qp, C const& c)
+    -> load_at_nearest<typename QP::vector_type> {
+  using S = typename QP::scalar;
+  using std::sqrt;
+  load_at_nearest<typename QP::vector_type> load{qp.b(), qp.b()};
+  typename QP::vector_type rest = qp.b();
+  slant::apply(qp.a(), c.nearest(), rest);
+  S const terms = norm(qp.b()) + norm(rest);
+  slant::local(rest) = slant::local(qp.b()) - slant::local(rest);
+  slant::apply(c.kernel_projector(), rest, load.projected);
+  slant::local(load.opposed) = slant::local(load.projected) - slant::local(rest);
+  auto const n = static_cast<S>(static_cast<double>(slant::global_size(qp.b())));
+  if (norm(load.projected) <= S(32) * sqrt(n) * std::numeric_limits<S>::epsilon() * terms) {
+    slant::local(load.projected).setZero();
+  }
+  return load;
+}
+
+/// What ‖r̃‖ is small against: ‖P (b − A x̄)‖, or the size of A times that of x where this is less,
+/// because constraints absorb much of b (the load of a gap that is far from closing). Not less
+/// than what its rounding errors leave to be told.
+template <class S>
+[[nodiscard]] S gradient_scale(S const& load, S const& a_size, S const& x_size) {
+  using std::sqrt;
+  S const least = S(64) * sqrt(std::numeric_limits<S>::epsilon()) * load;
+  S const of_x = a_size * x_size;
+  return load > S(0) ? std::max<S>(std::min<S>(load, of_x), least) : of_x;
+}
+
+/// μ of G x = e from ν = Gᵀμ + a part in range Gᵀ of the gradient: that gradient A x − b + Gᵀμ has
+/// no component in range Gᵀ. `offset` is Q x − x̄. One application of A.
+template <class QP, class C, class V>
+[[nodiscard]] auto equality_multipliers(QP const& qp, C const& c, V const& x, V const& offset,
+                                        V const& ν) {
+  V feasible = x, v = x;
+  slant::local(feasible) -= slant::local(offset);  // P x + x̄
+  slant::apply(qp.a(), feasible, v);
+  slant::local(v) = slant::local(ν) - slant::local(v) + slant::local(qp.b());
+  return c.multipliers(v);
+}
+
+}  // namespace detail
 
 }  // namespace slant

@@ -5,19 +5,21 @@
 
 // IWYU pragma: begin_exports
 #include <slant/methods/active_rows.hpp>
-#include <slant/methods/approach_watch.hpp>
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
+#include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/constrained_newton_options.hpp>
+#include <slant/methods/constrained_newton_state.hpp>
 #include <slant/methods/constraint_rows.hpp>
 #include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/cut_face.hpp>
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>
-#include <slant/methods/inner_methods.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -31,7 +33,6 @@
 #include <slant/methods/modified_newton_parts.hpp>
 #include <slant/methods/modified_newton_state.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/multiplier_newton.hpp>
 #include <slant/methods/newton_options.hpp>
 #include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_segment.hpp>

@@ -13,11 +13,11 @@
 //
 // Instead of the penalty ρ, which would spoil the spectrum of the inner problems, M is adapted; it
 // falls below a bound that depends on the spectrum alone only finitely often, after which L grows
-// by ½ ρ ‖Q x − x̄‖² a step. So the number of outer steps, and that of the inner ones, is bounded by
-// the spectra of P A P on ker G and by the accuracy, for any number of unknowns and constraints.
-//
-// With options.newton_multipliers a Newton step for x and ν together follows (3°), if it lowers the
-// error; see methods/multiplier_newton.hpp.
+// by ½ ρ ‖Q x − x̄‖² a step. So the number of outer steps is bounded by the spectrum of P A P on
+// ker G and by the accuracy ε, but as O(ε⁻²) only. What is measured is a factor a step, the cosine
+// squared of the smallest angle between { G x = e } and the face of the solution: hundreds of steps
+// where they nearly touch (bodies that contact alone holds, and which lose some of it). There
+// constrained_newton is the method to use; it falls back on this one.
 //
 // Rows of G need not be orthonormal: they enter by the projectors Q onto range Gᵀ and P = I − Q
 // only, see methods/augmented_problem.hpp, and ‖Q x − x̄‖, the distance of x from { G x = e },
@@ -38,15 +38,14 @@
 namespace slant {
 
 /// The method at the top of this file: solve(smalse{qp, constraints}, x0, reduced_gradient_below(
-/// 1e-8) && feasibility_below(1e-8) || at_most(100)); options last, with the inner method in them.
-/// Requires of the problem what kprgp does; constraints are equality_constraints{G, e}. Spends one
-/// application of A an outer step besides those of the inner method, and at the start those for the
-/// bound of σ_max(P A P). Statuses of its own: converged, stalled (see state.infeasible),
-/// unbounded, breakdown.
-template <class QP, class C, class Inner>
+/// 1e-8) && feasibility_below(1e-8) || at_most(100)); options last. Requires of the problem what
+/// kprgp does; constraints are equality_constraints{G, e}. Spends one application of A an outer
+/// step besides those of KPRGP, and at the start those for the bound of σ_max(P A P). Statuses of
+/// its own: converged, stalled (see state.infeasible), unbounded, breakdown.
+template <class QP, class C>
   requires smalse_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>>
-class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
-  using core = detail::smalse_core<QP, C, Inner>;
+class smalse<QP, C> : private detail::smalse_core<QP, C> {
+  using core = detail::smalse_core<QP, C>;
   using typename core::inner_qp;
 
  public:
@@ -60,44 +59,57 @@ class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
   /// range.
   smalse(held<QP> qp, held<C> c, options o) : core(std::move(qp), std::move(c), std::move(o)) {}
 
-  /// The state of P_Λ(x0) with ν = 0. Throws bad_input if x0 or A x0 is not finite or of the wrong
-  /// size, or as the bound of σ_max and the inner method do.
+  /// The state of P_Λ(x0) with ν = 0 or, if ‖r̃‖ is less, ν = −Q (b − A x̄). Throws bad_input if x0
+  /// or A x0 is not finite or of the wrong size, or as the bound of σ_max and the inner method do.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
     auto const& c = constraints_.get();
     detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
     detail::check_finite("x0", x0);
 
-    auto const bound =
-        largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0, options_.spectrum);
-    scalar const ρ = options_.penalty * (bound.ritz > scalar(0) ? bound.ritz : scalar(1));
+    spectral_bound<scalar> bound{scalar(0), scalar(0), scalar(0), 0};
+    if (!detail::is_one_point(c)) {
+      bound = largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0, options_.spectrum);
+    }
+    scalar const whole = detail::size_on_ones(qp.a(), x0);
+    // P A P may consist of rounding errors of A; any penalty will do then.
+    bool const told = bound.ritz > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole;
+    scalar const ρ = options_.penalty * (told ? bound.ritz : whole > scalar(0) ? whole : scalar(1));
     scalar const σ = std::max(bound.upper, ρ);  // of P A P + ρ Q: both act on spaces of their own
 
-    vector_type const& x_e = c.nearest();
-    vector_type rest = qp.b(), projected_b = qp.b();
-    slant::apply(qp.a(), x_e, rest);
-    slant::local(rest) = slant::local(qp.b()) - slant::local(rest);
-    slant::apply(c.kernel_projector(), rest, projected_b);
-    vector_type b = projected_b;
-    slant::local(b) += ρ * slant::local(x_e);
+    auto const load = detail::projected_load(qp, c);
+    vector_type b = load.projected;
+    slant::local(b) += ρ * slant::local(c.nearest());
 
     auto const inner_problem = augmented(b, ρ);
-    auto inner = inner_method(inner_problem, ρ, σ).start(x0);
-    // Known, not learnt: what counts as a direction of the kernel depends on it.
-    if constexpr (requires { inner.σ; }) inner.σ = std::max<scalar>(bound.ritz, ρ);
+    auto inner = inner_method(inner_problem, σ).start(x0);
+    inner.σ = std::max<scalar>(bound.ritz, ρ);  // known: what counts as a direction of the kernel
     vector_type ν = like(x0, qp.size());
     slant::local(ν).setZero();
-    state_type s{x0, ν, projected_b, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
+    state_type s{x0, ν, load.projected, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
     s.σ = σ;
     s.ρ = ρ;
     s.M = options_.balance * ρ;
-    scalar const size = norm(s.projected_b);
-    s.gradient_scale = size > scalar(0) ? size : ρ * norm(x_e);
-    s.η = options_.precision * s.gradient_scale;
+    s.load = norm(load.projected);
     s.work = s.inner.work;
-    s.work.setup_applications += bound.applications + 1;
+    s.work.setup_applications += bound.applications + 2;
     look(s);
+    choose_multiplier(s, x0, load.opposed);
+    s.η = options_.precision * std::max(s.load, s.gradient_scale);
     return s;
+  }
+
+  /// Goes on from P_Λ(x) with another multiplier ν ∈ range Gᵀ. One application; no allocation.
+  void resume(state_type& s, vector_type const& x, vector_type const& ν) const {
+    s.status = status::running;
+    s.progress = {};
+    s.M = options_.balance * s.ρ;
+    slant::project(qp_.get().set(), slant::local(x), slant::local(s.inner.x));
+    slant::local(s.ν) = slant::local(ν);
+    form_linear_term(s);
+    if (s.status != status::running) return;
+    restart(s);
+    look(s);
   }
 
   /// One inner problem and the update of ν.
@@ -106,21 +118,18 @@ class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
     form_linear_term(s);
     if (s.status != status::running) return;
     auto const inner_problem = augmented(s.b, s.ρ);
-    minimise(s, inner_method(inner_problem, s.ρ, s.σ));
+    minimise(s, inner_method(inner_problem, s.σ));
     adapt_precision(s, inner_problem);
     slant::local(s.ν) += s.ρ * slant::local(s.offset);
     ++s.iteration;
     look(s);
-    if constexpr (core::knows_rows) {
-      if (options_.newton_multipliers && s.status == status::running) improve(s);
-    }
     note_progress(s);
   }
 
   /// r̃ from x, if the inner method has been updating it; whether it has. One application.
   bool refresh(state_type& s) const {
     auto const inner_problem = augmented(s.b, s.ρ);
-    if (!inner_method(inner_problem, s.ρ, s.σ).refresh(s.inner)) return false;
+    if (!inner_method(inner_problem, s.σ).refresh(s.inner)) return false;
     ++s.work.operator_applications;
     s.status = status::running;
     look(s);
@@ -130,18 +139,26 @@ class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
   /// μ of G x = e, as many as G has rows: the gradient A x − b + Gᵀμ, reduced, vanishes at the
   /// solution. One application of A.
   [[nodiscard]] auto multipliers(state_type const& s) const {
-    auto const& qp = qp_.get();
-    vector_type feasible = s.x, v = s.x;
-    slant::local(feasible) -= slant::local(s.offset);  // P x + x̄
-    slant::apply(qp.a(), feasible, v);
-    slant::local(v) = slant::local(s.ν) - slant::local(v) + slant::local(qp.b());
-    return constraints_.get().multipliers(v);
+    return detail::equality_multipliers(qp_.get(), constraints_.get(), s.x, s.offset, s.ν);
   }
 
  private:
-  using core::augmented, core::constraints_, core::form_linear_term, core::improve,
-      core::inner_method, core::look, core::measure_offset, core::note_progress, core::options_,
-      core::qp_;
+  using core::augmented, core::constraints_, core::form_linear_term, core::inner_method, core::look,
+      core::measure_offset, core::note_progress, core::options_, core::qp_, core::restart;
+
+  /// 0 or another ν, whichever leaves less of r̃: the load of a bound that is far away (a large gap)
+  /// is best left where the bound absorbs it, and P would spread it.
+  void choose_multiplier(state_type& s, vector_type const& x0, vector_type const& other) const {
+    index const spent = s.work.operator_applications;
+    scalar const with_none = s.reduced_gradient_norm;
+    vector_type const none = s.ν;
+    resume(s, x0, other);
+    if (s.status == status::running && !(s.reduced_gradient_norm < with_none)) {
+      resume(s, x0, none);
+    }
+    s.work.setup_applications += s.work.operator_applications - spent;
+    s.work.operator_applications = spent;
+  }
 
   /// (1°). The inner method may end by itself: at the solution, or where it gets no further.
   template <class Method>
@@ -149,8 +166,8 @@ class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
     auto& inner = s.inner;
     work const before = inner.work;
     index const steps_before = inner.iteration;
-    if (s.iteration > 0 && !s.resumed) method.resume(inner);
-    s.comparable = s.iteration > 0 && !s.resumed;
+    if (!s.resumed) method.resume(inner);
+    s.comparable = !s.resumed;
     s.resumed = false;
     scalar const at_start = inner.reduced_gradient_norm;
     while (inner.status == status::running &&
@@ -182,9 +199,11 @@ class smalse<QP, C, Inner> : private detail::smalse_core<QP, C, Inner> {
   void adapt_precision(state_type& s, inner_qp const& qp) const {
     auto const [q, noise] = s.inner.energy(qp);
     auto const& x_e = constraints_.get().nearest();
-    // L − q: the constant terms −νᵀx̄ + ½ ρ ‖x̄‖², and what is left of L's.
+    // L − q: the constant terms −νᵀx̄ + ½ ρ ‖x̄‖². Scaled before they are squared.
+    scalar const unit = s.inner.unit, size = norm(x_e);
+    slant::local(s.inner.trial) = slant::local(s.ν) * (scalar(1) / unit);
     scalar const constant =
-        (s.ρ * inner_product(x_e, x_e) / scalar(2) - inner_product(s.ν, x_e)) / s.inner.unit;
+        s.ρ * size * (size / unit) / scalar(2) - inner_product(s.inner.trial, x_e);
     scalar const now = q + constant;
     scalar const growth =
         s.ρ * s.feasibility_norm * (s.feasibility_norm / s.inner.unit) / scalar(2);

@@ -5,12 +5,12 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/krylov/spectral_bound.hpp>
-#include <slant/methods/inner_methods.hpp>
+#include <slant/methods/kprgp_options.hpp>
 
 namespace slant {
 
-/// Options of smalse. Inner is the method for the inner problems: kprgp_inner or newton_inner.
-template <class S = double, class Inner = kprgp_inner<S>>
+/// Options of smalse.
+template <class S = double>
 struct smalse_options {
   /// ρ in multiples of σ_max(P A P); it does not grow. Measured with Total-FETI on bricks: 4 halves
   /// the outer steps and doubles the products of KPRGP.
@@ -20,14 +20,10 @@ struct smalse_options {
   S balance = S(0.3);
   S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
   S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
-  /// Newton steps for ν between the others. On most bricks they save a third to two thirds of the
-  /// products, and where contact opens three quarters of the outer steps or more. They allocate,
-  /// and factor a dense matrix with as many rows as G.
-  bool newton_multipliers = false;
   index inner_steps = 5000;  ///< of one inner problem at most
-  index patience = 30;  ///< outer steps in which neither ‖r̃‖ nor ‖G x − e‖ falls that mean stalled
+  index patience = 30;       ///< outer steps in which the error does not fall that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
-  Inner inner{};                      ///< the inner method with its options
+  kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {

@@ -20,7 +20,7 @@ concept smalse_problem = kprgp_problem<QP> && affine_space<C, typename QP::vecto
 
 /// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp. The
 /// method itself is in smalse.hpp.
-template <class QP, class C, class Inner>
+template <class QP, class C>
 class smalse : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
@@ -43,19 +43,18 @@ class smalse : public detail::refused_method<typename std::remove_cvref_t<QP>::v
 };
 
 /// A problem that was told so already.
-template <class QP, class C, class Inner>
+template <class QP, class C>
   requires detail::was_refused<std::remove_cvref_t<QP>>
-class smalse<QP, C, Inner>
-    : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+class smalse<QP, C> : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
  public:
   using smalse::refused_method::refused_method;
 };
 
 /// No problem at all.
-template <class QP, class C, class Inner>
+template <class QP, class C>
   requires(!quadratic_program<std::remove_cvref_t<QP>> &&
            !detail::was_refused<std::remove_cvref_t<QP>>)
-class smalse<QP, C, Inner> : public detail::refused_method<void, void> {
+class smalse<QP, C> : public detail::refused_method<void, void> {
   static_assert(quadratic_program<std::remove_cvref_t<QP>>, "smalse: expected a separable_qp");
 
  public:
@@ -63,9 +62,9 @@ class smalse<QP, C, Inner> : public detail::refused_method<void, void> {
 };
 
 template <class QP, class C>
-smalse(QP&&, C&&)
-    -> smalse<kept_t<QP>, kept_t<C>, kprgp_inner<typename std::remove_cvref_t<QP>::scalar>>;
-template <class QP, class C, class S, class Inner>
-smalse(QP&&, C&&, smalse_options<S, Inner>) -> smalse<kept_t<QP>, kept_t<C>, Inner>;
+smalse(QP&&, C&&) -> smalse<kept_t<QP>, kept_t<C>>;
+template <class QP, class C>
+smalse(QP&&, C&&, smalse_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> smalse<kept_t<QP>, kept_t<C>>;
 
 }  // namespace slant

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <slant/iteration/report.hpp>
-#include <slant/methods/approach_watch.hpp>
 #include <slant/methods/augmented_problem.hpp>
+#include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/progress_watch.hpp>
 #include <slant/methods/separable_qp.hpp>
-#include <slant/operators/identity.hpp>
 
 #include <string>
 #include <type_traits>
@@ -24,19 +24,14 @@ using augmented_qp = separable_qp<decltype(slant::augmented_hessian(
                                       std::declval<C const&>(), typename QP::scalar(1))),
                                   typename QP::vector_type const&, typename QP::set_type const&>;
 
-template <class QP, class C, class Inner>
-using inner_method_t = decltype(std::declval<Inner const&>().make(
-    std::declval<augmented_qp<QP, C> const&>(), std::declval<C const&>(), typename QP::scalar(1),
-    typename QP::scalar(1)));
-
 }  // namespace detail
 
-/// State of smalse for a separable_qp of type QP, constraints C and an inner method.
-template <class QP, class C, class Inner>
+/// State of smalse for a separable_qp of type QP and constraints C.
+template <class QP, class C>
 struct smalse_state {
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
-  using inner_state = typename detail::inner_method_t<QP, C, Inner>::state_type;
+  using inner_state = kprgp_state<detail::augmented_qp<QP, C>>;
 
   vector_type x;            ///< in Λ; close to the affine space
   vector_type ν;            ///< Gᵀμ, the multiplier of G x = e, a gradient
@@ -51,21 +46,20 @@ struct smalse_state {
   scalar M{1};           ///< inner problems are solved until ‖r̃‖ ≤ M ‖Q x − x̄‖
   scalar η{0};           ///< and ‖r̃‖ ≤ η
   scalar lagrangian{0};  ///< L(x, ν, ρ) of the last inner problem, in units of inner.unit
-  scalar feasibility_norm{0};       ///< ‖Q x − x̄‖, distance of x from the affine space
-  scalar feasibility_scale{0};      ///< max(‖x̄‖, ‖x‖)
-  scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of the Lagrangian with the new ν
-  scalar gradient_scale{0};         ///< ‖P (b − A x̄)‖; if that is 0, ρ ‖x̄‖
-  index inner_iterations = 0;       ///< of the last outer step
-  index iteration = 0;              ///< outer steps: updates of ν
+  scalar feasibility_norm{0};   ///< ‖Q x − x̄‖, distance of x from the affine space
+  scalar feasibility_scale{0};  ///< max(‖x̄‖, ‖x‖)
+  scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of L(·, ν, 0) with the new ν: of A x − b + ν on ker G
+  scalar gradient_scale{0};    ///< min(‖P (b − A x̄)‖, ρ feasibility_scale), see step
+  scalar load{0};              ///< ‖P (b − A x̄)‖
+  index inner_iterations = 0;  ///< of the last outer step
+  index iteration = 0;         ///< outer steps: updates of ν
   slant::status status = slant::status::running;
   slant::work work{};
 
-  approach_watch<scalar> progress{};  ///< looks for steps that get nowhere
-  bool resumed = false;               ///< the inner method has been told of ν already
+  progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  bool resumed = true;                ///< the inner method has been told of ν already
   bool comparable = false;            ///< L may be compared with that of the step before
-  index pause = 0;          ///< steps to wait after the next failure of Newton's method for ν
-  index wait = 0;           ///< steps until it is tried again
-  bool infeasible = false;  ///< x gets no nearer to G x = e, which no point of Λ satisfies
+  bool infeasible = false;            ///< no point of Λ satisfies G x = e, which has been shown
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {

@@ -2,15 +2,18 @@
 //
 // The affine space { x : G x = e } with its projectors:
 //
-//     Q = Gᵀ(GGᵀ)⁻¹G  onto range Gᵀ,     P = I − Q  onto ker G,     x̄ = Gᵀ(GGᵀ)⁻¹e  its point next
-//     to 0.
+//     Q = Gᵀ(GGᵀ)⁻¹G  onto range Gᵀ,     P = I − Q  onto ker G,
+//     x̄ = Gᵀ(GGᵀ)⁻¹e  the point next to 0.
 //
 // ‖Q x − x̄‖ is the distance of x from the space: ‖G x − e‖ if the rows of G are orthonormal, and
 // what takes its place if they are not. GGᵀ is dense and factored once; for the rows of Total-FETI,
 // six for a subdomain, it is the coarse problem.
 //
-// Rows that depend on those before them, up to rounding errors of GGᵀ, are left out (redundant()
-// names them); what they say must agree with the others.
+// Rows that depend on others are left out (redundant() names them; which of them it is depends on
+// pivoting), and what they say must agree with the others up to rounding. GGᵀ sees the square of a
+// row's distance from the span of others, so the distance of rows left out is computed once more,
+// by Gram–Schmidt done twice; a row that is independent, but by less than √ε of its length, cannot
+// be treated by way of GGᵀ and is refused.
 #pragma once
 
 #include <slant/factorizations/dense_ldlt.hpp>
@@ -25,6 +28,7 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace slant {
@@ -41,9 +45,13 @@ class equality_constraints {
   using sparse_type = Eigen::SparseMatrix<S>;
   using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// Throws bad_input if sizes do not match, an entry is not finite, or a redundant row contradicts
-  /// the others.
+  /// Throws bad_input if sizes do not match, an entry is not finite, a redundant row contradicts
+  /// the others (argument "e"), or a row is too close to the span of others (argument "G").
   equality_constraints(sparse_type const& G, vector_type const& e)
+      : equality_constraints(G, e, vector_type::Zero(G.rows())) {}
+  /// The same for e with errors of the given size, one for each row: redundant rows agree with
+  /// others up to these.
+  equality_constraints(sparse_type const& G, vector_type const& e, vector_type const& error_of_e)
       : rows_(G.rows()),
         lengths_(row_lengths(G, e)),
         unit_rows_(lengths_.cwiseInverse().asDiagonal() * G),
@@ -55,7 +63,8 @@ class equality_constraints {
     vector_type weights(G_.rows());
     slant::apply(slant::inverse(factors_), vector_type(unit_e(kept_)), weights);
     nearest_.noalias() = G_.transpose() * weights;
-    require_agreement(unit_e, e);
+    detail::check_size("error_of_e", error_of_e.size(), G.rows(), "the rows of G,");
+    require_agreement(unit_e, e, vector_type(error_of_e.cwiseQuotient(lengths_)));
   }
   equality_constraints(equality_constraints const&) = delete;
   equality_constraints& operator=(equality_constraints const&) = delete;
@@ -166,20 +175,39 @@ class equality_constraints {
     return selected;
   }
 
-  /// A row counts as redundant if its distance from the span of others is √smallest_square, so this
-  /// is how well it can be known what they imply.
-  void require_agreement(vector_type const& unit_e, vector_type const& e) const {
+  /// Each row that was left out is a combination of the others up to rounding, and says the same.
+  void require_agreement(vector_type const& unit_e, vector_type const& e,
+                         vector_type const& error) const {
     using std::abs;
-    using std::sqrt;
-    vector_type const implied = unit_rows_ * nearest_;
-    S const rounding = sqrt(smallest_square(rows_)) * nearest_.norm();
-    for (index i = 0; i < rows_; ++i) {
-      if (abs(implied[i] - unit_e[i]) <= rounding) continue;
+    auto const left_out = redundant();
+    if (left_out.empty()) return;
+    S const rounding = S(4096) * std::numeric_limits<S>::epsilon();
+    vector_type const kept_e = unit_e(kept_), kept_error = error(kept_);
+    sparse_type const columns = unit_rows_.transpose();
+    for (index const i : left_out) {
+      vector_type rest = columns.col(i);
+      vector_type combination = vector_type::Zero(G_.rows()), h(G_.rows());
+      for (int pass = 0; pass < 2; ++pass) {
+        slant::apply(slant::inverse(factors_), vector_type(G_ * rest), h);
+        rest.noalias() -= G_.transpose() * h;
+        combination += h;
+      }
+      if (rest.norm() > rounding) refuse_row(i, rest.norm());
+      S const implied = combination.dot(kept_e);
+      S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(kept_e.cwiseAbs());
+      S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
+      if (abs(implied - unit_e[i]) <= allowed) continue;
       throw bad_input(
           "e", detail::show(S(e[i])),
-          detail::show(S(implied[i] * lengths_[i])) + ", which other rows of G imply for this one")
+          detail::show(S(implied * lengths_[i])) + ", which other rows of G imply for this one")
           .at(i);
     }
+  }
+  [[noreturn]] static void refuse_row(index i, S const& distance) {
+    throw bad_input("G",
+                    "row " + detail::show(i) + " at the distance " + detail::show(distance) +
+                        " times its length from the span of others",
+                    "rows that are independent, or dependent up to rounding");
   }
 
   index rows_;

@@ -32,7 +32,8 @@ class curved_face {
  public:
   /// Room for the blocks of a set; nothing is known yet. Allocates.
   template <class C>
-  explicit curved_face(C const& set) : mask_(slant::dimension_of(set)) {
+  explicit curved_face(C const& set)
+      : mask_(slant::dimension_of(set)), curved_(static_cast<std::size_t>(mask_.size()), false) {
     std::size_t entries = 0;
     slant::visit_blocks(set, [&](auto const& block, auto const& p) {
       if constexpr (!whole_space<std::remove_cvref_t<decltype(block)>>) {
@@ -49,6 +50,7 @@ class curved_face {
   template <class C, class Z>
   void assign(C const& set, Z const& z, S const& κ) {
     blocks_.clear();
+    for (index const component : components_) curved_[static_cast<std::size_t>(component)] = false;
     components_.clear();
     matrices_.clear();
     fixed_ = 0;
@@ -81,10 +83,8 @@ class curved_face {
   /// f(row, column, value) for the entries of Π that are not zero because of where they stand.
   template <class F>
   void projector_entries(F f) const {
-    std::vector<bool> curved(static_cast<std::size_t>(mask_.size()), false);
-    for (index const component : components_) curved[static_cast<std::size_t>(component)] = true;
     for (index i = 0; i < mask_.size(); ++i) {
-      if (!curved[static_cast<std::size_t>(i)] && mask_[i] != S(0)) f(i, i, S(1));
+      if (!curved_[static_cast<std::size_t>(i)] && mask_[i] != S(0)) f(i, i, S(1));
     }
     for_each([&](auto entry, index const* component, index n) {
       for (index j = 0; j < n; ++j) {
@@ -101,7 +101,8 @@ class curved_face {
     for_each([&](auto entry, index const* component, index n) {
       for (index j = 0; j < n; ++j) {
         S sum(0);
-        for (index l = 0; l < n; ++l) sum += entry(range_curvature, j, l) * from.coeff(component[l]);
+        for (index l = 0; l < n; ++l)
+          sum += entry(range_curvature, j, l) * from.coeff(component[l]);
         to.coeffRef(component[j]) += α * sum;
       }
     });
@@ -126,7 +127,10 @@ class curved_face {
     if (inside || fixed) return;
 
     blocks_.push_back({components_.size(), matrices_.size(), N});
-    for (index j = 0; j < N; ++j) components_.push_back(p.component(j));
+    for (index j = 0; j < N; ++j) {
+      components_.push_back(p.component(j));
+      curved_[static_cast<std::size_t>(p.component(j))] = true;
+    }
     detail::symmetric_eigen<S, N> const spectrum(g);
     // An eigenvalue that is only a rounding error of the largest one is no motion.
     S const zero = S(4 * N) * std::numeric_limits<S>::epsilon() * spectrum.values.maxCoeff();
@@ -168,6 +172,7 @@ class curved_face {
   }
 
   Eigen::Matrix<S, Eigen::Dynamic, 1> mask_;  // 0 on fixed blocks
+  std::vector<bool> curved_;                  // components of curved blocks
   std::vector<curved_block> blocks_;
   std::vector<index> components_;
   std::vector<S> matrices_;

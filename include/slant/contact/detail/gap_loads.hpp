@@ -13,6 +13,7 @@ namespace slant::contact::detail {
 /// without any, λ = 0 is the solution and no length is needed.
 template <class S, class B>
 void subtract_gaps(data<S> const& c, B&& b) {
+  if (c.nodes() == 0) return;
   auto const closes = [&](index i) { return slant::detail::is_finite(c.d(i)); };
   for (index i = 0; i < c.nodes(); ++i) {
     if (closes(i)) b(i) -= c.d(i);

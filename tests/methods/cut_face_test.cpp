@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/multiplier_newton.hpp>
+#include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/cut_face.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 
-#include <doctest/doctest.h>
 #include <Eigen/LU>
+#include <doctest/doctest.h>
 
 #include <random>
 
-namespace multiplier_newton_test {
+namespace cut_face_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -46,41 +47,43 @@ TEST_CASE("the saddle point system of the face, as solved by dense matrices") {
   right << -(basis.transpose() * r), -(N * offset);
   VectorXd const solution = saddle.partialPivLu().solve(right);
 
-  slant::multiplier_newton<double> newton;
-  sparse const rows = N.sparseView();
+  slant::cut_face<double> face(set, N.sparseView());
+  REQUIRE(face.assign(set, z, 1.0));
+  VectorXd lifted(8);
+  face.lift(offset, lifted);
+  lifted = -lifted;
+  VectorXd gradient = r + A * lifted;
+  face.whole().add_curvature(1 / α, lifted, gradient);
   auto const a = slant::matrix(A);
   slant::no_workspace w;
-  REQUIRE(newton.assign(rows, set, z));
-  REQUIRE(newton.solve(a, w, rows, r, offset, α, 1e-14, 100));
-  CHECK((newton.t - basis * solution.head(6)).norm() <= 1e-12);
-  CHECK((newton.dν - N.transpose() * solution.tail(2)).norm() <= 1e-11);
-  CHECK(newton.iterations <=
-        7);  // one for the second row, four dimensions besides, rounding errors
+  MatrixXd const inverse = A.inverse();
+  auto const M = slant::matrix(inverse);
+  slant::curved_minimum<VectorXd, std::remove_const_t<decltype(M)>> inner(r, 8, M);
+  auto const done =
+      inner.minimise(a, w, M, gradient, face, α, inverse.diagonal().mean(), 1e-14, 100);
+  CHECK(done.iterations <= 6);  // four dimensions, and rounding errors
+  gradient += inner.image;
+  face.whole().add_curvature(1 / α, inner.t, gradient);
+  VectorXd dν(8);
+  face.balance(gradient, dν);
+  CHECK((lifted + inner.t - basis * solution.head(6)).norm() <= 1e-12);
+  CHECK((-dν - N.transpose() * solution.tail(2)).norm() <= 1e-11);
 }
 
-TEST_CASE("a face that leaves an equation nothing to act on has no such step") {
+TEST_CASE("a face that leaves an equation nothing to act on is told") {
   auto const set = slant::half_lines(3);
   sparse N(2, 3);
   N.insert(0, 0) = 1;
   N.insert(1, 1) = 1;
-  slant::multiplier_newton<double> newton;
-  CHECK(newton.assign(N, set, VectorXd{{1.0, 1.0, 1.0}}));
-  CHECK(!newton.assign(N, set, VectorXd{{1.0, -1.0, 1.0}}));
-  sparse dependent(2, 3);
-  dependent.insert(0, 0) = dependent.insert(1, 0) = dependent.insert(1, 1) = 1;
-  CHECK(!newton.assign(dependent, set, VectorXd{{1.0, -1.0, 1.0}}));
+  slant::cut_face<double> face(set, N);
+  CHECK(face.assign(set, VectorXd{{1.0, 1.0, 1.0}}, 1.0));
+  CHECK(!face.assign(set, VectorXd{{1.0, -1.0, 1.0}}, 1.0));
+  CHECK(face.assign(set, VectorXd{{1.0, 1.0, -1.0}}, 1.0));
+  slant::cut_face<double> none(set, sparse(0, 3));
+  CHECK(none.assign(set, VectorXd{{1.0, -1.0, 1.0}}, 1.0));
+  VectorXd kept(3);
+  none.keep(VectorXd{{1.0, 2.0, 3.0}}, kept);
+  CHECK(kept == VectorXd{{1.0, 0.0, 3.0}});
 }
 
-TEST_CASE("an operator that is not definite on the face is found out") {
-  auto const set = slant::free_components(3);
-  sparse N(1, 3);
-  N.insert(0, 0) = 1;
-  MatrixXd const A = VectorXd{{1.0, 1.0, 0.0}}.asDiagonal();
-  VectorXd const r{{1.0, 1.0, 1.0}}, offset = VectorXd::Zero(3);
-  slant::multiplier_newton<double> newton;
-  slant::no_workspace w;
-  REQUIRE(newton.assign(N, set, r));
-  CHECK(!newton.solve(slant::matrix(A), w, N, r, offset, 1.0, 1e-12, 100));
-}
-
-}  // namespace multiplier_newton_test
+}  // namespace cut_face_test
