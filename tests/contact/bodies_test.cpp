@@ -13,8 +13,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fem/plate_chain.hpp>
 #include <fem/stacked_bricks.hpp>
@@ -340,35 +338,6 @@ TEST_CASE("mechanisms: a kernel of any size is no reason to refuse a body") {
     CHECK((K * bodies.displacement(r.x()) - load).norm() <= 1e-9 * load.norm());
     CHECK(bodies.factorizations() <= 3);
   }
-}
-
-TEST_CASE("many small bodies: set-up that grows with the bodies, not with their square") {
-  // Each body of 10 unknowns; what a body costs must not depend on how many there are.
-  int const m = 10;
-  auto const seconds = [&](int p) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < p * m; ++i) {
-      entries.emplace_back(i, i, 2.1);
-      if (i % m == m - 1) continue;
-      entries.emplace_back(i, i + 1, -1);
-      entries.emplace_back(i + 1, i, -1);
-    }
-    sparse K(p * m, p * m), B(1, p * m);
-    K.setFromTriplets(entries.begin(), entries.end());
-    B.insert(0, 0) = 1;
-    VectorXd const f = VectorXd::Ones(p * m);
-    double best = 1e9;
-    for (int repeat = 0; repeat < 3; ++repeat) {
-      auto const start = std::chrono::steady_clock::now();
-      contact::bodies<double> const bodies(K, f, B, VectorXd{{1}});
-      CHECK(bodies.idle() == p - 1);
-      std::chrono::duration<double> const spent = std::chrono::steady_clock::now() - start;
-      best = std::min(best, spent.count());
-    }
-    return best;
-  };
-  // 16 times as many: 16 times the work, 256 times if each body looked at all unknowns.
-  CHECK(seconds(3200) <= 64 * seconds(200));
 }
 
 }  // namespace bodies_test

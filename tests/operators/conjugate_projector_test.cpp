@@ -160,6 +160,27 @@ TEST_CASE("data that do not fit are named") {
   CHECK(message(hole, injection(3, {1})).starts_with("K(1, 1): got nan"));
 }
 
+TEST_CASE("parts that do not fit each other are named") {
+  using factors = slant::ldlt<double>;
+  using parts_type = std::vector<slant::detail::conjugate_part<double, factors>>;
+  sparse const k = chains(2, 3);
+  sparse const one = injection(6, {1}), two = injection(6, {4});
+  auto const part = [&](sparse const& u, sparse const& ku) {
+    return slant::detail::conjugate_part<double, factors>{u, ku,
+                                                          factors(sparse(u.transpose() * k * u))};
+  };
+  auto const message = [](parts_type const& parts) {
+    return test::message<slant::bad_input>(
+        [&] { (void)slant::conjugate_projector_operator<double, factors>(6, parts); });
+  };
+  CHECK(message({part(one, k * one), part(one, k * one)}) ==
+        "parts[1]: got row 1 of 0, expected parts without common rows");
+  CHECK(message({part(one, sparse(6, 2))}) == "K U[0]: got 6 x 2, expected 6 x 1");
+  slant::conjugate_projector_operator<double, factors> const good(
+      6, parts_type{part(one, k * one), part(two, k * two)});
+  CHECK(test::matches(good, oracle(k, injection(6, {1, 4})), 100));
+}
+
 /// Applies matrices that need not be a projector and its adjoint.
 struct liar {
   MatrixXd q, adjoint;
