@@ -16,6 +16,7 @@
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/projected_directions.hpp>
 #include <slant/krylov/range_cg.hpp>
+#include <slant/krylov/range_cg_state.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 #include <slant/krylov/unit.hpp>
 // IWYU pragma: end_exports

@@ -44,6 +44,7 @@
 #include <slant/concepts/distributed.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/detail/moved_rows.hpp>
+#include <slant/methods/detail/schur_contact_kernel.hpp>
 #include <slant/methods/detail/schur_contact_parts.hpp>
 #include <slant/methods/projected_search.hpp>
 #include <slant/methods/schur_contact_options.hpp>
@@ -109,7 +110,7 @@ class schur_contact<P> {
     if (s.β_norm > scalar(0) && s.φ_norm <= Γ(s) * s.β_norm) release(s);
     if (s.status == status::running && s.φ_norm == scalar(0)) stall(s);
     if (s.status == status::running) conjugate_step(s);
-    if (s.status == status::running) note_progress(s);
+    if (s.status == status::running) detail::note_progress(p_.get(), s, options_.patience);
     if (s.status == status::stalled) look_again(s);
     ++s.iteration;
   }
@@ -174,7 +175,8 @@ class schur_contact<P> {
     };
     // Before the face is given up a kernel is looked for also where none was found before.
     bool const last = leads_nowhere();
-    bool const flat = (last || !s.regular) && s.flat.is_nearly_flat(q) && finds_kernel(s);
+    bool const flat =
+        (last || !s.regular) && s.flat.is_nearly_flat(q) && detail::finds_kernel(p, s);
     if (last && !flat) {
       give_up_face(s);
       return;
@@ -208,32 +210,6 @@ class schur_contact<P> {
     s.updated = true;
   }
 
-  /// Replaces q by a direction of the kernel near it in which j falls, if there is one.
-  bool finds_kernel(state_type& s) const {
-    auto const& p = p_.get();
-    auto& q = s.directions;
-    detail::kernel_projector<scalar> const c(p.rows(), s.rows.active);
-    no_workspace none;
-    auto const search = s.flat.split(q, p.k(), s.k_workspace, c, none, p.projection(),
-                                     s.q_workspace, global_size(s.x));
-    s.work.operator_applications += search.products;
-    s.projector_applications += search.projections;
-    s.regular = true;  // until a row leaves
-    if (!search.found) return false;
-    bool const down = inner_product(s.r, q.q) >= scalar(0);
-    scalar const size = (s.residual_scale + s.flat.force(s.x)) / s.unit;
-    using std::abs;
-    if (!is_descent(scalar(abs(inner_product(s.r, q.q))), q.q, size)) {
-      s.flat.restore(q);
-      return false;
-    }
-    q.live = false;
-    s.regular = false;
-    if (down) return true;
-    slant::local(q.q) *= scalar(-1);
-    slant::local(q.Ap) *= scalar(-1);
-    return true;
-  }
   /// The face is solved as well as the precision allows: rows are released, or nothing is left.
   void give_up_face(state_type& s) const {
     index const before = s.releases;
@@ -259,21 +235,6 @@ class schur_contact<P> {
       s.trouble = trouble;
     }
     s.computed_norm = s.residual_norm;
-  }
-
-  void note_progress(state_type& s) const {
-    auto const energy = [&] {
-      scalar const of_load = inner_product(p_.get().f(), s.x);
-      scalar const of_rest = s.unit * inner_product(s.r, s.x);
-      using std::abs;
-      return std::pair(scalar(-(of_load + of_rest) / scalar(2)),
-                       scalar(scalar(8) * std::numeric_limits<scalar>::epsilon() *
-                              (abs(of_load) + abs(of_rest))));
-    };
-    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
-      s.trouble = schur_contact_trouble::patience;
-      s.status = status::stalled;
-    }
   }
 
   held<P> p_;
