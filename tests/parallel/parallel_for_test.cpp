@@ -2,6 +2,9 @@
 //
 // With OpenMP these tests run with one and with several threads, whose results must be the same to
 // the last bit; without, they say that nothing depends on OpenMP.
+#include <slant/contact/bodies.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/schur_contact.hpp>
 #include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/detail/parallel_for.hpp>
 #include <slant/operators/diagonal_blocks.hpp>
@@ -35,6 +38,17 @@ void with_threads(F f) {
   f();
 #endif
 }
+
+#ifdef _OPENMP
+TEST_CASE("with OpenMP there are several threads to compare") {
+  omp_set_num_threads(5);
+  CHECK(omp_get_max_threads() > 1);
+  int together = 0;
+#pragma omp parallel reduction(+ : together)
+  together += 1;
+  CHECK(together > 1);
+}
+#endif
 
 TEST_CASE("each round is run once; of several exceptions the first in order is thrown") {
   with_threads([] {
@@ -82,6 +96,46 @@ TEST_CASE("a projector of many bodies gives the same bits with any number of thr
     CHECK(y == first);
     CHECK(z == first_adjoint);
     CHECK(m == first_minimum);
+  });
+}
+
+TEST_CASE("a whole contact problem gives the same bits with any number of threads") {
+  // Chains of springs between each other, of which the ends may touch: 40 bodies of 30 unknowns,
+  // some of them free.
+  int const n = 30, count = 40;
+  std::vector<Eigen::Triplet<double>> entries, contacts;
+  for (int i = 0; i < n * count; ++i) {
+    if (i % n == 0 && i / n % 3 == 0) entries.emplace_back(i, i, 0.5);
+    if (i % n == n - 1) {
+      contacts.emplace_back(i / n, i, 1);
+      if (i + 1 < n * count) contacts.emplace_back(i / n, i + 1, -1);
+      continue;
+    }
+    double const stiffness = 1 + i % 7;
+    entries.emplace_back(i, i, stiffness);
+    entries.emplace_back(i + 1, i + 1, stiffness);
+    entries.emplace_back(i, i + 1, -stiffness);
+    entries.emplace_back(i + 1, i, -stiffness);
+  }
+  Eigen::SparseMatrix<double> K(n * count, n * count), B(count, n * count);
+  K.setFromTriplets(entries.begin(), entries.end());
+  B.setFromTriplets(contacts.begin(), contacts.end());
+  VectorXd const f = (VectorXd::LinSpaced(n * count, 0, 90).array().sin() + 0.3).matrix();
+  VectorXd const c = VectorXd::LinSpaced(count, 0, 2);
+  VectorXd first, first_forces;
+  with_threads([&] {
+    slant::contact::bodies<double> const bodies(K, f, B, c);
+    auto const qp = bodies.qp();
+    auto const r = slant::solve(slant::schur_contact{qp}, bodies.zero(),
+                                slant::residual_below(1e-10) || slant::at_most(2000));
+    REQUIRE(r.converged());
+    if (first.size() == 0) {
+      first = bodies.displacement(r.x());
+      first_forces = r.state.multipliers();
+      CHECK(first_forces.maxCoeff() > 0);
+    }
+    CHECK(bodies.displacement(r.x()) == first);
+    CHECK(r.state.multipliers() == first_forces);
   });
 }
 
