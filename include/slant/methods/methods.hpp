@@ -9,6 +9,7 @@
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
 #include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/constrained_newton_core.hpp>
 #include <slant/methods/constrained_newton_options.hpp>
 #include <slant/methods/constrained_newton_state.hpp>
 #include <slant/methods/constraint_rows.hpp>
