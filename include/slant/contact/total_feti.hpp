@@ -19,9 +19,9 @@
 // (benchmarks/total_feti.cpp).
 #pragma once
 
+#include <slant/contact/detail/feti_constraints.hpp>
 #include <slant/contact/detail/friction_law.hpp>
 #include <slant/contact/detail/gap_loads.hpp>
-#include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/congruence.hpp>
@@ -34,7 +34,6 @@
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -55,28 +54,6 @@ struct floating_bodies {
   sparse_type B;               ///< B_E, m_E × Σ n_i: Dirichlet conditions and gluing
   vector_type c;               ///< c_E, m_E: prescribed displacements; 0 for gluing
 };
-
-namespace detail {
-
-/// Matrices as blocks on the diagonal of a sparse one, `of(block)` of each.
-template <class S, class Blocks, class F>
-[[nodiscard]] Eigen::SparseMatrix<S> diagonal_of(Blocks const& blocks, F of) {
-  std::vector<Eigen::Triplet<S>> entries;
-  index rows = 0, cols = 0;
-  for (auto const& block : blocks) {
-    auto const& m = of(block);
-    slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
-      entries.emplace_back(static_cast<int>(rows + i), static_cast<int>(cols + j), value);
-    });
-    rows += m.rows();
-    cols += m.cols();
-  }
-  Eigen::SparseMatrix<S> whole(rows, cols);
-  whole.setFromTriplets(entries.begin(), entries.end());
-  return whole;
-}
-
-}  // namespace detail
 
 /// diag(K₁ … K_p), for preconditioners.
 template <class S>
@@ -107,7 +84,7 @@ class total_feti {
         R_(detail::diagonal_of<S>(bodies_of(inverse_),
                                   [](auto const* body) -> auto const& { return body->kernel(); })),
         f_(checked_load(friction, c, inverse_.rows())),
-        B_(stacked(bodies, c)),
+        B_(detail::all_constraints(bodies.B, bodies.c, c)),
         set_(cartesian(free_components<S>(bodies.B.rows()), detail::feasible_set(friction, c))),
         constraints_(equilibrium()),
         b_(B_.rows()) {
@@ -198,7 +175,7 @@ class total_feti {
     // 64: each of the sums has as many roundings as a body has unknowns, most of which cancel.
     S const rounding = S(64) * std::numeric_limits<S>::epsilon();
     vector_type const errors = rounding * (sizes_of_R.transpose() * f_.cwiseAbs());
-    sparse_type const G = without_rounding(
+    sparse_type const G = detail::without_rounding(
         sparse_type(R_.transpose() * sparse_type(B_.transpose())),
         sparse_type(sizes_of_R.transpose() * sparse_type(B_.cwiseAbs().transpose())), rounding);
     try {
@@ -211,16 +188,6 @@ class total_feti {
     }
   }
 
-  /// G without entries that are rounding errors of their terms: a motion that B does not see would
-  /// become a row of its own, because rows count by their directions.
-  static sparse_type without_rounding(sparse_type G, sparse_type const& terms, S const& rounding) {
-    using std::abs;
-    G.prune([&](index i, index j, S const& value) {
-      return abs(value) > rounding * terms.coeff(i, j);
-    });
-    return G;
-  }
-
   /// The body with the largest part of the resultants that is not in the range of G.
   [[nodiscard]] index moving_body(sparse_type const& G, vector_type const& resultants) const {
     using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
@@ -231,26 +198,6 @@ class total_feti {
     while (row >= inverse_.block(body).kernel().cols())
       row -= inverse_.block(body++).kernel().cols();
     return body;
-  }
-
-  static sparse_type stacked(floating_bodies<S> const& bodies, data<S> const& c) {
-    slant::detail::check_size("columns of B", bodies.B.cols(), c.f.size(), "the size of f,");
-    slant::detail::check_size("c", bodies.c.size(), bodies.B.rows(), "the rows of B,");
-    slant::detail::require_finite_entries("B", bodies.B);
-    slant::detail::check_finite("c", bodies.c);
-    sparse_type const contact = detail::stacked_constraints(c);
-    std::vector<Eigen::Triplet<S>> entries;
-    entries.reserve(static_cast<std::size_t>(bodies.B.nonZeros() + contact.nonZeros()));
-    auto const append = [&](sparse_type const& m, index first) {
-      slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
-        entries.emplace_back(static_cast<int>(first + i), static_cast<int>(j), value);
-      });
-    };
-    append(bodies.B, 0);
-    append(contact, bodies.B.rows());
-    sparse_type whole(bodies.B.rows() + contact.rows(), c.f.size());
-    whole.setFromTriplets(entries.begin(), entries.end());
-    return whole;
   }
 
   inverse_type inverse_;  // K⁺
