@@ -4,6 +4,9 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+// First: a complaint about it begins with the trail of headers that has led to it.
+#include <slant/methods/kprgp.hpp>
+
 #include <slant/methods/active_rows.hpp>
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
@@ -26,7 +29,6 @@
 #include <slant/methods/interior_point_state.hpp>
 #include <slant/methods/interior_start.hpp>
 #include <slant/methods/kkt_vector.hpp>
-#include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
 #include <slant/methods/modified_newton.hpp>
