@@ -90,7 +90,9 @@ run_interior_crossover() {
 run_projector_steps() { "$(program projector)" steps >"$output/projector_steps.csv"; }
 run_projector_contact() { "$(program projector)" contact >"$output/projector_contact.csv"; }
 run_projector_search() { "$(program projector)" search 3 5 >"$output/projector_search.csv"; }
-run_projector_threads() { "$(program projector)" threads 6 8 >"$output/projector_threads.csv"; }
+run_projector_threads() {  # threads that wait must not keep a core from those that work
+  OMP_WAIT_POLICY=passive "$(program projector)" threads 4 6 8 10 12 >"$output/projector_threads.csv"
+}
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/rigid_body_modes.hpp>
 
-#include <Eigen/Geometry>
 #include <doctest/doctest.h>
+#include <Eigen/Geometry>
 
 namespace rigid_body_modes_test {
 

@@ -5,8 +5,8 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 
-#include <Eigen/LU>
 #include <doctest/doctest.h>
+#include <Eigen/LU>
 
 #include <random>
 

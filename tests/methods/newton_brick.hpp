@@ -51,7 +51,8 @@ inline void check_newton_brick(int k, fem::brick_load load, slant::index most,
     CHECK(products <= limit);
     CHECK(r.state.descent.count() == 0);
     auto const u = dual.displacement(r.x());
-    // Relative to other sizes than the method's 1e-12, and with the rounding of a solve with K in it.
+    // Relative to other sizes than the method's 1e-12, and with the rounding of a solve with K in
+    // it.
     CHECK(slant::contact::check_optimality(scene.K, data, u, r.x()).residual() <= 1e-10);
   };
   check(slant::symmetric_newton{qp}, most);

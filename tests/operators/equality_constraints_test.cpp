@@ -2,8 +2,8 @@
 #include <slant/operators/equality_constraints.hpp>
 #include <slant/testing/operator_laws.hpp>
 
-#include <Eigen/QR>
 #include <doctest/doctest.h>
+#include <Eigen/QR>
 
 #include <support/allocation_guard.hpp>
 #include <support/dense_of.hpp>

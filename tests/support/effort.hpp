@@ -3,8 +3,9 @@
 
 namespace test {
 
-/// How much a test takes on: `full` where the compiler optimises, else `light`. Without optimisation
-/// and with sanitizers the same work takes fifty times as long, and a little of it shows them as much.
+/// How much a test takes on: `full` where the compiler optimises, else `light`. Without
+/// optimisation and with sanitizers the same work takes fifty times as long, and a little of it
+/// shows them as much.
 template <class T>
 constexpr T effort([[maybe_unused]] T full, [[maybe_unused]] T light) {
 #ifdef __OPTIMIZE__

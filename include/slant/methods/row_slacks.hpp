@@ -22,11 +22,11 @@ struct row_slacks {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  vector_type slack;       ///< c − B u in the units of the rows; +infinity for rows that never act
-  vector_type sizes;       ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
-  vector_type rates;       ///< b_iᵀq of the rows that q approaches, else 0
-  active_rows<S> active;   ///< J
-  index changes = 0;       ///< changes of J, however many rows came or went
+  vector_type slack;      ///< c − B u in the units of the rows; +infinity for rows that never act
+  vector_type sizes;      ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
+  vector_type rates;      ///< b_iᵀq of the rows that q approaches, else 0
+  active_rows<S> active;  ///< J
+  index changes = 0;      ///< changes of J, however many rows came or went
   index rows_changed = 0;  ///< rows that came or went
 
   explicit row_slacks(rows_type const& rows)
