@@ -7,6 +7,7 @@
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/methods/cut_face.hpp>
+#include <slant/methods/detail/reason_with_equalities.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/newton_segment.hpp>
 #include <slant/methods/progress_watch.hpp>
@@ -99,20 +100,7 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient and the residual of the equality constraints vanish";
-      case slant::status::stalled:
-        return infeasible ? "no point of the set satisfies the equality constraints"
-                          : "neither the reduced gradient nor the residual of the equality "
-                            "constraints falls any further at this precision";
-      case slant::status::unbounded:
-        return "the function decreases for ever along a direction of the set";
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not positive semidefinite";
-      default:
-        return std::string(to_string(status));
-    }
+    return detail::reason_with_equalities(status, infeasible);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include <slant/iteration/report.hpp>
 #include <slant/methods/augmented_problem.hpp>
+#include <slant/methods/detail/reason_with_equalities.hpp>
 #include <slant/methods/kprgp_state.hpp>
 #include <slant/methods/progress_watch.hpp>
 #include <slant/methods/separable_qp.hpp>
@@ -63,20 +64,7 @@ struct smalse_state {
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient and the residual of the equality constraints vanish";
-      case slant::status::stalled:
-        return infeasible ? "no point of the set satisfies the equality constraints"
-                          : "neither the reduced gradient nor the residual of the equality "
-                            "constraints has fallen any more";
-      case slant::status::unbounded:
-        return "the function decreases for ever along a direction of the set";
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not positive semidefinite";
-      default:
-        return std::string(to_string(status));
-    }
+    return detail::reason_with_equalities(status, infeasible);
   }
 };
 
