@@ -59,8 +59,15 @@ class dual {
   dual(dual const&) = delete;
   dual& operator=(dual const&) = delete;
 
-  /// A = B K⁻¹ Bᵀ, never formed.
-  [[nodiscard]] auto a() const& { return congruence(B_, inverse(factor_.get())); }
+  /// A = B K⁻¹ Bᵀ, never formed; by the condensed factor if the factorisation is a
+  /// static_condensation.
+  [[nodiscard]] auto a() const& {
+    if constexpr (requires { factor_.get().restricted(B_); }) {
+      return factor_.get().restricted(B_);
+    } else {
+      return congruence(B_, inverse(factor_.get()));
+    }
+  }
   auto a() const&& = delete;
   /// The dual problem; refers to this object. It has no minimum (status `unbounded`) exactly if no
   /// u satisfies N u ≤ d with (T u)ᵢ = 0 where gᵢ = ∞.

@@ -18,10 +18,11 @@
 #include <Eigen/SparseCore>
 
 #include <cmath>
+#include <concepts>
 #include <memory>
 #include <string_view>
 #include <type_traits>
-#include <utility>
+#include <vector>
 
 namespace slant {
 
@@ -37,14 +38,28 @@ class cholmod {
   template <class M>
     requires std::same_as<typename M::Scalar, double>
   explicit cholmod(Eigen::SparseMatrixBase<M> const& k) {
-    matrix_type normalised = k.derived();
-    detail::require_symmetric_matrix("K", normalised);
-    exponent_ = detail::scale_exponent(normalised);
-    unit_ = detail::power_of_two<double>(-exponent_);
-    normalised *= unit_;
-    normalised.makeCompressed();
-    rows_ = normalised.rows();
-    if (rows_ > 0) factor(normalised);
+    factor(k, [](cholmod_sparse& view) { return std::make_shared<factors>(view); });
+  }
+  /// The same with the unknowns eliminated in this order (position → unknown), or one that CHOLMOD
+  /// finds better for memory without more fill; always supernodal. Throws bad_input also if order is
+  /// not a permutation of 0 … rows − 1.
+  template <class M>
+    requires std::same_as<typename M::Scalar, double>
+  cholmod(Eigen::SparseMatrixBase<M> const& k, std::vector<int> const& order) {
+    detail::check_permutation("order", order, k.rows());
+    factor(k, [&order](cholmod_sparse& view) { return std::make_shared<factors>(view, order, true); });
+  }
+  /// The factorisation of another matrix of the same size, with the ordering of this one: what takes
+  /// longest to find is reused when only values have changed. Throws bad_input as the constructor.
+  template <class M>
+    requires std::same_as<typename M::Scalar, double>
+  [[nodiscard]] cholmod refactorized(Eigen::SparseMatrixBase<M> const& k) const {
+    slant::detail::check_size("rows of K", index(k.rows()), rows_, "as before,");
+    cholmod result;
+    result.factor(k, [this](cholmod_sparse& view) {
+      return std::make_shared<factors>(view, factors_->order(), supernodal());
+    });
+    return result;
   }
 
   [[nodiscard]] index rows() const { return rows_; }
@@ -53,6 +68,14 @@ class cholmod {
   /// Whether dense blocks (supernodes) are used.
   [[nodiscard]] bool supernodal() const noexcept {
     return rows_ > 0 && factors_->get()->is_super != 0;
+  }
+  /// Entries of L.
+  [[nodiscard]] double entries() const noexcept { return rows_ > 0 ? factors_->entries() : 0; }
+  /// The power of two u with P K Pᵀ = L Lᵀ / u.
+  [[nodiscard]] double unit() const noexcept { return unit_; }
+  /// L itself, for those who know CHOLMOD; null for the empty matrix.
+  [[nodiscard]] std::shared_ptr<detail::cholmod_factors const> const& handle() const noexcept {
+    return factors_;
   }
 
   /// All that a solve needs: CHOLMOD's own state and vectors. One for each thread.
@@ -73,22 +96,36 @@ class cholmod {
   }
 
  private:
-  void factor(matrix_type const& k) {
+  using factors = detail::cholmod_factors;
+
+  cholmod() = default;
+
+  /// make(view) factors the matrix; nothing is kept if it throws.
+  template <class M, class Make>
+  void factor(Eigen::SparseMatrixBase<M> const& matrix, Make make) {
+    matrix_type k = matrix.derived();
+    detail::require_symmetric_matrix("K", k);
+    exponent_ = detail::scale_exponent(k);
+    unit_ = detail::power_of_two<double>(-exponent_);
+    k *= unit_;
+    k.makeCompressed();
+    rows_ = k.rows();
+    if (rows_ == 0) return;
     cholmod_sparse view = detail::cholmod_view(k);
-    auto factors = std::make_shared<detail::cholmod_factors>(view);
+    std::shared_ptr<factors> const made = make(view);
     Eigen::VectorXd const diagonal = k.diagonal();
     auto const require = [&](index i, double pivot) {
-      index const row = factors->original_row(i);
+      index const row = made->original_row(i);
       detail::require_positive_pivot("K", rows_, i, row, pivot, diagonal[row], exponent_);
     };
-    factors->for_each_pivot(require);
-    if (index const i = factors->failed_column(); i < rows_) {
-      index const row = factors->original_row(i);
-      double const pivot = factors->failed_pivot(diagonal[row]);
+    made->for_each_pivot(require);
+    if (index const i = made->failed_column(); i < rows_) {
+      index const row = made->original_row(i);
+      double const pivot = made->failed_pivot(diagonal[row]);
       require(i, pivot);
       detail::refuse_pivot("K", i, row, std::ldexp(pivot, exponent_), true);
     }
-    factors_ = std::move(factors);
+    factors_ = made;
   }
 
   int exponent_ = 0;

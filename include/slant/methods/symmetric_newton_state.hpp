@@ -9,6 +9,7 @@
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/newton_segment.hpp>
 #include <slant/methods/progress_watch.hpp>
+#include <slant/methods/rounded_products.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/sets/curved_face.hpp>
 
@@ -29,6 +30,7 @@ struct symmetric_newton_state : gradient_point<QP> {
   newton_segment<vector_type> segment;   ///< y, z of Newton's iterate; x = P_Λ(z) after a step
   curved_face<scalar> face;              ///< range(G) and C at z
   curved_minimum<vector_type, M> inner;  ///< the step t on it
+  rounded_products<typename QP::operator_type, vector_type> products;  ///< what it spends
   forcing_history<scalar> forcing{};     ///< errors and inner tolerances so far
   progress_watch<scalar> progress;       ///< looks for steps that get nowhere
   descent_takeover<QP> descent;          ///< the method that takes over where Newton's fails
@@ -46,7 +48,8 @@ struct symmetric_newton_state : gradient_point<QP> {
       : gradient_point<QP>(qp, x0),
         segment(x0, qp.size()),
         face(qp.set()),
-        inner(x0, qp.size(), m) {}
+        inner(x0, qp.size(), m),
+        products(qp.a(), x0) {}
 
   /// What a status other than running means here.
   [[nodiscard]] std::string reason() const {

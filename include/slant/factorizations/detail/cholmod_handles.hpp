@@ -21,6 +21,7 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace slant::detail {
 
@@ -66,12 +67,16 @@ class cholmod_factors {
  public:
   explicit cholmod_factors(cholmod_sparse& matrix) {
     factor_ = cholmod_analyze(&matrix, state_.get());
-    if (factor_ != nullptr) cholmod_factorize(&matrix, factor_, state_.get());
-    // Being indefinite is a warning of CHOLMOD; what is negative is an error.
-    if (factor_ == nullptr || state_.status() < CHOLMOD_OK) {
-      cholmod_free_factor(&factor_, state_.get());
-      throw std::bad_alloc();
-    }
+    factorize(matrix);
+  }
+  /// The same for a given ordering (position → unknown); always supernodal if `supernodal`.
+  cholmod_factors(cholmod_sparse& matrix, std::vector<int> order, bool supernodal) {
+    cholmod_common& settings = *state_.get();
+    settings.nmethods = 1;
+    settings.method[0].ordering = CHOLMOD_GIVEN;
+    if (supernodal) settings.supernodal = CHOLMOD_SUPERNODAL;
+    factor_ = cholmod_analyze_p(&matrix, order.data(), nullptr, 0, state_.get());
+    factorize(matrix);
   }
   cholmod_factors(cholmod_factors const&) = delete;
   cholmod_factors& operator=(cholmod_factors const&) = delete;
@@ -82,6 +87,35 @@ class cholmod_factors {
   /// The first column without a positive (supernodal) or nonzero (simplicial) pivot, else size().
   [[nodiscard]] index failed_column() const noexcept { return static_cast<index>(factor_->minor); }
   [[nodiscard]] index original_row(index i) const noexcept { return numbers(factor_->Perm)[i]; }
+  /// Entries of L that are stored.
+  [[nodiscard]] double entries() const noexcept {
+    return static_cast<double>(factor_->is_super != 0 ? factor_->xsize : factor_->nzmax);
+  }
+  /// The ordering, position → unknown.
+  [[nodiscard]] std::vector<int> order() const {
+    return {numbers(factor_->Perm), numbers(factor_->Perm) + size()};
+  }
+
+  /// Neighbouring columns that share their rows, stored as one dense matrix.
+  struct supernode {
+    index first;    ///< number of its first column
+    index columns;  ///< number of columns
+    index height;   ///< number of rows
+    int const* rows;
+    double const* entries;  ///< height × columns
+  };
+  /// f(supernode) for all of them in order of elimination; only for supernodal factors.
+  template <class F>
+  void for_each_supernode(F f) const {
+    int const* begin = numbers(factor_->super);
+    int const* rows = numbers(factor_->pi);
+    int const* entries = numbers(factor_->px);
+    for (index s = 0; s < static_cast<index>(factor_->nsuper); ++s) {
+      f(supernode{begin[s], begin[s + 1] - begin[s], rows[s + 1] - rows[s],
+                  numbers(factor_->s) + rows[s],
+                  static_cast<double const*>(factor_->x) + entries[s]});
+    }
+  }
 
   /// f(column, pivot) for all columns before the failed one.
   template <class F>
@@ -118,26 +152,14 @@ class cholmod_factors {
   }
 
  private:
-  /// Neighbouring columns that share their rows, stored as one dense matrix.
-  struct supernode {
-    index first;    ///< number of its first column
-    index columns;  ///< number of columns
-    index height;   ///< number of rows
-    int const* rows;
-    double const* entries;  ///< height × columns
-  };
-
   static int const* numbers(void const* p) noexcept { return static_cast<int const*>(p); }
 
-  template <class F>
-  void for_each_supernode(F f) const {
-    int const* begin = numbers(factor_->super);
-    int const* rows = numbers(factor_->pi);
-    int const* entries = numbers(factor_->px);
-    for (index s = 0; s < static_cast<index>(factor_->nsuper); ++s) {
-      f(supernode{begin[s], begin[s + 1] - begin[s], rows[s + 1] - rows[s],
-                  numbers(factor_->s) + rows[s],
-                  static_cast<double const*>(factor_->x) + entries[s]});
+  void factorize(cholmod_sparse& matrix) {
+    if (factor_ != nullptr) cholmod_factorize(&matrix, factor_, state_.get());
+    // Being indefinite is a warning of CHOLMOD; what is negative is an error.
+    if (factor_ == nullptr || state_.status() < CHOLMOD_OK) {
+      cholmod_free_factor(&factor_, state_.get());
+      throw std::bad_alloc();
     }
   }
 

@@ -15,9 +15,11 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slant::detail {
 
@@ -35,6 +37,18 @@ void check_solve(index n, X const& b, Y const& x) {
   check_rows("b", b, n, "rows() of the factorisation");
   check_rows("x", x, n, "rows() of the factorisation");
   check_same_columns("x", x, b, "one for each column of b");
+}
+
+/// Throws bad_input unless order is a permutation of 0 … n − 1.
+inline void check_permutation(std::string_view name, std::vector<int> const& order, index n) {
+  check_size(name, static_cast<index>(order.size()), n, "one entry for each row of K,");
+  std::vector<bool> seen(order.size(), false);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (order[i] < 0 || order[i] >= n || seen[static_cast<std::size_t>(order[i])]) {
+      throw bad_input(name, show(order[i]), "each of 0, …, rows − 1 once").at(static_cast<index>(i));
+    }
+    seen[static_cast<std::size_t>(order[i])] = true;
+  }
 }
 
 /// The smallest pivot of a row with that diagonal entry that can be told from zero.

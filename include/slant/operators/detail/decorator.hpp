@@ -24,6 +24,8 @@ class decorator {
   static constexpr law_set laws = laws_of<A>;
 
   explicit decorator(held<A> a) : a_(std::move(a)) {}
+  /// With the probe of another one.
+  decorator(held<A> a, Probe probe) : a_(std::move(a)), probe_(std::move(probe)) {}
 
   [[nodiscard]] index rows() const { return a_.get().rows(); }
   [[nodiscard]] index cols() const { return a_.get().cols(); }
@@ -87,6 +89,13 @@ class decorator {
     requires knows_its_inverse<part>
   {
     return a_.get().inverse();
+  }
+  /// The rounded twin, probed together with the operator.
+  [[nodiscard]] auto rounded() const
+    requires requires(part const& a) { a.rounded(); }
+  {
+    using twin = decltype(a_.get().rounded());
+    return decorator<twin, Probe>(held<twin>(a_.get().rounded()), probe_);
   }
 
  protected:

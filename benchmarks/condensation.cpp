@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+//
+// What a frictional contact problem costs beside one linear solve with the same matrix, and an
+// application of the condensed operator beside reading its entries. One thread.
+//
+//   bench_condensation K [K…]
+//
+// Columns: linear_seconds is one factorisation by slant::factorize and one solve; total_seconds is
+// everything from the matrices to u (ordering, factorisation, condensation, right-hand side,
+// iterations, u); error that of u, relative, in the energy norm, against a solution by exact products
+// at the precision's end. Exit status 1 if a ratio is above its limit, 2.2, or an error above 1e-8.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <fem/steel_brick.hpp>
+#include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/static_condensation.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/counted.hpp>
+
+namespace {
+
+using Eigen::VectorXd;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v[v.size() / 2];
+}
+
+struct outcome {
+  VectorXd u;
+  double seconds = 0, iteration_seconds = 0;
+  long steps = 0, products = 0, rounded = 0, levels = 0;
+};
+
+/// The whole of it, from the matrices to u.
+outcome solve_contact(fem::contact_scene<3> const& scene,
+                      slant::contact::data<double> const& data, double tolerance) {
+  outcome o;
+  double const begin = now();
+  slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data));
+  slant::contact::dual const problem(slant::contact::friction_disc{}, factor, data);
+  auto const M = slant::contact::lumped_preconditioner(scene.K, problem.constraints());
+  double const iterate = now();
+  auto const qp = problem.qp();
+  slant::symmetric_newton_options<> options;
+  options.forcing.goal = tolerance;
+  auto const r =
+      slant::solve(slant::symmetric_newton{qp, M, options}, problem.zero(),
+                   slant::reduced_gradient_below(tolerance) || slant::at_most(200));
+  o.iteration_seconds = now() - iterate;
+  o.u = problem.displacement(r.x());
+  o.seconds = now() - begin;
+  o.steps = r.iterations();
+  o.products = r.state.work.operator_applications;
+  o.levels = factor.report().chosen.levels;
+  return o;
+}
+
+double linear_solve(fem::contact_scene<3> const& scene) {
+  double const begin = now();
+  auto const factor = slant::factorize(scene.K);
+  VectorXd u(scene.f.size());
+  slant::apply(slant::inverse(factor), scene.f, u);
+  return now() - begin;
+}
+
+/// Seconds of one application, the fastest of several.
+template <class A>
+double application(A const& a) {
+  VectorXd const x = VectorXd::Random(a.cols());
+  VectorXd y(a.rows());
+  auto w = slant::workspace(a, x);
+  double best = 1e300;
+  for (int i = 0; i < 20; ++i) {
+    double const begin = now();
+    slant::apply(a, x, y, w);
+    best = std::min(best, now() - begin);
+  }
+  return best;
+}
+
+/// Seconds to read so many bytes twice, as the two sweeps do.
+double reading(Eigen::Index bytes) {
+  Eigen::ArrayXd const numbers = Eigen::ArrayXd::Ones(bytes / 8);
+  double best = 1e300, sum = 0;
+  for (int i = 0; i < 10; ++i) {
+    double const begin = now();
+    sum += numbers.sum() + numbers.sum();
+    best = std::min(best, now() - begin);
+  }
+  return sum > 0 ? best : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool missed = false;
+  std::printf(
+      "k,load,unknowns,multipliers,levels,linear_seconds,total_seconds,ratio,iteration_seconds,steps,"
+      "products,error,product_ms,rounded_ms,reading_ms,product_over_reading\n");
+  for (int i = 1; i < argc; ++i) {
+    int const k = std::atoi(argv[i]);
+    int const runs = k <= 16 ? 5 : 1;
+    for (fem::brick_load const load : fem::brick_loads) {
+      auto const scene = fem::make_steel_brick({.k = k, .load = load});
+      slant::contact::data<double> const data{scene.N, scene.T, scene.f, scene.d, scene.g};
+      std::vector<double> linear, total, iteration;
+      outcome o;
+      for (int run = 0; run < runs; ++run) {
+        linear.push_back(linear_solve(scene));
+        o = solve_contact(scene, data, 1e-10);
+        total.push_back(o.seconds);
+        iteration.push_back(o.iteration_seconds);
+      }
+      VectorXd const exact = solve_contact(scene, data, 1e-13).u;
+      VectorXd const e = o.u - exact;
+      double const error = std::sqrt(e.dot(scene.K * e) / exact.dot(scene.K * exact));
+      double const ratio = median(total) / median(linear);
+      slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data));
+      slant::contact::dual const problem(slant::contact::friction_disc{}, factor, data);
+      auto const a = problem.a();
+      double const product = application(a), rounded = application(a.rounded()),
+                   read = reading(a.bytes());
+      std::printf("%d,%s,%ld,%ld,%ld,%.4f,%.4f,%.3f,%.4f,%ld,%ld,%.1e,%.3f,%.3f,%.3f,%.2f\n", k,
+                  std::string(fem::name_of(load)).c_str(), long(scene.K.rows()), long(a.rows()),
+                  o.levels, median(linear), median(total), ratio, median(iteration), o.steps,
+                  o.products, error, 1e3 * product, 1e3 * rounded, 1e3 * read, product / read);
+      std::fflush(stdout);
+      missed = missed || ratio > 2.2 || error > 1e-8;
+    }
+  }
+  return missed ? 1 : 0;
+}

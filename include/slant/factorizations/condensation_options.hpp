@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// How far a static condensation should go, and what it costs: the cost model of static_condensation.
+//
+// Keeping the contact unknowns for the end makes the factorisation dearer and each application of
+// B K⁻¹ Bᵀ cheaper (factorizations/detail/contact_ordering.hpp). For each ordering a symbolic
+// analysis gives the operations of the factorisation and the bytes that an application reads; the
+// one with the least
+//
+//     flops / flops_per_second + applications · 2 · bytes / bytes_per_second
+//
+// is taken.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/checks.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slant {
+
+/// Options of static_condensation. The constants are measured (one core, `./run bench --only
+/// condensation`); their ratio is what matters, and that differs little between processors.
+struct condensation_options {
+  /// 0: all contact unknowns last; l: behind their own subdomain of those that the l topmost
+  /// separators leave; none: what the cost model finds best.
+  std::optional<index> levels{};
+  /// Expected; one in rounded precision counts as half. Methods for contact need 80 to 150.
+  index applications = 100;
+  double flops_per_second = 3.0e10;   ///< of a large factorisation
+  double bytes_per_second = 2.4e10;   ///< read from memory by a sweep
+  double cached_per_second = 5.0e10;  ///< the same if all fits the cache
+  double cache = 1.6e7;               ///< bytes of the cache
+  double most_memory = 1.8;  ///< at most so many times the bytes of the least filled factor; ≥ 1
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    auto const positive = [](std::string_view name, double value) {
+      if (!(value > 0) || !detail::is_finite(value)) {
+        throw bad_input(name, detail::show(value), "a finite number > 0");
+      }
+    };
+    if (levels && *levels < 0) throw bad_input("levels", detail::show(*levels), "a number >= 0");
+    if (applications < 0) {
+      throw bad_input("applications", detail::show(applications), "a number >= 0");
+    }
+    positive("flops_per_second", flops_per_second);
+    positive("bytes_per_second", bytes_per_second);
+    positive("cached_per_second", cached_per_second);
+    positive("cache", cache);
+    if (!(most_memory >= 1)) throw bad_input("most_memory", detail::show(most_memory), "at least 1");
+  }
+};
+
+/// One way to condense, by symbolic analysis.
+struct condensation_plan {
+  index levels = 0;    ///< of condensation_options
+  double flops = 0;    ///< operations of the factorisation
+  double entries = 0;  ///< of the whole factor
+  index tail = 0;      ///< unknowns that an application touches
+  double tail_entries = 0;  ///< entries of the factor that an application reads, twice
+  double seconds = 0;       ///< predicted, for the factorisation and all applications
+
+  /// Bytes of the factor with the copies of its tail, one in doubles and one in floats, that
+  /// applications read.
+  [[nodiscard]] double bytes() const { return 8 * entries + 12 * tail_entries; }
+
+  void predict(condensation_options const& o) {
+    double const read = 8 * tail_entries;
+    double const speed = read < o.cache ? o.cached_per_second : o.bytes_per_second;
+    seconds = flops / o.flops_per_second + static_cast<double>(o.applications) * 2 * read / speed;
+  }
+};
+
+/// What a static condensation did and why.
+struct condensation_report {
+  std::string_view factorization;        ///< "cholmod", or "ldlt" without SuiteSparse
+  index unknowns = 0;                    ///< rows of K
+  index contact = 0;                     ///< contact unknowns
+  std::vector<condensation_plan> plans;  ///< what was compared; empty without SuiteSparse
+  condensation_plan chosen;              ///< what was done
+  std::string reason;                    ///< why, in a sentence
+};
+
+namespace detail {
+
+/// The plan with the least predicted time among those that fit the memory; plans are not empty.
+[[nodiscard]] inline condensation_plan const& cheapest(std::vector<condensation_plan> const& plans,
+                                                       condensation_options const& o) {
+  double least_bytes = 8 * plans.front().entries;
+  for (auto const& plan : plans) least_bytes = std::min(least_bytes, 8 * plan.entries);
+  condensation_plan const* best = nullptr;
+  condensation_plan const* smallest = &plans.front();
+  for (auto const& plan : plans) {
+    if (plan.bytes() < smallest->bytes()) smallest = &plan;
+    if (plan.bytes() > o.most_memory * least_bytes) continue;
+    if (best == nullptr || plan.seconds < best->seconds) best = &plan;
+  }
+  return best != nullptr ? *best : *smallest;
+}
+
+}  // namespace detail
+
+}  // namespace slant

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+//
+// B K⁻¹Bᵀ by the part of the factors of K that the rows of B reach (static_condensation.hpp),
+//
+//     y = u B_t L_tt⁻ᵀ L_tt⁻¹ B_tᵀ x,      u: the power of two by which K was scaled,
+//
+// with L_tt in the precision T of its entries. Rounded to float it is read in half the time, and good
+// for the inner iterations of methods that compute their residuals with the exact one; see
+// concepts/slant/concepts/rounded.hpp. B_t and x are of doubles either way, of any scale.
+#pragma once
+
+#include <slant/concepts/laws.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/factorizations/detail/tail_factor.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// The operator at the top of this file; made by static_condensation::restricted. Copies share the
+/// factor.
+template <class T>
+class condensed_operator {
+  using sparse_type = Eigen::SparseMatrix<double>;
+
+ public:
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+
+  /// b: n × (size of the factor).
+  condensed_operator(std::shared_ptr<sparse_type const> b,
+                     std::shared_ptr<detail::tail_factor<T> const> factor, double unit)
+      : b_(std::move(b)), factor_(std::move(factor)), unit_(unit) {}
+
+  [[nodiscard]] index rows() const { return b_->rows(); }
+  [[nodiscard]] index cols() const { return b_->rows(); }
+  /// Bytes that an application reads, twice.
+  [[nodiscard]] index bytes() const {
+    return factor_->values().size() * static_cast<index>(sizeof(T));
+  }
+
+  /// Bᵀx in both precisions, and the buffer of the sweeps.
+  struct workspace_type {
+    Eigen::MatrixXd forces;
+    detail::tail_vectors<T> tail;
+  };
+  template <class X>
+    requires std::same_as<scalar_t<X>, double>
+  [[nodiscard]] workspace_type workspace(X const& x) const {
+    index const columns = slant::local(x).cols();
+    return {Eigen::MatrixXd(factor_->shape()->size(), columns),
+            detail::tail_vectors<T>(*factor_->shape(), columns)};
+  }
+  /// y = B K⁻¹Bᵀx for one or several right-hand sides.
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, double>
+  void apply(X const& x, Y& y, workspace_type& w) const {
+    w.forces.noalias() = b_->transpose() * slant::local(x);
+    if constexpr (std::is_same_v<T, double>) {
+      w.tail.x.swap(w.forces);
+      factor_->solve_in_place(w.tail);
+      w.tail.x.swap(w.forces);
+    } else {
+      solve_rounded(w);
+    }
+    w.forces *= unit_;
+    slant::local(y).noalias() = *b_ * w.forces;
+  }
+
+  /// A as a dense matrix, by as many solves as there are rows, several at a time: for methods that
+  /// want its entries, its diagonal or a factorisation of it.
+  [[nodiscard]] Eigen::MatrixXd formed() const {
+    constexpr index together = 16;
+    Eigen::MatrixXd a(rows(), rows());
+    for (index first = 0; first < rows(); first += together) {
+      auto columns = a.middleCols(first, std::min(together, rows() - first));
+      Eigen::MatrixXd units = Eigen::MatrixXd::Zero(rows(), columns.cols());
+      units.diagonal(-first).setOnes();
+      auto w = workspace(units);
+      Eigen::MatrixXd images(rows(), columns.cols());
+      apply(units, images, w);
+      columns = images;
+    }
+    return (a + a.transpose()) / 2;
+  }
+
+  /// The same with a factor of floats, which it owns.
+  [[nodiscard]] condensed_operator<float> rounded() const
+    requires std::same_as<T, double>
+  {
+    return {b_, std::make_shared<detail::tail_factor<float>>(*factor_), unit_};
+  }
+
+ private:
+  /// Each right-hand side in units in which floats hold it.
+  void solve_rounded(workspace_type& w) const {
+    for (index j = 0; j < w.forces.cols(); ++j) {
+      double const scale = std::ldexp(1.0, exponent(w.forces.col(j)));
+      w.tail.x.col(j) = (w.forces.col(j) * scale).template cast<T>();
+      w.forces.col(j).setConstant(1 / scale);
+    }
+    factor_->solve_in_place(w.tail);
+    w.forces.array() *= w.tail.x.template cast<double>().array();
+  }
+  template <class V>
+  static int exponent(V const& v) {
+    int e = 0;
+    if (v.size() > 0) std::frexp(v.cwiseAbs().maxCoeff(), &e);
+    return -std::clamp(e, -1000, 1000);
+  }
+
+  std::shared_ptr<sparse_type const> b_;
+  std::shared_ptr<detail::tail_factor<T> const> factor_;
+  double unit_;
+};
+
+}  // namespace slant

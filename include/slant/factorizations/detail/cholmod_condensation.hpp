@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+//
+// Static condensation by CHOLMOD: choice of the ordering, and the part of the factor that contact
+// unknowns reach, packed.
+#pragma once
+
+#if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
+
+#include <slant/factorizations/cholmod.hpp>
+#include <slant/factorizations/condensation_options.hpp>
+#include <slant/factorizations/condensed_operator.hpp>
+#include <slant/factorizations/detail/cholmod_ordering.hpp>
+#include <slant/factorizations/detail/tail_factor.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace slant::detail {
+
+/// See static_condensation.hpp.
+class cholmod_condensation {
+ public:
+  using sparse_type = Eigen::SparseMatrix<double>;
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+
+  template <class M>
+  cholmod_condensation(M const& matrix, std::vector<char> marked,
+                       condensation_options const& options)
+      : marked_(std::move(marked)),
+        factor_(matrix, best_order(matrix, marked_, options, report_)),
+        tail_(pack()) {}
+
+  template <class M>
+  [[nodiscard]] cholmod_condensation refactorized(M const& matrix) const {
+    cholmod_condensation result = *this;
+    result.factor_ = factor_.refactorized(matrix);
+    result.tail_ = result.pack();
+    return result;
+  }
+
+  [[nodiscard]] index rows() const { return factor_.rows(); }
+  [[nodiscard]] std::string_view name() const noexcept { return factor_.name(); }
+  [[nodiscard]] condensation_report const& report() const noexcept { return report_; }
+
+  template <class X>
+  [[nodiscard]] cholmod_workspace workspace(X const& b) const {
+    return factor_.workspace(b);
+  }
+  template <class X, class Y>
+  void solve(X const& b, Y& x, cholmod_workspace& w) const {
+    factor_.solve(b, x, w);
+  }
+
+  /// B touches marked unknowns only.
+  [[nodiscard]] auto restricted(sparse_type const& b) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (index j = 0; j < b.cols(); ++j) {
+      for (sparse_type::InnerIterator e(b, j); e; ++e) {
+        if (e.value() == 0) continue;
+        entries.emplace_back(static_cast<int>(e.row()), place_[static_cast<std::size_t>(j)],
+                             e.value());
+      }
+    }
+    auto b_tail = std::make_shared<sparse_type>(b.rows(), tail_->shape()->size());
+    b_tail->setFromTriplets(entries.begin(), entries.end());
+    return condensed_operator<double>(std::move(b_tail), tail_, factor_.unit());
+  }
+
+ private:
+  template <class M>
+  static std::vector<int> best_order(M const& matrix, std::vector<char> const& marked,
+                                     condensation_options const& options,
+                                     condensation_report& report) {
+    require_square("K", matrix);
+    sparse_type k = matrix;
+    k.makeCompressed();
+    if (k.rows() == 0) return {};
+    cholmod_sparse view = cholmod_view(k);
+    cholmod_ordering const given(view);
+    separator_tree const separators(given.parent());
+    // More levels cost ever less to factor and ever more to apply: the best is before the first rise.
+    std::vector<int> best;
+    index const first = options.levels.value_or(0), last = options.levels.value_or(most_levels);
+    double least = 0;
+    int rises = 0;
+    for (index levels = first; levels <= last && rises < 2; ++levels) {
+      cholmod_ordering const order(
+          view, postponed(given.order(), marked, separators.subtrees(static_cast<int>(levels))));
+      report.plans.push_back(order.plan(levels, marked));
+      report.plans.back().predict(options);
+      double const seconds = report.plans.back().seconds;
+      if (report.plans.size() > 1 && seconds > report.plans[report.plans.size() - 2].seconds) ++rises;
+      static_cast<void>(least);
+      if (&cheapest(report.plans, options) == &report.plans.back()) best = order.order();
+    }
+    report.chosen = cheapest(report.plans, options);
+    report.reason = options.levels ? "as asked for" : reason(report);
+    return best;
+  }
+
+  static std::string reason(condensation_report const& report) {
+    return "least time predicted among " + show(static_cast<index>(report.plans.size())) +
+           " orderings, that with contact unknowns behind the subdomains of level " +
+           show(report.chosen.levels);
+  }
+
+  /// Numbers the columns that marked unknowns reach, and packs them.
+  std::shared_ptr<tail_factor<double> const> pack() {
+    auto shape = std::make_shared<tail_shape>();
+    place_.assign(marked_.size(), -1);
+    struct part {
+      double const* entries;
+      index height, skipped;
+    };
+    std::vector<part> parts;
+    if (rows() > 0) {
+      auto const& factors = *factor_.handle();
+      std::vector<int> const order = factors.order();
+      // A column that is reached reaches the first row below it, and with a column of a supernode all
+      // that follow it.
+      std::vector<char> reached(marked_.size(), 0);
+      std::vector<int> number(marked_.size(), -1);
+      int count = 0;
+      std::vector<typename cholmod_factors::supernode> nodes;
+      factors.for_each_supernode([&](cholmod_factors::supernode const& s) {
+        index from = s.first;
+        index const end = s.first + s.columns;
+        while (from < end && reached[static_cast<std::size_t>(from)] == 0 &&
+               marked_[static_cast<std::size_t>(order[static_cast<std::size_t>(from)])] == 0) {
+          ++from;
+        }
+        if (from == end) return;
+        for (index j = from; j < end; ++j) number[static_cast<std::size_t>(j)] = count++;
+        if (s.height > s.columns) reached[static_cast<std::size_t>(s.rows[s.columns])] = 1;
+        parts.push_back({s.entries, s.height, from - s.first});
+        nodes.push_back(s);
+      });
+      std::vector<int> below;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        below.assign(nodes[i].rows + nodes[i].columns, nodes[i].rows + nodes[i].height);
+        for (int& row : below) row = number[static_cast<std::size_t>(row)];
+        shape->add(nodes[i].columns - parts[i].skipped, below);
+      }
+      for (std::size_t j = 0; j < order.size(); ++j) {
+        place_[static_cast<std::size_t>(order[j])] = number[j];
+      }
+    }
+    return std::make_shared<tail_factor<double>>(
+        std::move(shape), [&parts](std::size_t s, index row, index column) {
+          part const& p = parts[s];
+          return p.entries[(column + p.skipped) * p.height + row + p.skipped];
+        });
+  }
+
+  static constexpr index most_levels = 12;
+
+  std::vector<char> marked_;
+  condensation_report report_;
+  cholmod factor_;
+  std::vector<int> place_;  // unknown → number in the tail, or −1
+  std::shared_ptr<tail_factor<double> const> tail_;
+};
+
+}  // namespace slant::detail
+
+#endif
