@@ -29,8 +29,8 @@ struct condensation_options {
   /// 0: all contact unknowns last; l: behind their own subdomain of those that the l topmost
   /// separators leave; none: what the cost model finds best.
   std::optional<index> levels{};
-  /// Expected; one in rounded precision counts as half. Methods for contact need 80 to 150.
-  index applications = 100;
+  /// Expected; one in rounded precision counts as half. Methods for contact need 60 to 150.
+  index applications = 150;
   double flops_per_second = 3.0e10;   ///< of a large factorisation
   double bytes_per_second = 2.4e10;   ///< read from memory by a sweep
   double cached_per_second = 5.0e10;  ///< the same if all fits the cache
@@ -61,7 +61,7 @@ struct condensation_plan {
   index levels = 0;    ///< of condensation_options
   double flops = 0;    ///< operations of the factorisation
   double entries = 0;  ///< of the whole factor
-  index tail = 0;      ///< unknowns that an application touches
+  double tail = 0;     ///< unknowns that an application touches
   double tail_entries = 0;  ///< entries of the factor that an application reads, twice
   double seconds = 0;       ///< predicted, for the factorisation and all applications
 

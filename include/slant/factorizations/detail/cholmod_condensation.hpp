@@ -10,6 +10,7 @@
 #include <slant/factorizations/condensation_options.hpp>
 #include <slant/factorizations/condensed_operator.hpp>
 #include <slant/factorizations/detail/cholmod_ordering.hpp>
+#include <slant/factorizations/detail/quotient_graph.hpp>
 #include <slant/factorizations/detail/tail_factor.hpp>
 
 #include <Eigen/SparseCore>
@@ -78,26 +79,25 @@ class cholmod_condensation {
                                      condensation_options const& options,
                                      condensation_report& report) {
     require_square("K", matrix);
-    sparse_type k = matrix;
-    k.makeCompressed();
-    if (k.rows() == 0) return {};
-    cholmod_sparse view = cholmod_view(k);
+    if (matrix.rows() == 0) return {};
+    quotient_graph const quotient(matrix);
+    cholmod_sparse view = cholmod_view(quotient.graph());
     cholmod_ordering const given(view);
     separator_tree const separators(given.parent());
-    // More levels cost ever less to factor and ever more to apply: the best is before the first rise.
+    std::vector<char> const groups = quotient.groups(marked);
+    double const weight = static_cast<double>(matrix.rows()) / quotient.size();
+    // More levels cost ever less to factor and ever more to apply: the best one is before they rise.
     std::vector<int> best;
     index const first = options.levels.value_or(0), last = options.levels.value_or(most_levels);
-    double least = 0;
     int rises = 0;
     for (index levels = first; levels <= last && rises < 2; ++levels) {
       cholmod_ordering const order(
-          view, postponed(given.order(), marked, separators.subtrees(static_cast<int>(levels))));
-      report.plans.push_back(order.plan(levels, marked));
+          view, postponed(given.order(), groups, separators.subtrees(static_cast<int>(levels))));
+      report.plans.push_back(order.plan(levels, groups, weight));
       report.plans.back().predict(options);
-      double const seconds = report.plans.back().seconds;
-      if (report.plans.size() > 1 && seconds > report.plans[report.plans.size() - 2].seconds) ++rises;
-      static_cast<void>(least);
-      if (&cheapest(report.plans, options) == &report.plans.back()) best = order.order();
+      auto const& plans = report.plans;
+      if (plans.size() > 1 && plans.back().seconds > plans[plans.size() - 2].seconds) ++rises;
+      if (&cheapest(plans, options) == &plans.back()) best = quotient.expanded(order.order());
     }
     report.chosen = cheapest(report.plans, options);
     report.reason = options.levels ? "as asked for" : reason(report);

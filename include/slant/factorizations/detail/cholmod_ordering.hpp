@@ -46,19 +46,22 @@ class cholmod_ordering {
   [[nodiscard]] std::vector<int> const& order() const noexcept { return order_; }
   [[nodiscard]] std::vector<int> const& parent() const noexcept { return parent_; }
 
-  /// What factoring costs, and applications from marked unknowns to marked unknowns.
-  [[nodiscard]] condensation_plan plan(index levels, std::vector<char> const& marked) const {
+  /// What factoring costs, and applications from marked unknowns to marked ones, if each vertex of
+  /// the graph stands for so many unknowns.
+  [[nodiscard]] condensation_plan plan(index levels, std::vector<char> const& marked,
+                                       double weight) const {
     condensation_plan p;
     p.levels = levels;
     std::vector<char> reached(order_.size(), 0);
     for (std::size_t j = 0; j < order_.size(); ++j) {
-      auto const length = static_cast<double>(length_[j]);
-      p.flops += length * length;
-      p.entries += length;
+      double const rows = weight * length_[j];  // of the first of its columns
+      double const entries = weight * (rows - (weight - 1) / 2);
+      p.flops += weight * (rows - (weight - 1) / 2) * (rows - (weight - 1) / 2);
+      p.entries += entries;
       if (marked[static_cast<std::size_t>(order_[j])] != 0) reached[j] = 1;
       if (reached[j] == 0) continue;
-      ++p.tail;
-      p.tail_entries += length;
+      p.tail += weight;
+      p.tail_entries += entries;
       if (parent_[j] >= 0) reached[static_cast<std::size_t>(parent_[j])] = 1;
     }
     return p;
