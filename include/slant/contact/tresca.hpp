@@ -50,8 +50,7 @@ class dual {
         set_(detail::feasible_set(friction, c)),
         free_displacement_(f_.size()),
         b_(B_.rows()) {
-    auto const Kinv = inverse(factor_.get());
-    slant::apply(Kinv, f_, free_displacement_);
+    solve_once(f_, free_displacement_);
     check_range(free_displacement_);
     b_.noalias() = B_ * free_displacement_;
     detail::subtract_gaps(c, b_);
@@ -91,11 +90,19 @@ class dual {
     vector_type load = f_;
     load.noalias() -= B_.transpose() * λ;
     vector_type u(load.size());
-    slant::apply(inverse(factor_.get()), load, u);
+    solve_once(load, u);
     return u;
   }
 
  private:
+  void solve_once(vector_type const& load, vector_type& u) const {
+    if constexpr (has_plain_solve<std::remove_cvref_t<Factorization>, vector_type>) {
+      factor_.get().solve(load, u);
+    } else {
+      slant::apply(inverse(factor_.get()), load, u);
+    }
+  }
+
   /// u without contact, about which the user has only f to look at.
   static void check_range(vector_type const& u) {
     for (index i = 0; i < u.size(); ++i) {

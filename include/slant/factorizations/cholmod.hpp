@@ -94,6 +94,13 @@ class cholmod {
     w.right_hand_side() = slant::local(b);
     slant::local(x).noalias() = unit_ * w.solve(*factors_);
   }
+  /// The same once, for those who will not solve again.
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, double>
+  void solve(X const& b, Y& x) const {
+    detail::cholmod_workspace w(factors_.get(), slant::local(b).cols(), false);
+    solve(b, x, w);
+  }
 
  private:
   using factors = detail::cholmod_factors;

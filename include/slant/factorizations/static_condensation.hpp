@@ -92,6 +92,12 @@ class static_condensation {
   void solve(X const& b, Y& x, W& w) const {
     factors_.solve(b, x, w);
   }
+  /// The same once, for those who will not solve again.
+  template <class X, class Y>
+    requires std::same_as<scalar_t<X>, S> && has_plain_solve<factors, X>
+  void solve(X const& b, Y& x) const {
+    factors_.solve(b, x);
+  }
 
   /// B K⁻¹Bᵀ, self-adjoint and semidefinite, by the part of the factor that it needs; owns what it
   /// refers to. Throws bad_input if B has not rows() columns, or touches an unknown that is not in

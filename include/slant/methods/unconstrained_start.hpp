@@ -12,6 +12,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/rounded.hpp>
 #include <slant/concepts/vector.hpp>

@@ -57,6 +57,10 @@ class cholmod_condensation {
   void solve(X const& b, Y& x, cholmod_workspace& w) const {
     factor_.solve(b, x, w);
   }
+  template <class X, class Y>
+  void solve(X const& b, Y& x) const {
+    factor_.solve(b, x);
+  }
 
   /// B touches marked unknowns only.
   [[nodiscard]] auto restricted(sparse_type const& b) const {

@@ -171,17 +171,14 @@ class cholmod_factors {
 /// holds between two solves is scratch: a copy is as much room, and as ready for a solve.
 class cholmod_workspace {
  public:
-  /// For solves with these factors; null for an empty matrix, with which nothing is solved.
-  cholmod_workspace(cholmod_factors const* factors, index columns)
+  /// For solves with these factors; null for an empty matrix, with which nothing is solved. A warm
+  /// one allocates nothing later on.
+  cholmod_workspace(cholmod_factors const* factors, index columns, bool warm = true)
       : state_(std::make_unique<cholmod_state>()) {
     if (factors == nullptr) return;
-    // What a solve would allocate, which takes what it finds if that is large enough.
     right_.setZero(factors->size(), columns);
-    solution_ = room(factors->size(), columns);
-    y_ = room(factors->size(), columns);
-    if (factors->get()->is_super != 0) {
-      e_ = room(static_cast<index>(factors->get()->maxesize), columns);
-    }
+    // The first solve lets CHOLMOD allocate all it needs; later ones reuse it.
+    if (warm) (void)solve(*factors);
   }
   cholmod_workspace(cholmod_workspace const& other) : cholmod_workspace(nullptr, 0) {
     right_.setZero(other.right_.rows(), other.right_.cols());
@@ -240,15 +237,11 @@ class cholmod_workspace {
   [[nodiscard]] cholmod_dense* room_like(cholmod_dense const* vectors) {
     if (vectors == nullptr) return nullptr;
     std::size_t const width = vectors->ncol;
-    return room(static_cast<index>(width > 0 ? vectors->nzmax / width : 0),
-                static_cast<index>(width));
-  }
-  [[nodiscard]] cholmod_dense* room(index rows, index columns) {
-    auto const height = static_cast<std::size_t>(rows);
-    cholmod_dense* made = cholmod_allocate_dense(height, static_cast<std::size_t>(columns), height,
-                                                 CHOLMOD_REAL, state_->get());
-    if (made == nullptr) throw std::bad_alloc();
-    return made;
+    std::size_t const height = width > 0 ? vectors->nzmax / width : 0;
+    cholmod_dense* room =
+        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, state_->get());
+    if (room == nullptr) throw std::bad_alloc();
+    return room;
   }
 
   std::unique_ptr<cholmod_state> state_;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include <slant/factorizations/condensation_options.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace condensation_options_test {
+
+std::string complaint(slant::condensation_options const& o) {
+  try {
+    o.validate();
+  } catch (slant::bad_input const& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST_CASE("options out of range are named") {
+  CHECK(complaint({}) == "accepted");
+  CHECK(complaint({.levels = -1}).find("levels") != std::string::npos);
+  CHECK(complaint({.applications = -1}).find("applications") != std::string::npos);
+  CHECK(complaint({.flops_per_second = 0}).find("flops_per_second") != std::string::npos);
+  CHECK(complaint({.bytes_per_second = std::numeric_limits<double>::quiet_NaN()})
+            .find("bytes_per_second") != std::string::npos);
+  CHECK(complaint({.cached_per_second = -1}).find("cached_per_second") != std::string::npos);
+  CHECK(complaint({.cache = 0}).find("cache") != std::string::npos);
+  CHECK(complaint({.most_memory = 0.5}).find("most_memory") != std::string::npos);
+}
+
+TEST_CASE("the fastest plan that fits the memory; the smallest if none does") {
+  slant::condensation_options o;
+  o.applications = 10;
+  o.flops_per_second = o.bytes_per_second = o.cached_per_second = 1;
+  auto const plan = [&](double flops, double entries, double tail) {
+    slant::condensation_plan p{.flops = flops, .entries = entries, .tail_entries = tail};
+    p.predict(o);
+    return p;
+  };
+  std::vector const plans{plan(5000, 300, 10), plan(3000, 200, 20), plan(1000, 100, 60)};
+  CHECK(plans[0].seconds == 5000 + 10 * 2 * 8 * 10);
+  CHECK(plans[0].bytes() == 8 * 300 + 12 * 10);
+  o.most_memory = 4;
+  CHECK(&slant::detail::cheapest(plans, o) == &plans[1]);  // 6200 against 6600 and 10600
+  o.most_memory = 2;
+  CHECK(&slant::detail::cheapest(plans, o) == &plans[2]);
+  o.most_memory = 1;
+  CHECK(&slant::detail::cheapest(plans, o) == &plans[2]);
+}
+
+}  // namespace condensation_options_test

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <slant/methods/rounded_products.hpp>
+
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace rounded_products_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slant::index;
+
+MatrixXd second_differences(index n) {
+  MatrixXd a = 2 * MatrixXd::Identity(n, n);
+  a.diagonal(1).setConstant(-1);
+  a.diagonal(-1).setConstant(-1);
+  return a;
+}
+
+/// An operator whose twin is wrong by a relative 2⁻¹⁰.
+struct imprecise {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  MatrixXd a;
+  double error = 0;
+  [[nodiscard]] index rows() const { return a.rows(); }
+  [[nodiscard]] index cols() const { return a.rows(); }
+  void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = (1 + error) * (a * x); }
+  [[nodiscard]] imprecise rounded() const {
+    imprecise twin{a, std::ldexp(1.0, -10)};
+    twin.a.diagonal().array() *= 1 + twin.error;
+    return twin;
+  }
+};
+static_assert(slant::has_rounded<imprecise, VectorXd>);
+
+TEST_CASE("a method with rounded products finds the solution of the exact ones") {
+  index const n = 30;
+  MatrixXd const A = second_differences(n);
+  VectorXd b(n);
+  for (index i = 0; i < n; ++i) b[i] = std::sin(double(i));
+  auto const set = slant::half_lines(VectorXd(VectorXd::Zero(n)));
+  auto const rule = slant::reduced_gradient_below(1e-13) || slant::at_most(60);
+  slant::separable_qp const exact{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b, set};
+  slant::separable_qp const rounded{imprecise{A}, b, set};
+  auto const r = slant::solve(slant::symmetric_newton{exact}, VectorXd(VectorXd::Zero(n)), rule);
+  auto const q = slant::solve(slant::symmetric_newton{rounded}, VectorXd(VectorXd::Zero(n)), rule);
+  REQUIRE(r.converged());
+  REQUIRE(q.converged());
+  CHECK((r.x() - q.x()).norm() <= 1e-11 * r.x().norm());
+  CHECK(q.state.products.at_work());
+}
+
+TEST_CASE("a twin that is of no use is given up") {
+  index const n = 6;
+  MatrixXd const A = second_differences(n);
+  VectorXd const b = VectorXd::LinSpaced(n, -1, 2);
+  struct useless : imprecise {
+    [[nodiscard]] imprecise rounded() const { return {-100 * a, 0}; }
+  };
+  slant::separable_qp const qp{useless{{A, 0}}, b, slant::half_lines(VectorXd(VectorXd::Zero(n)))};
+  auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(n)),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(60));
+  CHECK(r.converged());
+  CHECK(!r.state.products.at_work());
+}
+
+}  // namespace rounded_products_test
