@@ -7,8 +7,9 @@
 //
 // Columns: linear_seconds is one factorisation by slant::factorize and one solve; total_seconds is
 // everything from the matrices to u (ordering, factorisation, condensation, right-hand side,
-// iterations, u); error that of u, relative, in the energy norm, against a solution by exact products
-// at the precision's end. Exit status 1 if a ratio is above its limit, 2.2, or an error above 1e-8.
+// iterations, u); error that of u, relative, in the energy norm, against a solution by exact
+// products at the precision's end. Exit status 1 if a ratio is above its limit, 2.2, or an error
+// above 1e-8.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,8 +33,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// CPU seconds of this process, which has one thread: other programs disturb them less than the time
-/// on the wall.
+/// CPU seconds of this process, which has one thread: other programs disturb them less than the
+/// time on the wall.
 double now() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -52,8 +53,8 @@ struct outcome {
 };
 
 /// The whole of it, from the matrices to u.
-outcome solve_contact(fem::contact_scene<3> const& scene,
-                      slant::contact::data<double> const& data, double tolerance) {
+outcome solve_contact(fem::contact_scene<3> const& scene, slant::contact::data<double> const& data,
+                      double tolerance) {
   outcome o;
   double const begin = now();
   slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data));
@@ -64,9 +65,8 @@ outcome solve_contact(fem::contact_scene<3> const& scene,
   auto const start = slant::unconstrained_start(qp, M);
   slant::symmetric_newton_options<> options;
   options.forcing.goal = tolerance;
-  auto const r =
-      slant::solve(slant::symmetric_newton{qp, M, options}, start.x,
-                   slant::reduced_gradient_below(tolerance) || slant::at_most(200));
+  auto const r = slant::solve(slant::symmetric_newton{qp, M, options}, start.x,
+                              slant::reduced_gradient_below(tolerance) || slant::at_most(200));
   o.iteration_seconds = now() - iterate;
   o.u = problem.displacement(r.x());
   o.seconds = now() - begin;
@@ -116,7 +116,8 @@ double reading(Eigen::Index bytes) {
 int main(int argc, char** argv) {
   bool missed = false;
   std::printf(
-      "k,load,unknowns,multipliers,levels,linear_seconds,total_seconds,ratio,iteration_seconds,steps,"
+      "k,load,unknowns,multipliers,levels,linear_seconds,total_seconds,ratio,iteration_seconds,"
+      "steps,"
       "products,error,product_ms,rounded_ms,reading_ms,product_over_reading\n");
   for (int i = 1; i < argc; ++i) {
     int const k = std::atoi(argv[i]);

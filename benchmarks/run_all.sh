@@ -23,6 +23,7 @@
 #   projector_search    the same on stacks of bricks: rules for leaving and entering constraints
 #   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
+#   condensation        a frictional contact problem over one linear solve, brick k = 8, 12, 16, 24
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -35,7 +36,7 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets)
+  projector_contact projector_search projector_threads total_feti active_sets condensation)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -94,6 +95,9 @@ run_projector_threads() {  # threads that wait must not keep a core from those t
   OMP_WAIT_POLICY=passive "$(program projector)" threads 4 6 8 10 12 >"$output/projector_threads.csv"
 }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
+run_condensation() {  # nor has CHOLMOD any use of its four threads beside it
+  OMP_THREAD_LIMIT=1 "$(program condensation)" 8 12 16 24 >"$output/condensation.csv"
+}
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
@@ -215,6 +219,7 @@ write_summary() {
   section projector_threads "Schur complement contact algorithm: four bricks, threads"
   section active_sets "Products of the published active set methods"
   section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
+  section condensation "Contact with friction over one linear solve: brick, relative energy error at most 1e-8"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

@@ -6,12 +6,14 @@
 
 #include <chrono>
 #include <fem/steel_brick.hpp>
+#include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/tresca.hpp>
-#include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/unconstrained_start.hpp>
 #include <support/command_line.hpp>
 
 #include "brick_output.hpp"
@@ -36,8 +38,8 @@ int solve_brick(settings const& s) {
   if (!s.output.empty()) examples::make_folder("--output", s.output);
 
   auto const begin = std::chrono::steady_clock::now();
-  auto const factor = slant::factorize(scene.K);
   slant::contact::data<double> const contact{scene.N, scene.T, scene.f, scene.d, scene.g};
+  slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(contact));
   slant::contact::dual const dual(slant::contact::friction_disc{}, factor, contact);
   double const setup_seconds = seconds_since(begin);
   brick::print_problem(scene, load, factor.name());
@@ -54,8 +56,9 @@ int solve_brick(settings const& s) {
     slant::symmetric_newton_options<double> options;
     options.forcing.goal = s.tolerance;
     auto const M = slant::contact::lumped_preconditioner(scene.K, dual.constraints());
+    auto const qp = dual.qp();
     return slant::solve(
-        slant::symmetric_newton{dual.qp(), M, options}, dual.zero(),
+        slant::symmetric_newton{qp, M, options}, slant::unconstrained_start(qp, M).x,
         slant::reduced_gradient_below(s.tolerance) || slant::at_most(s.max_iterations), history,
         bar);
   }();

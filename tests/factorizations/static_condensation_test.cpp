@@ -27,7 +27,8 @@ using slant::index;
 static_assert(slant::factorization<slant::static_condensation<double>, VectorXd>);
 static_assert(slant::declares_positive_definite<slant::static_condensation<double>>);
 
-/// Nodes of the bottom of the cube, two of three, each in a row of its own; and a row that couples two.
+/// Nodes of the bottom of the cube, two of three, each in a row of its own; and a row that couples
+/// two.
 struct scene {
   sparse K;
   sparse B;
@@ -59,13 +60,14 @@ std::string complaint(auto const& make) {
   return "accepted";
 }
 
-bool has(std::string const& text, char const* part) { return text.find(part) != std::string::npos; }
+bool has(std::string const& text, char const* part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST_CASE("B K⁻¹Bᵀ and K⁻¹ as by a dense matrix, however far the condensation goes") {
   scene const s(7);
   MatrixXd const A = s.dual();
-  for (std::optional<index> const levels :
-       {std::optional<index>{}, {0}, {1}, {2}, {4}, {40}}) {
+  for (std::optional<index> const levels : {std::optional<index>{}, {0}, {1}, {2}, {4}, {40}}) {
     slant::condensation_options options;
     options.levels = levels;
     slant::static_condensation const factor(s.K, s.contact, options);

@@ -48,7 +48,8 @@ TEST_CASE("a method with rounded products finds the solution of the exact ones")
   for (index i = 0; i < n; ++i) b[i] = std::sin(double(i));
   auto const set = slant::half_lines(VectorXd(VectorXd::Zero(n)));
   auto const rule = slant::reduced_gradient_below(1e-13) || slant::at_most(60);
-  slant::separable_qp const exact{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b, set};
+  slant::separable_qp const exact{slant::matrix<slant::self_adjoint, slant::positive_definite>(A),
+                                  b, set};
   slant::separable_qp const rounded{imprecise{A}, b, set};
   auto const r = slant::solve(slant::symmetric_newton{exact}, VectorXd(VectorXd::Zero(n)), rule);
   auto const q = slant::solve(slant::symmetric_newton{rounded}, VectorXd(VectorXd::Zero(n)), rule);

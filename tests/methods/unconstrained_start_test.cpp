@@ -52,11 +52,12 @@ TEST_CASE("nothing to do, no curvature, numbers out of range: a point of the set
   slant::separable_qp const no_load{positive(second_differences(n)), zero, set};
   CHECK(slant::unconstrained_start(no_load).x == VectorXd::Ones(n));
   CHECK(slant::unconstrained_start(no_load).applications == 0);
-  slant::separable_qp const flat{
-      slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(MatrixXd(MatrixXd::Zero(n, n))),
-      b, set};
+  slant::separable_qp const flat{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(
+                                     MatrixXd(MatrixXd::Zero(n, n))),
+                                 b, set};
   CHECK(slant::unconstrained_start(flat).x == VectorXd::Ones(n));
-  slant::separable_qp const huge{positive(1e-300 * second_differences(n)), VectorXd(1e300 * b), set};
+  slant::separable_qp const huge{positive(1e-300 * second_differences(n)), VectorXd(1e300 * b),
+                                 set};
   CHECK(slant::unconstrained_start(huge).x.allFinite());
 }
 

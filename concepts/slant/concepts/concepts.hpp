@@ -16,6 +16,7 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/member_names.hpp>
 #include <slant/concepts/numbers_like.hpp>
+#include <slant/concepts/rounded.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/concepts/slanting_function.hpp>
 #include <slant/concepts/vector.hpp>

@@ -3,8 +3,9 @@
 // Operators that have a cheaper twin of lower precision.
 //
 // Intuition. An operator that is limited by the reading of its entries is applied in half the time
-// if they are kept as floats. Inner iterations, whose result is a direction and not yet the solution,
-// can work with that: whoever takes the step computes the residual with the operator itself.
+// if they are kept as floats. Inner iterations, whose result is a direction and not yet the
+// solution, can work with that: whoever takes the step computes the residual with the operator
+// itself.
 //
 // Minimal definition. rounded(): an operator of the same size, on the same vectors, with the same
 // laws up to its precision. It owns what it needs; making it may take as long as an application.

@@ -6,6 +6,7 @@
 // IWYU pragma: begin_exports
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/contact_data.hpp>
+#include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The displacement unknowns that a contact scene's multipliers act on: what static_condensation keeps
-// for the end.
+// The displacement unknowns that a contact scene's multipliers act on: what static_condensation
+// keeps for the end.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>

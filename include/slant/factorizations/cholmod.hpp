@@ -41,16 +41,18 @@ class cholmod {
     factor(k, [](cholmod_sparse& view) { return std::make_shared<factors>(view); });
   }
   /// The same with the unknowns eliminated in this order (position → unknown), or one that CHOLMOD
-  /// finds better for memory without more fill; always supernodal. Throws bad_input also if order is
-  /// not a permutation of 0 … rows − 1.
+  /// finds better for memory without more fill; always supernodal. Throws bad_input also if order
+  /// is not a permutation of 0 … rows − 1.
   template <class M>
     requires std::same_as<typename M::Scalar, double>
   cholmod(Eigen::SparseMatrixBase<M> const& k, std::vector<int> const& order) {
     detail::check_permutation("order", order, k.rows());
-    factor(k, [&order](cholmod_sparse& view) { return std::make_shared<factors>(view, order, true); });
+    factor(k,
+           [&order](cholmod_sparse& view) { return std::make_shared<factors>(view, order, true); });
   }
-  /// The factorisation of another matrix of the same size, with the ordering of this one: what takes
-  /// longest to find is reused when only values have changed. Throws bad_input as the constructor.
+  /// The factorisation of another matrix of the same size, with the ordering of this one: what
+  /// takes longest to find is reused when only values have changed. Throws bad_input as the
+  /// constructor.
   template <class M>
     requires std::same_as<typename M::Scalar, double>
   [[nodiscard]] cholmod refactorized(Eigen::SparseMatrixBase<M> const& k) const {

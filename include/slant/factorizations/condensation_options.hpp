@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How far a static condensation should go, and what it costs: the cost model of static_condensation.
+// How far a static condensation should go, and what it costs: the cost model of
+// static_condensation.
 //
 // Keeping the contact unknowns for the end makes the factorisation dearer and each application of
 // B K⁻¹ Bᵀ cheaper (factorizations/detail/contact_ordering.hpp). For each ordering a symbolic
@@ -52,16 +53,17 @@ struct condensation_options {
     positive("bytes_per_second", bytes_per_second);
     positive("cached_per_second", cached_per_second);
     positive("cache", cache);
-    if (!(most_memory >= 1)) throw bad_input("most_memory", detail::show(most_memory), "at least 1");
+    if (!(most_memory >= 1))
+      throw bad_input("most_memory", detail::show(most_memory), "at least 1");
   }
 };
 
 /// One way to condense, by symbolic analysis.
 struct condensation_plan {
-  index levels = 0;    ///< of condensation_options
-  double flops = 0;    ///< operations of the factorisation
-  double entries = 0;  ///< of the whole factor
-  double tail = 0;     ///< unknowns that an application touches
+  index levels = 0;         ///< of condensation_options
+  double flops = 0;         ///< operations of the factorisation
+  double entries = 0;       ///< of the whole factor
+  double tail = 0;          ///< unknowns that an application touches
   double tail_entries = 0;  ///< entries of the factor that an application reads, twice
   double seconds = 0;       ///< predicted, for the factorisation and all applications
 

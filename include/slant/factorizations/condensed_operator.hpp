@@ -4,8 +4,8 @@
 //
 //     y = u B_t L_tt⁻ᵀ L_tt⁻¹ B_tᵀ x,      u: the power of two by which K was scaled,
 //
-// with L_tt in the precision T of its entries. Rounded to float it is read in half the time, and good
-// for the inner iterations of methods that compute their residuals with the exact one; see
+// with L_tt in the precision T of its entries. Rounded to float it is read in half the time, and
+// good for the inner iterations of methods that compute their residuals with the exact one; see
 // concepts/slant/concepts/rounded.hpp. B_t and x are of doubles either way, of any scale.
 #pragma once
 

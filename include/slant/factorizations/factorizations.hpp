@@ -5,9 +5,12 @@
 
 // IWYU pragma: begin_exports
 #include <slant/factorizations/computed_kernel.hpp>
+#include <slant/factorizations/condensation_options.hpp>
+#include <slant/factorizations/condensed_operator.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 #include <slant/factorizations/ldlt.hpp>
+#include <slant/factorizations/static_condensation.hpp>
 // IWYU pragma: end_exports

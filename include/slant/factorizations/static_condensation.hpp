@@ -7,15 +7,15 @@
 //     K = [ K_ii  K_it ]     B K⁻¹Bᵀ = B_t (L_tt L_ttᵀ)⁻¹ B_tᵀ,    K = L Lᵀ,
 //         [ K_ti  K_tt ]
 //
-// t: the columns that contact unknowns reach in the elimination tree. With all contact unknowns last
-// L_tt is the dense factor of the Schur complement K_tt − K_ti K_ii⁻¹K_it. Bodies without contact
-// never enter, the interior of the others only where u is recovered.
+// t: the columns that contact unknowns reach in the elimination tree. With all contact unknowns
+// last L_tt is the dense factor of the Schur complement K_tt − K_ti K_ii⁻¹K_it. Bodies without
+// contact never enter, the interior of the others only where u is recovered.
 //
 //     slant::static_condensation factor(K, slant::contact::contact_unknowns(data));
 //     slant::contact::dual problem(slant::contact::friction_disc{}, factor, data);
 //
-// It is a factorisation as others are, for whoever asks for no more than K⁻¹. Without SuiteSparse it
-// is ldlt, and applications sweep over all of K; report() says so.
+// It is a factorisation as others are, for whoever asks for no more than K⁻¹. Without SuiteSparse
+// it is ldlt, and applications sweep over all of K; report() says so.
 #pragma once
 
 #include <slant/concepts/factorization.hpp>
@@ -52,8 +52,8 @@ class static_condensation {
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
   /// contact: the unknowns that a B will touch, in any order. Throws bad_input if one is out of
-  /// range or there twice, for options out of range, and as ldlt does if K is not symmetric positive
-  /// definite.
+  /// range or there twice, for options out of range, and as ldlt does if K is not symmetric
+  /// positive definite.
   template <class M>
   static_condensation(Eigen::SparseMatrixBase<M> const& k, std::vector<index> const& contact,
                       condensation_options const& options = {})

@@ -57,12 +57,12 @@ class curved_minimum {
         weighed_(like(prototype, preconditioned ? n : 0)),
         m_workspace_(workspace(m, prototype)) {}
 
-  /// t with ‖Π r + H t‖ ≤ max(target, floor ‖Π r‖), or the last one after at most `most` steps. t has
-  /// the units of r over those of A. r is the gradient at t = 0, s = mean(diag M).
+  /// t with ‖Π r + H t‖ ≤ max(target, floor ‖Π r‖), or the last one after at most `most` steps. t
+  /// has the units of r over those of A. r is the gradient at t = 0, s = mean(diag M).
   template <class A, class WA, class Face>
   inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
-                                Face const& face, scalar const& ρ, scalar const& s,
-                                scalar target, index most, scalar const& floor = scalar(0)) {
+                                Face const& face, scalar const& ρ, scalar const& s, scalar target,
+                                index most, scalar const& floor = scalar(0)) {
     slant::local(t).setZero();
     slant::local(image).setZero();
     // Twice: r may be nearly normal to the face, and what rounding leaves of that is no residual.

@@ -50,6 +50,7 @@
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/reduced_systems.hpp>
 #include <slant/methods/release_rules.hpp>
+#include <slant/methods/rounded_products.hpp>
 #include <slant/methods/row_slacks.hpp>
 #include <slant/methods/schur_contact.hpp>
 #include <slant/methods/schur_contact_options.hpp>
@@ -66,4 +67,5 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
+#include <slant/methods/unconstrained_start.hpp>
 // IWYU pragma: end_exports

@@ -3,8 +3,8 @@
 // The operator that inner iterations apply: the rounded twin of A where A has one, else A itself.
 //
 // With rounded products a residual is not worth lowering by more than a factor of 2⁻¹²; the next
-// step begins with an exact one. Where rounding spoils a step, because A is too badly conditioned for
-// it, `give_up` turns to A for the rest of the iteration.
+// step begins with an exact one. Where rounding spoils a step, because A is too badly conditioned
+// for it, `give_up` turns to A for the rest of the iteration.
 #pragma once
 
 #include <slant/concepts/linear_operator.hpp>

@@ -138,9 +138,9 @@ class symmetric_newton<QP, M> {
     auto const& qp = qp_.get();
     s.face.assign(qp.set(), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
-    auto const inner = s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face,
-                                           s.step_length, s.preconditioner_size, target,
-                                           options_.inner_steps);
+    auto const inner =
+        s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
+                            s.preconditioner_size, target, options_.inner_steps);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;

@@ -31,9 +31,9 @@ struct symmetric_newton_state : gradient_point<QP> {
   curved_face<scalar> face;              ///< range(G) and C at z
   curved_minimum<vector_type, M> inner;  ///< the step t on it
   rounded_products<typename QP::operator_type, vector_type> products;  ///< what it spends
-  forcing_history<scalar> forcing{};     ///< errors and inner tolerances so far
-  progress_watch<scalar> progress;       ///< looks for steps that get nowhere
-  descent_takeover<QP> descent;          ///< the method that takes over where Newton's fails
+  forcing_history<scalar> forcing{};  ///< errors and inner tolerances so far
+  progress_watch<scalar> progress;    ///< looks for steps that get nowhere
+  descent_takeover<QP> descent;       ///< the method that takes over where Newton's fails
 
   scalar residual_norm{0};  ///< ‖F(y)‖/ρ = ‖y − P_Λ(z)‖/ρ, in units of the gradient
   scalar preconditioner_size{1};  ///< s = mean(diag M)

@@ -6,9 +6,9 @@
 //     x⁰ = P_Λ(x̂),    ‖M^½ (b − A x̂)‖ ≤ tolerance · ‖M^½ b‖
 //
 // In contact, x̂ are the forces of a bond in both directions: where they pull, the bodies will part;
-// where they are small, they will stick. Measured on bricks (k = 8 … 20, three loads): 3 to 15 products
-// for a start from which symmetric_newton needs a fifth to a quarter fewer ones in all; on single
-// scenes from half as many to a few more.
+// where they are small, they will stick. Measured on bricks (k = 8 … 20, three loads): 3 to 15
+// products for a start from which symmetric_newton needs a fifth to a quarter fewer ones in all; on
+// single scenes from half as many to a few more.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -64,9 +64,9 @@ template <class A, class M, class V>
 
 }  // namespace detail
 
-/// The start at the top of this file, with M ≈ A⁻¹ as symmetric_newton takes it; rounded products are
-/// good enough where A has them. Throws bad_input if tolerance is not in (0, 1), most < 0, or M has
-/// not the size of the problem.
+/// The start at the top of this file, with M ≈ A⁻¹ as symmetric_newton takes it; rounded products
+/// are good enough where A has them. Throws bad_input if tolerance is not in (0, 1), most < 0, or M
+/// has not the size of the problem.
 template <class QP, class M>
   requires preconditioner_for<M, QP>
 [[nodiscard]] auto unconstrained_start(QP const& qp, M const& m,

@@ -90,7 +90,8 @@ class cholmod_condensation {
     separator_tree const separators(given.parent());
     std::vector<char> const groups = quotient.groups(marked);
     double const weight = static_cast<double>(matrix.rows()) / quotient.size();
-    // More levels cost ever less to factor and ever more to apply: the best one is before they rise.
+    // More levels cost ever less to factor and ever more to apply: the best one is before they
+    // rise.
     std::vector<int> best;
     index const first = options.levels.value_or(0), last = options.levels.value_or(most_levels);
     int rises = 0;
@@ -126,8 +127,8 @@ class cholmod_condensation {
     if (rows() > 0) {
       auto const& factors = *factor_.handle();
       std::vector<int> const order = factors.order();
-      // A column that is reached reaches the first row below it, and with a column of a supernode all
-      // that follow it.
+      // A column that is reached reaches the first row below it, and with a column of a supernode
+      // all that follow it.
       std::vector<char> reached(marked_.size(), 0);
       std::vector<int> number(marked_.size(), -1);
       int count = 0;

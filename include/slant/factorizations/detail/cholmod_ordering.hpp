@@ -15,7 +15,8 @@
 
 namespace slant::detail {
 
-/// Ordering of a symmetric matrix, its elimination tree and the lengths of the columns of its factor.
+/// Ordering of a symmetric matrix, its elimination tree and the lengths of the columns of its
+/// factor.
 class cholmod_ordering {
  public:
   /// Nested dissection (METIS) where CHOLMOD has it, else minimum degree; postordered.
@@ -36,8 +37,7 @@ class cholmod_ordering {
     analyze(matrix, state);
   }
   /// This ordering (position → unknown).
-  cholmod_ordering(cholmod_sparse& matrix, std::vector<int> order)
-      : cholmod_ordering(matrix.nrow) {
+  cholmod_ordering(cholmod_sparse& matrix, std::vector<int> order) : cholmod_ordering(matrix.nrow) {
     order_ = std::move(order);
     cholmod_state state;
     analyze(matrix, state);

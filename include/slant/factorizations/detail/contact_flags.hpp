@@ -28,8 +28,8 @@ namespace slant::detail {
   return marked;
 }
 
-/// Throws bad_input if B has not as many columns as there are marks, an entry that is not finite, or
-/// a nonzero in a column that is not marked.
+/// Throws bad_input if B has not as many columns as there are marks, an entry that is not finite,
+/// or a nonzero in a column that is not marked.
 template <class B>
 void require_touches_only(std::vector<char> const& marked, B const& b) {
   require_cols("B", b, static_cast<index>(marked.size()), "the size of K");

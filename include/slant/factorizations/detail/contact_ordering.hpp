@@ -3,8 +3,8 @@
 // Fill-reducing orderings that keep a few chosen unknowns, those in contact, near the end of the
 // elimination, so that what they need of K⁻¹ is a small dense part of the factors.
 //
-// Given is any good ordering (METIS) with its elimination tree. Its separators are the chains at the
-// top: stripping the `levels` topmost ones leaves subtrees, the subdomains. In each of them the
+// Given is any good ordering (METIS) with its elimination tree. Its separators are the chains at
+// the top: stripping the `levels` topmost ones leaves subtrees, the subdomains. In each of them the
 // chosen unknowns move behind the others of the same subdomain:
 //
 //     levels 0      all of them last: one dense block, most fill
@@ -23,8 +23,8 @@
 
 namespace slant::detail {
 
-/// The subtrees of an elimination forest (parent[j] > j, or −1; postordered, so that each subtree is
-/// a range of columns) below its topmost separators.
+/// The subtrees of an elimination forest (parent[j] > j, or −1; postordered, so that each subtree
+/// is a range of columns) below its topmost separators.
 class separator_tree {
   template <class V>
   static auto& at(V& v, int i) {
@@ -69,9 +69,8 @@ class separator_tree {
     int node = root;
     while (true) {
       auto const& below = at(children_, node);
-      auto const largest =
-          std::max_element(below.begin(), below.end(),
-                           [this](int a, int b) { return size_of(a) < size_of(b); });
+      auto const largest = std::max_element(
+          below.begin(), below.end(), [this](int a, int b) { return size_of(a) < size_of(b); });
       if (largest == below.end() || 10 * size_of(*largest) < 9 * (size_of(node) - 1)) return below;
       node = *largest;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Large pages for large arrays. A sweep over a factor of a hundred megabytes in pages of 4 kB spends a
-// third of its time on looking up where they are.
+// Large pages for large arrays. A sweep over a factor of a hundred megabytes in pages of 4 kB
+// spends a third of its time on looking up where they are.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
@@ -14,8 +14,8 @@
 
 namespace slant::detail {
 
-/// Asks the system to use large pages for the array of n numbers at `place`, before it is written to.
-/// Where there are none, nothing happens.
+/// Asks the system to use large pages for the array of n numbers at `place`, before it is written
+/// to. Where there are none, nothing happens.
 template <class T>
 void prefer_large_pages([[maybe_unused]] T* place, [[maybe_unused]] index n) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Unknowns with the same neighbours, such as the displacements of one mesh node, are neighbours in
-// every good ordering: orderings are found on the graph of groups of them, which in three dimensions
-// has a ninth of the edges.
+// every good ordering: orderings are found on the graph of groups of them, which in three
+// dimensions has a ninth of the edges.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>

@@ -45,7 +45,8 @@ inline void check_permutation(std::string_view name, std::vector<int> const& ord
   std::vector<bool> seen(order.size(), false);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (order[i] < 0 || order[i] >= n || seen[static_cast<std::size_t>(order[i])]) {
-      throw bad_input(name, show(order[i]), "each of 0, …, rows − 1 once").at(static_cast<index>(i));
+      throw bad_input(name, show(order[i]), "each of 0, …, rows − 1 once")
+          .at(static_cast<index>(i));
     }
     seen[static_cast<std::size_t>(order[i])] = true;
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The trailing part L_tt of a supernodal Cholesky factor, the columns that some unknowns reach in the
-// elimination tree, packed for solves with L_tt L_ttᵀ that cost little more than reading it.
+// The trailing part L_tt of a supernodal Cholesky factor, the columns that some unknowns reach in
+// the elimination tree, packed for solves with L_tt L_ttᵀ that cost little more than reading it.
 //
 // Intuition. Columns of one supernode share their rows. Eight of them at a time make a panel,
 //
 //     [ D ]   8 × 8, lower triangular; kept is D⁻¹
 //     [ R ]   all rows below, in tiles of as many rows as a register of 16 bytes holds numbers
 //
-// and each sweep reads every panel once, front to back: x_8 ← D⁻¹x_8, x_rows ← x_rows − R x_8 forward,
-// x_8 ← D⁻ᵀ(x_8 − Rᵀx_rows) backward. The unknowns of a supernode, its own and those below, are
-// gathered into a buffer and scattered again, so that the loops run over neighbours; columns are
-// padded to whole panels and rows to whole tiles, so that no loop has a remainder.
+// and each sweep reads every panel once, front to back: x_8 ← D⁻¹x_8, x_rows ← x_rows − R x_8
+// forward, x_8 ← D⁻ᵀ(x_8 − Rᵀx_rows) backward. The unknowns of a supernode, its own and those
+// below, are gathered into a buffer and scattered again, so that the loops run over neighbours;
+// columns are padded to whole panels and rows to whole tiles, so that no loop has a remainder.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
@@ -61,8 +61,8 @@ class tail_factor {
       auto const& s = shape_->supernodes()[k];
       auto const value = [&](index r, index c) {  // in padded numbers
         index const first_below = s.padded_columns();
-        bool const padding = c >= s.columns || (r >= s.columns && r < first_below) ||
-                             r >= first_below + s.below;
+        bool const padding =
+            c >= s.columns || (r >= s.columns && r < first_below) || r >= first_below + s.below;
         if (padding) return T(r == c ? 1 : 0);
         return T(entry(k, r < s.columns ? r : r - first_below + s.columns, c));
       };
@@ -189,8 +189,7 @@ class tail_factor {
 
   /// y ← y − R p.
   template <std::size_t... J>
-  static void subtract(T const* r, column const& p, T* y, T const* end,
-                       std::index_sequence<J...>) {
+  static void subtract(T const* r, column const& p, T* y, T const* end, std::index_sequence<J...>) {
     std::array<packet, width> const factor{packet::Constant(p[J])...};
     for (; y != end; y += tile, r += tile * width) {
       packet rows = Eigen::Map<packet const>(y);
