@@ -60,8 +60,7 @@ vector solve_reference(contact_case<D> const& c) {
   auto const interior = slant::solve(slant::interior_point{dual.qp(), M}, dual.zero(),
                                      slant::reduced_gradient_below(1e-9) || slant::at_most(100));
   vector const u = refined(newton.x());
-  double const distance =
-      c.energy_norm(u - refined(interior.x())) / c.energy_norm(u);
+  double const distance = c.energy_norm(u - refined(interior.x())) / c.energy_norm(u);
   vector all(u.size() + newton.x().size() + 1);
   all << u, newton.x(), distance;
   return all;
@@ -96,7 +95,8 @@ void export_folder(std::filesystem::path const& folder, contact_case<D> const& c
     write_peer_folder(folder, p, A, std::nullopt);
     return std::vector<double>{formed - start, memory};
   });
-  precision_row row{.library = linear_solver_name, .method = "formation", .formulation = "dense dual"};
+  precision_row row{
+      .library = linear_solver_name, .method = "formation", .formulation = "dense dual"};
   row.status = result.how == ending::finished ? "converged" : "failed";
   if (result.how == ending::finished) {
     row.seconds = result.numbers[0];
@@ -115,7 +115,8 @@ bool run_case(contact_case<D> const& c, arguments const& given) {
   });
   if (linear.how != ending::finished) return false;
   labels.linear_solve_seconds = linear.numbers[0];
-  precision_row row{.library = linear_solver_name, .method = "linear_solve", .formulation = "K u = f"};
+  precision_row row{
+      .library = linear_solver_name, .method = "linear_solve", .formulation = "K u = f"};
   row.seconds = linear.numbers[0];
   row.memory_mib = linear.numbers[1];
   row.status = "converged";
@@ -143,8 +144,9 @@ bool run_case(contact_case<D> const& c, arguments const& given) {
       [&](auto const&... method) {
         auto const measure = [&](auto const& m) {
           if (!given.wants(m.name, 2)) return;
-          measure_method({.library = "slant", .method = m.name, .formulation = m.formulation},
-                         labels, how, [&](request const& r) { return m.run(c, r); }, error);
+          measure_method(
+              {.library = "slant", .method = m.name, .formulation = m.formulation}, labels, how,
+              [&](request const& r) { return m.run(c, r); }, error);
         };
         (measure(method), ...);
       },

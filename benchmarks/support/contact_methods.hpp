@@ -83,10 +83,9 @@ template <class Solve>
                 }),
       by_sweeps("interior_point",
                 [](auto const& dual, auto const& K, request const& r) {
-                  return slant::solve(
-                      slant::interior_point{dual.qp(),
-                                            lumped_preconditioner(K, dual.constraints())},
-                      dual.zero(), r.stop());
+                  return slant::solve(slant::interior_point{dual.qp(), lumped_preconditioner(
+                                                                           K, dual.constraints())},
+                                      dual.zero(), r.stop());
                 }),
       by_sweeps("interior_then_newton",
                 [](auto const& dual, auto const& K, request const& r) {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace benchmarks {
@@ -16,6 +18,21 @@ namespace benchmarks {
   std::timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Throws std::runtime_error if this clock moves in steps of more than 0.1 ms on average, as it
+/// does under RLIMIT_CPU (`ulimit -t`): short runs would be measured as 0.
+inline void require_fine_clock() {
+  double const start = cpu_seconds();
+  double before = start;
+  int steps = 0;
+  while (before < start + 0.02) {
+    double const now = cpu_seconds();
+    if (now > before) ++steps;
+    before = now;
+  }
+  if (steps < 200)
+    throw std::runtime_error("the processor clock is too coarse; is a limit (ulimit -t) set?");
 }
 
 /// The middle one of at least one number; of two the smaller one.

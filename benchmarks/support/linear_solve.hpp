@@ -65,6 +65,7 @@ inline void cholmod_once(Eigen::SparseMatrix<double> const& K, Eigen::VectorXd c
 /// choice.
 [[nodiscard]] inline linear_solve_result linear_solve(Eigen::SparseMatrix<double> const& K,
                                                       Eigen::VectorXd const& f, int repeats) {
+  require_fine_clock();
   double memory = 0;
   double seconds = 0;
   for (bool const metis : {false, true}) {

@@ -80,13 +80,12 @@ inline void write_peer_folder(std::filesystem::path const& folder, peer_problem 
   write("disc_radius.txt", p.set.disc_radius);
   write("reference_x.txt", p.reference);
   if (sparse)
-    slant::write_matrix_market(folder / "A.mtx", *sparse,
-                               slant::matrix_market_symmetry::symmetric);
+    slant::write_matrix_market(folder / "A.mtx", *sparse, slant::matrix_market_symmetry::symmetric);
   if (dense) {
     std::ofstream raw(folder / "A.f64", std::ios::binary);
-    raw.write(reinterpret_cast<char const*>(dense->data()),
-              static_cast<std::streamsize>(dense->size()) *
-                  static_cast<std::streamsize>(sizeof(double)));
+    raw.write(
+        reinterpret_cast<char const*>(dense->data()),
+        static_cast<std::streamsize>(dense->size()) * static_cast<std::streamsize>(sizeof(double)));
     if (!raw.flush()) throw std::runtime_error("cannot write " + (folder / "A.f64").string());
   }
 }

@@ -98,7 +98,7 @@ struct precision_row {
 /// How often and how long.
 struct measuring {
   std::vector<double> tolerances{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  int repeats = 3;    ///< of a run that takes at most a second
+  int repeats = 5;    ///< of a run that takes at most a second
   double limit = 60;  ///< processor seconds of a run
 };
 
@@ -110,6 +110,7 @@ int measure_method(precision_row row, row_labels const& labels, measuring const&
   int good = 0;
   for (double const tolerance : how.tolerances) {
     auto const result = in_child(2 * how.limit + 10, [&] {
+      require_fine_clock();
       outcome last;
       double memory = 0;
       double const seconds = median_seconds(how.repeats, 1, [&] {
