@@ -179,6 +179,7 @@ bool run_case(Case const& c, arguments const& given) {
               [&](request const& r) {
                 typename Case::setup const s(c);
                 auto const report = m.solve(s, r);
+                if constexpr (requires { s.dual(); }) (void)s.dual().solution(report.x());
                 return outcome{report.x(), all_products(report.state.work),
                                status_name(report.status)};
               },

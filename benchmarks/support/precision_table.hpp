@@ -100,17 +100,25 @@ struct measuring {
   std::vector<double> tolerances{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   int repeats = 5;    ///< of a run that takes at most a second
   double limit = 60;  ///< processor seconds of a run
+  double before = 0;  ///< added to all seconds: what was done elsewhere, such as to form A
 };
 
-/// Rows of one method, run(request) → outcome, from loose to tight; error(outcome) is not timed. A
-/// tolerance that it does not reach is its last one. Returns the number of rows that converged.
-template <class Run, class Error>
+/// Nothing to do once a process before the clock starts.
+struct no_preparation {
+  void operator()() const {}
+};
+
+/// Rows of one method, run(request) → outcome, from loose to tight; prepare(), once in each
+/// process, and error(x) are not timed. A tolerance that it does not reach is its last one. Returns
+/// the number of rows that converged.
+template <class Run, class Error, class Prepare = no_preparation>
 int measure_method(precision_row row, row_labels const& labels, measuring const& how,
-                   Run const& run, Error const& error) {
+                   Run const& run, Error const& error, Prepare const& prepare = {}) {
   int good = 0;
   for (double const tolerance : how.tolerances) {
     auto const result = in_child(2 * how.limit + 10, [&] {
       require_fine_clock();
+      prepare();
       outcome last;
       double memory = 0;
       double const seconds = median_seconds(how.repeats, 1, [&] {
@@ -125,7 +133,7 @@ int measure_method(precision_row row, row_labels const& labels, measuring const&
     row.seconds = row.error = row.products = row.memory_mib = NAN;
     row.status = result.how == ending::time_limit ? "time_limit" : "failed";
     if (result.how == ending::finished && result.numbers.size() > 4) {
-      row.seconds = result.numbers[0];
+      row.seconds = result.numbers[0] + how.before;
       row.error = result.numbers[1];
       row.products = result.numbers[2];
       row.memory_mib = result.numbers[3];
