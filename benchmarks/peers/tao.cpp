@@ -168,6 +168,7 @@ int main(int argc, char** argv) {
           [&](Eigen::VectorXd const& x) { return c.error(x); },
           [] { check(PetscInitializeNoArguments()); });
     }
+    given.require_known(1);
   } catch (std::exception const& failure) {
     std::fprintf(stderr, "peer_tao: %s\n", failure.what());
     return 2;

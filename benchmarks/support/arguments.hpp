@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -67,14 +68,23 @@ class arguments {
   /// Is a method of that name asked for by the words after the first `skipped` ones? All are if
   /// there is none.
   [[nodiscard]] bool wants(std::string const& name, std::size_t skipped) const {
+    known_.insert(name);
     bool wanted = words_.size() <= skipped;
     for (std::size_t i = skipped; i < words_.size(); ++i) wanted = wanted || words_[i] == name;
     return wanted;
+  }
+  /// Throws std::invalid_argument for a word after the first `skipped` ones, other than `none`,
+  /// that wants() has not been asked about.
+  void require_known(std::size_t skipped) const {
+    for (std::size_t i = skipped; i < words_.size(); ++i)
+      if (words_[i] != "none" && !known_.contains(words_[i]))
+        throw std::invalid_argument("there is no method " + words_[i]);
   }
 
  private:
   std::vector<std::string> words_{};
   std::map<std::string, std::string> options_{};
+  mutable std::set<std::string> known_{};
 };
 
 }  // namespace benchmarks
