@@ -7,7 +7,7 @@
 #
 # PROGRAMS is the folder of bench_contact_precision and, where their libraries are, of peer_tao
 # and peer_ipopt; OUTPUT/precision.csv or OUTPUT/growth.csv is written. The peers read what our
-# programs export. One that is not there costs a line "not found" in OUTPUT/peers.txt. Debian
+# programs export. One that is not there costs a line "not found" in OUTPUT/peers_*.txt. Debian
 # packages: petsc-dev, coinor-libipopt-dev, python3-cvxopt, python3-numpy, python3-siconos.
 #
 #   SLANT_SCENES="lift:8 wire:256"   other scenes          SLANT_SIZES="4 8"   other sizes (growth)
@@ -18,6 +18,7 @@ mode=$1 programs=$2 output=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 limit=${SLANT_LIMIT:-20}
 table=$output/$mode.csv
+sayings=$output/peers_$mode.txt
 # Threads that wait for each other would make some of these programs many times slower.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 OMP_THREAD_LIMIT=1 MKL_NUM_THREADS=1
 
@@ -30,13 +31,13 @@ growth_tolerances=1e-6,1e-8,1e-9,1e-10
 growth_peers_up_to=12
 
 mkdir -p "$output"
-: >"$output/peers.txt"
+: >"$sayings"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 status=0
 
-# note TEXT...: a line of peers.txt, once.
-note() { grep -qxF "$*" "$output/peers.txt" || printf '%s\n' "$*" | tee -a "$output/peers.txt" >&2; }
+# note TEXT...: a line of peers_*.txt, once.
+note() { grep -qxF "$*" "$sayings" || printf '%s\n' "$*" | tee -a "$sayings" >&2; }
 
 # python_with MODULE: a python3 that has it and numpy.
 python_with() {
@@ -49,13 +50,13 @@ python_with() {
   done
 }
 
-# peer NAME COMMAND...: rows of a peer; what it says of itself goes to peers.txt.
+# peer NAME COMMAND...: rows of a peer; what it says of itself goes to peers_*.txt.
 peer() {
   local name=$1 said
   shift
   said=$(mktemp)
   timeout 1800 "$@" --limit "$limit" 2>"$said" >>"$table" || note "$name: ended with status $?"
-  while IFS= read -r line; do note "$line"; done < <(grep -E '^[A-Z][A-Za-z/]+ [0-9]|left out' "$said")
+  while IFS= read -r line; do note "$line"; done < <(grep -E '^[A-Z][A-Za-z/]+ [0-9?]|left out' "$said")
   rm -f "$said"
 }
 

@@ -11,6 +11,7 @@ the fixed point method for variational inequalities. A solver that crashes is a 
 version 4.4.0 of Debian 12 all three do, while those for Coulomb's law run with the same set-up.
 """
 
+import importlib.metadata
 import sys
 
 import numpy as np
@@ -29,7 +30,11 @@ m = len(case.disc_radius)
 if not case.is_dense or len(case.b) != 3 * m:
     print(f"Siconos: {case.info['scene']} is no contact in space, left out", file=sys.stderr)
     sys.exit(0)
-print("Siconos, settings: its defaults, at most 100000 iterations", file=sys.stderr)
+try:
+    version = importlib.metadata.version("siconos")
+except importlib.metadata.PackageNotFoundError:
+    version = "?"
+print(f"Siconos {version}, its default settings, at most 100000 iterations", file=sys.stderr)
 
 order = np.array([[i, m + 2 * i, m + 2 * i + 1] for i in range(m)]).ravel()
 W = np.ascontiguousarray(case.A[np.ix_(order, order)])
