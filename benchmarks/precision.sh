@@ -11,12 +11,14 @@
 # packages: petsc-dev, coinor-libipopt-dev, python3-cvxopt, python3-numpy, python3-siconos.
 #
 #   SLANT_SCENES="lift:8 wire:256"   other scenes          SLANT_SIZES="4 8"   other sizes (growth)
-#   SLANT_LIMIT=20                   seconds of a run      SLANT_PEERS=0       ours only
+#   SLANT_LIMIT=10, SLANT_PEER_LIMIT=60   seconds of a run, ours and others'
+#   SLANT_PEERS=0                    ours only
 set -euo pipefail
 
 mode=$1 programs=$2 output=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-limit=${SLANT_LIMIT:-20}
+limit=${SLANT_LIMIT:-10}
+peer_limit=${SLANT_PEER_LIMIT:-60}
 table=$output/$mode.csv
 sayings=$output/peers_$mode.txt
 # Threads that wait for each other would make some of these programs many times slower.
@@ -55,7 +57,7 @@ peer() {
   local name=$1 said
   shift
   said=$(mktemp)
-  timeout 1800 "$@" --limit "$limit" 2>"$said" >>"$table" || note "$name: ended with status $?"
+  timeout 1800 "$@" --limit "$peer_limit" 2>"$said" >>"$table" || note "$name: ended with status $?"
   while IFS= read -r line; do note "$line"; done < <(grep -E '^[A-Z][A-Za-z/]+ [0-9?]|left out' "$said")
   rm -f "$said"
 }
