@@ -28,6 +28,8 @@ struct contact_method {
   char const* formulation;
   Run run;
 };
+template <class Run>
+contact_method(char const*, char const*, Run) -> contact_method<Run>;
 
 /// A method on the dual problem, A = B K⁻¹Bᵀ by triangular sweeps; solve(dual, K, request) →
 /// report.
@@ -45,7 +47,7 @@ template <class Solve>
                      status_name(report.status())};
     }
   };
-  return contact_method<decltype(run)>{name, "dual by sweeps", run};
+  return contact_method{name, "dual by sweeps", run};
 }
 
 /// Accuracy that the last Newton step need not exceed, and the largest inner tolerance.
