@@ -16,7 +16,7 @@
 // prints rows of support/precision_table.hpp. The error is that of the displacements in the energy
 // norm, relative to a reference: the symmetric Newton method as far as it gets, one step of
 // iterative refinement, and, in the row `reference`, its distance from an interior point.
-// Exit status 1 if this distance exceeds 1e-5, or no method reaches an error of 1e-6.
+// Exit status 1 if this distance exceeds 1e-5.
 
 #include <slant/contact/preconditioner.hpp>
 

@@ -11,7 +11,7 @@
 # packages: petsc-dev, coinor-libipopt-dev, python3-cvxopt, python3-numpy, python3-siconos.
 #
 #   SLANT_SCENES="lift:8 wire:256"   other scenes          SLANT_SIZES="4 8"   other sizes (growth)
-#   SLANT_LIMIT=10, SLANT_PEER_LIMIT=60   seconds of a run, ours and others'
+#   SLANT_LIMIT=10, SLANT_PEER_LIMIT=60   seconds of a run, ours and others
 #   SLANT_PEERS=0                    ours only
 set -euo pipefail
 
