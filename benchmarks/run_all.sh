@@ -25,6 +25,10 @@
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
 #   condensation        a frictional contact problem over one linear solve, brick k = 8, 12, 16, 24
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
+#   precision           time against error of all methods, and of other libraries that are found
+#   growth              time and memory against the size of the brick (both: precision.sh)
+#
+# RESULTS.md shows the last two; SLANT_PUBLISH=1 copies it and its figure to benchmarks/.
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
 # Exit status 1 if one of them fails or misses a limit that it knows.
@@ -36,7 +40,8 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets condensation)
+  projector_contact projector_search projector_threads total_feti active_sets condensation
+  precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -65,7 +70,7 @@ done
 if ((${#chosen[@]} == 0)); then chosen=("${all[@]}"); fi
 mkdir -p "$output"
 
-# program NAME: the path of a built benchmark.
+# program NAME: the path of a benchmark.
 program() {
   [[ -x $programs/bench_$1 ]] || die "$programs/bench_$1 is not built; use ./run bench"
   printf '%s' "$programs/bench_$1"
@@ -82,12 +87,8 @@ run_newton_brick() { "$(program newton_products)" brick >"$output/newton_brick.c
 run_newton_wire() { "$(program newton_products)" wire >"$output/newton_wire.csv"; }
 run_newton_floor() { "$(program newton_floor)" >"$output/newton_floor.csv"; }
 run_interior_brick() { "$(program interior_point)" brick >"$output/interior_brick.csv"; }
-run_interior_condition() {
-  "$(program interior_point)" condition >"$output/interior_condition.csv"
-}
-run_interior_crossover() {
-  "$(program interior_point)" crossover >"$output/interior_crossover.csv"
-}
+run_interior_condition() { "$(program interior_point)" condition >"$output/interior_condition.csv"; }
+run_interior_crossover() { "$(program interior_point)" crossover >"$output/interior_crossover.csv"; }
 run_projector_steps() { "$(program projector)" steps >"$output/projector_steps.csv"; }
 run_projector_contact() { "$(program projector)" contact >"$output/projector_contact.csv"; }
 run_projector_search() { "$(program projector)" search 3 5 >"$output/projector_search.csv"; }
@@ -99,6 +100,8 @@ run_condensation() {  # nor has CHOLMOD any use of its four threads beside it
   OMP_THREAD_LIMIT=1 "$(program condensation)" 8 12 16 24 >"$output/condensation.csv"
 }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
+run_precision() { "$here/precision.sh" precision "$programs" "$output"; }
+run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
   local status=0
@@ -223,6 +226,20 @@ write_summary() {
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 
+# The page of precision and growth, from what has been measured.
+write_results() {
+  [[ -s $output/precision.csv || -s $output/growth.csv ]] || return 0
+  describe_machine >"$output/machine.md"
+  local python=python3
+  if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then python=/usr/bin/python3; fi
+  "$python" "$here/results.py" "$output" || return 0
+  printf '\nresults: %s\n' "$output/RESULTS.md"
+  [[ ${SLANT_PUBLISH:-0} == 1 ]] || return 0
+  for file in RESULTS.md precision.png precision.csv growth.csv; do
+    if [[ -s $output/$file ]]; then cp "$output/$file" "$here/"; fi
+  done
+}
+
 status=0
 for name in "${chosen[@]}"; do
   printf '\n=== %s ===\n' "$name"
@@ -233,4 +250,5 @@ for name in "${chosen[@]}"; do
 done
 write_summary >"$output/summary.md"
 printf '\nsummary: %s\n' "$output/summary.md"
+write_results
 exit "$status"
