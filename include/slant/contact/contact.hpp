@@ -7,6 +7,7 @@
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/load_step.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
