@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // New loads, gaps and slip bounds of a dual problem that stays where it is.
+#include "counting_factor.hpp"
 #include "scenes.hpp"
 
 #include <slant/contact/tresca.hpp>
@@ -12,33 +13,17 @@
 #include <limits>
 #include <string>
 
-namespace dual_update_test {
+namespace load_step_test {
 
 using Eigen::VectorXd;
 namespace contact = slant::contact;
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// LDLᵀ that counts its solves.
-class counting_factor {
- public:
-  static constexpr slant::law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
-  explicit counting_factor(Eigen::SparseMatrix<double> const& K) : inner_(K) {}
-  [[nodiscard]] slant::index rows() const { return inner_.rows(); }
-  void solve(VectorXd const& b, VectorXd& x) const {
-    ++solves;
-    x = inner_.solve(b);
-  }
-  mutable int solves = 0;
-
- private:
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> inner_;
-};
-
 /// A brick two of whose gaps are infinite, and the factors of its K.
 struct fixture {
   fem::contact_scene<3> scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::pull});
   contact::data<double> c = test::contact_data(scene);
-  counting_factor factor{scene.K};
+  test::counting_factor factor{scene.K};
   fixture() { c.d(1) = c.d(7) = inf; }
   [[nodiscard]] auto problem() const { return contact::dual(contact::friction_disc{}, factor, c); }
 };
@@ -162,4 +147,4 @@ TEST_CASE("gaps that no displacement opens, and bounds without friction") {
   CHECK(dual.b()(2) == -1);
 }
 
-}  // namespace dual_update_test
+}  // namespace load_step_test
