@@ -84,12 +84,18 @@ class load_stepper {
   static_assert(slant::detail::solvable<method_type const&, vector_type, Rule>,
                 "load_stepper: expected a method for vectors like b, and a rule for its states");
 
+  /// The first step starts from 0.
   load_stepper(Dual& problem, held<Method> method, Rule stop)
+      : load_stepper(problem, std::move(method), std::move(stop), problem.zero()) {}
+  /// The first step starts from x0. Throws bad_input if that is of the wrong size.
+  load_stepper(Dual& problem, held<Method> method, Rule stop, vector_type x0)
       : problem_(&problem),
         method_(std::move(method)),
         stop_(std::move(stop)),
         line_(problem.b().size()),
-        start_(problem.zero()) {}
+        start_(std::move(x0)) {
+    slant::detail::check_size("x0", start_.size(), problem.b().size(), "the size of b,");
+  }
 
   /// Solves the next step. Throws bad_input, and has then done nothing, if dual::update refuses the
   /// data; numerical trouble is a status. A step that did not converge is not remembered: the one
@@ -119,6 +125,10 @@ class load_stepper {
 
   /// The state of the predicted point, or of the last solution where that turns out to be better.
   void begin() {
+    if (!state_) {
+      place(start_);
+      return;
+    }
     vector_type const& b = problem_->b();
     bool const predicted = predicts && line_.minimum(b, start_);
     if (!predicted) start_ = line_.last();
@@ -163,5 +173,8 @@ class load_stepper {
 
 template <class Dual, class Method, class Rule>
 load_stepper(Dual&, Method&&, Rule) -> load_stepper<Dual, kept_t<Method>, Rule>;
+template <class Dual, class Method, class Rule>
+load_stepper(Dual&, Method&&, Rule, typename Dual::vector_type)
+    -> load_stepper<Dual, kept_t<Method>, Rule>;
 
 }  // namespace slant::contact

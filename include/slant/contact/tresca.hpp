@@ -61,6 +61,35 @@ class dual {
   dual(dual const&) = delete;
   dual& operator=(dual const&) = delete;
 
+  /// A = B K⁻¹ Bᵀ, never formed.
+  [[nodiscard]] auto a() const& { return congruence(B_, inverse(factor_.get())); }
+  auto a() const&& = delete;
+  /// The dual problem; refers to this object. It has no minimum (status `unbounded`) exactly if no
+  /// u satisfies N u ≤ d with (T u)ᵢ = 0 where gᵢ = ∞.
+  [[nodiscard]] auto qp() const& { return separable_qp{a(), b_, set_}; }
+  auto qp() const&& = delete;
+  /// The linear term b = B K⁻¹ f − c.
+  [[nodiscard]] vector_type const& b() const& { return b_; }
+  vector_type const& b() const&& = delete;
+  /// The feasible set Λ.
+  [[nodiscard]] auto const& set() const& { return set_; }
+  auto const& set() const&& = delete;
+  /// B = [N; T].
+  [[nodiscard]] sparse_type const& constraints() const& { return B_; }
+  sparse_type const& constraints() const&& = delete;
+  /// λ = 0, the start that costs nothing.
+  [[nodiscard]] vector_type zero() const { return vector_type::Zero(b_.size()); }
+
+  /// u = K⁻¹ (f − Bᵀλ): one solve, performed only when asked for.
+  [[nodiscard]] vector_type displacement(vector_type const& λ) const {
+    slant::detail::check_size("lambda", λ.size(), b_.size());
+    vector_type load = f_;
+    load.noalias() -= B_.transpose() * λ;
+    vector_type u(load.size());
+    slant::apply(inverse(factor_.get()), load, u);
+    return u;
+  }
+
   /// New data; nothing is factored again. One solve with K if the step brings a load, none
   /// otherwise. What qp() gave and what was made of that sees the new b and Λ; a method's state has
   /// to be told, by resume(state, x). Throws bad_input, as the constructor does, and is then
@@ -92,35 +121,6 @@ class dual {
   void update_gaps(vector_type d) { update({.d = std::move(d)}); }
   /// update with new slip bounds alone: no solve.
   void update_bounds(vector_type g) { update({.g = std::move(g)}); }
-
-  /// A = B K⁻¹ Bᵀ, never formed.
-  [[nodiscard]] auto a() const& { return congruence(B_, inverse(factor_.get())); }
-  auto a() const&& = delete;
-  /// The dual problem; refers to this object. It has no minimum (status `unbounded`) exactly if no
-  /// u satisfies N u ≤ d with (T u)ᵢ = 0 where gᵢ = ∞.
-  [[nodiscard]] auto qp() const& { return separable_qp{a(), b_, set_}; }
-  auto qp() const&& = delete;
-  /// The linear term b = B K⁻¹ f − c.
-  [[nodiscard]] vector_type const& b() const& { return b_; }
-  vector_type const& b() const&& = delete;
-  /// The feasible set Λ.
-  [[nodiscard]] auto const& set() const& { return set_; }
-  auto const& set() const&& = delete;
-  /// B = [N; T].
-  [[nodiscard]] sparse_type const& constraints() const& { return B_; }
-  sparse_type const& constraints() const&& = delete;
-  /// λ = 0, the start that costs nothing.
-  [[nodiscard]] vector_type zero() const { return vector_type::Zero(b_.size()); }
-
-  /// u = K⁻¹ (f − Bᵀλ): one solve, performed only when asked for.
-  [[nodiscard]] vector_type displacement(vector_type const& λ) const {
-    slant::detail::check_size("lambda", λ.size(), b_.size());
-    vector_type load = f_;
-    load.noalias() -= B_.transpose() * λ;
-    vector_type u(load.size());
-    slant::apply(inverse(factor_.get()), load, u);
-    return u;
-  }
 
  private:
   /// u without contact, about which the user has only f to look at.
