@@ -23,6 +23,7 @@
 #   projector_search    the same on stacks of bricks: rules for leaving and entering constraints
 #   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
+#   load_steps          twenty load steps against the first one and against cold solves
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -35,7 +36,8 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets)
+  projector_contact projector_search projector_threads total_feti
+  load_steps active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -94,6 +96,7 @@ run_projector_threads() {  # threads that wait must not keep a core from those t
   OMP_WAIT_POLICY=passive "$(program projector)" threads 4 6 8 10 12 >"$output/projector_threads.csv"
 }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
+run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
@@ -215,6 +218,7 @@ write_summary() {
   section projector_threads "Schur complement contact algorithm: four bricks, threads"
   section active_sets "Products of the published active set methods"
   section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
+  section load_steps "Twenty load steps, relative energy error 1e-8"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

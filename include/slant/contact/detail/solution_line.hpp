@@ -9,6 +9,11 @@
 // gradients there, finding it takes no product. That point is as good as the last solution (τ = 0)
 // and as the extrapolated one (τ = 1), if blocks at their bounds do not make it leave Λ. Before the
 // first solution stands 0: what is proportional to the load is found exactly.
+//
+// Measured on bricks (k = 8, twenty steps, three scenes): 41 to 70 products a step from here, 42 to
+// 72 from τ = 1, 81 to 97 from the last solution. Rejected: the minimum over more directions (the
+// last three solutions, or more), which is better for q and worse for the bounds: a tenth to a
+// third more products.
 #pragma once
 
 #include <slant/concepts/vector.hpp>
