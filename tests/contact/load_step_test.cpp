@@ -53,7 +53,7 @@ TEST_CASE("an updated problem is the one made of the new data, to the last bit")
     t.factor.solves -= 2;
   };
 
-  t.c.f *= -1.7;
+  t.c.f += VectorXd::LinSpaced(t.c.f.size(), -1, 2);
   dual.update_load(t.c.f);
   CHECK(t.factor.solves == 1);
   check_same();
@@ -69,7 +69,7 @@ TEST_CASE("an updated problem is the one made of the new data, to the last bit")
   CHECK(t.factor.solves == 1);
   check_same();
 
-  t.c.f *= 0.3;
+  t.c.f = VectorXd::LinSpaced(t.c.f.size(), 1, 0).cwiseAbs2();
   t.c.d *= 2;
   t.c.g.setZero();
   dual.update({.f = t.c.f, .d = t.c.d, .g = t.c.g});
@@ -79,6 +79,36 @@ TEST_CASE("an updated problem is the one made of the new data, to the last bit")
   dual.update({});
   CHECK(t.factor.solves == 2);
   check_same();
+}
+
+TEST_CASE("loads on the line through two others need no solve") {
+  fixture t;
+  auto dual = t.problem();
+  VectorXd const first = t.c.f, second = VectorXd::LinSpaced(first.size(), -1, 2);
+  t.factor.solves = 0;
+  auto const load = [&](VectorXd const& f, int solves) {
+    dual.update_load(f);
+    CHECK(t.factor.solves == solves);
+    t.factor.solves = 0;
+    t.c.f = f;
+    auto const fresh = t.problem();
+    CHECK((dual.b() - fresh.b()).norm() <= 1e-12 * fresh.b().norm());
+    VectorXd const λ = projected(fresh);
+    VectorXd const u = fresh.displacement(λ);
+    CHECK(dual.displacement(λ) == u);
+    t.factor.solves = 0;
+  };
+  load(-1.7 * first, 0);
+  load(VectorXd::Zero(first.size()), 0);
+  load(second, 1);
+  for (int i = 0; i <= 20; ++i) load(first + i / 7.0 * second, 0);
+  load(first, 0);
+  load(1e300 * first, 1);  // too far from them
+  VectorXd other = second;
+  other(4) *= 1 + 1e-12;
+  load(other, 1);  // nearly is not enough
+  load(1e-300 * other, 0);
+  load(1e-300 * VectorXd::LinSpaced(first.size(), 3, 1).cwiseSqrt(), 1);
 }
 
 /// What update says of a step that brings more than what is wrong with it; after it everything must

@@ -19,6 +19,7 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/detail/friction_law.hpp>
 #include <slant/contact/detail/gap_loads.hpp>
+#include <slant/contact/detail/known_loads.hpp>
 #include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/contact/load_step.hpp>
 #include <slant/methods/separable_qp.hpp>
@@ -90,17 +91,22 @@ class dual {
     return u;
   }
 
-  /// New data; nothing is factored again. One solve with K if the step brings a load, none
-  /// otherwise. What qp() gave and what was made of that sees the new b and Λ; a method's state has
-  /// to be told, by resume(state, x). Throws bad_input, as the constructor does, and is then
-  /// unchanged; also if a gap becomes infinite or ceases to be, because B depends on that.
+  /// New data; nothing is factored again. One solve with K if the step brings a load, none if that
+  /// is a combination of the last two that were solved for, none without one. What qp() gave and
+  /// what was made of that sees the new b and Λ; a method's state has to be told, by resume(state,
+  /// x). Throws bad_input, as the constructor does, and is then unchanged; also if a gap becomes
+  /// infinite or ceases to be, because B depends on that.
   void update(load_step<S> step) {
     detail::check_step(step, f_.size(), d_, B_);
     vector_type displacement(0), b(0);
     if (step.f) {
+      if (known_.empty()) known_.add(f_, free_displacement_);
       displacement.resize(f_.size());
-      slant::apply(inverse(factor_.get()), *step.f, displacement);
-      check_range(displacement);
+      if (!known_.combine(*step.f, displacement)) {
+        slant::apply(inverse(factor_.get()), *step.f, displacement);
+        check_range(displacement);
+        known_.add(*step.f, displacement);
+      }
     }
     if (step.f || step.d) {
       b.noalias() = B_ * (step.f ? displacement : free_displacement_);
@@ -115,7 +121,7 @@ class dual {
     if (step.d) d_.swap(*step.d);
     if (b.size() > 0) b_.swap(b);
   }
-  /// update with a new load alone: one solve with K.
+  /// update with a new load alone: one solve with K at most.
   void update_load(vector_type f) { update({.f = std::move(f)}); }
   /// update with new gaps alone: no solve.
   void update_gaps(vector_type d) { update({.d = std::move(d)}); }
@@ -142,6 +148,7 @@ class dual {
   detail::feasible_set_t<Friction, S> set_;
   vector_type free_displacement_;  // K⁻¹ f
   vector_type b_;
+  detail::known_loads<vector_type> known_{};  // empty before the first new load
 };
 
 template <class Friction, class Factorization, class S>
