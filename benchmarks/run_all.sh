@@ -24,6 +24,7 @@
 #   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
 #   condensation        a frictional contact problem over one linear solve, brick k = 8, 12, 16, 24
+#   load_steps          twenty load steps against the first one and against cold solves
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #   precision           time against error of all methods, and of other libraries that are found
 #   growth              time and memory against the size of the brick (both: precision.sh)
@@ -40,8 +41,7 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets condensation
-  precision growth)
+  projector_contact projector_search projector_threads total_feti active_sets condensation precision growth load_steps)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -99,6 +99,7 @@ run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets
 run_condensation() {  # nor has CHOLMOD any use of its four threads beside it
   OMP_THREAD_LIMIT=1 "$(program condensation)" 8 12 16 24 >"$output/condensation.csv"
 }
+run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_precision() { "$here/precision.sh" precision "$programs" "$output"; }
 run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
@@ -223,6 +224,7 @@ write_summary() {
   section active_sets "Products of the published active set methods"
   section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
   section condensation "Contact with friction over one linear solve: brick, relative energy error at most 1e-8"
+  section load_steps "Twenty load steps, relative energy error 1e-8"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

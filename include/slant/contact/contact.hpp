@@ -8,6 +8,9 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/load_step.hpp>
+#include <slant/contact/load_stepper.hpp>
+#include <slant/contact/load_steps.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>

@@ -4,12 +4,10 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/contact/detail/contact_checks.hpp>
 #include <slant/operators/detail/matrix_entries.hpp>
 
 #include <Eigen/SparseCore>
-
-#include <limits>
-#include <vector>
 
 namespace slant::contact {
 
@@ -39,14 +37,10 @@ struct data {
     slant::detail::check_finite("f", f);
     slant::detail::require_finite_entries("N", N);
     slant::detail::require_finite_entries("T", T);
-    for (index i = 0; i < d.size(); ++i) {
-      if (!(d(i) > -std::numeric_limits<S>::infinity())) {
-        throw bad_input("d", slant::detail::show(d(i)), "a number or +inf").at(i);
-      }
-    }
-    check_reach();
+    detail::check_gaps(d, nodes());
+    detail::check_reach(N, d);
     if (T.rows() == 0) {
-      check_size("g", g.size(), 0, "no slip bounds without T,");
+      detail::check_slip_bounds(g, nodes(), false);
       return;
     }
     check_size("columns of T", T.cols(), f.size(), "the size of f,");
@@ -55,31 +49,7 @@ struct data {
           "rows of T", slant::detail::show(T.rows()),
           slant::detail::show(nodes()) + " (2D) or " + slant::detail::show(2 * nodes()) + " (3D)");
     }
-    check_size("g", g.size(), nodes(), "one slip bound per row of N,");
-    for (index i = 0; i < g.size(); ++i) {
-      if (!(g(i) >= S(0))) {
-        throw bad_input("g", slant::detail::show(g(i)), "a number >= 0 or +inf").at(i);
-      }
-    }
-  }
-
- private:
-  /// A row of zeros says 0 ≤ dᵢ, whatever u is.
-  void check_reach() const {
-    std::vector<bool> is_zero(static_cast<std::size_t>(nodes()), true);
-    for (index j = 0; j < N.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator e(N, j); e; ++e) {
-        if (e.value() != S(0)) is_zero[static_cast<std::size_t>(e.row())] = false;
-      }
-    }
-    for (index i = 0; i < nodes(); ++i) {
-      if (is_zero[static_cast<std::size_t>(i)] && d(i) < S(0)) {
-        throw bad_input("d", slant::detail::show(d(i)),
-                        "a number >= 0, since row " + slant::detail::show(i) +
-                            " of N is zero: no displacement opens this gap")
-            .at(i);
-      }
-    }
+    detail::check_slip_bounds(g, nodes(), true);
   }
 };
 

@@ -19,7 +19,9 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/detail/friction_law.hpp>
 #include <slant/contact/detail/gap_loads.hpp>
+#include <slant/contact/detail/known_loads.hpp>
 #include <slant/contact/detail/stacked_constraints.hpp>
+#include <slant/contact/load_step.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
@@ -46,6 +48,7 @@ class dual {
   dual(Friction friction, held<Factorization> factor, data<S> const& c)
       : factor_(std::move(factor)),
         f_(detail::validated(friction, c, factor_.get().rows()).f),
+        d_(c.d),
         B_(detail::stacked_constraints(c)),
         set_(detail::feasible_set(friction, c)),
         free_displacement_(f_.size()),
@@ -53,7 +56,7 @@ class dual {
     solve_once(f_, free_displacement_);
     check_range(free_displacement_);
     b_.noalias() = B_ * free_displacement_;
-    detail::subtract_gaps(c, b_);
+    detail::subtract_gaps(d_, b_);
   }
   dual(dual const&) = delete;
   dual& operator=(dual const&) = delete;
@@ -94,6 +97,43 @@ class dual {
     return u;
   }
 
+  /// New data; nothing is factored again. One solve with K if the step brings a load, none if that
+  /// is a combination of the last two that were solved for, none without one. What qp() gave and
+  /// what was made of that sees the new b and Λ; a method's state has to be told, by resume(state,
+  /// x). Throws bad_input, as the constructor does, and is then unchanged; also if a gap becomes
+  /// infinite or ceases to be, because B depends on that.
+  void update(load_step<S> step) {
+    detail::check_step(step, f_.size(), d_, B_);
+    vector_type displacement(0), b(0);
+    if (step.f) {
+      if (known_.empty()) known_.add(f_, free_displacement_);
+      displacement.resize(f_.size());
+      if (!known_.combine(*step.f, displacement)) {
+        slant::apply(inverse(factor_.get()), *step.f, displacement);
+        check_range(displacement);
+        known_.add(*step.f, displacement);
+      }
+    }
+    if (step.f || step.d) {
+      b.noalias() = B_ * (step.f ? displacement : free_displacement_);
+      detail::subtract_gaps(step.d ? *step.d : d_, b);
+    }
+    if (step.g) set_ = detail::feasible_set(Friction{}, d_.size(), *step.g);
+    // Nothing throws from here on.
+    if (step.f) {
+      f_.swap(*step.f);
+      free_displacement_.swap(displacement);
+    }
+    if (step.d) d_.swap(*step.d);
+    if (b.size() > 0) b_.swap(b);
+  }
+  /// update with a new load alone: one solve with K at most.
+  void update_load(vector_type f) { update({.f = std::move(f)}); }
+  /// update with new gaps alone: no solve.
+  void update_gaps(vector_type d) { update({.d = std::move(d)}); }
+  /// update with new slip bounds alone: no solve.
+  void update_bounds(vector_type g) { update({.g = std::move(g)}); }
+
  private:
   void solve_once(vector_type const& load, vector_type& u) const {
     if constexpr (has_plain_solve<std::remove_cvref_t<Factorization>, vector_type>) {
@@ -117,10 +157,12 @@ class dual {
 
   held<Factorization> factor_;
   vector_type f_;
+  vector_type d_;
   sparse_type B_;
   detail::feasible_set_t<Friction, S> set_;
   vector_type free_displacement_;  // K⁻¹ f
   vector_type b_;
+  detail::known_loads<vector_type> known_{};  // empty before the first new load
 };
 
 template <class Friction, class Factorization, class S>

@@ -45,6 +45,36 @@ struct refused_report {
 
 }  // namespace detail
 
+namespace detail {
+
+/// How a run ended, and the same as a sentence.
+struct ending {
+  status how;
+  std::string why;
+};
+
+/// Runs a method from a state that it has made until the state leaves `running` or the rule fires.
+template <class Method, class State, class Rule, class... Observers>
+[[nodiscard]] ending run_to_end(Method& method, State& state, Rule& stop, Observers&... observers) {
+  while (true) {
+    (observers(std::as_const(state)), ...);
+    status verdict = stop(std::as_const(state));
+    if constexpr (has_refresh<std::remove_reference_t<Method>, State>) {
+      bool const success = verdict == status::converged || state.status == status::converged;
+      if (success && method.refresh(state)) {
+        verdict = stop(std::as_const(state));
+      }
+    }
+    // Success first: whoever else wants to stop in the step that succeeds has nothing to add.
+    if (verdict == status::converged) return {verdict, stop.reason(state)};
+    if (state.status != status::running) return {state.status, own_words(state)};
+    if (verdict != status::running) return {verdict, stop.reason(state)};
+    method.step(state);
+  }
+}
+
+}  // namespace detail
+
 /// Runs a method from x0 until its state leaves `running` or the rule fires; every observer sees
 /// every state, the first included. Throws bad_input if the method refuses x0; never throws for
 /// numerical trouble, which is report.status. A method that updates its residual has to show
@@ -53,26 +83,9 @@ template <class Method, class V, class Rule, class... Observers>
   requires detail::solvable<Method, V, Rule, Observers...>
 [[nodiscard]] auto solve(Method&& method, V const& x0, Rule stop, Observers&&... observers)
     -> report<state_t<Method, V>> {
-  using state_type = state_t<Method, V>;
-  state_type state = method.start(x0);
-  auto const end = [&state](status how, std::string why) {
-    return report<state_type>{std::move(state), how, std::move(why)};
-  };
-  while (true) {
-    (observers(std::as_const(state)), ...);
-    status verdict = stop(std::as_const(state));
-    if constexpr (has_refresh<std::remove_reference_t<Method>, state_type>) {
-      bool const success = verdict == status::converged || state.status == status::converged;
-      if (success && method.refresh(state)) {
-        verdict = stop(std::as_const(state));
-      }
-    }
-    // Success first: whoever else wants to stop in the step that succeeds has nothing to add.
-    if (verdict == status::converged) return end(verdict, stop.reason(state));
-    if (state.status != status::running) return end(state.status, detail::own_words(state));
-    if (verdict != status::running) return end(verdict, stop.reason(state));
-    method.step(state);
-  }
+  state_t<Method, V> state = method.start(x0);
+  auto end = detail::run_to_end(method, state, stop, observers...);
+  return {std::move(state), end.how, std::move(end.why)};
 }
 
 /// Arguments that lack something end here and are told so.

@@ -16,6 +16,17 @@
 
 namespace slant {
 
+namespace detail {
+
+/// Throws bad_input unless x0 has as many entries as b, all of them finite.
+template <class V>
+void check_start_in_set(V const& x0, V const& b) {
+  check_size("x0", index(slant::local(x0).size()), index(slant::local(b).size()), "the size of b,");
+  check_finite("x0", x0);
+}
+
+}  // namespace detail
+
 /// A point of the set of a quadratic program QP. Vectors have qp.size() entries.
 template <class QP>
 struct gradient_point {
@@ -65,6 +76,14 @@ struct gradient_point {
     slant::local(r) *= scalar(1) / unit;
     slant::local(reduced) *= scalar(1) / unit;
     return solved;
+  }
+
+  /// The same for another b or Λ, in a point that begin has made: units, scales and counts anew.
+  /// x0 must not be x.
+  bool begin_again(QP const& qp, vector_type const& x0) {
+    unit = scalar(1);
+    work = {};
+    return begin(qp, x0);
   }
 
   /// r = (A x − b) / unit; one application, none at x = 0.

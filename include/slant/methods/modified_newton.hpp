@@ -59,16 +59,25 @@ class modified_newton<QP, Start, Inner, Forcing> {
   /// size, or if 1/σ_max is not a finite number.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
+    detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp, x0);
     set_step_length(s);
-    bool const solved = s.begin(qp, x0);
-    s.face.assign(qp.set(), slant::local(s.x));
-    reduce(s);
-    s.forcing = s.forcing.starting_at(s.reduced_gradient_norm);
-    if (solved) s.status = status::converged;
+    begin_newton(s, s.begin(qp, x0));
     return s;
+  }
+
+  /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
+  /// depends on A alone (ρ, σ_max, all memory) stays. Counts begin at zero. x0 must not be s.x. One
+  /// application; no allocation.
+  void resume(state_type& s, vector_type const& x0) const {
+    detail::check_start_in_set(x0, qp_.get().b());
+    if constexpr (!Inner::stays_inside) s.outside.in_use = false;
+    s.progress = {};
+    s.recession.forget();
+    s.iteration = s.inner_iterations = 0;
+    s.last_inner = inner_end::going_on;
+    s.status = status::running;
+    begin_newton(s, s.begin_again(qp_.get(), x0));
   }
 
   /// One Newton step, (2°) to (4°), with its inner iterations.
@@ -97,6 +106,13 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
  private:
   static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
+
+  void begin_newton(state_type& s, bool solved) const {
+    s.face.assign(qp_.get().set(), slant::local(s.x));
+    reduce(s);
+    s.forcing = s.forcing.starting_at(s.reduced_gradient_norm);
+    if (solved) s.status = status::converged;
+  }
 
   /// λ^(k), its r and P_Λ(z), if x is only its projection.
   void return_to_iterate(state_type& s) const {

@@ -46,8 +46,7 @@ class proportioning<QP, Rule> {
   /// 1/σ_max is not a finite number.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
+    detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp, x0);
     set_step_length(s);
     bool const solved = s.begin(qp, x0);
@@ -76,6 +75,20 @@ class proportioning<QP, Rule> {
     s.recession.forget();
     s.gradient(qp_.get());
     restart(s);
+  }
+
+  /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
+  /// depends on A alone (α̃, σ_max, all memory) stays. Counts begin at zero. x0 must not be s.x. One
+  /// application; no allocation.
+  void resume(state_type& s, vector_type const& x0) const {
+    detail::check_start_in_set(x0, qp_.get().b());
+    s.progress = {};
+    s.recession.forget();
+    s.iteration = 0;
+    s.status = status::running;
+    bool const solved = s.begin_again(qp_.get(), x0);
+    restart(s);
+    if (solved) s.status = status::converged;
   }
 
   /// r and r̃ from x, if CG steps have been updating r instead; whether they have. One application.

@@ -83,15 +83,10 @@ class symmetric_newton<QP, M> {
   /// ρ is not a finite number.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
+    detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp, m_.get(), x0);
     set_sizes(s);
-    bool const solved = s.begin(qp, x0);
-    restart(s);
-    s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
-    s.forcing.first_error = s.gradient_scale;
-    if (solved || s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    begin_newton(s, s.begin(qp, x0));
     return s;
   }
 
@@ -115,9 +110,20 @@ class symmetric_newton<QP, M> {
     s.progress = {};
     s.descent.leave();
     measure(s);
-    restart(s);
-    s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
-    s.forcing.first_error = s.gradient_scale;
+    begin_newton(s, false);
+  }
+
+  /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
+  /// depends on A alone (ρ, mean(diag M), all memory) stays. Counts begin at zero. x0 must not be
+  /// s.x. One product; no allocation.
+  void resume(state_type& s, vector_type const& x0) const {
+    detail::check_start_in_set(x0, qp_.get().b());
+    s.progress = {};
+    s.descent.leave();
+    s.last_step = symmetric_newton_step::none;
+    s.iteration = s.inner_iterations = 0;
+    s.status = status::running;
+    begin_newton(s, s.begin_again(qp_.get(), x0));
   }
 
   /// r from x where KPRGP has been updating it; whether it has. One product.
@@ -193,6 +199,14 @@ class symmetric_newton<QP, M> {
     s.reduce(qp_.get());
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+  }
+
+  /// Newton's iterate and its forcing terms from x, r and r̃.
+  void begin_newton(state_type& s, bool solved) const {
+    restart(s);
+    s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
+    s.forcing.first_error = s.gradient_scale;
+    if (solved || s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
   }
 
   void restart(state_type& s) const {

@@ -18,17 +18,22 @@ struct friction_disc {};  ///< two tangents per node (3D bodies): ‖λ_t,i‖ �
 
 namespace detail {
 
-template <class S>
-auto feasible_set(frictionless, data<S> const& c) {
-  return half_lines<S>(c.nodes());
+/// Λ for m nodes with the slip bounds g.
+template <class V>
+auto feasible_set(frictionless, index m, V const&) {
+  return half_lines<scalar_t<V>>(m);
 }
-template <class S>
-auto feasible_set(friction_line, data<S> const& c) {
-  return cartesian(half_lines<S>(c.nodes()), intervals(c.g));
+template <class V>
+auto feasible_set(friction_line, index m, V const& g) {
+  return cartesian(half_lines<scalar_t<V>>(m), intervals(g));
 }
-template <class S>
-auto feasible_set(friction_disc, data<S> const& c) {
-  return cartesian(half_lines<S>(c.nodes()), discs(c.g));
+template <class V>
+auto feasible_set(friction_disc, index m, V const& g) {
+  return cartesian(half_lines<scalar_t<V>>(m), discs(g));
+}
+template <class Friction, class S>
+auto feasible_set(Friction friction, data<S> const& c) {
+  return detail::feasible_set(friction, c.nodes(), c.g);
 }
 
 template <class Friction, class S>

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// One load step after the other, by any method for the dual problem.
+//
+//     update     f, d, g of the step             one solve with K if there is a new f, else none
+//     predict    the point of least q on the line through the last two solutions       no product
+//     start      there, or at the last solution if that has a smaller q on Λ      one or two
+//     products solve      from there, until the rule fires
+//
+// Nothing is factored, and what the method learnt about A in its first step stays: σ_max, mean(diag
+// A), step lengths, all memory. A method takes part by
+//
+//     resume(state, x0)      start(x0) in a state that it has made, after b or Λ have changed
+//
+// one without it (interior_point) makes a new state in every step, at the predicted point. The
+// prediction needs the gradient as states of projected gradient methods keep it, x, r and unit;
+// else the last solution is the start.
+#pragma once
+
+#include <slant/concepts/convex_set.hpp>
+#include <slant/contact/detail/solution_line.hpp>
+#include <slant/contact/load_step.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/operators/held.hpp>
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant::contact {
+
+/// A method can go on in a state after the problem has changed.
+template <class Method, class State, class V>
+concept has_resume_at = requires(Method const& m, State& s, V const& x) { m.resume(s, x); };
+
+namespace detail {
+
+/// The state keeps its gradient as methods/gradient_point.hpp does.
+template <class State, class V>
+concept keeps_gradient = requires(State const& s, V const& v) {
+  { s.x } -> std::convertible_to<V const&>;
+  { s.r } -> std::convertible_to<V const&>;
+  { s.unit* s.gradient_scale };
+};
+
+}  // namespace detail
+
+/// One step of load_stepper. Refers to its state: what is to be kept beyond the next step has to be
+/// copied.
+template <class State>
+struct load_step_report {
+  index number;          ///< 1, 2, …
+  slant::status status;  ///< how the step ended
+  std::string reason;    ///< the same as a sentence
+  slant::work work;      ///< of this step alone
+  State const* state;    ///< the last state of the method
+
+  /// The multipliers λ.
+  [[nodiscard]] auto const& x() const { return state->x; }
+  /// Number of steps of the method.
+  [[nodiscard]] index iterations() const { return state->iteration; }
+  /// True only if the accuracy asked for was reached.
+  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
+};
+
+/// Load steps of a problem, contact::dual:
+///
+///     contact::load_stepper stepper(problem, symmetric_newton{problem.qp()}, stop);
+///     auto const& first = stepper.advance({});                 // the data that are there
+///     auto const& next = stepper.advance({.f = 2 * f});
+///
+/// Refers to the problem, which it updates, and to the method if that is an lvalue; the method has
+/// to be one of problem.qp(). Each step begins with a new copy of the rule.
+template <class Dual, class Method, class Rule>
+class load_stepper {
+ public:
+  using vector_type = typename Dual::vector_type;
+  using scalar = scalar_t<vector_type>;
+  using method_type = std::remove_cvref_t<Method>;
+  using state_type = state_t<method_type const, vector_type>;
+  using report_type = load_step_report<state_type>;
+  static_assert(slant::detail::solvable<method_type const&, vector_type, Rule>,
+                "load_stepper: expected a method for vectors like b, and a rule for its states");
+
+  /// The first step starts from 0.
+  load_stepper(Dual& problem, held<Method> method, Rule stop)
+      : load_stepper(problem, std::move(method), std::move(stop), problem.zero()) {}
+  /// The first step starts from x0. Throws bad_input if that is of the wrong size.
+  load_stepper(Dual& problem, held<Method> method, Rule stop, vector_type x0)
+      : problem_(&problem),
+        method_(std::move(method)),
+        stop_(std::move(stop)),
+        line_(problem.b().size()),
+        start_(std::move(x0)) {
+    slant::detail::check_size("x0", start_.size(), problem.b().size(), "the size of b,");
+  }
+
+  /// Solves the next step. Throws bad_input, and has then done nothing, if dual::update refuses the
+  /// data; numerical trouble is a status. A step that did not converge is not remembered: the one
+  /// after it starts from those before.
+  [[nodiscard]] report_type const& advance(load_step<scalar> step) {
+    problem_->update(std::move(step));
+    report_.work = {};
+    begin();
+    Rule stop = stop_;
+    auto end = slant::detail::run_to_end(method_.get(), *state_, stop);
+    ++report_.number;
+    report_.status = end.how;
+    report_.reason = std::move(end.why);
+    report_.state = &*state_;
+    if constexpr (requires { state_->work; }) {
+      report_.work.operator_applications += state_->work.operator_applications;
+      report_.work.setup_applications = state_->work.setup_applications;
+      report_.work.inner_iterations = state_->work.inner_iterations;
+      report_.work.factorizations = state_->work.factorizations;
+    }
+    if (report_.converged()) remember();
+    return report_;
+  }
+
+ private:
+  static constexpr bool predicts = detail::keeps_gradient<state_type, vector_type>;
+
+  /// The state of the predicted point, or of the last solution where that turns out to be better.
+  void begin() {
+    if (!state_) {
+      place(start_);
+      return;
+    }
+    vector_type const& b = problem_->b();
+    bool const predicted = predicts && line_.minimum(b, start_);
+    if (!predicted) start_ = line_.last();
+    place(start_);
+    if constexpr (predicts) {
+      if (!predicted) return;
+      scalar const here = (state_->x.dot(state_->unit * state_->r) - state_->x.dot(b)) / scalar(2);
+      // New slip bounds may have cut the last solution: its q is then a bound of nothing.
+      slant::project(problem_->set(), line_.last(), start_);
+      if (here <= line_.energy(b) || start_ != line_.last()) return;
+      report_.work.operator_applications = state_->work.operator_applications;
+      place(line_.last());
+    }
+  }
+
+  void place(vector_type const& x) {
+    if constexpr (has_resume_at<method_type, state_type, vector_type>) {
+      if (state_) {
+        method_.get().resume(*state_, x);
+        return;
+      }
+    }
+    state_.emplace(method_.get().start(x));
+  }
+
+  void remember() {
+    if constexpr (predicts) {
+      line_.record(state_->x, state_->r, state_->unit, problem_->b());
+    } else {
+      line_.record(state_->x);
+    }
+  }
+
+  Dual* problem_;
+  held<Method> method_;
+  Rule stop_;
+  detail::solution_line<vector_type> line_;
+  vector_type start_;
+  std::optional<state_type> state_;
+  report_type report_{0, status::running, {}, {}, nullptr};
+};
+
+template <class Dual, class Method, class Rule>
+load_stepper(Dual&, Method&&, Rule) -> load_stepper<Dual, kept_t<Method>, Rule>;
+template <class Dual, class Method, class Rule>
+load_stepper(Dual&, Method&&, Rule, typename Dual::vector_type)
+    -> load_stepper<Dual, kept_t<Method>, Rule>;
+
+}  // namespace slant::contact

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// New loads, gaps and slip bounds of a dual problem that stays where it is.
+#include "counting_factor.hpp"
+#include "scenes.hpp"
+
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/ldlt.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace load_step_test {
+
+using Eigen::VectorXd;
+namespace contact = slant::contact;
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// A brick two of whose gaps are infinite, and the factors of its K.
+struct fixture {
+  fem::contact_scene<3> scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::pull});
+  contact::data<double> c = test::contact_data(scene);
+  test::counting_factor factor{scene.K};
+  fixture() { c.d(1) = c.d(7) = inf; }
+  [[nodiscard]] auto problem() const { return contact::dual(contact::friction_disc{}, factor, c); }
+};
+
+/// P_Λ of a vector that is outside of most blocks.
+template <class Dual>
+VectorXd projected(Dual const& dual) {
+  VectorXd const far = VectorXd::LinSpaced(dual.b().size(), -2, 3);
+  VectorXd y(far.size());
+  slant::project(dual.set(), far, y);
+  return y;
+}
+
+TEST_CASE("an updated problem is the one made of the new data, to the last bit") {
+  fixture t;
+  auto dual = t.problem();
+  auto const qp = dual.qp();
+  t.factor.solves = 0;
+
+  auto const check_same = [&] {
+    auto const fresh = t.problem();
+    --t.factor.solves;  // its own
+    CHECK(qp.b() == fresh.b());
+    CHECK(projected(dual) == projected(fresh));
+    VectorXd const λ = projected(fresh);
+    CHECK(dual.displacement(λ) == fresh.displacement(λ));
+    t.factor.solves -= 2;
+  };
+
+  t.c.f += VectorXd::LinSpaced(t.c.f.size(), -1, 2);
+  dual.update_load(t.c.f);
+  CHECK(t.factor.solves == 1);
+  check_same();
+
+  t.c.d = (t.c.d.array() + VectorXd::LinSpaced(t.c.d.size(), -1e-4, 2e-4).array()).matrix();
+  dual.update_gaps(t.c.d);
+  CHECK(t.factor.solves == 1);
+  check_same();
+
+  t.c.g = VectorXd::LinSpaced(t.c.g.size(), 0, 5);
+  t.c.g(3) = inf;
+  dual.update_bounds(t.c.g);
+  CHECK(t.factor.solves == 1);
+  check_same();
+
+  t.c.f = VectorXd::LinSpaced(t.c.f.size(), 1, 0).cwiseAbs2();
+  t.c.d *= 2;
+  t.c.g.setZero();
+  dual.update({.f = t.c.f, .d = t.c.d, .g = t.c.g});
+  CHECK(t.factor.solves == 2);
+  check_same();
+
+  dual.update({});
+  CHECK(t.factor.solves == 2);
+  check_same();
+}
+
+TEST_CASE("loads on the line through two others need no solve") {
+  fixture t;
+  auto dual = t.problem();
+  VectorXd const first = t.c.f, second = VectorXd::LinSpaced(first.size(), -1, 2);
+  t.factor.solves = 0;
+  auto const load = [&](VectorXd const& f, int solves) {
+    dual.update_load(f);
+    CHECK(t.factor.solves == solves);
+    t.factor.solves = 0;
+    t.c.f = f;
+    auto const fresh = t.problem();
+    CHECK((dual.b() - fresh.b()).norm() <= 1e-12 * fresh.b().norm());
+    VectorXd const λ = projected(fresh);
+    VectorXd const u = fresh.displacement(λ);
+    CHECK(dual.displacement(λ) == u);
+    t.factor.solves = 0;
+  };
+  load(-1.7 * first, 0);
+  load(VectorXd::Zero(first.size()), 0);
+  load(second, 1);
+  for (int i = 0; i <= 20; ++i) load(first + i / 7.0 * second, 0);
+  load(first, 0);
+  load(1e300 * first, 1);  // too far from them
+  VectorXd other = second;
+  other(4) *= 1 + 1e-12;
+  load(other, 1);  // nearly is not enough
+  load(1e-300 * other, 0);
+  load(1e-300 * VectorXd::LinSpaced(first.size(), 3, 1).cwiseSqrt(), 1);
+}
+
+/// What update says of a step that brings more than what is wrong with it; after it everything must
+/// be as it was.
+template <class Dual>
+std::string complaint(Dual& dual, contact::load_step<double> const& step) {
+  VectorXd const b = dual.b(), points = projected(dual), u = dual.displacement(points);
+  std::string what;
+  try {
+    dual.update(step);
+  } catch (slant::bad_input const& e) {
+    what = e.what();
+  }
+  CHECK(dual.b() == b);
+  CHECK(projected(dual) == points);
+  CHECK(dual.displacement(points) == u);
+  return what;
+}
+
+TEST_CASE("bad data are named and change nothing, not even the part that was good") {
+  fixture const t;
+  auto dual = t.problem();
+  auto const entry = [](VectorXd v, Eigen::Index i, double value) {
+    v(i) = value;
+    return v;
+  };
+  VectorXd const f = 2 * t.c.f, d = 2 * t.c.d, g = 2 * t.c.g;
+  double const nan = std::nan("");
+  CHECK(complaint(dual, {.f = f.head(3), .d = d, .g = g}) ==
+        "f: got 3, expected one load per unknown, " + std::to_string(f.size()));
+  CHECK(complaint(dual, {.f = entry(f, 3, nan), .d = d, .g = g}) ==
+        "f[3]: got nan, expected a finite number");
+  CHECK(complaint(dual, {.f = f, .d = d.head(3), .g = g}) ==
+        "d: got 3, expected one gap per row of N, " + std::to_string(d.size()));
+  CHECK(complaint(dual, {.f = f, .d = entry(d, 0, nan), .g = g}) ==
+        "d[0]: got nan, expected a number or +inf");
+  CHECK(complaint(dual, {.f = f, .d = entry(d, 0, inf), .g = g}) ==
+        "d[0]: got inf, expected a finite number, since this gap was finite when B was made");
+  CHECK(complaint(dual, {.f = f, .d = entry(d, 1, 0), .g = g}) ==
+        "d[1]: got 0, expected +inf, since this gap was infinite when B was made");
+  CHECK(complaint(dual, {.f = f, .d = d, .g = g.head(3)}) ==
+        "g: got 3, expected one slip bound per row of N, " + std::to_string(g.size()));
+  CHECK(complaint(dual, {.f = f, .d = d, .g = entry(g, 4, -0.5)}) ==
+        "g[4]: got -0.5, expected a number >= 0 or +inf");
+  CHECK(complaint(dual, {.f = f, .d = d, .g = entry(g, 4, nan)}) ==
+        "g[4]: got nan, expected a number >= 0 or +inf");
+  CHECK(complaint(dual, {.f = VectorXd::Constant(f.size(), 1e308), .d = d, .g = g})
+            .starts_with("f: got a load under which u["));
+}
+
+TEST_CASE("gaps that no displacement opens, and bounds without friction") {
+  auto const scene = fem::make_steel_brick({.k = 1});
+  auto c = test::frictionless_data(scene);
+  c.N.prune([](auto row, auto, double) { return row != 2; });
+  contact::dual dual(contact::frictionless{}, slant::ldlt(scene.K), c);
+  VectorXd d = c.d;
+  d(2) = -1;
+  CHECK(
+      complaint(dual, {.d = d}) ==
+      "d[2]: got -1, expected a number >= 0, since row 2 of N is zero: no displacement opens this "
+      "gap");
+  CHECK(complaint(dual, {.g = VectorXd::Zero(6)}) ==
+        "g: got 6, expected no slip bounds without T, 0");
+  d(2) = 1;
+  dual.update({.d = d, .g = VectorXd(0)});
+  CHECK(dual.b()(2) == -1);
+}
+
+}  // namespace load_step_test
