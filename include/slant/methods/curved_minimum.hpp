@@ -23,6 +23,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <type_traits>
@@ -70,6 +71,7 @@ class curved_minimum {
     face.keep(z_, g_);
     scalar size = norm(g_);
     scalar gz(0);
+    if constexpr (preconditions_faces<M, V, Face>) m.enter(face, m_workspace_);
     bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
@@ -105,6 +107,10 @@ class curved_minimum {
   /// z = W M W g + s W (I − W) g.
   template <class Face>
   void precondition(M const& m, Face const& face, scalar const& s) {
+    if constexpr (preconditions_faces<M, V, Face>) {
+      m.apply_on_face(g_, z_, m_workspace_);
+      return;
+    }
     face.weigh(g_, z_);
     if constexpr (preconditioned) {
       slant::apply(m, z_, weighed_, m_workspace_);
