@@ -5,8 +5,8 @@
 //     minimise  ½ uᵀKu − fᵀu   over   N u ≤ d        becomes
 //     minimise  ½ vᵀ(HKH)v − (Hf)ᵀv   over   l ≤ v ≤ h,     v = H u,
 //
-// H orthogonal and symmetric, the identity where rows of N have one entry (an obstacle parallel to a
-// coordinate plane, a membrane); see detail/bounded_coordinates.hpp. K is never factored: the
+// H orthogonal and symmetric, the identity where rows of N have one entry (an obstacle parallel to
+// a coordinate plane, a membrane); see detail/bounded_coordinates.hpp. K is never factored: the
 // problem is for methods that work on u, such as symmetric_newton{problem.qp(), M} with the
 // multigrid M of the same matrix.
 #pragma once
@@ -71,8 +71,7 @@ class obstacle {
   template <class V>
   [[nodiscard]] V coordinates(V const& u) const {
     slant::detail::check_size("rows of u", u.rows(), f_.size(), "the size of f,");
-    if (!reflects()) return u;
-    return V(coordinates_.H * u);
+    return coordinates_.of(u);
   }
   /// u = H v.
   [[nodiscard]] vector_type displacement(vector_type const& v) const { return coordinates(v); }
@@ -111,7 +110,7 @@ class obstacle {
       : coordinates_(std::move(coordinates)),
         K_(reflects() ? row_major_type(sparse_type(coordinates_.H * K) * coordinates_.H)
                       : row_major_type(K)),
-        f_(this->coordinates(c.f)),
+        f_(coordinates_.of(c.f)),
         lowest_(static_cast<std::size_t>(f_.size()), -1),
         highest_(lowest_),
         bounds_(bounds_of(c.d)),

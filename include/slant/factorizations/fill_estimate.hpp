@@ -32,9 +32,8 @@ struct fill_estimate {
 /// The estimate for a symmetric K (both triangles). Stops counting beyond `enough` operations.
 /// Throws bad_input if K is not square.
 template <class M>
-[[nodiscard]] fill_estimate estimate_fill(
-    Eigen::SparseCompressedBase<M> const& k,
-    double enough = std::numeric_limits<double>::infinity()) {
+[[nodiscard]] fill_estimate estimate_fill(Eigen::SparseCompressedBase<M> const& k,
+                                          double enough = std::numeric_limits<double>::infinity()) {
   detail::check_size("columns of K", k.cols(), k.rows(), "rows of K,");
   fill_estimate result;
   if (k.rows() == 0) return result;

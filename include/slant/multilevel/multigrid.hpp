@@ -5,16 +5,16 @@
 // M K that hardly depends on the mesh.
 //
 //     cycle(b):   x ← forwards sweep of Gauss–Seidel from 0
-//                 x ← x + P cycle(Pᵀ(b − K x))                  K_coarse = PᵀK P, the last one factored
-//                 x ← backwards sweep
+//                 x ← x + P cycle(Pᵀ(b − K x))                  K_coarse = PᵀK P, the last one
+//                 factored x ← backwards sweep
 //
 // What sweeps do not reach is the near kernel of K: constants of a Laplacian, rigid-body modes in
 // elasticity. It is given by candidates, which the coarse levels represent exactly.
 //
-// Faces. With some unknowns held at zero the same hierarchy serves the matrix K_FF of the others: the
-// sweeps pass over what is held and the coarse correction leaves it out. Such a cycle is the sum of
-// the symmetrised sweep, definite on the face, and of a semidefinite term, so it is definite for
-// every face, and nothing is set up anew when the face changes.
+// Faces. With some unknowns held at zero the same hierarchy serves the matrix K_FF of the others:
+// the sweeps pass over what is held and the coarse correction leaves it out. Such a cycle is the
+// sum of the symmetrised sweep, definite on the face, and of a semidefinite term, so it is definite
+// for every face, and nothing is set up anew when the face changes.
 #pragma once
 
 #include <slant/concepts/factorization.hpp>
@@ -52,8 +52,8 @@ class multigrid {
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
   /// For K (n × n, both triangles) whose near kernel consists of constants, one for each unknown of
-  /// a node. Throws bad_input if K is not square, finite and symmetric, or found not to be definite,
-  /// if the block size does not divide n, and for options out of range.
+  /// a node. Throws bad_input if K is not square, finite and symmetric, or found not to be
+  /// definite, if the block size does not divide n, and for options out of range.
   template <class M>
   explicit multigrid(Eigen::SparseMatrixBase<M> const& k, multigrid_options const& o = {})
       : multigrid(k, matrix_type(0, 0), o) {}
@@ -194,8 +194,9 @@ class multigrid {
     vector_type const d = K.diagonal();
     for (index i = 0; i < d.size(); ++i) {
       if (d[i] > S(0)) continue;
-      throw bad_input("K", "diagonal entry " + detail::show(i) + " = " + detail::show(d[i]) +
-                               " on level " + detail::show(static_cast<index>(depth)),
+      throw bad_input("K",
+                      "diagonal entry " + detail::show(i) + " = " + detail::show(d[i]) +
+                          " on level " + detail::show(static_cast<index>(depth)),
                       "a symmetric positive definite matrix");
     }
   }

@@ -32,13 +32,15 @@ struct node_blocks {
   [[nodiscard]] std::vector<int> owners() const {
     std::vector<int> node(static_cast<std::size_t>(first.back()));
     for (index i = 0; i < count(); ++i) {
-      for (int j = begin(i); j < end(i); ++j) node[static_cast<std::size_t>(j)] = static_cast<int>(i);
+      for (int j = begin(i); j < end(i); ++j)
+        node[static_cast<std::size_t>(j)] = static_cast<int>(i);
     }
     return node;
   }
 };
 
-/// The largest b of 3, 2, 1 such that K consists of b × b blocks without a gap; 1 if there is doubt.
+/// The largest b of 3, 2, 1 such that K consists of b × b blocks without a gap; 1 if there is
+/// doubt.
 template <class M>
 [[nodiscard]] index detected_block_size(Eigen::SparseCompressedBase<M> const& k) {
   for (index const b : {3, 2}) {

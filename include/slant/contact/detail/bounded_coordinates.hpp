@@ -2,8 +2,8 @@
 //
 // Coordinates v = H u in which N u ≤ d are bounds of single components. A row with one entry is one
 // already. For a row n with more of them H is the Householder reflection of its support that maps
-// n/‖n‖ to −sign(n_p) e_p, |n_p| its largest entry [Golub, Van Loan, 5.1.3]: so long as no other row
-// has an unknown of that support, n·u ≤ d is a bound of v_p. H is orthogonal and symmetric.
+// n/‖n‖ to −sign(n_p) e_p, |n_p| its largest entry [Golub, Van Loan, 5.1.3]: so long as no other
+// row has an unknown of that support, n·u ≤ d is a bound of v_p. H is orthogonal and symmetric.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -93,6 +93,13 @@ struct bounded_coordinates {
     }
     H.resize(N.cols(), N.cols());
     H.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  /// H u.
+  template <class V>
+  [[nodiscard]] V of(V const& u) const {
+    if (!reflects) return u;
+    return V(H * u);
   }
 
  private:

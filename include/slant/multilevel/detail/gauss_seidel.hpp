@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sweeps of Gauss–Seidel over a symmetric matrix, perhaps with unknowns that are held at zero: those
-// are passed over, which is the sweep over the principal submatrix of the others.
+// Sweeps of Gauss–Seidel over a symmetric matrix, perhaps with unknowns that are held at zero:
+// those are passed over, which is the sweep over the principal submatrix of the others.
 //
 // Why Gauss–Seidel: forwards before and backwards after the coarse correction makes the cycle
 // self-adjoint and definite for every definite matrix, whatever is held. No bound of a spectrum is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// P = (I − ω D⁻¹K) P₀, D = diag(K), ω = damping / λ_max(D⁻¹K): one step of Jacobi's method takes the
-// energy out of the jumps between aggregates [Vaněk, Mandel, Brezina 1996].
+// P = (I − ω D⁻¹K) P₀, D = diag(K), ω = damping / λ_max(D⁻¹K): one step of Jacobi's method takes
+// the energy out of the jumps between aggregates [Vaněk, Mandel, Brezina 1996].
 //
 // λ_max: a few Lanczos steps, raised by what they may have missed, or the bound of Gershgorin if
 // that is smaller. A value too small would cost convergence, never definiteness.
