@@ -70,8 +70,9 @@ template <class M>
       while (seen[static_cast<std::size_t>(j)] != i) {
         auto const at = static_cast<std::size_t>(j);
         if (parent[at] < 0) parent[at] = i;
-        // One block more below block j: b³ (2 c + …) operations; c² grows by 2 c + 1.
-        result.operations += B * B * B * (2 * below[at]++ + 1);
+        // Columns of block j with c blocks below have Σ (b c + i)² operations, i < b: what one
+        // block more adds to b³ c² + b² (b − 1) c.
+        result.operations += B * B * (B * (2 * below[at]++ + 1) + B - 1);
         result.entries += B * B;
         seen[at] = i;
         j = parent[at];

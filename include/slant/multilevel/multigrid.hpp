@@ -31,7 +31,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -51,6 +51,11 @@ class multigrid {
   using inverse_type = decltype(slant::inverse(std::declval<factor_type const&>()));
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
+  /// A vector of scalars S, no matrix of several.
+  template <class X>
+  static constexpr bool column =
+      std::same_as<scalar_t<X>, S> && int(local_t<X>::ColsAtCompileTime) == 1;
+
   /// For K (n × n, both triangles) whose near kernel consists of constants, one for each unknown of
   /// a node. Throws bad_input if K is not square, finite and symmetric, or found not to be
   /// definite, if the block size does not divide n, and for options out of range.
@@ -59,8 +64,8 @@ class multigrid {
       : multigrid(k, matrix_type(0, 0), o) {}
   /// For candidates of the near kernel: n × r with r ≥ 1 columns, finite; such as
   /// contact::rigid_body_modes of the nodes. No columns: constants.
-  template <class M>
-  multigrid(Eigen::SparseMatrixBase<M> const& k, matrix_type candidates,
+  template <class M, class B>
+  multigrid(Eigen::SparseMatrixBase<M> const& k, Eigen::MatrixBase<B> const& candidates,
             multigrid_options const& o = {})
       : levels_(std::make_shared<hierarchy>()), sweeps_(o.sweeps) {
     o.validate();
@@ -72,12 +77,11 @@ class multigrid {
     if (rows_ % b != 0) {
       throw bad_input("block_size", detail::show(b), "a divisor of " + detail::show(rows_));
     }
-    if (candidates.cols() == 0) {
-      candidates = matrix_type::Identity(b, b).replicate(rows_ / b, 1);
-    }
-    detail::check_size("rows of the candidates", candidates.rows(), rows_, "the size of K,");
-    detail::require_finite_entries("candidates", candidates);
-    if (rows_ > 0) build(std::move(K), node_blocks(rows_, b), std::move(candidates), o);
+    matrix_type modes = candidates;
+    if (modes.cols() == 0) modes = matrix_type::Identity(b, b).replicate(rows_ / b, 1);
+    detail::check_size("rows of the candidates", modes.rows(), rows_, "the size of K,");
+    detail::require_finite_entries("candidates", modes);
+    if (rows_ > 0) build(std::move(K), node_blocks(rows_, b), std::move(modes), o);
   }
 
   [[nodiscard]] index rows() const { return rows_; }
@@ -107,7 +111,9 @@ class multigrid {
     std::vector<unsigned char> held;
     std::optional<workspace_t<inverse_type, vector_type>> factor;
   };
-  [[nodiscard]] workspace_type workspace(vector_type const&) const {
+  template <class X>
+    requires column<X>
+  [[nodiscard]] workspace_type workspace(X const&) const {
     workspace_type w;
     for (index const n : sizes()) {
       w.levels.push_back({vector_type(n), vector_type(n), vector_type(n)});
@@ -120,11 +126,10 @@ class multigrid {
   }
 
   /// y = M x.
-  void apply(vector_type const& x, vector_type& y, workspace_type& w) const {
-    if (rows_ == 0) return;
-    w.levels.front().b = x;
-    cycle(0, w, detail::nothing_held{});
-    y = levels_->unit * w.levels.front().x;
+  template <class X, class Y>
+    requires column<X>
+  void apply(X const& x, Y& y, workspace_type& w) const {
+    run(x, y, w, detail::nothing_held{});
   }
 
   /// What follows is about the face: unknowns that it does not keep are held. Curved faces, which
@@ -140,12 +145,10 @@ class multigrid {
     }
   }
   /// y ≈ (K_FF)⁻¹ x on the face entered last, 0 elsewhere.
-  void apply_on_face(vector_type const& x, vector_type& y, workspace_type& w) const {
-    if (rows_ == 0) return;
-    detail::held_where const held{w.held.data()};
-    w.levels.front().b = x;
-    cycle(0, w, held);
-    y = levels_->unit * w.levels.front().x;
+  template <class X, class Y>
+    requires column<X>
+  void apply_on_face(X const& x, Y& y, workspace_type& w) const {
+    run(x, y, w, detail::held_where{w.held.data()});
   }
 
  private:
@@ -199,6 +202,14 @@ class multigrid {
                           " on level " + detail::show(static_cast<index>(depth)),
                       "a symmetric positive definite matrix");
     }
+  }
+
+  template <class X, class Y, class Held>
+  void run(X const& x, Y& y, workspace_type& w, Held held) const {
+    if (rows_ == 0) return;
+    w.levels.front().b = slant::local(x);
+    cycle(0, w, held);
+    slant::local(y) = levels_->unit * w.levels.front().x;
   }
 
   template <class Held>
