@@ -17,7 +17,8 @@
 //     z = W M W g + s W (I − W) g
 //
 // is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
-// leaves z = s W g.
+// leaves z = s W g. An M that knows the inverse on a face (preconditions_faces) is asked for that
+// where all is flat.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -71,7 +72,9 @@ class curved_minimum {
     face.keep(z_, g_);
     scalar size = norm(g_);
     scalar gz(0);
-    if constexpr (preconditions_faces<M, V, Face>) m.enter(face, m_workspace_);
+    if constexpr (preconditions_faces<M, V, Face>) {
+      if (face.curved_count() == 0) m.enter(face, m_workspace_);
+    }
     bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
@@ -108,8 +111,10 @@ class curved_minimum {
   template <class Face>
   void precondition(M const& m, Face const& face, scalar const& s) {
     if constexpr (preconditions_faces<M, V, Face>) {
-      m.apply_on_face(g_, z_, m_workspace_);
-      return;
+      if (face.curved_count() == 0) {
+        m.apply_on_face(g_, z_, m_workspace_);
+        return;
+      }
     }
     face.weigh(g_, z_);
     if constexpr (preconditioned) {

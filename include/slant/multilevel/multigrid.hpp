@@ -170,7 +170,7 @@ class multigrid {
     h.unit = S(1) / unit_near(S(K.diagonal().cwiseAbs().maxCoeff()));
     K *= h.unit;
     while (true) {
-      require_positive_diagonal(K, h.smooth.size());
+      require_positive_diagonal(K, h.smooth.size(), h.unit);
       bool const last =
           K.rows() <= o.coarsest || static_cast<index>(h.smooth.size()) + 1 >= o.levels;
       detail::tentative_prolongation<S> t =
@@ -193,8 +193,8 @@ class multigrid {
     h.coarsest.emplace(slant::factorize(symmetric));
   }
 
-  static void require_positive_diagonal(sparse_type const& K, std::size_t depth) {
-    vector_type const d = K.diagonal();
+  static void require_positive_diagonal(sparse_type const& K, std::size_t depth, S const& unit) {
+    vector_type const d = K.diagonal() / unit;
     for (index i = 0; i < d.size(); ++i) {
       if (d[i] > S(0)) continue;
       throw bad_input("K",
