@@ -23,6 +23,8 @@
 #   projector_search    the same on stacks of bricks: rules for leaving and entering constraints
 #   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
+#   multilevel          bricks without friction, iterated on u with multigrid, beside one linear solve
+#   multilevel_large    the same with 313632 unknowns, K never factored
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
@@ -35,7 +37,7 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets)
+  projector_contact projector_search projector_threads total_feti multilevel multilevel_large active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -95,6 +97,10 @@ run_projector_threads() {  # threads that wait must not keep a core from those t
 }
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
+run_multilevel() { "$(program multilevel)" 8 12 16 >"$output/multilevel.csv"; }
+run_multilevel_large() {
+  "$(program multilevel)" --no-direct 32 >"$output/multilevel_large.csv"
+}
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
   local status=0
@@ -215,6 +221,8 @@ write_summary() {
   section projector_threads "Schur complement contact algorithm: four bricks, threads"
   section active_sets "Products of the published active set methods"
   section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
+  section multilevel "Multigrid: bricks without friction, processor seconds, tolerance 1e-8"
+  section multilevel_large "Multigrid: the same, where K is not factored"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

@@ -9,7 +9,7 @@
 //     iterate:  (δ + cycles · ε) nnz(K)
 //
 // with L estimated by estimate_fill and constants measured on the steel brick without friction
-// (benchmarks/multilevel.cpp, k = 4 … 20, all loads, relative accuracy 1e-8).
+// (k = 4 … 16, all loads, relative accuracy 1e-8), where the two are equal near k = 8.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
@@ -31,19 +31,20 @@ enum class obstacle_route : unsigned char {
   iterate     ///< multigrid, bounds on u
 };
 
-/// Measured seconds per unit of work; machines differ, but less in what decides: their ratios.
+/// Processor seconds per unit of work on an AMD EPYC; machines differ, but less in what decides,
+/// the ratios.
 struct route_costs {
-  double ordering = 3e-7;      ///< α, per entry of K
-  double operation = 2.7e-11;  ///< β, per operation of the factorisation as estimated
-  double sweep = 1.8e-9;       ///< γ, per entry of L and application of K⁻¹
-  double products = 75;        ///< applications of K⁻¹ of the dual method
-  double hierarchy = 4.5e-7;   ///< δ, per entry of K
-  double cycle = 9e-9;         ///< ε, per entry of K and cycle, a product by K included
-  double cycles = 100;         ///< of the primal method
+  double ordering = 1.2e-7;    ///< α, per entry of K
+  double operation = 2.3e-11;  ///< β, per operation of the factorisation as estimated
+  double sweep = 1.3e-9;       ///< γ, per entry of L and application of K⁻¹
+  double products = 60;        ///< applications of K⁻¹ of the dual method
+  double hierarchy = 2e-7;     ///< δ, per entry of K
+  double cycle = 6e-9;         ///< ε, per entry of K and cycle, a product by K included
+  double cycles = 80;          ///< of the primal method
 
   /// For factors by Eigen, without supernodes.
   [[nodiscard]] static constexpr route_costs without_cholmod() {
-    return {.operation = 1.2e-9, .sweep = 4e-9};
+    return {.operation = 1.2e-9, .sweep = 2e-9};
   }
 };
 

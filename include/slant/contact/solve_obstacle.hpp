@@ -32,7 +32,8 @@ struct obstacle_options {
   S tolerance = S(1e-10);  ///< of the reduced gradient, relative to that of P(0); of u or of λ
   index steps = 200;       ///< Newton steps at most
   /// Candidates of the near kernel of K, n × r, for multigrid: rigid_body_modes(nodes) of a body.
-  /// Empty: constants, which is right for membranes and takes twice the cycles in elasticity.
+  /// Empty: constants, which is right for membranes; in elasticity it takes twice the cycles, which
+  /// are cheaper, and about the same time.
   Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> near_kernel{};
   multigrid_options multigrid{};
   route_costs costs = default_route_costs<S>();
