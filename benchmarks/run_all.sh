@@ -23,7 +23,7 @@
 #   projector_search    the same on stacks of bricks: rules for leaving and entering constraints
 #   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
-#   multilevel          bricks without friction, iterated on u with multigrid, beside one linear solve
+#   multilevel          bricks without friction, iterated on u by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #
@@ -37,7 +37,8 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti multilevel multilevel_large active_sets)
+  projector_contact projector_search projector_threads total_feti multilevel multilevel_large
+  active_sets)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
