@@ -25,6 +25,8 @@
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
 #   condensation        a frictional contact problem over one linear solve, brick k = 8, 12, 16, 24
 #   load_steps          twenty load steps against the first one and against cold solves
+#   multilevel          bricks without friction, iterated on u by multigrid, and one linear solve
+#   multilevel_large    the same with 313632 unknowns, K never factored
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #   precision           time against error of all methods, and of other libraries that are found
 #   growth              time and memory against the size of the brick (both: precision.sh)
@@ -41,7 +43,7 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets condensation precision growth load_steps)
+  projector_contact projector_search projector_threads total_feti active_sets condensation precision growth load_steps multilevel multilevel_large)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -103,6 +105,10 @@ run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_precision() { "$here/precision.sh" precision "$programs" "$output"; }
 run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
+run_multilevel() { "$(program multilevel)" 8 12 16 >"$output/multilevel.csv"; }
+run_multilevel_large() {
+  "$(program multilevel)" --no-direct 32 >"$output/multilevel_large.csv"
+}
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
   local status=0
@@ -225,6 +231,8 @@ write_summary() {
   section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
   section condensation "Contact with friction over one linear solve: brick, relative energy error at most 1e-8"
   section load_steps "Twenty load steps, relative energy error 1e-8"
+  section multilevel "Multigrid: bricks without friction, processor seconds, tolerance 1e-8"
+  section multilevel_large "Multigrid: the same, where K is not factored"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

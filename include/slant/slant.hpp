@@ -13,6 +13,7 @@
 #include <slant/iteration/iteration.hpp>
 #include <slant/krylov/krylov.hpp>
 #include <slant/methods/methods.hpp>
+#include <slant/multilevel/multilevel.hpp>
 #include <slant/newton/newton.hpp>
 #include <slant/operators/operators.hpp>
 #include <slant/sets/sets.hpp>

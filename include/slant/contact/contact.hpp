@@ -11,10 +11,13 @@
 #include <slant/contact/load_step.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/load_steps.hpp>
+#include <slant/contact/obstacle.hpp>
+#include <slant/contact/obstacle_route.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>
 // IWYU pragma: end_exports

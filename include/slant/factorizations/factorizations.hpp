@@ -9,6 +9,7 @@
 #include <slant/factorizations/condensed_operator.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/fill_estimate.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 #include <slant/factorizations/ldlt.hpp>

@@ -17,12 +17,14 @@
 //     z = W M W g + s W (I − W) g
 //
 // is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
-// leaves z = s W g.
+// leaves z = s W g. An M that knows the inverse on a face (preconditions_faces) is asked for that
+// where all is flat.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <type_traits>
@@ -71,6 +73,9 @@ class curved_minimum {
     scalar size = norm(g_);
     scalar gz(0);
     if (target < floor * size) target = floor * size;
+    if constexpr (preconditions_faces<M, V, Face>) {
+      if (face.curved_count() == 0) m.enter(face, m_workspace_);
+    }
     bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
@@ -106,6 +111,12 @@ class curved_minimum {
   /// z = W M W g + s W (I − W) g.
   template <class Face>
   void precondition(M const& m, Face const& face, scalar const& s) {
+    if constexpr (preconditions_faces<M, V, Face>) {
+      if (face.curved_count() == 0) {
+        m.apply_on_face(g_, z_, m_workspace_);
+        return;
+      }
+    }
     face.weigh(g_, z_);
     if constexpr (preconditioned) {
       slant::apply(m, z_, weighed_, m_workspace_);

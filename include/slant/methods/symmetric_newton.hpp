@@ -263,7 +263,9 @@ class symmetric_newton<QP, M> {
       s.step_length = step.length;
       s.work.setup_applications += step.applications;
     }
-    if constexpr (!preconditioned) {
+    // What knows the inverse on each face is not weighed against the curvature of its boundary.
+    if constexpr (!preconditioned ||
+                  preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
       s.preconditioner_size = s.step_length / options_.step_factor;
     } else {
       s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;

@@ -21,6 +21,7 @@
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/node_blocks.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/restriction.hpp>
 #include <slant/operators/scaled.hpp>

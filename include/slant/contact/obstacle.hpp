@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact without friction as a problem with bounds:
+//
+//     minimise  ½ uᵀKu − fᵀu   over   N u ≤ d        becomes
+//     minimise  ½ vᵀ(HKH)v − (Hf)ᵀv   over   l ≤ v ≤ h,     v = H u,
+//
+// H orthogonal and symmetric, the identity where rows of N have one entry (an obstacle parallel to
+// a coordinate plane, a membrane); see detail/bounded_coordinates.hpp. K is never factored: the
+// problem is for methods that work on u, such as symmetric_newton{problem.qp(), M} with the
+// multigrid M of the same matrix.
+#pragma once
+
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/detail/bounded_coordinates.hpp>
+#include <slant/factorizations/detail/spd_checks.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace slant::contact {
+
+/// The problem at the top of this file. Holds all it needs; qp() refers to it, so it cannot be had
+/// from a temporary.
+///
+///     slant::contact::obstacle problem(K, f, N, d);
+///     slant::multigrid M(problem.matrix(), problem.coordinates(rigid_body_modes(nodes)));
+///     auto r = slant::solve(slant::symmetric_newton{problem.qp(), M}, problem.zero(), …);
+///     auto u = problem.displacement(r.x());
+template <class S = double>
+class obstacle {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+  using row_major_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
+
+  /// K: n × n, both triangles, definite (which is asserted, not checked); f: n; N: m × n; d: m, +∞
+  /// where nothing is ever met. Rows of N have one entry each, or supports that no other row meets.
+  /// Throws bad_input naming what does not fit: sizes, numbers that are not finite, a K that is not
+  /// symmetric, rows that share unknowns otherwise, bounds that exclude each other.
+  obstacle(sparse_type const& K, vector_type const& f, sparse_type const& N, vector_type const& d)
+      : obstacle(K, data<S>{N, sparse_type(0, f.size()), f, d, vector_type(0)}) {}
+  /// The same of the data of a scene, whose friction is left out of account.
+  obstacle(sparse_type const& K, data<S> const& c) : obstacle(K, c, valid(K, c)) {}
+
+  /// HKH.
+  [[nodiscard]] row_major_type const& matrix() const& { return K_; }
+  row_major_type const& matrix() const&& = delete;
+  /// The problem with bounds; refers to this object.
+  [[nodiscard]] auto qp() const& {
+    return separable_qp{slant::matrix<self_adjoint, positive_definite>(K_), f_, set_};
+  }
+  auto qp() const&& = delete;
+  /// l ≤ v ≤ h.
+  [[nodiscard]] auto const& set() const& { return set_; }
+  auto const& set() const&& = delete;
+  /// v = 0: methods begin at the feasible point next to it.
+  [[nodiscard]] vector_type zero() const { return vector_type::Zero(f_.size()); }
+  /// Whether H is not the identity.
+  [[nodiscard]] bool reflects() const { return coordinates_.reflects; }
+
+  /// v = H u; of a matrix, that of each column. Throws bad_input for a wrong number of rows.
+  template <class V>
+  [[nodiscard]] V coordinates(V const& u) const {
+    slant::detail::check_size("rows of u", u.rows(), f_.size(), "the size of f,");
+    return coordinates_.of(u);
+  }
+  /// u = H v.
+  [[nodiscard]] vector_type displacement(vector_type const& v) const { return coordinates(v); }
+  /// The contact forces λ ≥ 0 of the rows of N, f − K u = Nᵀλ at a solution v. Where several rows
+  /// bound one component the tightest has the force. One product.
+  [[nodiscard]] vector_type multipliers(vector_type const& v) const {
+    slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
+    vector_type const r = f_ - K_ * v;
+    vector_type λ = vector_type::Zero(static_cast<index>(coordinates_.rows.size()));
+    for (index i = 0; i < λ.size(); ++i) {
+      auto const& row = coordinates_.rows[static_cast<std::size_t>(i)];
+      if (row.component < 0) continue;
+      auto const& tightest = row.above ? highest_ : lowest_;
+      if (tightest[static_cast<std::size_t>(row.component)] != i) continue;
+      if (on_bound(row, v) && (row.above == (r[row.component] > S(0)))) {
+        using std::abs;
+        λ[i] = abs(r[row.component]) / row.size;
+      }
+    }
+    return λ;
+  }
+
+ private:
+  struct bounds {
+    vector_type lower, upper;
+  };
+  using set_type = decltype(intervals(std::declval<vector_type>(), std::declval<vector_type>()));
+
+  static detail::bounded_coordinates<S> valid(sparse_type const& K, data<S> const& c) {
+    c.validate();
+    slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
+    slant::detail::require_symmetric_matrix("K", K);
+    return detail::bounded_coordinates<S>(c.N);
+  }
+  obstacle(sparse_type const& K, data<S> const& c, detail::bounded_coordinates<S> coordinates)
+      : coordinates_(std::move(coordinates)),
+        K_(reflects() ? row_major_type(sparse_type(coordinates_.H * K) * coordinates_.H)
+                      : row_major_type(K)),
+        f_(coordinates_.of(c.f)),
+        lowest_(static_cast<std::size_t>(f_.size()), -1),
+        highest_(lowest_),
+        bounds_(bounds_of(c.d)),
+        set_(intervals(bounds_.lower, bounds_.upper)) {}
+
+  [[nodiscard]] bounds bounds_of(vector_type const& d) {
+    S const infinity = std::numeric_limits<S>::infinity();
+    bounds b{vector_type::Constant(f_.size(), -infinity),
+             vector_type::Constant(f_.size(), infinity)};
+    for (index i = 0; i < d.size(); ++i) {
+      auto const& row = coordinates_.rows[static_cast<std::size_t>(i)];
+      if (row.component < 0 || d[i] == infinity) continue;
+      auto const p = static_cast<std::size_t>(row.component);
+      S const bound = row.above ? S(d[i] / row.size) : S(-d[i] / row.size);
+      if (!slant::detail::is_finite(bound)) {
+        throw bad_input("d", slant::detail::show(d[i]),
+                        "a gap within the range of the scalar, in units of its row of N")
+            .at(i);
+      }
+      S& there = row.above ? b.upper[row.component] : b.lower[row.component];
+      if (row.above ? bound < there : bound > there) {
+        there = bound;
+        (row.above ? highest_ : lowest_)[p] = i;
+      }
+      if (b.lower[row.component] > b.upper[row.component]) {
+        index const other = (row.above ? lowest_ : highest_)[p];
+        throw bad_input("d", slant::detail::show(d[i]),
+                        "one that row " + slant::detail::show(other) + " of N does not exclude")
+            .at(i);
+      }
+    }
+    return b;
+  }
+  [[nodiscard]] bool on_bound(detail::bounded_component<S> const& row, vector_type const& v) const {
+    S const& x = v[row.component];
+    return row.above ? x >= bounds_.upper[row.component] : x <= bounds_.lower[row.component];
+  }
+
+  detail::bounded_coordinates<S> coordinates_;
+  row_major_type K_;
+  vector_type f_;
+  std::vector<index> lowest_, highest_;  // the row that bounds a component, or −1
+  bounds bounds_;
+  set_type set_;
+};
+
+template <class S>
+obstacle(Eigen::SparseMatrix<S> const&, data<S> const&) -> obstacle<S>;
+
+}  // namespace slant::contact

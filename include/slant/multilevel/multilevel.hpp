@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+//
+// Multigrid: an approximate inverse of a sparse definite matrix that costs a few products by it.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/multilevel/aggregation.hpp>
+#include <slant/multilevel/multigrid.hpp>
+#include <slant/multilevel/multigrid_options.hpp>
+// IWYU pragma: end_exports

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/solve_obstacle.hpp>
+
+#include <fem/steel_brick.hpp>
+#include <support/effort.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace solve_obstacle_test {
+
+using Eigen::VectorXd;
+using slant::contact::obstacle_route;
+using slant::contact::solve_obstacle;
+using sparse = Eigen::SparseMatrix<double>;
+using options = slant::contact::obstacle_options<double>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+options iterate(fem::contact_scene<3> const& s, double tolerance = 1e-12) {
+  Eigen::MatrixXd nodes(3, s.f.size() / 3);
+  Eigen::Index next = 0;
+  for (Eigen::Index i = 0; i < s.mesh.node_count(); ++i) {
+    if (!s.unknowns.is_fixed(i)) nodes.col(next++) = s.mesh.nodes.col(i);
+  }
+  return {.route = obstacle_route::iterate,
+          .tolerance = tolerance,
+          .near_kernel = slant::contact::rigid_body_modes(nodes),
+          .multigrid = {.coarsest = 100}};
+}
+
+options const factor{.route = obstacle_route::factor, .tolerance = 1e-12};
+
+/// Both routes lead to the same displacements and forces.
+slant::contact::obstacle_solution<double> agree(fem::contact_scene<3> const& s, sparse const& N,
+                                                VectorXd const& f, VectorXd const& d) {
+  auto const a = solve_obstacle(s.K, f, N, d, iterate(s));
+  auto const b = solve_obstacle(s.K, f, N, d, factor);
+  CHECK(a.converged());
+  CHECK(b.converged());
+  CHECK(a.work.factorizations == 0);
+  CHECK((a.u - b.u).norm() <= 1e-9 * b.u.norm());
+  CHECK((a.λ - b.λ).norm() <= 1e-8 * f.norm());
+  return a;
+}
+
+TEST_CASE("the brick by both routes; cycles hardly grow with the mesh") {
+  for (auto const load : fem::brick_loads) {
+    for (int k = 2; k <= test::effort(6, 3); k += 2) {
+      auto const s = fem::make_steel_brick({.k = k, .load = load});
+      auto const a = agree(s, s.N, s.f, s.d);
+      CHECK(a.steps <= 30);
+      CHECK(a.work.inner_iterations <= 160);
+    }
+  }
+}
+
+TEST_CASE("no contact, contact everywhere, gaps that are never closed") {
+  auto const s = fem::make_steel_brick({.k = 3, .load = fem::brick_load::lift});
+  auto const free = agree(s, s.N, s.f, VectorXd::Constant(s.d.size(), infinity));
+  CHECK(free.λ == VectorXd::Zero(s.d.size()));
+  CHECK((s.K * free.u - s.f).norm() <= 1e-9 * s.f.norm());
+  VectorXd down = VectorXd::Zero(s.f.size());
+  for (Eigen::Index i = 2; i < down.size(); i += 3) down[i] = -1;
+  auto const closed = agree(s, s.N, down, s.d);
+  CHECK(closed.λ.minCoeff() > 0);
+  VectorXd half = s.d;
+  half.head(half.size() / 2).setConstant(infinity);
+  auto const some = agree(s, s.N, s.f, half);
+  CHECK(some.λ.head(half.size() / 2) == VectorXd::Zero(half.size() / 2));
+}
+
+TEST_CASE("an inclined foundation: rows of three entries; redundant rows") {
+  auto const s = fem::make_steel_brick({.k = 3, .load = fem::brick_load::pull});
+  sparse inclined = s.N;
+  for (int j = 0; j < s.N.outerSize(); ++j) {
+    for (sparse::InnerIterator e(s.N, j); e; ++e) {
+      inclined.coeffRef(e.row(), j - 1) = 0.2;
+      inclined.coeffRef(e.row(), j - 2) = -0.1;
+    }
+  }
+  agree(s, inclined, s.f, s.d);
+  sparse twice(2 * s.N.rows(), s.N.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < s.N.outerSize(); ++j) {
+    for (sparse::InnerIterator e(s.N, j); e; ++e) {
+      auto const row = static_cast<int>(e.row()), below = row + static_cast<int>(s.N.rows());
+      entries.emplace_back(row, j, e.value());
+      entries.emplace_back(below, j, 2 * e.value());
+    }
+  }
+  twice.setFromTriplets(entries.begin(), entries.end());
+  VectorXd const gaps = VectorXd::Zero(twice.rows());
+  auto const a = solve_obstacle(s.K, s.f, twice, gaps, iterate(s));
+  auto const b = solve_obstacle(s.K, s.f, s.N, s.d, iterate(s));
+  CHECK(a.u == b.u);
+}
+
+TEST_CASE("units: data of 1e-100 and 1e100") {
+  auto const s = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const one = solve_obstacle(s.K, s.f, s.N, s.d, iterate(s));
+  for (double const unit : {1e-100, 1e100}) {
+    auto const loads = solve_obstacle(s.K, VectorXd(unit * s.f), s.N, s.d, iterate(s));
+    CHECK(loads.converged());
+    CHECK((loads.u / unit - one.u).norm() <= 1e-10 * one.u.norm());
+    auto const stiff = solve_obstacle(sparse(unit * s.K), s.f, s.N, s.d, iterate(s));
+    CHECK(stiff.converged());
+    CHECK((stiff.u * unit - one.u).norm() <= 1e-10 * one.u.norm());
+  }
+}
+
+TEST_CASE("the route is reported; without one it is chosen") {
+  auto const s = fem::make_steel_brick({.k = 2});
+  auto const r = solve_obstacle(s.K, s.f, s.N, s.d);
+  CHECK(r.converged());
+  CHECK(r.choice.route == obstacle_route::factor);
+  CHECK(r.work.factorizations == 1);
+  auto const limited =
+      solve_obstacle(s.K, s.f, s.N, s.d, {.route = obstacle_route::iterate, .steps = 1});
+  CHECK(limited.status == slant::status::iteration_limit);
+}
+
+TEST_CASE("what cannot be used is named; an indefinite K is told on either route") {
+  auto const s = fem::make_steel_brick({.k = 2});
+  VectorXd bad = s.f;
+  bad[5] = std::nan("");
+  for (auto const route : {obstacle_route::factor, obstacle_route::iterate}) {
+    options const o{.route = route};
+    CHECK_THROWS_AS((void)solve_obstacle(s.K, bad, s.N, s.d, o), slant::bad_input);
+    CHECK_THROWS_AS((void)solve_obstacle(s.K, s.f, s.N, VectorXd(s.d.head(3)), o),
+                    slant::bad_input);
+    sparse const small = s.K.topLeftCorner(6, 6);
+    CHECK_THROWS_AS((void)solve_obstacle(small, s.f, s.N, s.d, o), slant::bad_input);
+    sparse indefinite = s.K;
+    double const shift = 0.2 * s.K.diagonal().mean();
+    for (Eigen::Index i = 0; i < indefinite.rows(); ++i) indefinite.coeffRef(i, i) -= shift;
+    bool told = false;
+    try {
+      told = !solve_obstacle(indefinite, s.f, s.N, s.d, o).converged();
+    } catch (slant::bad_input const&) {
+      told = true;
+    }
+    CHECK(told);
+  }
+}
+
+}  // namespace solve_obstacle_test
