@@ -28,7 +28,7 @@ usual_scenes="lift:8 lift:12 press:8 pull:8 plates:40 wire:256 stokes:1 torsion:
 tolerances=1e-2,1e-4,1e-6,1e-8,1e-10,1e-12
 # Rows of peers cost little on small scenes; where they fall short of an error they get a chance.
 peer_tolerances=1e-2,1e-4,1e-6,1e-8,1e-9,1e-10,1e-11,1e-12
-growth_methods="symmetric_newton_lumped symmetric_newton_dirichlet interior_then_newton"
+growth_methods="condensed_newton symmetric_newton_lumped symmetric_newton_dirichlet interior_then_newton"
 growth_tolerances=1e-6,1e-8,1e-9,1e-10
 growth_peers_up_to=12
 

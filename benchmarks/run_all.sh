@@ -43,7 +43,8 @@ tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
-  projector_contact projector_search projector_threads total_feti active_sets condensation precision growth load_steps multilevel multilevel_large)
+  projector_contact projector_search projector_threads total_feti active_sets condensation
+  load_steps multilevel multilevel_large precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}

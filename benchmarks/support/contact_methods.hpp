@@ -4,8 +4,11 @@
 // one takes. Each starts from the matrices of the scene and ends with the displacements.
 #pragma once
 
+#include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/preconditioner.hpp>
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/sequel.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/gimssn.hpp>
@@ -13,6 +16,7 @@
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/unconstrained_start.hpp>
 #include <tuple>
 #include <utility>
 
@@ -59,9 +63,27 @@ template <class Solve>
   return o;
 }
 
+/// The way of README.md: condensation, start from the unconstrained minimum, symmetric Newton.
+struct condensed_newton {
+  template <class Case>
+  outcome operator()(Case const& c, request const& asked) const {
+    auto const data = c.data();
+    slant::static_condensation const factor(c.scene.K, slant::contact::contact_unknowns(data));
+    slant::contact::dual const dual(typename Case::friction{}, factor, data);
+    auto const M = slant::contact::lumped_preconditioner(c.scene.K, dual.constraints());
+    auto const qp = dual.qp();
+    auto const start = slant::unconstrained_start(qp, M);
+    auto const report =
+        slant::solve(slant::symmetric_newton{qp, M, newton_options(asked)}, start.x, asked.stop());
+    return {dual.displacement(report.x()), start.applications + all_products(report.state.work),
+            status_name(report.status)};
+  }
+};
+
 [[nodiscard]] inline auto contact_methods() {
   using slant::contact::dirichlet_preconditioner, slant::contact::lumped_preconditioner;
   return std::tuple{
+      contact_method{"condensed_newton", "dual by condensation", condensed_newton{}},
       by_sweeps("symmetric_newton",
                 [](auto const& dual, auto const&, request const& r) {
                   return slant::solve(slant::symmetric_newton{dual.qp(), newton_options(r)},
