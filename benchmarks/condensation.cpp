@@ -3,7 +3,7 @@
 // What a frictional contact problem costs beside one linear solve with the same matrix, and an
 // application of the condensed operator beside reading its entries. One thread.
 //
-//   bench_condensation K [K…]
+//   bench_condensation [--levels L] K [K…]
 //
 // Columns: linear_seconds is one factorisation by slant::factorize and one solve; total_seconds is
 // everything from the matrices to u (ordering, factorisation, condensation, right-hand side,
@@ -54,10 +54,11 @@ struct outcome {
 
 /// The whole of it, from the matrices to u.
 outcome solve_contact(fem::contact_scene<3> const& scene, slant::contact::data<double> const& data,
-                      double tolerance) {
+                      slant::condensation_options const& condensation, double tolerance) {
   outcome o;
   double const begin = now();
-  slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data));
+  slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data),
+                                          condensation);
   slant::contact::dual const problem(slant::contact::friction_disc{}, factor, data);
   auto const M = slant::contact::lumped_preconditioner(scene.K, problem.constraints());
   double const iterate = now();
@@ -119,7 +120,13 @@ int main(int argc, char** argv) {
       "k,load,unknowns,multipliers,levels,linear_seconds,total_seconds,ratio,iteration_seconds,"
       "steps,"
       "products,error,product_ms,rounded_ms,reading_ms,product_over_reading\n");
-  for (int i = 1; i < argc; ++i) {
+  slant::condensation_options condensation;
+  int first = 1;
+  if (argc > 2 && std::string(argv[1]) == "--levels") {
+    condensation.levels = std::atoi(argv[2]);
+    first = 3;
+  }
+  for (int i = first; i < argc; ++i) {
     int const k = std::atoi(argv[i]);
     int const runs = k <= 16 ? 5 : 1;
     for (fem::brick_load const load : fem::brick_loads) {
@@ -129,15 +136,16 @@ int main(int argc, char** argv) {
       outcome o;
       for (int run = 0; run < runs; ++run) {
         linear.push_back(linear_solve(scene));
-        o = solve_contact(scene, data, 1e-10);
+        o = solve_contact(scene, data, condensation, 1e-10);
         total.push_back(o.seconds);
         iteration.push_back(o.iteration_seconds);
       }
-      VectorXd const exact = solve_contact(scene, data, 1e-13).u;
+      VectorXd const exact = solve_contact(scene, data, condensation, 1e-13).u;
       VectorXd const e = o.u - exact;
       double const error = std::sqrt(e.dot(scene.K * e) / exact.dot(scene.K * exact));
       double const ratio = median(total) / median(linear);
-      slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data));
+      slant::static_condensation const factor(scene.K, slant::contact::contact_unknowns(data),
+                                              condensation);
       slant::contact::dual const problem(slant::contact::friction_disc{}, factor, data);
       auto const a = problem.a();
       double const product = application(a), rounded = application(a.rounded()),
