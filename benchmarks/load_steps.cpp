@@ -39,7 +39,7 @@ using vector = Eigen::VectorXd;
 
 constexpr int steps = 20;
 constexpr double accuracy = 1e-8;   // of λ, in the energy norm
-constexpr double tolerance = 1e-9;  // of the reduced gradient, enough for that
+constexpr double tolerance = 2e-9;  // of the reduced gradient, enough for that
 constexpr double most = 3;          // ratio of twenty steps to the first
 
 double processor_seconds() {

@@ -2,19 +2,21 @@
 //
 // One load step after the other, by any method for the dual problem.
 //
-//     update     f, d, g of the step             one solve with K if there is a new f, else none
-//     predict    the point of least q on the line through the last two solutions       no product
-//     start      there, or at the last solution if that has a smaller q on Λ      one or two
-//     products solve      from there, until the rule fires
+//     update     f, d, g of the step                          at most one solve with K, for f
+//     predict    where q is least on the line through the
+//                last two solutions                           no product
+//     start      there, or at the last solution if that has
+//                a smaller q in Λ                             one or two products
+//     solve      from there, until the rule fires
 //
 // Nothing is factored, and what the method learnt about A in its first step stays: σ_max, mean(diag
 // A), step lengths, all memory. A method takes part by
 //
 //     resume(state, x0)      start(x0) in a state that it has made, after b or Λ have changed
 //
-// one without it (interior_point) makes a new state in every step, at the predicted point. The
-// prediction needs the gradient as states of projected gradient methods keep it, x, r and unit;
-// else the last solution is the start.
+// one without it (interior_point) makes a new state in every step. The prediction needs the
+// gradient as states of projected gradient methods keep it, x, r and unit; else the last solution
+// is the start.
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
