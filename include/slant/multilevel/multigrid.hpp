@@ -239,14 +239,10 @@ class multigrid {
 };
 
 template <class M>
-explicit multigrid(Eigen::SparseMatrixBase<M> const&) -> multigrid<typename M::Scalar>;
-template <class M>
-multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const&)
+multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const& = {})
     -> multigrid<typename M::Scalar>;
 template <class M, class B>
-multigrid(Eigen::SparseMatrixBase<M> const&, B const&) -> multigrid<typename M::Scalar>;
-template <class M, class B>
-multigrid(Eigen::SparseMatrixBase<M> const&, B const&, multigrid_options const&)
+multigrid(Eigen::SparseMatrixBase<M> const&, B const&, multigrid_options const& = {})
     -> multigrid<typename M::Scalar>;
 
 }  // namespace slant
