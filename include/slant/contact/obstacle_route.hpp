@@ -21,6 +21,7 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace slant::contact {
 

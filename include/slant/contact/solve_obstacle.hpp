@@ -19,8 +19,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant::contact {

@@ -86,7 +86,7 @@ class multigrid {
 
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
-  /// Unknowns of each level, the finest first; the last level is factored.
+  /// Unknowns of each level, the finest first, the factored one last.
   [[nodiscard]] std::vector<index> sizes() const {
     std::vector<index> list;
     for (auto const& l : levels_->smooth) list.push_back(l.sweep.matrix().rows());
@@ -132,8 +132,8 @@ class multigrid {
     run(x, y, w, detail::nothing_held{});
   }
 
-  /// What follows is about the face: unknowns that it does not keep are held. Curved faces, which
-  /// mix unknowns, are not for this preconditioner.
+  /// Unknowns that the face does not keep are held from now on. Not for curved faces, which mix
+  /// them.
   template <class Face>
   void enter(Face const& face, workspace_type& w) const {
     if (rows_ == 0) return;
@@ -239,14 +239,10 @@ class multigrid {
 };
 
 template <class M>
-explicit multigrid(Eigen::SparseMatrixBase<M> const&) -> multigrid<typename M::Scalar>;
-template <class M>
-multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const&)
+multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const& = {})
     -> multigrid<typename M::Scalar>;
 template <class M, class B>
-multigrid(Eigen::SparseMatrixBase<M> const&, B const&) -> multigrid<typename M::Scalar>;
-template <class M, class B>
-multigrid(Eigen::SparseMatrixBase<M> const&, B const&, multigrid_options const&)
+multigrid(Eigen::SparseMatrixBase<M> const&, B const&, multigrid_options const& = {})
     -> multigrid<typename M::Scalar>;
 
 }  // namespace slant
