@@ -51,6 +51,25 @@ struct scene {
   }
 };
 
+TEST_CASE("an operator outlives the factorisation, other scalars included") {
+  sparse const k = test::grid_laplacian(3, 0.1);
+  Eigen::SparseMatrix<float> const K = k.cast<float>();
+  Eigen::SparseMatrix<float> B(2, K.cols());
+  B.insert(0, 0) = 1;
+  B.insert(1, 2) = -1;
+  auto const a = [&] {
+    slant::static_condensation const factor(K, {0, 2});
+    CHECK(factor.name() == "ldlt");
+    return factor.restricted(B);
+  }();
+  Eigen::VectorXf const x = Eigen::VectorXf::Ones(2);
+  Eigen::VectorXf y(2);
+  slant::apply(a, x, y);
+  MatrixXd const A = MatrixXd(B.cast<double>()) *
+                     MatrixXd(k).partialPivLu().solve(MatrixXd(B.cast<double>().transpose()));
+  CHECK((y.cast<double>() - A * x.cast<double>()).norm() < 1e-5 * y.norm());
+}
+
 std::string complaint(auto const& make) {
   try {
     make();
@@ -190,6 +209,39 @@ TEST_CASE("the report says what was compared, what was done, and why") {
   CHECK(forced.report().plans.size() == 1);
   CHECK(forced.report().chosen.levels == 3);
   CHECK(forced.report().reason == "as asked for");
+}
+
+TEST_CASE("what is reported is what was done, whatever the memory") {
+  scene const s(6);
+  auto const bytes = [&](slant::condensation_options const& o) {
+    slant::static_condensation const factor(s.K, s.contact, o);
+    return std::pair(factor.report().chosen.levels, factor.restricted(s.B).bytes());
+  };
+  for (index const applications : {0, 20}) {
+    for (double most = 1; most < 3; most += 0.1) {
+      auto const [levels, size] = bytes({.applications = applications, .most_memory = most});
+      CHECK(bytes({.levels = levels}).second == size);
+    }
+  }
+  CHECK(bytes({.levels = index(1) << 40}).second == bytes({.levels = 1000}).second);
+}
+
+TEST_CASE("workspaces fit other numbers of right-hand sides; twins are made once") {
+  scene const s(4);
+  slant::static_condensation const factor(s.K, s.contact);
+  auto const a = factor.restricted(s.B);
+  VectorXd const x = VectorXd::Random(a.cols());
+  auto w = slant::workspace(a, x);
+  MatrixXd const X = MatrixXd::Random(a.cols(), 3);
+  MatrixXd Y(a.rows(), 3), Z(a.rows(), 3);
+  slant::apply(a, X, Y);
+  slant::apply(a, X, Z, w);
+  CHECK(Y == Z);
+  (void)a.rounded();
+  slant::testing::allocation_guard guard;
+  (void)a.rounded();
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
 }
 
 TEST_CASE("a body without contact never enters") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/methods/rounded_products.hpp>
 
+#include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
@@ -11,6 +12,10 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "factorizations/spd_examples.hpp"
 
 namespace rounded_products_test {
 
@@ -25,7 +30,7 @@ MatrixXd second_differences(index n) {
   return a;
 }
 
-/// An operator whose twin is wrong by a relative 2⁻¹⁰.
+/// An operator whose twin is wrong by a relative 2⁻²⁰.
 struct imprecise {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
   MatrixXd a;
@@ -34,7 +39,7 @@ struct imprecise {
   [[nodiscard]] index cols() const { return a.rows(); }
   void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = (1 + error) * (a * x); }
   [[nodiscard]] imprecise rounded() const {
-    imprecise twin{a, std::ldexp(1.0, -10)};
+    imprecise twin{a, std::ldexp(1.0, -20)};
     twin.a.diagonal().array() *= 1 + twin.error;
     return twin;
   }
@@ -71,6 +76,34 @@ TEST_CASE("a twin that is of no use is given up") {
                               slant::reduced_gradient_below(1e-12) || slant::at_most(60));
   CHECK(r.converged());
   CHECK(!r.state.products.at_work());
+}
+
+/// Contact on the bottom of a cube that is held almost not at all: κ(A) is about 1/shift.
+void check_ill_conditioned(double shift, index unknowns, double tolerance) {
+  CAPTURE(shift);
+  auto const K = test::grid_laplacian(6, shift);
+  std::vector<index> contact(static_cast<std::size_t>(unknowns));
+  std::iota(contact.begin(), contact.end(), 0);
+  Eigen::SparseMatrix<double> B(unknowns, K.cols());
+  for (index i = 0; i < unknowns; ++i) B.insert(i, i) = 1;
+  slant::static_condensation const factor(K, contact);
+  VectorXd f(K.rows()), u(K.rows());
+  for (index i = 0; i < f.size(); ++i) f[i] = std::sin(double(i * i)) + 0.2;
+  slant::apply(slant::inverse(factor), f, u);
+  VectorXd const b = B * u;
+  auto const a = factor.restricted(B);
+  auto const set = slant::half_lines(VectorXd(VectorXd::Zero(unknowns)));
+  slant::separable_qp const qp{a, b, set};
+  auto const rule = slant::reduced_gradient_below(tolerance) || slant::at_most(60);
+  auto const r =
+      slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(unknowns)), rule);
+  CHECK(r.converged());
+}
+
+TEST_CASE(
+    "where A is too badly conditioned for a twin of floats the digits are found all the same") {
+  check_ill_conditioned(0.1, 1, 1e-13);
+  for (double const shift : {1e-7, 1e-8, 1e-9, 1e-10}) check_ill_conditioned(shift, 36, 1e-11);
 }
 
 }  // namespace rounded_products_test

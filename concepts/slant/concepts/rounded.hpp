@@ -10,7 +10,8 @@
 // Minimal definition. rounded(): an operator of the same size, on the same vectors, with the same
 // laws up to its precision. It owns what it needs; making it may take as long as an application.
 //
-// Laws. ‖rounded(A) x − A x‖ ≤ 2⁻¹⁰ ‖A‖ ‖x‖.
+// Law. ‖rounded(A) x − A x‖ is a few units of the lower precision times ‖A‖ ‖x‖, or times √κ(A)
+// more where A is applied by its factors. Methods do not rely on it: they look at what comes out.
 //
 // Models. slant::condensed_operator<double>; slant::counted passes it on.
 #pragma once

@@ -13,6 +13,7 @@
 
 #include <slant/concepts/factorization.hpp>
 #include <slant/factorizations/detail/cholmod_handles.hpp>
+#include <slant/factorizations/detail/cholmod_workspace.hpp>
 #include <slant/factorizations/detail/spd_checks.hpp>
 
 #include <Eigen/SparseCore>

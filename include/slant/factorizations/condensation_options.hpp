@@ -24,8 +24,9 @@
 
 namespace slant {
 
-/// Options of static_condensation. The constants are measured (one core, `./run bench --only
-/// condensation`); their ratio is what matters, and that differs little between processors.
+/// Options of static_condensation. The constants were measured on one core of an AMD EPYC (factors
+/// and sweeps of the steel brick); their ratio is what matters, and that differs little between
+/// processors.
 struct condensation_options {
   /// 0: all contact unknowns last; l: behind their own subdomain of those that the l topmost
   /// separators leave; none: what the cost model finds best.
@@ -68,7 +69,7 @@ struct condensation_plan {
   double seconds = 0;       ///< predicted, for the factorisation and all applications
 
   /// Bytes of the factor with the copies of its tail, one in doubles and one in floats, that
-  /// applications read.
+  /// applications read; without the padding that blocks need.
   [[nodiscard]] double bytes() const { return 8 * entries + 12 * tail_entries; }
 
   void predict(condensation_options const& o) {

@@ -61,6 +61,9 @@ class condensed_operator {
   template <class X, class Y>
     requires std::same_as<scalar_t<X>, double>
   void apply(X const& x, Y& y, workspace_type& w) const {
+    index const columns = slant::local(x).cols();
+    w.tail.x.resize(w.tail.x.rows(), columns);
+    w.tail.buffer.resize(w.tail.buffer.rows(), columns);
     w.forces.noalias() = b_->transpose() * slant::local(x);
     if constexpr (std::is_same_v<T, double>) {
       w.tail.x.swap(w.forces);
@@ -90,11 +93,11 @@ class condensed_operator {
     return (a + a.transpose()) / 2;
   }
 
-  /// The same with a factor of floats, which it owns.
+  /// The same with a factor of floats, which is made on first use and shared.
   [[nodiscard]] condensed_operator<float> rounded() const
     requires std::same_as<T, double>
   {
-    return {b_, std::make_shared<detail::tail_factor<float>>(*factor_), unit_};
+    return {b_, factor_->rounded(), unit_};
   }
 
  private:
@@ -111,7 +114,8 @@ class condensed_operator {
   template <class V>
   static int exponent(V const& v) {
     int e = 0;
-    if (v.size() > 0) std::frexp(v.cwiseAbs().maxCoeff(), &e);
+    double const largest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
+    if (std::isfinite(largest)) std::frexp(largest, &e);
     return -std::clamp(e, -1000, 1000);
   }
 

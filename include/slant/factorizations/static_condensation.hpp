@@ -28,6 +28,7 @@
 #include <slant/factorizations/detail/cholmod_condensation.hpp>
 #endif
 
+#include <concepts>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -108,7 +109,8 @@ class static_condensation {
     if constexpr (condenses) {
       return factors_.restricted(b.derived());
     } else {
-      return congruence(slant::matrix(Eigen::SparseMatrix<S>(b.derived())), inverse(factors_));
+      return congruence(slant::matrix(Eigen::SparseMatrix<S>(b.derived())),
+                        inverse(factors(factors_)));
     }
   }
 

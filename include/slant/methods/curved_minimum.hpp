@@ -37,6 +37,7 @@ struct inner_result {
   index iterations;  ///< products spent
   S residual;        ///< ‖Π r + H t‖, in units of r
   bool finite;       ///< no number left the range of the scalar
+  S first_residual;  ///< ‖Π r‖
 };
 
 /// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
@@ -72,6 +73,7 @@ class curved_minimum {
     face.keep(z_, g_);
     scalar size = norm(g_);
     scalar gz(0);
+    scalar const first = size;
     if (target < floor * size) target = floor * size;
     if constexpr (preconditions_faces<M, V, Face>) {
       if (face.curved_count() == 0) m.enter(face, m_workspace_);
@@ -102,7 +104,16 @@ class curved_minimum {
       slant::local(g_) += α * slant::local(z_);
       size = norm(g_);
     }
-    return {k, size, finite && detail::is_finite(size)};
+    return {k, size, finite && detail::is_finite(size), first};
+  }
+
+  /// ‖Π r + H t‖ from t and its image.
+  template <class Face>
+  scalar residual(V const& r, Face const& face, scalar const& ρ) {
+    slant::local(z_) = slant::local(r) + slant::local(image);
+    face.keep(z_, g_);
+    face.add_curvature(scalar(1) / ρ, t, g_);
+    return norm(g_);
   }
 
  private:

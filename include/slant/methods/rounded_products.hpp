@@ -2,15 +2,18 @@
 //
 // The operator that inner iterations apply: the rounded twin of A where A has one, else A itself.
 //
-// With rounded products a residual is not worth lowering by more than a factor of 2⁻¹²; the next
-// step begins with an exact one. Where rounding spoils a step, because A is too badly conditioned
-// for it, `give_up` turns to A for the rest of the iteration.
+// The step t that conjugate gradients find with the twin is as good as its products are; its image
+// A t is then computed by A, so that whoever takes the step knows the residual as exactly as
+// without a twin. If that residual is not what the twin promised, because A is too badly
+// conditioned for its precision, or a number has left its range, the step is computed anew with A,
+// and so are all others.
 #pragma once
 
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/rounded.hpp>
 #include <slant/concepts/vector.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -49,11 +52,27 @@ class rounded_products<A, V> {
   template <class Inner, class WA, class M, class Face, class S>
   auto minimise(Inner& inner, A const& a, WA& wa, M const& m, V const& r, Face const& face,
                 S const& ρ, S const& s, S const& target, index most) {
-    if (!at_work()) return inner.minimise(a, wa, m, r, face, ρ, s, target, most);
-    return inner.minimise(*twin_, workspace_, m, r, face, ρ, s, target, most, S(1) / S(4096));
+    auto const exactly = [&] { return inner.minimise(a, wa, m, r, face, ρ, s, target, most); };
+    if (!at_work()) return exactly();
+    auto found = inner.minimise(*twin_, workspace_, m, r, face, ρ, s, target, most, least_progress);
+    slant::apply(a, inner.t, inner.image, wa);
+    ++found.iterations;
+    S const residual = inner.residual(r, face, ρ);
+    S const enough = std::max(S(4) * found.residual, S(16) * least_progress * found.first_residual);
+    if (found.finite && residual <= enough) {
+      found.residual = residual;
+      return found;
+    }
+    give_up();
+    auto again = exactly();
+    again.iterations += found.iterations;
+    return again;
   }
 
  private:
+  /// With products of this precision a residual is not worth lowering further in one step.
+  static constexpr scalar_t<V> least_progress = scalar_t<V>(1) / scalar_t<V>(4096);
+
   std::optional<twin> twin_;  // empty once given up
   workspace_t<twin, V> workspace_;
 };

@@ -16,6 +16,7 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/rounded.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/krylov/unit.hpp>
 #include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/identity.hpp>
 
@@ -38,7 +39,10 @@ template <class A, class M, class V>
                                  scalar_t<V> const& tolerance, index most) {
   using S = scalar_t<V>;
   index const n = slant::local(b).size();
+  // In units in which b is of the order 1, so that no square leaves the range.
+  S const unit = unit_near(slant::norm(b));
   V r = b, z = like(b, n), p = like(b, n), Ap = like(b, n);
+  slant::local(r) /= unit;
   auto wa = slant::workspace(a, b);
   auto wm = slant::workspace(m, b);
   slant::apply(m, r, z, wm);
@@ -59,6 +63,7 @@ template <class A, class M, class V>
     slant::local(p) = (next / size) * slant::local(p) + slant::local(z);
     size = next;
   }
+  slant::local(x) *= unit;
   return k;
 }
 

@@ -90,23 +90,23 @@ class cholmod_condensation {
     separator_tree const separators(given.parent());
     std::vector<char> const groups = quotient.groups(marked);
     double const weight = static_cast<double>(matrix.rows()) / quotient.size();
+    auto const order_of = [&](index levels) {
+      return postponed(given.order(), groups, separators.subtrees(levels));
+    };
     // More levels cost ever less to factor and ever more to apply: the best one is before they
     // rise.
-    std::vector<int> best;
-    index const first = options.levels.value_or(0), last = options.levels.value_or(most_levels);
+    auto& plans = report.plans;
+    index const first = options.levels.value_or(0);
     int rises = 0;
-    for (index levels = first; levels <= last && rises < 2; ++levels) {
-      cholmod_ordering const order(
-          view, postponed(given.order(), groups, separators.subtrees(static_cast<int>(levels))));
-      report.plans.push_back(order.plan(levels, groups, weight));
-      report.plans.back().predict(options);
-      auto const& plans = report.plans;
-      if (plans.size() > 1 && plans.back().seconds > plans[plans.size() - 2].seconds) ++rises;
-      if (&cheapest(plans, options) == &plans.back()) best = quotient.expanded(order.order());
+    for (index levels = first; rises < 2; ++levels) {
+      plans.push_back(cholmod_ordering(view, order_of(levels)).plan(levels, groups, weight));
+      plans.back().predict(options);
+      if (plans.size() > 1 && plans.back().seconds >= plans[plans.size() - 2].seconds) ++rises;
+      if (options.levels || separators.subtrees(levels).empty()) break;
     }
-    report.chosen = cheapest(report.plans, options);
+    report.chosen = cheapest(plans, options);
     report.reason = options.levels ? "as asked for" : reason(report);
-    return best;
+    return quotient.expanded(order_of(report.chosen.levels));
   }
 
   static std::string reason(condensation_report const& report) {
@@ -162,8 +162,6 @@ class cholmod_condensation {
           return p.entries[(column + p.skipped) * p.height + row + p.skipped];
         });
   }
-
-  static constexpr index most_levels = 12;
 
   std::vector<char> marked_;
   condensation_report report_;

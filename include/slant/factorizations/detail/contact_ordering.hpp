@@ -44,9 +44,9 @@ class separator_tree {
   }
 
   /// Columns [first, last] of each subtree under the topmost `levels` separators, in order.
-  [[nodiscard]] std::vector<std::pair<int, int>> subtrees(int levels) const {
+  [[nodiscard]] std::vector<std::pair<int, int>> subtrees(index levels) const {
     std::vector<int> roots = children_.back();
-    for (int l = 0; l < levels; ++l) {
+    for (index l = 0; l < levels && !roots.empty(); ++l) {
       std::vector<int> below;
       for (int root : roots) {
         auto const& parts = children_of_chain(root);

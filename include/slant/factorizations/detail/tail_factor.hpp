@@ -22,9 +22,11 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 namespace slant::detail {
@@ -84,14 +86,15 @@ class tail_factor {
   template <class U>
   explicit tail_factor(tail_factor<U> const& other) : shape_(other.shape()) {
     values_.resize(other.values().size());
-    T const least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+    U const least = U(std::numeric_limits<T>::min()) / U(std::numeric_limits<T>::epsilon());
+    U const most = U(std::numeric_limits<T>::max());
     constexpr index old_tile = 16 / static_cast<index>(sizeof(U));
     T* place = values_.data();
     prefer_large_pages(place, values_.size());
     U const* from = other.values().data();
     auto const copy = [&](index offset) {
-      auto const v = static_cast<T>(from[offset]);
-      *place++ = v < least && -v < least ? T(0) : v;
+      U const v = std::clamp(from[offset], -most, most);
+      *place++ = v < least && -v < least ? T(0) : static_cast<T>(v);
     };
     for (auto const& s : shape_->supernodes()) {
       for (index c = 0; c < s.padded_columns(); c += width) {
@@ -111,6 +114,14 @@ class tail_factor {
   [[nodiscard]] std::shared_ptr<tail_shape const> const& shape() const noexcept { return shape_; }
   [[nodiscard]] Eigen::Array<T, Eigen::Dynamic, 1> const& values() const noexcept {
     return values_;
+  }
+
+  /// The same in floats, made when first asked for.
+  [[nodiscard]] std::shared_ptr<tail_factor<float> const> rounded() const
+    requires std::same_as<T, double>
+  {
+    std::call_once(once_, [this] { rounded_ = std::make_shared<tail_factor<float>>(*this); });
+    return rounded_;
   }
 
   /// v.x ← (L_tt L_ttᵀ)⁻¹ v.x.
@@ -212,6 +223,8 @@ class tail_factor {
 
   std::shared_ptr<tail_shape const> shape_;
   Eigen::Array<T, Eigen::Dynamic, 1> values_;
+  mutable std::once_flag once_;
+  mutable std::shared_ptr<tail_factor<float> const> rounded_;
 };
 
 }  // namespace slant::detail
