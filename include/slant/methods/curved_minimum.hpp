@@ -34,10 +34,10 @@ namespace slant {
 /// What became of the minimisation.
 template <class S>
 struct inner_result {
-  index iterations;  ///< products spent
-  S residual;        ///< ‖Π r + H t‖, in units of r
-  bool finite;       ///< no number left the range of the scalar
-  S first_residual;  ///< ‖Π r‖
+  index iterations;     ///< products spent
+  S residual;           ///< ‖Π r + H t‖, in units of r
+  bool finite;          ///< no number left the range of the scalar
+  S first_residual{0};  ///< ‖Π r‖, where it is of interest
 };
 
 /// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
