@@ -6,13 +6,15 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+// First: a complaint about a method begins with the trail of headers that has led to it.
+#include <slant/methods/methods.hpp>
+
 #include <slant/concepts/concepts.hpp>
 #include <slant/contact/contact.hpp>
 #include <slant/factorizations/factorizations.hpp>
 #include <slant/io/io.hpp>
 #include <slant/iteration/iteration.hpp>
 #include <slant/krylov/krylov.hpp>
-#include <slant/methods/methods.hpp>
 #include <slant/multilevel/multilevel.hpp>
 #include <slant/newton/newton.hpp>
 #include <slant/operators/operators.hpp>

@@ -128,6 +128,25 @@ std::string complaint(Dual& dual, contact::load_step<double> const& step) {
   return what;
 }
 
+TEST_CASE("a small change beside a huge entry, as of a penalty, is a new load") {
+  Eigen::SparseMatrix<double> K(3, 3);
+  K.insert(0, 0) = 1e20;
+  K.insert(1, 1) = K.insert(2, 2) = 2;
+  K.insert(1, 2) = K.insert(2, 1) = -1;
+  contact::data<double> c;
+  c.N.resize(1, 3);
+  c.N.insert(0, 2) = 1;
+  c.T.resize(0, 3);
+  c.f = Eigen::Vector3d(1e19, 0, 0.5);
+  c.d = VectorXd::Zero(1);
+  slant::ldlt const factor(K);
+  contact::dual dual(contact::frictionless{}, factor, c);
+  c.f[2] = 5;
+  contact::dual const fresh(contact::frictionless{}, factor, c);
+  dual.update_load(c.f);
+  CHECK(dual.b() == fresh.b());
+}
+
 TEST_CASE("bad data are named and change nothing, not even the part that was good") {
   fixture const t;
   auto dual = t.problem();

@@ -65,7 +65,7 @@ TEST_CASE("finer meshes have fewer arrows than nodes") {
 TEST_CASE("the contact becomes a PNG where gnuplot is installed") {
   io_test::temporary_folder const folder;
   auto const result = fem::contact_plot(folder / "c.png", some_field(2));
-  CHECK(result.written == (io_test::get(folder / "c.png").substr(1, 3) == "PNG"));
+  CHECK(result.written == (io_test::get(folder / "c.png").starts_with("\x89PNG")));
   bool const missing = contains(result.message, "was not found");
   CHECK(result.written != missing);  // a script that gnuplot refuses is neither
 }

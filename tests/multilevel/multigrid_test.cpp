@@ -184,6 +184,24 @@ TEST_CASE("nothing, isolated unknowns, everything held") {
   CHECK(z == VectorXd::Zero(144));
 }
 
+TEST_CASE("an unknown by itself, where damping leaves nothing of its smoothed column") {
+  int const n = 901;  // of the ring λ_max(D⁻¹K) = 4/3, the damping
+  sparse K(n, n);
+  for (int i = 0; i + 1 < n; ++i) {
+    int const next = (i + 1) % (n - 1);
+    K.coeffRef(i, i) = 4;
+    K.coeffRef(i, next) = K.coeffRef(next, i) = -2.0 / 3;
+  }
+  K.coeffRef(n - 1, n - 1) = 4;
+  K.makeCompressed();
+  multigrid const m(K);
+  VectorXd const x = VectorXd::LinSpaced(n, -1, 1);
+  VectorXd y(n);
+  slant::apply(m, x, y);
+  CHECK(x.dot(y) > 0);
+  CHECK(y[n - 1] == doctest::Approx(x[n - 1] / 4));
+}
+
 TEST_CASE("what cannot be used is named") {
   sparse K = laplacian(10, 10);
   CHECK_THROWS_AS(multigrid(sparse(3, 4)), slant::bad_input);

@@ -52,9 +52,9 @@ class load_steps_view
 
     void begin() {
       if (begun) return;
-      begun = true;
       next = std::ranges::begin(steps);
       solve();
+      begun = true;  // not if that has thrown
     }
     void advance() {
       if (report->converged()) {
@@ -64,7 +64,10 @@ class load_steps_view
         report = nullptr;
       }
     }
-    void solve() { report = next == std::ranges::end(steps) ? nullptr : &stepper.advance(*next); }
+    void solve() {
+      report = nullptr;  // over, if this throws
+      if (next != std::ranges::end(steps)) report = &stepper.advance(*next);
+    }
   };
   struct cursor {
     run* r = nullptr;

@@ -27,8 +27,8 @@
 
 namespace slant::contact {
 
-/// The problem at the top of this file. Holds all it needs; qp() refers to it, so it cannot be had
-/// from a temporary.
+/// The problem at the top of this file. Holds all it needs; not movable, and qp() not to be had
+/// from a temporary: it refers to this object.
 ///
 ///     slant::contact::obstacle problem(K, f, N, d);
 ///     slant::multigrid M(problem.matrix(), problem.coordinates(rigid_body_modes(nodes)));
@@ -50,6 +50,8 @@ class obstacle {
       : obstacle(K, data<S>{N, sparse_type(0, f.size()), f, d, vector_type(0)}) {}
   /// The same of the data of a scene, whose friction is left out of account.
   obstacle(sparse_type const& K, data<S> const& c) : obstacle(K, c, valid(K, c)) {}
+  obstacle(obstacle const&) = delete;
+  obstacle& operator=(obstacle const&) = delete;
 
   /// HKH.
   [[nodiscard]] row_major_type const& matrix() const& { return K_; }

@@ -76,8 +76,8 @@ template <class S, class QP, class M>
 
 /// Solves the problem at the top of this file: K (n × n, both triangles, definite), f (n), N (m ×
 /// n), d (m, +∞ where nothing is met). Throws bad_input for data that do not fit, for a K that is
-/// found not to be definite, and where N cannot be had by the route that is asked for; a K that is
-/// not definite without being found out ends as status breakdown.
+/// found not to be definite, and where N cannot be had by the route that is asked for; with a K
+/// that is not definite without being found out any status may be the end.
 template <class S>
 [[nodiscard]] obstacle_solution<S> solve_obstacle(
     Eigen::SparseMatrix<S> const& K,
@@ -89,6 +89,10 @@ template <class S>
   c.validate();
   slant::detail::check_size("rows of K", K.rows(), f.size(), "the size of f,");
   slant::detail::check_size("columns of K", K.cols(), f.size(), "the size of f,");
+  if (o.near_kernel.cols() > 0) {
+    slant::detail::check_size("rows of near_kernel", o.near_kernel.rows(), f.size(),
+                              "the size of f,");
+  }
   obstacle_solution<S> s;
   s.choice = choose_route(K, N, o.route, o.costs);
   if (s.choice.route == obstacle_route::iterate) {

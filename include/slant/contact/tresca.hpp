@@ -109,7 +109,7 @@ class dual {
       if (known_.empty()) known_.add(f_, free_displacement_);
       displacement.resize(f_.size());
       if (!known_.combine(*step.f, displacement)) {
-        slant::apply(inverse(factor_.get()), *step.f, displacement);
+        solve_once(*step.f, displacement);
         check_range(displacement);
         known_.add(*step.f, displacement);
       }
@@ -117,6 +117,7 @@ class dual {
     if (step.f || step.d) {
       b.noalias() = B_ * (step.f ? displacement : free_displacement_);
       detail::subtract_gaps(step.d ? *step.d : d_, b);
+      slant::detail::check_finite("b", b);
     }
     if (step.g) set_ = detail::feasible_set(Friction{}, d_.size(), *step.g);
     // Nothing throws from here on.

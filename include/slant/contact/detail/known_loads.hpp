@@ -51,9 +51,16 @@ class known_loads {
       }
     }
     using std::abs;
-    scalar const rounding = scalar(8) * std::numeric_limits<scalar>::epsilon() * f.stableNorm();
-    // Also false if there is an infinity or a NaN.
-    if (!(rest.stableNorm() <= rounding && abs(α) + abs(β) <= scalar(64))) return false;
+    if (!(abs(α) + abs(β) <= scalar(64))) return false;  // also if it is a NaN
+    // Component by component: beside a large one, such as that of a penalty, others matter too.
+    scalar const rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
+    for (Eigen::Index i = 0; i < f.size(); ++i) {
+      scalar size = abs(f[i]);
+      if (!pairs_.empty()) {
+        size += abs(α * pairs_.front().first[i]) + abs(β * pairs_.back().first[i]);
+      }
+      if (!(abs(rest[i]) <= rounding * size)) return false;
+    }
     u.setZero();
     if (!pairs_.empty()) u = α * pairs_.front().second + β * pairs_.back().second;
     return true;

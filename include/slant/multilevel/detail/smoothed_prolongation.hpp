@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slant::detail {
 
@@ -64,6 +65,7 @@ template <class S, class V>
 template <class S>
 [[nodiscard]] row_major_sparse<S> smoothed_prolongation(row_major_sparse<S> const& k,
                                                         row_major_sparse<S> const& P0, S damping) {
+  using std::sqrt;
   Eigen::Matrix<S, Eigen::Dynamic, 1> const d = k.diagonal();
   S const ω = damping / jacobi_eigenvalue(k, d);
   row_major_sparse<S> smooth = k * P0;
@@ -73,6 +75,27 @@ template <class S>
     }
   }
   row_major_sparse<S> P = P0 + smooth;
+  // Of an aggregate without neighbours the damped step may leave nothing: it stays as it was.
+  using columns = Eigen::Array<S, Eigen::Dynamic, 1>;
+  auto const squares = [](row_major_sparse<S> const& m) {
+    columns sums = columns::Zero(m.cols());
+    for (index i = 0; i < m.rows(); ++i) {
+      for (typename row_major_sparse<S>::InnerIterator e(m, i); e; ++e) {
+        sums[e.col()] += e.value() * e.value();
+      }
+    }
+    return sums;
+  };
+  S const enough = sqrt(std::numeric_limits<S>::epsilon());
+  columns const keep = (squares(P) < enough * squares(P0)).template cast<S>();
+  if ((keep > S(0)).any()) {
+    for (index i = 0; i < smooth.rows(); ++i) {
+      for (typename row_major_sparse<S>::InnerIterator e(smooth, i); e; ++e) {
+        if (keep[e.col()] > S(0)) e.valueRef() = S(0);
+      }
+    }
+    P = P0 + smooth;
+  }
   P.makeCompressed();
   return P;
 }
