@@ -100,8 +100,9 @@ TEST_CASE("no steps: no reports, and nothing is solved") {
   fixture t;
   auto const qp = t.problem.qp();
   t.factor.solves = 0;
-  auto const none = contact::load_steps(t.problem, slant::symmetric_newton{qp}, stop(),
-                                        t.loads(std::vector<double>{}));
+  std::vector<double> const nothing;
+  auto const none =
+      contact::load_steps(t.problem, slant::symmetric_newton{qp}, stop(), t.loads(nothing));
   CHECK(none.begin() == none.end());
   CHECK(t.factor.solves == 0);
 }

@@ -9,6 +9,8 @@
 #include <doctest/doctest.h>
 #include <Eigen/LU>
 
+#include <utility>
+
 namespace unconstrained_start_test {
 
 using Eigen::MatrixXd;
@@ -22,8 +24,8 @@ MatrixXd second_differences(index n) {
   return a;
 }
 
-auto positive(MatrixXd const& a) {
-  return slant::matrix<slant::self_adjoint, slant::positive_definite>(a);
+auto positive(MatrixXd a) {
+  return slant::matrix<slant::self_adjoint, slant::positive_definite>(std::move(a));
 }
 
 TEST_CASE("the projection of the minimum without constraints, as accurate as asked for") {

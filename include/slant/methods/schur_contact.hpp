@@ -101,7 +101,7 @@ class schur_contact<P> {
     slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
     s.rows.take_tight(p.rows());
     detail::minimise_inside(p, s);
-    detail::note_residual(p, s);
+    detail::note_contact_residual(p, s);
     return s;
   }
 
@@ -144,7 +144,7 @@ class schur_contact<P> {
     s.regular = false;
     ++s.releases;
     detail::minimise_inside(p_.get(), s);
-    detail::note_residual(p_.get(), s);
+    detail::note_contact_residual(p_.get(), s);
   }
 
   /// (xviii), (xiii).
@@ -200,7 +200,7 @@ class schur_contact<P> {
       q.live = false;
       s.last_step = schur_contact_step::blocked;
     }
-    detail::note_residual(p_.get(), s);
+    detail::note_contact_residual(p_.get(), s);
   }
   /// (xv), (xvi).
   void advance(state_type& s, scalar const& α) const {

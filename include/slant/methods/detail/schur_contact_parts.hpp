@@ -29,7 +29,7 @@ void minimise_inside(P const& p, schur_contact_state<P>& s) {
 }
 /// (viii), (x): φ, d, λ of r, and what follows from them for the status.
 template <class P>
-void note_residual(P const& p, schur_contact_state<P>& s) {
+void note_contact_residual(P const& p, schur_contact_state<P>& s) {
   using scalar = typename P::scalar;
   auto const& rows = p.rows();
   s.rows.active.project_on_kernel(rows, s.r, s.φ);
@@ -68,9 +68,9 @@ void measure_anew(P const& p, schur_contact_state<P>& s, bool inside) {
     s.regular = false;
   }
   compute_residual(p, s);
-  note_residual(p, s);
+  note_contact_residual(p, s);
   if (sound && !inside) return;
   minimise_inside(p, s);
-  note_residual(p, s);
+  note_contact_residual(p, s);
 }
 }  // namespace slant::detail
