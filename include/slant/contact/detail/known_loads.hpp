@@ -28,7 +28,7 @@ class known_loads {
     pairs_.emplace_back(std::move(f), std::move(u));
   }
 
-  /// u = K⁻¹f if f is such a combination up to its own rounding errors; else false. Coefficients
+  /// u = K⁻¹f if f is such a combination up to rounding in each component; else false. Coefficients
   /// beyond 64, which would multiply the errors of the displacements, are none.
   [[nodiscard]] bool combine(V const& f, V& u) const {
     scalar α(0), β(0);
