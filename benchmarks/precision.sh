@@ -12,7 +12,7 @@
 #
 #   SLANT_SCENES="lift:8 wire:256"   other scenes          SLANT_SIZES="4 8"   other sizes (growth)
 #   SLANT_LIMIT=10, SLANT_PEER_LIMIT=60   seconds of a run, ours and others
-#   SLANT_PEERS=0                    ours only
+#   SLANT_PEERS=0                    ours only            SLANT_PEERS_UP_TO=12   with up to this size
 set -euo pipefail
 
 mode=$1 programs=$2 output=$3
@@ -30,7 +30,7 @@ tolerances=1e-2,1e-4,1e-6,1e-8,1e-10,1e-12
 peer_tolerances=1e-2,1e-4,1e-6,1e-8,1e-9,1e-10,1e-11,1e-12
 growth_methods="condensed_newton symmetric_newton_lumped symmetric_newton_dirichlet interior_then_newton"
 growth_tolerances=1e-6,1e-8,1e-9,1e-10
-growth_peers_up_to=12
+growth_peers_up_to=${SLANT_PEERS_UP_TO:-12}
 
 mkdir -p "$output"
 : >"$sayings"

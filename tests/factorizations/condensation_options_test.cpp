@@ -35,19 +35,24 @@ TEST_CASE("the fastest plan that fits the memory; the smallest if none does") {
   o.applications = 10;
   o.flops_per_second = o.bytes_per_second = o.cached_per_second = 1;
   auto const plan = [&](double flops, double entries, double tail) {
-    slant::condensation_plan p{.flops = flops, .entries = entries, .tail_entries = tail};
+    slant::condensation_plan p{
+        .flops = flops, .entries = entries, .stored = entries + 20, .tail_entries = tail};
     p.predict(o);
     return p;
   };
   std::vector const plans{plan(5000, 300, 10), plan(3000, 200, 20), plan(1000, 100, 60)};
+  auto const alone = plan(1000, 80, 0);
   CHECK(plans[0].seconds == 5000 + 10 * 2 * 8 * 10);
-  CHECK(plans[0].bytes() == 8 * 300 + 12 * 10);
+  CHECK(plans[0].bytes() == 8 * 320 + 4 * 10);
+  o.cache = 1;
   o.most_memory = 4;
-  CHECK(&slant::detail::cheapest(plans, o) == &plans[1]);  // 6200 against 6600 and 10600
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[1]);  // 6200 against 6600 and 10600
   o.most_memory = 2;
-  CHECK(&slant::detail::cheapest(plans, o) == &plans[2]);
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[2]);
   o.most_memory = 1;
-  CHECK(&slant::detail::cheapest(plans, o) == &plans[2]);
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[2]);
+  o.cache = 1e6;  // so little that it does not matter
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[1]);
 }
 
 }  // namespace condensation_options_test

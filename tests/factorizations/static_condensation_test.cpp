@@ -219,7 +219,8 @@ TEST_CASE("what is reported is what was done, whatever the memory") {
   };
   for (index const applications : {0, 20}) {
     for (double most = 1; most < 3; most += 0.1) {
-      auto const [levels, size] = bytes({.applications = applications, .most_memory = most});
+      auto const [levels, size] =
+          bytes({.applications = applications, .cache = 1, .most_memory = most});
       CHECK(bytes({.levels = levels}).second == size);
     }
   }
@@ -271,7 +272,6 @@ TEST_CASE("rounded products: floats, for right-hand sides of any scale") {
   auto const a = factor.restricted(s.B);
   auto const twin = a.rounded();
   static_assert(slant::psd_operator<decltype(twin), VectorXd>);
-  CHECK(2 * twin.bytes() == a.bytes());
   VectorXd const direction = VectorXd::Random(a.cols());
   VectorXd x = direction, y(a.rows()), z(a.rows());
   auto w = slant::workspace(twin, x);

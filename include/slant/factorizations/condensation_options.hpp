@@ -37,7 +37,7 @@ struct condensation_options {
   double bytes_per_second = 2.4e10;   ///< read from memory by a sweep
   double cached_per_second = 5.0e10;  ///< the same if all fits the cache
   double cache = 1.6e7;               ///< bytes of the cache
-  double most_memory = 1.8;  ///< at most so many times the bytes of the least filled factor; ≥ 1
+  double most_memory = 1.5;  ///< ≥ 1; so many times the bytes of a factor alone, or the cache
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
@@ -64,13 +64,13 @@ struct condensation_plan {
   index levels = 0;         ///< of condensation_options
   double flops = 0;         ///< operations of the factorisation
   double entries = 0;       ///< of the whole factor
+  double stored = 0;        ///< numbers kept for them: with upper halves of dense blocks
   double tail = 0;          ///< unknowns that an application touches
   double tail_entries = 0;  ///< entries of the factor that an application reads, twice
   double seconds = 0;       ///< predicted, for the factorisation and all applications
 
-  /// Bytes of the factor with the copies of its tail, one in doubles and one in floats, that
-  /// applications read; without the padding that blocks need.
-  [[nodiscard]] double bytes() const { return 8 * entries + 12 * tail_entries; }
+  /// Bytes of the factor and of the copy of its tail in floats that applications read.
+  [[nodiscard]] double bytes() const { return 8 * stored + 4 * tail_entries; }
 
   void predict(condensation_options const& o) {
     double const read = 8 * tail_entries;
@@ -84,6 +84,7 @@ struct condensation_report {
   std::string_view factorization;        ///< "cholmod", or "ldlt" without SuiteSparse
   index unknowns = 0;                    ///< rows of K
   index contact = 0;                     ///< contact unknowns
+  condensation_plan alone;               ///< a factor with the contact unknowns anywhere
   std::vector<condensation_plan> plans;  ///< what was compared; empty without SuiteSparse
   condensation_plan chosen;              ///< what was done
   std::string reason;                    ///< why, in a sentence
@@ -91,16 +92,22 @@ struct condensation_report {
 
 namespace detail {
 
-/// The plan with the least predicted time among those that fit the memory; plans are not empty.
+/// Whether a plan keeps to the memory that is allowed, compared with a factor alone.
+[[nodiscard]] inline bool fits(condensation_plan const& plan, condensation_plan const& alone,
+                               condensation_options const& o) {
+  return plan.bytes() <= std::max(o.cache, o.most_memory * 8 * alone.stored);
+}
+
+/// The plan with the least predicted time among those that fit, else the smallest; plans are not
+/// empty.
 [[nodiscard]] inline condensation_plan const& cheapest(std::vector<condensation_plan> const& plans,
+                                                       condensation_plan const& alone,
                                                        condensation_options const& o) {
-  double least_bytes = 8 * plans.front().entries;
-  for (auto const& plan : plans) least_bytes = std::min(least_bytes, 8 * plan.entries);
   condensation_plan const* best = nullptr;
   condensation_plan const* smallest = &plans.front();
   for (auto const& plan : plans) {
     if (plan.bytes() < smallest->bytes()) smallest = &plan;
-    if (plan.bytes() > o.most_memory * least_bytes) continue;
+    if (!fits(plan, alone, o)) continue;
     if (best == nullptr || plan.seconds < best->seconds) best = &plan;
   }
   return best != nullptr ? *best : *smallest;

@@ -11,7 +11,9 @@
 
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/factorizations/detail/tail_factor.hpp>
+#include <slant/factorizations/detail/tail_columns.hpp>
+#include <slant/factorizations/detail/tail_panels.hpp>
+#include <slant/factorizations/detail/tail_solve.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -29,21 +31,21 @@ namespace slant {
 template <class T>
 class condensed_operator {
   using sparse_type = Eigen::SparseMatrix<double>;
+  using factor_type =
+      std::conditional_t<std::is_same_v<T, double>, detail::tail_columns, detail::tail_panels<T>>;
 
  public:
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
 
   /// b: n × (size of the factor).
   condensed_operator(std::shared_ptr<sparse_type const> b,
-                     std::shared_ptr<detail::tail_factor<T> const> factor, double unit)
+                     std::shared_ptr<factor_type const> factor, double unit)
       : b_(std::move(b)), factor_(std::move(factor)), unit_(unit) {}
 
   [[nodiscard]] index rows() const { return b_->rows(); }
   [[nodiscard]] index cols() const { return b_->rows(); }
   /// Bytes that an application reads, twice.
-  [[nodiscard]] index bytes() const {
-    return factor_->values().size() * static_cast<index>(sizeof(T));
-  }
+  [[nodiscard]] index bytes() const { return factor_->bytes(); }
 
   /// Bᵀx in both precisions, and the buffer of the sweeps.
   struct workspace_type {
@@ -54,8 +56,8 @@ class condensed_operator {
     requires std::same_as<scalar_t<X>, double>
   [[nodiscard]] workspace_type workspace(X const& x) const {
     index const columns = slant::local(x).cols();
-    return {Eigen::MatrixXd(factor_->shape()->size(), columns),
-            detail::tail_vectors<T>(*factor_->shape(), columns)};
+    return {Eigen::MatrixXd(factor_->shape().size(), columns),
+            detail::tail_vectors<T>(factor_->shape(), columns)};
   }
   /// y = B K⁻¹Bᵀx for one or several right-hand sides.
   template <class X, class Y>
@@ -67,7 +69,7 @@ class condensed_operator {
     w.forces.noalias() = b_->transpose() * slant::local(x);
     if constexpr (std::is_same_v<T, double>) {
       w.tail.x.swap(w.forces);
-      factor_->solve_in_place(w.tail);
+      slant::detail::solve_in_place(*factor_, w.tail);
       w.tail.x.swap(w.forces);
     } else {
       solve_rounded(w);
@@ -108,7 +110,7 @@ class condensed_operator {
       w.tail.x.col(j) = (w.forces.col(j) * scale).template cast<T>();
       w.forces.col(j).setConstant(1 / scale);
     }
-    factor_->solve_in_place(w.tail);
+    slant::detail::solve_in_place(*factor_, w.tail);
     w.forces.array() *= w.tail.x.template cast<double>().array();
   }
   template <class V>
@@ -120,7 +122,7 @@ class condensed_operator {
   }
 
   std::shared_ptr<sparse_type const> b_;
-  std::shared_ptr<detail::tail_factor<T> const> factor_;
+  std::shared_ptr<factor_type const> factor_;
   double unit_;
 };
 

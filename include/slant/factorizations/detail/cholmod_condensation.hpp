@@ -11,7 +11,8 @@
 #include <slant/factorizations/condensed_operator.hpp>
 #include <slant/factorizations/detail/cholmod_ordering.hpp>
 #include <slant/factorizations/detail/quotient_graph.hpp>
-#include <slant/factorizations/detail/tail_factor.hpp>
+#include <slant/factorizations/detail/tail_columns.hpp>
+#include <slant/factorizations/detail/tail_shape.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -35,13 +36,13 @@ class cholmod_condensation {
                        condensation_options const& options)
       : marked_(std::move(marked)),
         factor_(matrix, best_order(matrix, marked_, options, report_)),
-        tail_(pack()) {}
+        tail_(reached_part()) {}
 
   template <class M>
   [[nodiscard]] cholmod_condensation refactorized(M const& matrix) const {
     cholmod_condensation result = *this;
     result.factor_ = factor_.refactorized(matrix);
-    result.tail_ = result.pack();
+    result.tail_ = result.reached_part();
     return result;
   }
 
@@ -72,7 +73,7 @@ class cholmod_condensation {
                              e.value());
       }
     }
-    auto b_tail = std::make_shared<sparse_type>(b.rows(), tail_->shape()->size());
+    auto b_tail = std::make_shared<sparse_type>(b.rows(), tail_->shape().size());
     b_tail->setFromTriplets(entries.begin(), entries.end());
     return condensed_operator<double>(std::move(b_tail), tail_, factor_.unit());
   }
@@ -93,18 +94,22 @@ class cholmod_condensation {
     auto const order_of = [&](index levels) {
       return postponed(given.order(), groups, separators.subtrees(levels));
     };
-    // More levels cost ever less to factor and ever more to apply: the best one is before they
-    // rise.
+    // More levels cost ever less to factor and keep, and ever more to apply: the best one is before
+    // times rise, if memory allows it.
     auto& plans = report.plans;
+    report.alone = given.plan(0, groups, weight);
+    report.alone.predict(options);
     index const first = options.levels.value_or(0);
     int rises = 0;
-    for (index levels = first; rises < 2; ++levels) {
+    bool found = false;
+    for (index levels = first; rises < 2 || !found; ++levels) {
       plans.push_back(cholmod_ordering(view, order_of(levels)).plan(levels, groups, weight));
       plans.back().predict(options);
+      found = found || fits(plans.back(), report.alone, options);
       if (plans.size() > 1 && plans.back().seconds >= plans[plans.size() - 2].seconds) ++rises;
       if (options.levels || separators.subtrees(levels).empty()) break;
     }
-    report.chosen = cheapest(plans, options);
+    report.chosen = cheapest(plans, report.alone, options);
     report.reason = options.levels ? "as asked for" : reason(report);
     return quotient.expanded(order_of(report.chosen.levels));
   }
@@ -115,15 +120,12 @@ class cholmod_condensation {
            show(report.chosen.levels);
   }
 
-  /// Numbers the columns that marked unknowns reach, and packs them.
-  std::shared_ptr<tail_factor<double> const> pack() {
+  /// Numbers the columns that marked unknowns reach.
+  std::shared_ptr<tail_columns const> reached_part() {
     auto shape = std::make_shared<tail_shape>();
     place_.assign(marked_.size(), -1);
-    struct part {
-      double const* entries;
-      index height, skipped;
-    };
-    std::vector<part> parts;
+    std::vector<tail_columns::matrix> parts;
+    std::vector<index> skipped;
     if (rows() > 0) {
       auto const& factors = *factor_.handle();
       std::vector<int> const order = factors.order();
@@ -143,31 +145,28 @@ class cholmod_condensation {
         if (from == end) return;
         for (index j = from; j < end; ++j) number[static_cast<std::size_t>(j)] = count++;
         if (s.height > s.columns) reached[static_cast<std::size_t>(s.rows[s.columns])] = 1;
-        parts.push_back({s.entries, s.height, from - s.first});
+        parts.push_back({s.entries + (from - s.first) * (s.height + 1), s.height});
+        skipped.push_back(from - s.first);
         nodes.push_back(s);
       });
       std::vector<int> below;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         below.assign(nodes[i].rows + nodes[i].columns, nodes[i].rows + nodes[i].height);
         for (int& row : below) row = number[static_cast<std::size_t>(row)];
-        shape->add(nodes[i].columns - parts[i].skipped, below);
+        shape->add(nodes[i].columns - skipped[i], below);
       }
       for (std::size_t j = 0; j < order.size(); ++j) {
         place_[static_cast<std::size_t>(order[j])] = number[j];
       }
     }
-    return std::make_shared<tail_factor<double>>(
-        std::move(shape), [&parts](std::size_t s, index row, index column) {
-          part const& p = parts[s];
-          return p.entries[(column + p.skipped) * p.height + row + p.skipped];
-        });
+    return std::make_shared<tail_columns>(std::move(shape), parts, factor_.handle());
   }
 
   std::vector<char> marked_;
   condensation_report report_;
   cholmod factor_;
   std::vector<int> place_;  // unknown → number in the tail, or −1
-  std::shared_ptr<tail_factor<double> const> tail_;
+  std::shared_ptr<tail_columns const> tail_;
 };
 
 }  // namespace slant::detail

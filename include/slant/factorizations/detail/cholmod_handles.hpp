@@ -6,6 +6,7 @@
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
 
 #include <slant/concepts/scalar.hpp>
+#include <slant/factorizations/detail/large_pages.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -71,7 +72,12 @@ class cholmod_factors {
     cholmod_common& settings = *state_.get();
     settings.nmethods = 1;
     settings.method[0].ordering = CHOLMOD_GIVEN;
-    if (supernodal) settings.supernodal = CHOLMOD_SUPERNODAL;
+    if (supernodal) {
+      settings.supernodal = CHOLMOD_SUPERNODAL;
+      // CHOLMOD merges large supernodes if that adds few zeros; it does not count the upper halves
+      // of what it stores as squares, a fifth of all memory when contact unknowns come late.
+      settings.zrelax[2] = 0;
+    }
     factor_ = cholmod_analyze_p(&matrix, order.data(), nullptr, 0, state_.get());
     factorize(matrix);
   }
@@ -152,12 +158,22 @@ class cholmod_factors {
   static int const* numbers(void const* p) noexcept { return static_cast<int const*>(p); }
 
   void factorize(cholmod_sparse& matrix) {
-    if (factor_ != nullptr) cholmod_factorize(&matrix, factor_, state_.get());
+    if (factor_ != nullptr) {
+      make_room();
+      cholmod_factorize(&matrix, factor_, state_.get());
+    }
     // Being indefinite is a warning of CHOLMOD; what is negative is an error.
     if (factor_ == nullptr || state_.status() < CHOLMOD_OK) {
       cholmod_free_factor(&factor_, state_.get());
       throw std::bad_alloc();
     }
+  }
+
+  /// Memory for the entries before CHOLMOD writes to it: in large pages, if there are many.
+  void make_room() {
+    if (factor_->is_super == 0) return;
+    if (cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, state_.get()) == 0) return;
+    prefer_large_pages(static_cast<double*>(factor_->x), static_cast<index>(factor_->xsize));
   }
 
   cholmod_state state_;

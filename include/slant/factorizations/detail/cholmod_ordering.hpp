@@ -53,12 +53,14 @@ class cholmod_ordering {
                                        double weight) const {
     condensation_plan p;
     p.levels = levels;
+    p.stored = upper_halves(weight);
     std::vector<char> reached(order_.size(), 0);
     for (std::size_t j = 0; j < order_.size(); ++j) {
       double const rows = weight * length_[j];  // of the first of its columns
       double const entries = weight * (rows - (weight - 1) / 2);
       p.flops += weight * (rows - (weight - 1) / 2) * (rows - (weight - 1) / 2);
       p.entries += entries;
+      p.stored += entries;
       if (marked[static_cast<std::size_t>(order_[j])] != 0) reached[j] = 1;
       if (reached[j] == 0) continue;
       p.tail += weight;
@@ -70,6 +72,26 @@ class cholmod_ordering {
 
  private:
   explicit cholmod_ordering(std::size_t n) : order_(n), parent_(n), length_(n) {}
+
+  /// Entries above the diagonals of supernodes, which are stored as full matrices: chains of
+  /// columns each of which has the rows of the one before.
+  [[nodiscard]] double upper_halves(double weight) const {
+    std::vector<int> children(order_.size(), 0), chain(order_.size(), 1);
+    for (int const p : parent_) {
+      if (p >= 0) ++children[static_cast<std::size_t>(p)];
+    }
+    double sum = 0;
+    for (std::size_t j = 0; j < order_.size(); ++j) {
+      auto const p = static_cast<std::size_t>(parent_[j]);
+      if (parent_[j] >= 0 && children[p] == 1 && length_[p] + 1 == length_[j]) {
+        chain[p] = chain[j] + 1;
+      } else {
+        double const columns = weight * chain[j];
+        sum += columns * (columns - 1) / 2;
+      }
+    }
+    return sum;
+  }
 
   void analyze(cholmod_sparse& matrix, cholmod_state& state) {
     std::size_t const n = order_.size();

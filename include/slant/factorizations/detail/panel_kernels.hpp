@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+//
+// The two loops in which sweeps with a factor spend their time: eight columns R, side by side, and
+// rows y beside them,
+//
+//     y ← y − R p        forward,          Rᵀy        backward.
+//
+// Each is written once with the vectors of the compiler, 16 or 32 bytes long, and compiled for
+// both; which one runs is asked of the processor. Compilers that are told nothing of it would use
+// the short ones only, and a factor that lies in the cache would be read at half the speed.
+#pragma once
+
+#include <slant/concepts/scalar.hpp>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace slant::detail {
+
+/// Columns of a panel.
+inline constexpr index panel_width = 8;
+/// Rows of a panel that are stored together, 32 bytes of a column.
+template <class T>
+inline constexpr index tile_rows = 32 / static_cast<index>(sizeof(T));
+
+/// Eight columns: row i of tile t in column j is column[j][t · step + i]. In a matrix stored by
+/// columns a tile is just the next rows.
+template <class T>
+struct panel_columns {
+  std::array<T const*, static_cast<std::size_t>(panel_width)> column;
+  index step;
+};
+
+template <class T, int Bytes>
+struct panel_loops {
+  static constexpr index lanes = Bytes / static_cast<index>(sizeof(T));
+  static_assert(tile_rows<T> % lanes == 0);
+  typedef T vector __attribute__((vector_size(Bytes), aligned(sizeof(T)), may_alias));
+
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void subtract(panel_columns<T> const& r, T const* p, T* y,
+                                                     index rows, std::index_sequence<J...>) {
+    vector const factor[] = {(p[J] - vector{})...};
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, y += lanes) {
+        vector v = *reinterpret_cast<vector const*>(y);
+        ((v -= factor[J] * *reinterpret_cast<vector const*>(column[J] + place + i)), ...);
+        *reinterpret_cast<vector*>(y) = v;
+      }
+      place += r.step;
+    }
+    for (index i = 0; i < rows; ++i) ((y[i] -= p[J] * column[J][place + i]), ...);
+  }
+
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void products(panel_columns<T> const& r, T const* y,
+                                                     index rows, T* result,
+                                                     std::index_sequence<J...>) {
+    vector sum[] = {(static_cast<void>(J), vector{})...};
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, y += lanes) {
+        vector const v = *reinterpret_cast<vector const*>(y);
+        ((sum[J] += v * *reinterpret_cast<vector const*>(column[J] + place + i)), ...);
+      }
+      place += r.step;
+    }
+    ((result[J] = 0), ...);
+    for (index i = 0; i < lanes; ++i) ((result[J] += sum[J][i]), ...);
+    for (index i = 0; i < rows; ++i) {
+      ((result[J] += y[i] * column[J][place + i]), ...);
+    }
+  }
+};
+
+using panel_sequence = std::make_index_sequence<static_cast<std::size_t>(panel_width)>;
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+/// Whether this processor has vectors of 32 bytes.
+[[nodiscard]] inline bool has_long_vectors() {
+  static bool const has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return has;
+}
+
+template <class T>
+[[gnu::target("avx2,fma")]] void subtract_long(panel_columns<T> const& r, T const* p, T* y,
+                                               index rows) {
+  panel_loops<T, 32>::subtract(r, p, y, rows, panel_sequence{});
+}
+template <class T>
+[[gnu::target("avx2,fma")]] void products_long(panel_columns<T> const& r, T const* y, index rows,
+                                               T* result) {
+  panel_loops<T, 32>::products(r, y, rows, result, panel_sequence{});
+}
+
+#else
+
+[[nodiscard]] inline bool has_long_vectors() {
+  return false;
+}
+
+template <class T>
+void subtract_long(panel_columns<T> const&, T const*, T*, index) {}
+template <class T>
+void products_long(panel_columns<T> const&, T const*, index, T*) {}
+
+#endif
+
+/// y ← y − R p; p: panel_width numbers, y: so many rows.
+template <class T>
+void subtract_panel(bool long_vectors, panel_columns<T> const& r, T const* p, T* y, index rows) {
+  if (long_vectors) {
+    subtract_long(r, p, y, rows);
+  } else {
+    panel_loops<T, 16>::subtract(r, p, y, rows, panel_sequence{});
+  }
+}
+
+/// result ← Rᵀy; result: panel_width numbers.
+template <class T>
+void panel_products(bool long_vectors, panel_columns<T> const& r, T const* y, index rows,
+                    T* result) {
+  if (long_vectors) {
+    products_long(r, y, rows, result);
+  } else {
+    panel_loops<T, 16>::products(r, y, rows, result, panel_sequence{});
+  }
+}
+
+}  // namespace slant::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <slant/factorizations/detail/panel_kernels.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <limits>
+
+namespace panel_kernels_test {
+
+using slant::index;
+
+/// A panel stored by columns, and y.
+template <class T>
+struct example {
+  Eigen::Matrix<T, Eigen::Dynamic, 8> R;
+  Eigen::Matrix<T, Eigen::Dynamic, 1> y;
+  Eigen::Matrix<T, 8, 1> p = Eigen::Matrix<T, 8, 1>::Random();
+
+  explicit example(index rows)
+      : R(Eigen::Matrix<T, Eigen::Dynamic, 8>::Random(rows, 8)),
+        y(Eigen::Matrix<T, Eigen::Dynamic, 1>::Random(rows)) {}
+
+  [[nodiscard]] slant::detail::panel_columns<T> columns() const {
+    slant::detail::panel_columns<T> result{{}, slant::detail::tile_rows<T>};
+    for (index j = 0; j < 8; ++j) {
+      result.column[static_cast<std::size_t>(j)] = R.data() + j * R.rows();
+    }
+    return result;
+  }
+};
+
+TEST_CASE_TEMPLATE("both loops, with short and with long vectors, any number of rows", T, float,
+                   double) {
+  T const ε = std::numeric_limits<T>::epsilon();
+  for (bool const longer : {false, true}) {
+    if (longer && !slant::detail::has_long_vectors()) continue;
+    for (index rows = 0; rows < 40; ++rows) {
+      example<T> const e(rows);
+      // One place before and behind: nothing else may be written to.
+      Eigen::Matrix<T, Eigen::Dynamic, 1> y(rows + 2);
+      y << T(7), e.y, T(9);
+      slant::detail::subtract_panel(longer, e.columns(), e.p.data(), y.data() + 1, rows);
+      for (index i = 0; i < rows; ++i) {
+        CHECK(std::abs(y[i + 1] - (e.y[i] - e.R.row(i).dot(e.p))) <= 16 * ε);
+      }
+      CHECK(y[0] == T(7));
+      CHECK(y[rows + 1] == T(9));
+      Eigen::Matrix<T, 8, 1> products;
+      slant::detail::panel_products(longer, e.columns(), e.y.data(), rows, products.data());
+      for (index j = 0; j < 8; ++j) {
+        CHECK(std::abs(products[j] - e.R.col(j).dot(e.y)) <= T(rows + 1) * 2 * ε);
+      }
+    }
+  }
+}
+
+}  // namespace panel_kernels_test

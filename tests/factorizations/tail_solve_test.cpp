@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <slant/factorizations/detail/tail_columns.hpp>
+#include <slant/factorizations/detail/tail_panels.hpp>
+#include <slant/factorizations/detail/tail_shape.hpp>
+#include <slant/factorizations/detail/tail_solve.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Core>
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "support/allocation_guard.hpp"
+
+namespace tail_solve_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slant::index;
+namespace detail = slant::detail;
+
+/// Supernodes of 3, 8, 21 and 12 columns, the first two with some rows below, the third with all.
+struct factor {
+  std::shared_ptr<detail::tail_shape> shape = std::make_shared<detail::tail_shape>();
+  std::shared_ptr<std::vector<MatrixXd>> blocks = std::make_shared<std::vector<MatrixXd>>();
+  MatrixXd L;
+
+  factor() {
+    std::vector<int> rest;
+    for (int i = 32; i < 44; ++i) rest.push_back(i);
+    add(3, {4, 9, 12, 31, 40});
+    add(8, {12, 33});
+    add(21, rest);
+    add(12, {});
+    L = MatrixXd::Zero(shape->size(), shape->size());
+    auto block = blocks->begin();
+    for (auto const& s : shape->supernodes()) {
+      for (index j = 0; j < s.columns; ++j) {
+        for (index i = j; i < s.columns; ++i) L(s.first + i, s.first + j) = (*block)(i, j);
+        for (index i = 0; i < s.below; ++i) {
+          L(shape->rows(s)[i], s.first + j) = (*block)(s.columns + i, j);
+        }
+      }
+      ++block;
+    }
+  }
+  void add(index columns, std::vector<int> const& below) {
+    shape->add(columns, below);
+    // What stands above the diagonal is not part of the factor.
+    MatrixXd block = MatrixXd::Random(columns + index(below.size()), columns) / 8;
+    block.diagonal().array() += 1;
+    blocks->push_back(block);
+  }
+  [[nodiscard]] detail::tail_columns columns() const {
+    std::vector<detail::tail_columns::matrix> matrices;
+    for (auto const& block : *blocks) matrices.push_back({block.data(), block.rows()});
+    return {shape, matrices, blocks};
+  }
+};
+
+TEST_CASE("what the shape counts") {
+  factor const f;
+  CHECK(f.shape->size() == 44);
+  CHECK(f.shape->panels() == 1 + 1 + 3 + 2);
+  CHECK(f.shape->height() == 33);
+  CHECK(f.shape->entries() == 6 + 15 + 36 + 16 + 231 + 252 + 78);
+  CHECK(f.columns().bytes() == 8 * f.shape->entries());
+}
+
+TEST_CASE("solves as by the dense factor, one or several right-hand sides, without allocations") {
+  factor const f;
+  auto const columns = f.columns();
+  detail::tail_panels<double> const packed(columns);
+  detail::tail_panels<float> const floats(columns);
+  for (index const k : {1, 3}) {
+    MatrixXd const b = MatrixXd::Random(f.shape->size(), k);
+    MatrixXd const x = f.L.transpose().triangularView<Eigen::Upper>().solve(
+        f.L.triangularView<Eigen::Lower>().solve(b));
+    detail::tail_vectors<double> v(*f.shape, k), w(*f.shape, k);
+    detail::tail_vectors<float> single(*f.shape, k);
+    v.x = w.x = b;
+    single.x = b.cast<float>();
+    slant::testing::allocation_guard guard;
+    detail::solve_in_place(columns, v);
+    detail::solve_in_place(packed, w);
+    detail::solve_in_place(floats, single);
+    auto const allocations = guard.count();
+    CHECK(allocations == 0);
+    CHECK((v.x - x).norm() < 1e-13 * x.norm());
+    CHECK((w.x - x).norm() < 1e-13 * x.norm());
+    CHECK((single.x.cast<double>() - x).norm() < 1e-5 * x.norm());
+  }
+}
+
+TEST_CASE("the entries outlive those who made them; floats are made once") {
+  auto const columns = std::make_unique<factor>()->columns();
+  CHECK(columns.rounded() == columns.rounded());
+  detail::tail_vectors<double> v(columns.shape(), 1);
+  v.x.setOnes();
+  detail::solve_in_place(columns, v);
+  CHECK(v.x.allFinite());
+}
+
+TEST_CASE("entries that floats cannot hold become their largest number or zero") {
+  auto shape = std::make_shared<detail::tail_shape>();
+  shape->add(1, std::vector<int>{1, 2, 3});
+  shape->add(3, std::vector<int>{});
+  auto block = std::make_shared<std::vector<MatrixXd>>();
+  block->push_back((MatrixXd(4, 1) << 1, 1e300, 1e-43, -1e-20).finished());
+  block->push_back(MatrixXd::Identity(3, 3));
+  std::vector<detail::tail_columns::matrix> const places{{(*block)[0].data(), 4},
+                                                         {(*block)[1].data(), 3}};
+  detail::tail_panels<float> const floats(detail::tail_columns(shape, places, block));
+  auto const panel = floats.panel(shape->supernodes()[0], 0);
+  CHECK(panel.below.column[0][0] == std::numeric_limits<float>::max());
+  CHECK(panel.below.column[0][1] == 0);
+  CHECK(panel.below.column[0][2] == -1e-20f);
+}
+
+}  // namespace tail_solve_test
