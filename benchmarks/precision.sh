@@ -11,7 +11,7 @@
 # packages: petsc-dev, coinor-libipopt-dev, python3-cvxopt, python3-numpy, python3-siconos.
 #
 #   SLANT_SCENES="lift:8 wire:256"   other scenes          SLANT_SIZES="4 8"   other sizes (growth)
-#   SLANT_LIMIT=10, SLANT_PEER_LIMIT=60   seconds of a run, ours and others
+#   SLANT_LIMIT=10 (growth: 60), SLANT_PEER_LIMIT=60   seconds of a run, ours and others
 #   SLANT_PEERS=0                    ours only            SLANT_PEERS_UP_TO=12   with up to this size
 set -euo pipefail
 
@@ -29,7 +29,8 @@ tolerances=1e-2,1e-4,1e-6,1e-8,1e-10,1e-12
 # Rows of peers cost little on small scenes; where they fall short of an error they get a chance.
 peer_tolerances=1e-2,1e-4,1e-6,1e-8,1e-9,1e-10,1e-11,1e-12
 growth_methods="condensed_newton symmetric_newton_lumped symmetric_newton_dirichlet interior_then_newton"
-growth_tolerances=1e-6,1e-8,1e-9,1e-10
+growth_tolerances=1e-6,1e-8,1e-10
+growth_peer_tolerances=1e-6,1e-9,1e-11
 growth_peers_up_to=${SLANT_PEERS_UP_TO:-12}
 
 mkdir -p "$output"
@@ -103,10 +104,11 @@ case $mode in
     done
     ;;
   growth)
-    for k in ${SLANT_SIZES:-4 8 12 16}; do
+    limit=${SLANT_LIMIT:-60}
+    for k in ${SLANT_SIZES:-4 8 12 16 24}; do
       # shellcheck disable=SC2086  # a list of words
       ours lift "$k" $growth_methods --tolerances "$growth_tolerances" --repeats 3
-      if ((k <= growth_peers_up_to)); then peers "$peer_tolerances"; fi
+      if ((k <= growth_peers_up_to)); then peers "$growth_peer_tolerances"; fi
     done
     ;;
   *)
