@@ -33,7 +33,7 @@ struct condensation_options {
   std::optional<index> levels{};
   /// Expected; one in rounded precision counts as half. Methods for contact need 60 to 150.
   index applications = 150;
-  double flops_per_second = 3.0e10;   ///< of a large factorisation
+  double flops_per_second = 4.5e10;   ///< of a large factorisation
   double bytes_per_second = 2.4e10;   ///< read from memory by a sweep
   double cached_per_second = 5.0e10;  ///< the same if all fits the cache
   double cache = 1.6e7;               ///< bytes of the cache
