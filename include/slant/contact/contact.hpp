@@ -8,6 +8,7 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/friction_problem.hpp>
 #include <slant/contact/load_step.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/load_steps.hpp>
