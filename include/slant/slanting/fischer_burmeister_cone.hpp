@@ -67,7 +67,9 @@ class friction_fischer_burmeister {
       return φ;
     }
     if (!r.allFinite() || !u.allFinite()) return vector_type::Constant(not_a_number<S>());
-    return in_units(jordan_fischer_burmeister<S, N>(scaled(r, S(1) / mu_), scaled(u, mu_)).value());
+    φ = in_algebra(r, u).value();
+    φ.template tail<N - 1>() *= mu_;
+    return φ;
   }
 
   /// {∂Φ/∂r, ∂Φ/∂û}.
@@ -85,7 +87,7 @@ class friction_fischer_burmeister {
       g.second.setConstant(not_a_number<S>());
       return g;
     }
-    g = jordan_fischer_burmeister<S, N>(scaled(r, S(1) / mu_), scaled(u, mu_)).slants();
+    g = in_algebra(r, u).slants();
     for (int i = 1; i < N; ++i) {  // D⁻¹ P D and D⁻¹ Q D⁻¹
       g.first.row(i) *= mu_;
       g.first.col(i) /= mu_;
@@ -96,11 +98,14 @@ class friction_fischer_burmeister {
   }
 
  private:
-  [[nodiscard]] static vector_type scaled(vector_type x, S const& factor) {
-    x.template tail<N - 1>() *= factor;
-    return x;
+  using jordan = jordan_fischer_burmeister<S, N>;
+
+  /// φ at x = D r, y = D⁻¹ û.
+  [[nodiscard]] jordan in_algebra(vector_type x, vector_type y) const {
+    x.template tail<N - 1>() /= mu_;
+    y.template tail<N - 1>() *= mu_;
+    return jordan(x, y);
   }
-  [[nodiscard]] vector_type in_units(vector_type const& φ) const { return scaled(φ, mu_); }
 
   S mu_{1};
 };
