@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -41,8 +42,8 @@ class jordan_fischer_burmeister {
     word squares;
     for (int i = 1; i < N; ++i) {
       word const half = exact_product<S>(x_(0), x_(i)) + exact_product<S>(y_(0), y_(i));
-      e_[i - 1] = half + half;
-      squares = squares + e_[i - 1] * e_[i - 1];
+      e_at(i) = half + half;
+      squares = squares + e_at(i) * e_at(i);
     }
     word const length = square_root(squares);
     larger_ = square_root(w0 + length);
@@ -61,7 +62,7 @@ class jordan_fischer_burmeister {
     vector_type φ;
     φ(0) = (exact_sum<S>(x_(0), y_(0)) - half * (larger_ + smaller_)).hi;
     for (int i = 1; i < N; ++i) {
-      φ(i) = (exact_sum<S>(x_(i), y_(i)) - half * (larger_ - smaller_) * e_[i - 1]).hi;
+      φ(i) = (exact_sum<S>(x_(i), y_(i)) - half * (larger_ - smaller_) * e_at(i)).hi;
     }
     return times_power_of_two<S, N>(φ, exponent_);
   }
@@ -79,7 +80,7 @@ class jordan_fischer_burmeister {
     }
     vector_type e, plus, minus;
     e(0) = S(0);
-    for (int i = 1; i < N; ++i) e(i) = e_[i - 1].hi;
+    for (int i = 1; i < N; ++i) e(i) = e_at(i).hi;
     plus = root * e;
     minus = -plus;
     plus(0) = minus(0) = root;
@@ -116,6 +117,10 @@ class jordan_fischer_burmeister {
  private:
   using word = double_word<S>;
 
+  /// Component i >= 1 of (0, e).
+  [[nodiscard]] word& e_at(int i) { return e_[static_cast<std::size_t>(i - 1)]; }
+  [[nodiscard]] word const& e_at(int i) const { return e_[static_cast<std::size_t>(i - 1)]; }
+
   [[nodiscard]] static int unit(vector_type const& x, vector_type const& y) {
     int const a = binary_exponent(x), b = binary_exponent(y);
     bool const has_x = !(x.array() == S(0)).all(), has_y = !(y.array() == S(0)).all();
@@ -129,8 +134,8 @@ class jordan_fischer_burmeister {
     vector_type q;
     word sum(p(0));
     for (int i = 1; i < N; ++i) {
-      sum = sum - e_[i - 1] * word(p(i));
-      q(i) = root * (word(p(i)) - e_[i - 1] * word(p(0))).hi;
+      sum = sum - e_at(i) * word(p(i));
+      q(i) = root * (word(p(i)) - e_at(i) * word(p(0))).hi;
     }
     q(0) = root * sum.hi;
     return q;
