@@ -52,13 +52,13 @@ Eigen::Matrix<Real, 3, 1> naive(Real const& μ, Eigen::Matrix<Real, 3, 1> const&
 }
 
 TEST_CASE("Fischer–Burmeister of cones: complementary pairs are zeros, others are none") {
-  kernel const Φ(0.5);
+  kernel const Φ = kernel().with(0.5);
   CHECK(Φ.value(Vector3d(2, 0.5, 0), Vector3d(0, 0, 0)).norm() <= ε);       // stick
   CHECK(Φ.value(Vector3d(0, 0, 0), Vector3d(2, 1, -1)).norm() <= ε);        // open
   CHECK(Φ.value(Vector3d(2, -1, 0), Vector3d(1.5, 3, 0)).norm() <= 4 * ε);  // slip: û_n = μ‖û_t‖
   CHECK(Φ.value(Vector3d(2, -1, 0), Vector3d(1.5, 0, 3)).norm() > 0.1);
   CHECK(Φ.value(Vector3d(-1, 0, 0), Vector3d(0, 0, 0)) == Vector3d(-2, 0, 0));
-  kernel const smooth(0.0);
+  kernel const smooth = kernel().with(0.0);
   CHECK((smooth.value(Vector3d(3, 7, 8), Vector3d(4, 5, 6)) - Vector3d(2, 7, 8)).norm() <= 4 * ε);
   CHECK(Φ.value(Vector3d(std::nan(""), 0, 0), Vector3d(0, 0, 0)).hasNaN());
   CHECK(Φ.slants(Vector3d(1, 0, 0), Vector3d(0, std::nan(""), 0)).first.hasNaN());
@@ -78,7 +78,7 @@ TEST_CASE("Fischer–Burmeister of cones: values and slopes against 50 digits, a
       u << μ * slip, -slip * e;
       r += source.of_size(-14, -3) * source.direction<3>();
     }
-    kernel const Φ(μ);
+    kernel const Φ = kernel().with(μ);
     r *= scale;
     u *= scale;
     auto const exact =
@@ -151,7 +151,7 @@ TEST_CASE(
   VectorXd const u = slant::evaluate(velocity, r), f = slant::evaluate(F, r);
   MatrixXd const H = dense_slant(velocity, r), G = dense_slant(F, r);
   for (int i = 0; i < 4; ++i) {
-    kernel const Φ(mu[i]);
+    kernel const Φ = kernel().with(mu[i]);
     Vector3d const ri = r.segment<3>(3 * i), ui = u.segment<3>(3 * i);
     CHECK(f.segment<3>(3 * i) == Φ.value(ri, ui));
     auto const [P, Q] = Φ.slants(ri, ui);
@@ -175,6 +175,27 @@ TEST_CASE(
   auto const allocations = guard.count();
   CHECK(allocations == 0);
   CHECK(dense(g, r) == G);
+}
+
+TEST_CASE("Fischer–Burmeister of cones: orthotropic friction, one direction perhaps without any") {
+  kernel const round = kernel().with(0.5), same = kernel().with(0.5, 0.5);
+  Vector3d const a(1, 2, -3), b(0.5, -1, 4);
+  CHECK(same.value(a, b) == round.value(a, b));
+  kernel const Φ = kernel().with(2.0, 0.5);
+  // r on the mantle at (cos, sin) = (0.6, 0.8), û on the mantle of the dual, opposite to it.
+  Vector3d const r(1, 1.2, 0.4), u(3, -0.9, -4.8);
+  CHECK(Φ.value(r, u).norm() <= 4 * ε);
+  CHECK(Φ.value(r, Vector3d(3, -4.8, -0.9)).norm() > 0.1);
+  kernel const half = kernel().with(2.0, 0.0);
+  Vector3d const f = half.value(a, b);
+  CHECK(f(2) == a(2));
+  slant::detail::jordan_fischer_burmeister<double, 2> const plane({a(0), a(1) / 2},
+                                                                  {b(0), 2 * b(1)});
+  CHECK((f.head<2>() - Eigen::Vector2d(plane.value()(0), 2 * plane.value()(1))).norm() <= 4 * ε);
+  MatrixXd const at_r = MatrixXd::Identity(3, 6), at_u = MatrixXd::Identity(6, 6).bottomRows(3);
+  auto const F = slant::fischer_burmeister_cone(VectorXd{{2.0}}, VectorXd{{0.0}},
+                                                slant::linear(at_r), slant::linear(at_u));
+  slant::testing::check_slanting_laws(F, VectorXd{{1.0, 2.0, -3.0, 0.5, -1.0, 4.0}});
 }
 
 TEST_CASE("Fischer–Burmeister of cones: bad input is named") {

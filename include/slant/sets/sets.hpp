@@ -19,6 +19,7 @@
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/in_metric.hpp>
 #include <slant/sets/interval.hpp>
+#include <slant/sets/moreau_dual.hpp>
 #include <slant/sets/place.hpp>
 #include <slant/sets/plane_cone.hpp>
 #include <slant/sets/point.hpp>

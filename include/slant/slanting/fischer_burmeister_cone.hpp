@@ -15,8 +15,9 @@
 //     auto F = fischer_burmeister_cone<3>(mu, identity_map(n),
 //                                         positive(ρ) * (de_saxce<3>(mu) * affine(W, q)));
 //
-// For μ = 0 it is (r_n + û_n − √(r_n² + û_n²), r_t). The sign is that of the paper, opposite to
-// slant::fischer_burmeister.
+// Orthotropic friction has D = diag(1, 1/μ₁, 1/μ₂). A direction without friction, μ_i = 0, takes no
+// part, Φ_i = r_i: for μ = 0 it is (r_n + û_n − √(r_n² + û_n²), r_t). The sign is that of the
+// paper, opposite to slant::fischer_burmeister.
 //
 // Accuracy and kinks (x² + y² on the boundary of the cone): see
 // detail/jordan_fischer_burmeister.hpp. As for the scalar function the slope at a kink is the limit
@@ -31,10 +32,10 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/slanting/detail/blockwise_pair.hpp>
 #include <slant/slanting/detail/jordan_fischer_burmeister.hpp>
-#include <slant/slanting/fischer_burmeister.hpp>
 
 #include <Eigen/Core>
 
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -50,49 +51,49 @@ class friction_fischer_burmeister {
   using vector_type = Eigen::Matrix<S, N, 1>;
   using matrix_type = Eigen::Matrix<S, N, N>;
 
-  friction_fischer_burmeister() = default;
-  explicit friction_fischer_burmeister(S const& mu) : mu_(mu) {
-    if (!(mu >= S(0) && is_finite(mu))) {
-      throw bad_input("mu", show(mu), "a finite number >= 0");
-    }
-  }
+  friction_fischer_burmeister() : mu_(vector_type::Ones()) {}
+
   [[nodiscard]] friction_fischer_burmeister with(S const& mu) const {
-    return friction_fischer_burmeister(mu);
+    friction_fischer_burmeister other;
+    other.mu_.template tail<N - 1>().setConstant(checked("mu", mu));
+    return other;
+  }
+  [[nodiscard]] friction_fischer_burmeister with(S const& mu1, S const& mu2) const
+    requires(N == 3)
+  {
+    friction_fischer_burmeister other;
+    other.mu_(1) = checked("mu1", mu1);
+    other.mu_(2) = checked("mu2", mu2);
+    return other;
   }
 
   [[nodiscard]] vector_type value(vector_type const& r, vector_type const& u) const {
-    vector_type φ = r;
-    if (mu_ == S(0)) {
-      φ(0) = -fischer_burmeister_kernel::value<S>(r(0), u(0));
-      return φ;
-    }
     if (!r.allFinite() || !u.allFinite()) return vector_type::Constant(not_a_number<S>());
-    φ = in_algebra(r, u).value();
-    φ.template tail<N - 1>() *= mu_;
+    vector_type φ = in_algebra(r, u).value().cwiseProduct(mu_);
+    for (int i = 1; i < N; ++i) {
+      if (mu_(i) == S(0)) φ(i) = r(i);
+    }
     return φ;
   }
 
   /// {∂Φ/∂r, ∂Φ/∂û}.
   [[nodiscard]] std::pair<matrix_type, matrix_type> slants(vector_type const& r,
                                                            vector_type const& u) const {
-    std::pair<matrix_type, matrix_type> g{matrix_type::Identity(), matrix_type::Zero()};
-    if (mu_ == S(0)) {
-      auto const [at_r, at_u] = fischer_burmeister_kernel::slopes<S>(r(0), u(0));
-      g.first(0, 0) = -at_r;
-      g.second(0, 0) = -at_u;
-      return g;
-    }
     if (!r.allFinite() || !u.allFinite()) {
-      g.first.setConstant(not_a_number<S>());
-      g.second.setConstant(not_a_number<S>());
-      return g;
+      matrix_type const bad = matrix_type::Constant(not_a_number<S>());
+      return {bad, bad};
     }
-    g = in_algebra(r, u).slants();
+    auto g = in_algebra(r, u).slants();
     for (int i = 1; i < N; ++i) {  // D⁻¹ P D and D⁻¹ Q D⁻¹
-      g.first.row(i) *= mu_;
-      g.first.col(i) /= mu_;
-      g.second.row(i) *= mu_;
-      g.second.col(i) *= mu_;
+      g.first.row(i) *= mu_(i);
+      g.second.row(i) *= mu_(i);
+      g.second.col(i) *= mu_(i);
+      if (mu_(i) > S(0)) {
+        g.first.col(i) /= mu_(i);
+      } else {
+        g.first.col(i).setZero();
+        g.first(i, i) = S(1);
+      }
     }
     return g;
   }
@@ -100,14 +101,22 @@ class friction_fischer_burmeister {
  private:
   using jordan = jordan_fischer_burmeister<S, N>;
 
-  /// φ at x = D r, y = D⁻¹ û.
+  [[nodiscard]] static S const& checked(char const* name, S const& mu) {
+    if (!(mu >= S(0) && is_finite(mu))) {
+      throw bad_input(name, show(mu), "a finite number >= 0");
+    }
+    return mu;
+  }
+  /// φ at x = D r, y = D⁻¹ û; a direction without friction takes no part.
   [[nodiscard]] jordan in_algebra(vector_type x, vector_type y) const {
-    x.template tail<N - 1>() /= mu_;
-    y.template tail<N - 1>() *= mu_;
+    for (int i = 1; i < N; ++i) {
+      x(i) = mu_(i) > S(0) ? S(x(i) / mu_(i)) : S(0);
+      y(i) *= mu_(i);
+    }
     return jordan(x, y);
   }
 
-  S mu_{1};
+  vector_type mu_;  // (1, μ₁, …)
 };
 
 }  // namespace detail
@@ -127,6 +136,15 @@ template <int N, detail::parameter_list M, slanting_part F, slanting_part G>
   using kernel = detail::friction_fischer_burmeister<N, S>;
   return fischer_burmeister_cone_map<N, S, kept_t<F>, kept_t<G>>(
       detail::listed_blocks<kernel>(kernel{}, mu), std::forward<F>(f), std::forward<G>(g));
+}
+
+/// The same for orthotropic friction in space, with coefficients along the two tangents.
+template <detail::parameter_list M1, detail::parameter_list M2, slanting_part F, slanting_part G>
+[[nodiscard]] auto fischer_burmeister_cone(M1 const& mu1, M2 const& mu2, F&& f, G&& g) {
+  using S = std::remove_cvref_t<decltype(detail::parameter_at(mu1, 0))>;
+  using kernel = detail::friction_fischer_burmeister<3, S>;
+  return fischer_burmeister_cone_map<3, S, kept_t<F>, kept_t<G>>(
+      detail::listed_blocks<kernel>(kernel{}, mu1, mu2), std::forward<F>(f), std::forward<G>(g));
 }
 
 }  // namespace slant
