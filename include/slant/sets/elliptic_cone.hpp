@@ -26,8 +26,8 @@ namespace slant {
 /// A coefficient 0 makes it flat: a plane cone, for two the ray; all are legal. The projection is
 /// the root of a quartic, see detail/elliptic_cone_secular.hpp. Each component is within 2 ulp at
 /// any scale of x, for aspect ratios μ₁/μ₂ up to 1e8 and coefficients of 1e±10 (double; components
-/// below the smallest normal number excepted). "On the mantle" means that (x_i/μ_i) has the length x_n
-/// within 16 ε, ε the machine epsilon. NaN in, NaN out; so does an infinite component.
+/// below the smallest normal number excepted). "On the mantle" means that (x_i/μ_i) has the length
+/// x_n within 16 ε, ε the machine epsilon. NaN in, NaN out; so does an infinite component.
 template <scalar S = double>
 class elliptic_cone {
  public:
