@@ -198,6 +198,24 @@ TEST_CASE("Fischer–Burmeister of cones: orthotropic friction, one direction pe
   slant::testing::check_slanting_laws(F, VectorXd{{1.0, 2.0, -3.0, 0.5, -1.0, 4.0}});
 }
 
+TEST_CASE("Fischer–Burmeister of cones: in the plane it is that of space in a plane") {
+  slant::detail::friction_fischer_burmeister<2, double> const plane = {};
+  oracle::number_source<double> source(5);
+  for (int i = 0; i < 40; ++i) {
+    double const μ = source.positive_of_size(-1, 1);
+    Eigen::Vector2d const r = source.direction<2>(), u = source.direction<2>();
+    Vector3d const r3(r(0), r(1), 0), u3(u(0), u(1), 0);
+    kernel const space = kernel().with(μ);
+    auto const flat = plane.with(μ);
+    CHECK((space.value(r3, u3).head<2>() - flat.value(r, u)).norm() <=
+          8 * ε * (1 + μ) * (1 + 1 / μ));
+    auto const [P, Q] = flat.slants(r, u);
+    auto const [P3, Q3] = space.slants(r3, u3);
+    CHECK((P3.topLeftCorner<2, 2>() - P).norm() <= 64 * ε * (1 + μ + 1 / μ));
+    CHECK((Q3.topLeftCorner<2, 2>() - Q).norm() <= 64 * ε * (1 + μ) * (1 + μ));
+  }
+}
+
 TEST_CASE("Fischer–Burmeister of cones: bad input is named") {
   auto const made = [](double μ, slant::index n) {
     return oracle::complaint<slant::bad_input>([=] {
