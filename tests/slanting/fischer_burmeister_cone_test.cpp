@@ -108,6 +108,20 @@ TEST_CASE("Fischer–Burmeister of cones: values and slopes against 50 digits, a
   CHECK(slope_error <= 64 * ε);
 }
 
+TEST_CASE(
+    "Fischer–Burmeister of cones: any coefficient; nothing overflows that the result does not") {
+  // Far outside of the cone the root is (‖x_t‖, x_n e): Φ = (r_n − ‖r_t‖/μ, r_t) to all digits.
+  for (double μ : {1e-20, 1e-200, 1e-290}) {
+    Vector3d const f = kernel().with(μ).value(Vector3d(1, 1e10, 0), Vector3d(0, 0, 0));
+    CHECK(f(0) == doctest::Approx(-1e10 / μ).epsilon(1e-14));
+    CHECK(f(1) == doctest::Approx(1e10).epsilon(1e-14));
+  }
+  Vector3d const f = kernel().with(1e-300).value(Vector3d(1, 1e10, 0), Vector3d(0, 0, 0));
+  CHECK(f(0) == -std::numeric_limits<double>::infinity());
+  CHECK(f(1) == doctest::Approx(1e10).epsilon(1e-14));
+  CHECK(kernel().with(1e300).value(Vector3d(0, 0, 0), Vector3d(1, -1e-320, 0)).allFinite());
+}
+
 TEST_CASE("Fischer–Burmeister of cones: slope at the kinks is the limit along (x + τ, y + τ)") {
   using jordan = slant::detail::jordan_fischer_burmeister<double, 3>;
   Vector3d const e0(1, 0, 0);

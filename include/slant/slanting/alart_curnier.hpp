@@ -18,7 +18,8 @@
 //     [ μ e  (μ z_n/‖z_t‖)(I − eeᵀ) ]
 //
 // where z_n = 0 counts as contact and ‖z_t‖ = μ z_n as stick, the value from inside as everywhere
-// in the library; μ = 0 sticks nowhere.
+// in the library; so at z = 0 it is I for μ > 0. μ = 0 sticks nowhere: diag(1, 0) for z_n >= 0. A
+// NaN anywhere in a contact makes its value and its derivative NaN, those of other contacts not.
 //
 // Source: P. Alart, A. Curnier, "A mixed formulation for frictional contact problems prone to
 // Newton like solution methods", Comput. Methods Appl. Mech. Engrg. 92 (1991).

@@ -69,9 +69,13 @@ class friction_fischer_burmeister {
 
   [[nodiscard]] vector_type value(vector_type const& r, vector_type const& u) const {
     if (!r.allFinite() || !u.allFinite()) return vector_type::Constant(not_a_number<S>());
-    vector_type φ = in_algebra(r, u).value().cwiseProduct(mu_);
+    int e = 0;
+    vector_type φ = in_algebra(r, u, e).value();
+    φ(0) = times_power_of_two<S>(φ(0), e);
     for (int i = 1; i < N; ++i) {
-      if (mu_(i) == S(0)) φ(i) = r(i);
+      int const k = binary_exponent<S>(mu_(i));
+      S const m = times_power_of_two<S>(mu_(i), -k);
+      φ(i) = mu_(i) == S(0) ? r(i) : times_power_of_two<S>(m * φ(i), k + e);
     }
     return φ;
   }
@@ -83,7 +87,8 @@ class friction_fischer_burmeister {
       matrix_type const bad = matrix_type::Constant(not_a_number<S>());
       return {bad, bad};
     }
-    auto g = in_algebra(r, u).slants();
+    int e = 0;
+    auto g = in_algebra(r, u, e).slants();
     for (int i = 1; i < N; ++i) {  // D⁻¹ P D and D⁻¹ Q D⁻¹
       g.first.row(i) *= mu_(i);
       g.second.row(i) *= mu_(i);
@@ -107,11 +112,32 @@ class friction_fischer_burmeister {
     }
     return mu;
   }
-  /// φ at x = D r, y = D⁻¹ û; a direction without friction takes no part.
-  [[nodiscard]] jordan in_algebra(vector_type x, vector_type y) const {
-    for (int i = 1; i < N; ++i) {
-      x(i) = mu_(i) > S(0) ? S(x(i) / mu_(i)) : S(0);
-      y(i) *= mu_(i);
+  /// φ at x = D r, y = D⁻¹ û in units of 2^e, in which they are numbers for every μ; a direction
+  /// without friction takes no part.
+  [[nodiscard]] jordan in_algebra(vector_type const& r, vector_type const& u, int& e) const {
+    int k[N], l[N];  // exponents of the components of x and y
+    bool any = false;
+    auto const include = [&](S const& v, int exponent) {
+      if (v != S(0) && (!any || exponent > e)) {
+        e = exponent;
+        any = true;
+      }
+    };
+    for (int i = 0; i < N; ++i) {
+      int const of_mu = i == 0 ? 0 : binary_exponent<S>(mu_(i));
+      k[i] = binary_exponent<S>(r(i)) - of_mu;
+      l[i] = binary_exponent<S>(u(i)) + of_mu;
+      if (mu_(i) == S(0)) continue;
+      include(r(i), k[i]);
+      include(u(i), l[i]);
+    }
+    vector_type x, y;
+    for (int i = 0; i < N; ++i) {
+      S const m = i == 0 ? S(1) : times_power_of_two<S>(mu_(i), -binary_exponent<S>(mu_(i)));
+      S const a = times_power_of_two<S>(r(i), -binary_exponent<S>(r(i)));
+      S const b = times_power_of_two<S>(u(i), -binary_exponent<S>(u(i)));
+      x(i) = m > S(0) ? times_power_of_two<S>(a / m, k[i] - e) : S(0);
+      y(i) = times_power_of_two<S>(b * m, l[i] - e);
     }
     return jordan(x, y);
   }
