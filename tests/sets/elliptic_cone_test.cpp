@@ -292,11 +292,21 @@ TEST_CASE("elliptic cone: NaN stays NaN, bad input is named") {
       CHECK(std::isnan(set.support(bad)));
     }
   }
+  for (double μ : {0x1p-170, 0x1p170}) {  // the ends of what is legal
+    for (vec3 const& x : {vec3(1, 2, 3), vec3(-1, 2, 3), vec3(0, 1, 1), vec3(-1e-30, 1, 1e-40)}) {
+      for (cone const& set : {cone(μ, 1.0), cone(1.0, μ), cone(μ, μ)}) {
+        CHECK(set.contains(set.project(x)));
+        CHECK(set.slant(x).allFinite());
+      }
+    }
+  }
   auto const made = [](double a, double b) {
     return oracle::complaint<slant::bad_input>([=] { return cone(a, b); });
   };
-  CHECK(made(-1, 0) == "mu1: got -1, expected a finite number >= 0");
-  CHECK(made(1, inf) == "mu2: got inf, expected a finite number >= 0");
+  CHECK(made(-1, 0) == "mu1: got -1, expected 0 or a number in [2^-170, 2^170]");
+  CHECK(made(1, inf) == "mu2: got inf, expected 0 or a number in [2^-170, 2^170]");
+  CHECK_FALSE(made(1, 1e160).empty());
+  CHECK_FALSE(made(1e-160, 1).empty());
 }
 
 }  // namespace elliptic_cone_test

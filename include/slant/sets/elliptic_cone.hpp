@@ -12,6 +12,7 @@
 #include <slant/sets/detail/elliptic_cone_slant.hpp>
 #include <slant/sets/detail/elliptic_cone_step.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
+#include <slant/sets/detail/stretch.hpp>
 #include <slant/sets/second_order_cone.hpp>
 
 #include <Eigen/Core>
@@ -21,7 +22,8 @@
 
 namespace slant {
 
-/// { x ∈ R³ : (x₁/μ₁)² + (x₂/μ₂)² <= x_n², x_n >= 0 }, x_n = x₀ the axis; μ₁, μ₂ >= 0 are finite.
+/// { x ∈ R³ : (x₁/μ₁)² + (x₂/μ₂)² <= x_n², x_n >= 0 }, x_n = x₀ the axis; μ₁, μ₂ are 0 or in the
+/// sixth part of the exponent range of S: 1e±51 for double, 1e±6 for float.
 ///
 /// A coefficient 0 makes it flat: a plane cone, for two the ray; all are legal. The projection is
 /// the root of a quartic, see detail/elliptic_cone_secular.hpp. Each component is within 2 ulp at
@@ -34,12 +36,13 @@ class elliptic_cone {
   using scalar = S;
   static constexpr int dimension = 3;
   static constexpr int inequalities = 2;
+  static constexpr bool is_cone = true;
   using vector_type = Eigen::Matrix<S, 3, 1>;
   using matrix_type = Eigen::Matrix<S, 3, 3>;
 
   elliptic_cone() = default;
 
-  /// @throws bad_input if a coefficient is NaN, negative or infinite.
+  /// @throws bad_input if a coefficient is NaN, negative or outside of that range.
   elliptic_cone(S const& mu1, S const& mu2) : mu_{mu1, mu2} {
     require("mu1", mu1);
     require("mu2", mu2);
@@ -53,7 +56,8 @@ class elliptic_cone {
 
   /// { diag(s) x : x in the set }; s > 0.
   [[nodiscard]] elliptic_cone stretched(vector_type const& s) const {
-    return elliptic_cone(mu_(0) * (s(1) / s(0)), mu_(1) * (s(2) / s(0)));
+    return elliptic_cone(detail::stretched_parameter<S>(mu_(0), s(1), s(0)),
+                         detail::stretched_parameter<S>(mu_(1), s(2), s(0)));
   }
 
   /// Nearest point of the set.
@@ -157,8 +161,14 @@ class elliptic_cone {
 
  private:
   static void require(char const* name, S const& mu) {
-    if (!(mu >= S(0) && detail::is_finite(mu))) {
-      throw bad_input(name, detail::show(mu), "a finite number >= 0");
+    // Beyond, powers of μ that the projection needs are no numbers of the format.
+    int const most = std::numeric_limits<S>::max_exponent / 6;
+    S const largest = detail::times_power_of_two<S>(S(1), most);
+    bool const legal = mu == S(0) || (mu >= S(1) / largest && mu <= largest);
+    if (!legal) {
+      throw bad_input(name, detail::show(mu),
+                      "0 or a number in [2^-" + detail::show(index(most)) + ", 2^" +
+                          detail::show(index(most)) + "]");
     }
   }
   [[nodiscard]] static S band() { return S(2) * detail::rounding_band<S>(); }

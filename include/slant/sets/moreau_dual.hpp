@@ -53,11 +53,14 @@ class moreau_dual {
     return distance <= detail::rounding_band<scalar>() * v.template lpNorm<Eigen::Infinity>();
   }
 
-  /// Slanting operator of the projection at x: I − G(−x), G that of K with its choice at kinks.
+  /// Slanting operator of the projection at x: I − G(−x), G that of K with its choice at kinks; at
+  /// the apex I, the value from inside as for all sets.
   [[nodiscard]] matrix_type slant(auto const& x) const
     requires has_slant<Cone, vector_type>
   {
-    return matrix_type::Identity() - primal_.slant(vector_type(-x));
+    vector_type const v = -x;
+    if ((v.array() == scalar(0)).all()) return matrix_type::Identity();
+    return matrix_type::Identity() - primal_.slant(v);
   }
 
   /// 0 for −y in K, otherwise ∞.
