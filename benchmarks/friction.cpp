@@ -12,11 +12,14 @@
 //     method, solved_by   what was run, and for a combination what gave the result
 //     status              what the method says of itself, or time_limit, failed
 //     error               natural map over |q|, by slant::contact::verify from r alone
-//     products, newton_steps, factorizations
+//     sweeps              passes over the contacts, at most a product by W each
+//     products            by W, besides
+//     newton_steps, proximal_steps, factorizations
 //     seconds             processor seconds of a process of its own, one run, reading not included
 //
 // The rank is left out where W has more than N = 2000 rows.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -39,7 +42,8 @@ using problem = slant::contact::friction_problem<>;
 
 struct row {
   std::string status = "failed", solved_by{};
-  double error = NAN, products = NAN, newton_steps = NAN, factorizations = NAN, seconds = NAN;
+  double error = NAN, seconds = NAN;
+  std::array<double, 5> work{NAN, NAN, NAN, NAN, NAN};  ///< in the order of the table
 };
 
 /// Two words behind the numbers, a character in each.
@@ -56,18 +60,22 @@ struct row {
     auto const out = method.run(p, {.tolerance = tolerance});
     double const seconds = benchmarks::cpu_seconds() - start;
     double const error = slant::contact::verify(p, out.r).relative_natural_map;
-    return packed({error, double(out.products), double(out.newton_steps),
-                   double(out.factorizations), seconds},
-                  std::string(slant::to_string(out.status)), out.solved_by);
+    auto const& w = out.work;
+    return packed({error, seconds, double(w.sweeps), double(w.products), double(w.newton_steps),
+                   double(w.proximal_steps), double(w.factorizations)},
+                  std::string(slant::to_string(out.status)),
+                  std::string(slant::contact::to_string(out.solved_by)));
   });
   row r;
   if (child.how == benchmarks::ending::time_limit) r.status = "time_limit";
-  if (child.how != benchmarks::ending::finished || child.numbers.size() < 6) return r;
   auto const& n = child.numbers;
-  r.error = n[0], r.products = n[1], r.newton_steps = n[2], r.factorizations = n[3];
-  r.seconds = n[4];
+  std::size_t const words_from = 2 + r.work.size();
+  if (child.how != benchmarks::ending::finished || n.size() <= words_from) return r;
+  r.error = n[0];
+  r.seconds = n[1];
+  std::copy_n(n.begin() + 2, r.work.size(), r.work.begin());
   std::string words;
-  for (std::size_t i = 5; i < n.size(); ++i) words.push_back(static_cast<char>(n[i]));
+  for (std::size_t i = words_from; i < n.size(); ++i) words.push_back(static_cast<char>(n[i]));
   auto const end = words.find('\n');
   r.status = words.substr(0, end);
   r.solved_by = words.substr(end + 1);
@@ -103,8 +111,8 @@ int measure(benchmarks::arguments const& given) {
   auto const folders = problem_folders(given.words()[0]);
 
   std::printf(
-      "problem,dimension,contacts,unknowns,rank,asymmetry,method,solved_by,status,error,products,"
-      "newton_steps,factorizations,seconds\n");
+      "problem,dimension,contacts,unknowns,rank,asymmetry,method,solved_by,status,error,seconds,"
+      "sweeps,products,newton_steps,proximal_steps,factorizations\n");
   bool good = true;
   for (auto const& folder : folders) {
     auto const p = slant::read_friction_problem(folder);
@@ -112,13 +120,13 @@ int measure(benchmarks::arguments const& given) {
     for (auto const& method : methods) {
       if (!given.wants(std::string(method.name), 1)) continue;
       row const r = run(p, method, tolerance, limit);
-      std::printf("%s,%td,%td,%td,%s,%.0e,%s,%s,%s,%s,%s,%s,%s,%s\n",
-                  folder.filename().string().c_str(), p.dimension(), p.contacts(), p.q.size(),
-                  cell("%.0f", double(rank)).c_str(), slant::contact::asymmetry(p.W),
-                  std::string(method.name).c_str(), r.solved_by.c_str(), r.status.c_str(),
-                  cell("%.1e", r.error).c_str(), cell("%.0f", r.products).c_str(),
-                  cell("%.0f", r.newton_steps).c_str(), cell("%.0f", r.factorizations).c_str(),
+      std::printf("%s,%td,%td,%td,%s,%.0e,%s,%s,%s,%s,%s", folder.filename().string().c_str(),
+                  p.dimension(), p.contacts(), p.q.size(), cell("%.0f", double(rank)).c_str(),
+                  slant::contact::asymmetry(p.W), std::string(method.name).c_str(),
+                  r.solved_by.c_str(), r.status.c_str(), cell("%.1e", r.error).c_str(),
                   cell("%.3g", r.seconds).c_str());
+      for (double const count : r.work) std::printf(",%s", cell("%.0f", count).c_str());
+      std::printf("\n");
       std::fflush(stdout);
       bool const solved = r.status == "converged" && r.error <= tolerance;
       if (&method == &methods.front()) good = good && solved;

@@ -30,9 +30,11 @@ def seconds(row):
 
 def default_table(rows):
     head = ["problem", "dim", "contacts", "unknowns", "rank of W", "asymmetry", "status", "error",
-            "products", "Newton steps", "factorisations", "seconds", "solved by"]
+            "seconds", "sweeps", "products", "Newton steps", "proximal steps", "factorisations",
+            "solved by"]
     names = ["problem", "dimension", "contacts", "unknowns", "rank", "asymmetry", "status", "error",
-             "products", "newton_steps", "factorizations", "seconds", "solved_by"]
+             "seconds", "sweeps", "products", "newton_steps", "proximal_steps", "factorizations",
+             "solved_by"]
     return table(head, [[row[name] for name in names] for row in rows])
 
 
