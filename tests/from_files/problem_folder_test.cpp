@@ -163,4 +163,19 @@ TEST_CASE("problem folder: values that cannot be") {
         "real general'");
 }
 
+TEST_CASE("problem folder: friction coefficients instead of slip bounds") {
+  problem const folder;
+  folder.remove("g.txt");
+  folder.put("F.txt", "0.3\n");
+  auto const p = from_files::read_coulomb_folder(folder.folder.path(), folder.folder / "F.txt");
+  CHECK(p.F.size() == 1);
+  CHECK(p.F[0] == 0.3);
+  CHECK(p.body.contact.g[0] == 0);
+  CHECK(p.body.contact.tangents() == 2);
+  folder.put("F.txt", "inf\n");
+  CHECK(refusal([&] {
+          (void)from_files::read_coulomb_folder(folder.folder.path(), folder.folder / "F.txt");
+        }).ends_with("F.txt:1: got 'inf', expected a finite number"));
+}
+
 }  // namespace problem_folder_test
