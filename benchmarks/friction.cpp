@@ -9,6 +9,7 @@
 // every problem within the limit. No method has settings for a problem.
 //
 //     problem, dimension, contacts, unknowns, rank, asymmetry
+//     zero_error          the error of r = 0, which says what others mean
 //     method, solved_by   what was run, and for a combination what gave the result
 //     status              what the method says of itself, or time_limit, failed
 //     error               natural map over |q|, by slant::contact::verify from r alone
@@ -111,18 +112,21 @@ int measure(benchmarks::arguments const& given) {
   auto const folders = problem_folders(given.words()[0]);
 
   std::printf(
-      "problem,dimension,contacts,unknowns,rank,asymmetry,method,solved_by,status,error,seconds,"
+      "problem,dimension,contacts,unknowns,rank,asymmetry,zero_error,method,solved_by,status,error,"
+      "seconds,"
       "sweeps,products,newton_steps,proximal_steps,factorizations\n");
   bool good = true;
   for (auto const& folder : folders) {
     auto const p = slant::read_friction_problem(folder);
     auto const rank = benchmarks::numerical_rank(p.W, largest);
+    Eigen::VectorXd const zero = Eigen::VectorXd::Zero(p.q.size());
+    double const zero_error = slant::contact::verify(p, zero).relative_natural_map;
     for (auto const& method : methods) {
       if (!given.wants(std::string(method.name), 1)) continue;
       row const r = run(p, method, tolerance, limit);
-      std::printf("%s,%td,%td,%td,%s,%.0e,%s,%s,%s,%s,%s", folder.filename().string().c_str(),
+      std::printf("%s,%td,%td,%td,%s,%.0e,%.0e,%s,%s,%s,%s,%s", folder.filename().string().c_str(),
                   p.dimension(), p.contacts(), p.q.size(), cell("%.0f", double(rank)).c_str(),
-                  slant::contact::asymmetry(p.W), std::string(method.name).c_str(),
+                  slant::contact::asymmetry(p.W), zero_error, std::string(method.name).c_str(),
                   r.solved_by.c_str(), r.status.c_str(), cell("%.1e", r.error).c_str(),
                   cell("%.3g", r.seconds).c_str());
       for (double const count : r.work) std::printf(",%s", cell("%.0f", count).c_str());

@@ -29,12 +29,12 @@ def seconds(row):
 
 
 def default_table(rows):
-    head = ["problem", "dim", "contacts", "unknowns", "rank of W", "asymmetry", "status", "error",
-            "seconds", "sweeps", "products", "Newton steps", "proximal steps", "factorisations",
-            "solved by"]
-    names = ["problem", "dimension", "contacts", "unknowns", "rank", "asymmetry", "status", "error",
-             "seconds", "sweeps", "products", "newton_steps", "proximal_steps", "factorizations",
-             "solved_by"]
+    head = ["problem", "dim", "contacts", "unknowns", "rank of W", "asymmetry", "error of r = 0",
+            "status", "error", "seconds", "sweeps", "products", "Newton steps", "proximal steps",
+            "factorisations", "solved by"]
+    names = ["problem", "dimension", "contacts", "unknowns", "rank", "asymmetry", "zero_error",
+             "status", "error", "seconds", "sweeps", "products", "newton_steps", "proximal_steps",
+             "factorizations", "solved_by"]
     return table(head, [[row[name] for name in names] for row in rows])
 
 
