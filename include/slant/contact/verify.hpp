@@ -14,7 +14,6 @@
 
 #include <slant/contact/friction_problem.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <vector>
 
