@@ -10,9 +10,13 @@
 //
 //     problem, dimension, contacts, unknowns, rank, asymmetry
 //     zero_error          the error of r = 0, which says what others mean
+//     tolerance           of error, rounding and penetration; what is above is not solved
 //     method, solved_by   what was run, and for a combination what gave the result
 //     status              what the method says of itself, or time_limit, failed
 //     error               natural map over |q|, by slant::contact::verify from r alone
+//     rounding            of the error, by the checker: an error below says nothing unless this is
+//                         below as well
+//     penetration         the largest −u_n over |q|: where μ is large the error sees little of it
 //     sweeps              passes over the contacts, at most a product by W each
 //     products            by W, besides
 //     newton_steps, proximal_steps, factorizations
@@ -43,7 +47,7 @@ using problem = slant::contact::friction_problem<>;
 
 struct row {
   std::string status = "failed", solved_by{};
-  double error = NAN, seconds = NAN;
+  double error = NAN, rounding = NAN, penetration = NAN, seconds = NAN;
   std::array<double, 5> work{NAN, NAN, NAN, NAN, NAN};  ///< in the order of the table
 };
 
@@ -60,9 +64,10 @@ struct row {
     double const start = benchmarks::cpu_seconds();
     auto const out = method.run(p, {.tolerance = tolerance});
     double const seconds = benchmarks::cpu_seconds() - start;
-    double const error = slant::contact::verify(p, out.r).relative_natural_map;
+    auto const check = slant::contact::verify(p, out.r);
     auto const& w = out.work;
-    return packed({error, seconds, double(w.sweeps), double(w.products), double(w.newton_steps),
+    return packed({check.relative_natural_map, check.relative_rounding, check.penetration.relative,
+                   seconds, double(w.sweeps), double(w.products), double(w.newton_steps),
                    double(w.proximal_steps), double(w.factorizations)},
                   std::string(slant::to_string(out.status)),
                   std::string(slant::contact::to_string(out.solved_by)));
@@ -70,11 +75,13 @@ struct row {
   row r;
   if (child.how == benchmarks::ending::time_limit) r.status = "time_limit";
   auto const& n = child.numbers;
-  std::size_t const words_from = 2 + r.work.size();
+  std::size_t const words_from = 4 + r.work.size();
   if (child.how != benchmarks::ending::finished || n.size() <= words_from) return r;
   r.error = n[0];
-  r.seconds = n[1];
-  std::copy_n(n.begin() + 2, r.work.size(), r.work.begin());
+  r.rounding = n[1];
+  r.penetration = n[2];
+  r.seconds = n[3];
+  std::copy_n(n.begin() + 4, r.work.size(), r.work.begin());
   std::string words;
   for (std::size_t i = words_from; i < n.size(); ++i) words.push_back(static_cast<char>(n[i]));
   auto const end = words.find('\n');
@@ -112,7 +119,8 @@ int measure(benchmarks::arguments const& given) {
   auto const folders = problem_folders(given.words()[0]);
 
   std::printf(
-      "problem,dimension,contacts,unknowns,rank,asymmetry,zero_error,method,solved_by,status,error,"
+      "problem,dimension,contacts,unknowns,rank,asymmetry,zero_error,tolerance,method,solved_by,"
+      "status,error,"
       "seconds,"
       "sweeps,products,newton_steps,proximal_steps,factorizations\n");
   bool good = true;
@@ -124,15 +132,18 @@ int measure(benchmarks::arguments const& given) {
     for (auto const& method : methods) {
       if (!given.wants(std::string(method.name), 1)) continue;
       row const r = run(p, method, tolerance, limit);
-      std::printf("%s,%td,%td,%td,%s,%.0e,%.0e,%s,%s,%s,%s,%s", folder.filename().string().c_str(),
-                  p.dimension(), p.contacts(), p.q.size(), cell("%.0f", double(rank)).c_str(),
-                  slant::contact::asymmetry(p.W), zero_error, std::string(method.name).c_str(),
-                  r.solved_by.c_str(), r.status.c_str(), cell("%.1e", r.error).c_str(),
-                  cell("%.3g", r.seconds).c_str());
+      std::printf("%s,%td,%td,%td,%s,%.0e,%.0e,%g,%s,%s,%s,%s,%s,%s,%s",
+                  folder.filename().string().c_str(), p.dimension(), p.contacts(), p.q.size(),
+                  cell("%.0f", double(rank)).c_str(), slant::contact::asymmetry(p.W), zero_error,
+                  std::string(method.name).c_str(), r.solved_by.c_str(), r.status.c_str(),
+                  cell("%.1e", r.error).c_str(), cell("%.0e", r.rounding).c_str(),
+                  cell("%.1e", r.penetration).c_str(), cell("%.3g", r.seconds).c_str());
       for (double const count : r.work) std::printf(",%s", cell("%.0f", count).c_str());
       std::printf("\n");
       std::fflush(stdout);
-      bool const solved = r.status == "converged" && r.error <= tolerance;
+      // A NaN is not at most anything.
+      bool const solved = r.status == "converged" && r.error <= tolerance &&
+                          r.rounding <= tolerance && r.penetration <= tolerance;
       if (&method == &methods.front()) good = good && solved;
     }
   }

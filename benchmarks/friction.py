@@ -12,11 +12,11 @@ import csv
 import os
 import sys
 
-TOLERANCE = 1e-8
-
 
 def is_solved(row):
-    return row["status"] == "converged" and bool(row["error"]) and float(row["error"]) <= TOLERANCE
+    measured = [row["error"], row["rounding"], row["penetration"]]
+    limit = float(row["tolerance"])
+    return row["status"] == "converged" and all(x and float(x) <= limit for x in measured)
 
 
 def table(head, lines):
@@ -30,11 +30,11 @@ def seconds(row):
 
 def default_table(rows):
     head = ["problem", "dim", "contacts", "unknowns", "rank of W", "asymmetry", "error of r = 0",
-            "status", "error", "seconds", "sweeps", "products", "Newton steps", "proximal steps",
-            "factorisations", "solved by"]
+            "status", "error", "its rounding", "penetration", "seconds", "sweeps", "products",
+            "Newton steps", "proximal steps", "factorisations", "solved by"]
     names = ["problem", "dimension", "contacts", "unknowns", "rank", "asymmetry", "zero_error",
-             "status", "error", "seconds", "sweeps", "products", "newton_steps", "proximal_steps",
-             "factorizations", "solved_by"]
+             "status", "error", "rounding", "penetration", "seconds", "sweeps", "products",
+             "newton_steps", "proximal_steps", "factorizations", "solved_by"]
     return table(head, [[row[name] for name in names] for row in rows])
 
 
@@ -58,6 +58,7 @@ def methods_table(problems, methods, of):
 def main(folder):
     with open(f"{folder}/friction.csv", encoding="utf-8", newline="") as text:
         rows = list(csv.DictReader(text))
+    tolerance = float(rows[0]["tolerance"])
     problems = list(dict.fromkeys(row["problem"] for row in rows))
     methods = list(dict.fromkeys(row["method"] for row in rows))
     of = {(row["problem"], row["method"]): row for row in rows}
@@ -67,11 +68,13 @@ def main(folder):
     slowest = max((float(row["seconds"]) for row in first if row["seconds"]), default=0)
     missed = [row["problem"] for row in first if not is_solved(row)]
     page = ["# Coulomb friction: problems of other people's simulations\n",
-            f"Of {len(problems)} problems u = W r + q {', '.join(counts)} to {TOLERANCE:g}, without "
+            f"Of {len(problems)} problems u = W r + q {', '.join(counts)} to {tolerance:g}, without "
             f"settings for a problem; the default, `{methods[0]}`, takes at most {slowest:.3g} s.\n",
             "Error: ‖r − P_K(r − (u + μ‖u_t‖ n))‖ / ‖q‖, computed from W, q, μ and r by "
             "`slant::contact::verify`, which shares no code with the solvers. A method has solved a "
-            f"problem if it says so and this error is at most {TOLERANCE:g}.\n"]
+            "problem if it says so and three figures are at most "
+            f"{tolerance:g}: this error, what rounding makes of it, and the largest penetration, "
+            "max(−u_n) / ‖q‖.\n"]
     if missed:
         page += [f"Not solved by the default: {', '.join(missed)}.\n"]
     page += [f"## `{methods[0]}`\n", default_table(first)]

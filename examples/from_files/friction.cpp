@@ -23,8 +23,10 @@ namespace contact = slant::contact;
   return {{"natural_map", check.natural_map},
           {"relative_natural_map", check.relative_natural_map},
           {"rounding", check.rounding},
+          {"relative_rounding", check.relative_rounding},
           {"outside_cone", figures(check.outside_cone)},
           {"outside_dual", figures(check.outside_dual)},
+          {"penetration", figures(check.penetration)},
           {"complementarity", figures(check.complementarity)},
           {"propulsion", figures(check.propulsion)},
           {"dissipation", check.dissipation},
@@ -68,11 +70,9 @@ int solve_friction_folder(arguments const& a) {
       method.run(problem, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
   double const seconds = std::chrono::duration<double>(clock::now() - begin).count();
   auto const check = contact::verify(problem, run.r);
-  if (run.r.allFinite() && run.u.allFinite()) {
-    if (files) files->write(run.r, run.u);
-  } else {
-    files.reset();
-  }
+  bool const is_finite = run.r.allFinite() && run.u.allFinite();
+  if (!is_finite) files.reset();
+  if (files) files->write(run.r, run.u);
   return deliver(a,
                  {{"status", slant::to_string(run.status)},
                   {"reason", run.reason},
@@ -89,7 +89,7 @@ int solve_friction_folder(arguments const& a) {
                   {"contacts", problem.contacts()},
                   {"dimension", problem.dimension()},
                   {"asymmetry", contact::asymmetry(problem.W)}},
-                 run.status == slant::status::converged, files);
+                 run.converged() && is_finite, files);
 }
 
 }  // namespace from_files

@@ -56,7 +56,7 @@ int deliver_solution(arguments const& a, from_files::problem const& p, std::stri
        {"contact_nodes", p.contact.nodes()},
        {"tangents_per_node", p.contact.tangents()},
        {"factorization", s.factorization}},
-      s.converged(), files);
+      s.converged() && s.is_finite(), files);
 }
 
 from_files::settings settings_of(arguments const& a) {
@@ -122,8 +122,8 @@ int main(int argc, char** argv) {
          "--tolerance", a.tolerance,
          "relative norm of the reduced gradient at which the method stops (ssn, semismooth_newton: "
          "of the\nnatural residual; ssn_primal_dual, ssnm_*: of a step; contacts: of the natural "
-         "map over |q|); 0: when\nrounding lets it get no further, which is status \"stalled\" and "
-         "exit status 1")
+         "map over |q|); 0: when\nrounding lets it get no further, or the limit of steps is "
+         "reached, with exit status 1: for a body mostly\nstatus \"stalled\"")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--start", a.start,

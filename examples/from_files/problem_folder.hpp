@@ -54,7 +54,8 @@ inline void require_folder(std::filesystem::path const& folder) {
   if (std::filesystem::is_directory(folder, error)) return;
   throw slant::bad_input(
       slant::detail::printable(folder), is_there(folder) ? "not a folder" : "no such folder",
-      "a folder with K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt");
+      "a folder with K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt, or with W.mtx, "
+      "q.txt, mu.txt");
 }
 
 /// All but g; T only if there is friction, else without rows.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <slant/contact/asymmetry.hpp>
 
@@ -25,6 +26,12 @@ TEST_CASE("asymmetry: the largest difference over the largest entry") {
   CHECK(asymmetry(sparse(A - A.transpose())) == 2);
   CHECK(asymmetry(sparse(Eigen::Matrix3d::Zero())) == 0);
   CHECK(asymmetry(sparse(Eigen::MatrixXd(0, 0))) == 0);
+  for (double const bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Eigen::Matrix3d B = A;
+    B(0, 1) = bad;
+    CHECK(std::isnan(asymmetry(sparse(B))));
+    CHECK_THROWS_AS(require_symmetric("W", sparse(B)), slant::bad_input);
+  }
   CHECK_THROWS_WITH_AS((void)asymmetry(sparse(Eigen::MatrixXd::Zero(2, 3))),
                        "columns of W: got 3, expected as many as rows, 2", slant::bad_input);
 }

@@ -59,6 +59,7 @@ TEST_CASE("verify: the figures of a naive implementation") {
         CHECK(std::abs(g.natural_map - double(e.natural_map)) < close * (1 + g.natural_map));
         CHECK(std::abs(g.outside_cone - double(e.outside_cone)) < close);
         CHECK(std::abs(g.outside_dual - double(e.outside_dual)) < close);
+        CHECK(std::abs(g.penetration - double(e.penetration)) < close);
         CHECK(std::abs(g.complementarity - double(e.complementarity)) <
               close * (1 + g.complementarity));
         CHECK(std::abs(g.dissipation - double(e.dissipation)) < close);
@@ -143,6 +144,8 @@ TEST_CASE("verify: each kind of mistake shows where it belongs") {
     CHECK(c.outside_cone.value == 0);
     CHECK(c.complementarity.value == 0);
     CHECK(c.outside_dual.value > 0.1 * slip.q.norm());
+    CHECK(c.penetration.value == -slip.q[0]);
+    CHECK(c.penetration.contact == 0);
     CHECK(c.natural_map > 0.1 * slip.q.norm());
   }
   SUBCASE("too much force, so they separate under it") {
@@ -205,10 +208,30 @@ TEST_CASE("verify: extreme coefficients") {
     auto const c = verify(p, test::numbers({1, mu < 1 ? -mu : -0.5}));
     CHECK(c.relative_natural_map <= 2 * eps);
     CHECK((mu < 1 ? c.slip : c.stick) == 1);
+    // A large coefficient does not hide that nothing is held.
+    auto const free = verify(p, test::numbers({0, 0}));
+    CHECK(free.penetration.value == 1);
+    CHECK(free.penetration.relative == doctest::Approx(1 / std::sqrt(1.25)));
+    CHECK(free.outside_dual.value == doctest::Approx(mu < 1 ? 1 : 1 / mu));
     // Without any friction force the rest of the law is violated by μ |u_t| r_n, if at all.
     auto const none = verify(p, test::numbers({1, 0}));
     CHECK(none.complementarity.value == doctest::Approx(0.5 * mu));
     CHECK(std::isfinite(none.natural_map));
+  }
+}
+
+TEST_CASE("verify: forces that are far larger than what they resist") {
+  // W h = 0 for h on the boundary of the cone, inside and outside: no force along h resists q.
+  for (double const size : {1e3, 1e8, 1e16, 1e24}) {
+    for (auto const& h : {test::numbers({2, 1}), test::numbers({2, 2}), test::numbers({2, 4})}) {
+      Eigen::Vector2d const across(h[1], -h[0]);
+      auto const p = test::make_friction_problem(across * across.transpose(),
+                                                 test::numbers({-1, 0}), test::numbers({1}));
+      auto const check = verify(p, Eigen::VectorXd(size * h));
+      CHECK(check.penetration.value == 1);
+      CHECK(check.relative_natural_map > 0.5);
+      CHECK((check.relative_rounding > 1e-8) == (size > 1e7));
+    }
   }
 }
 

@@ -109,7 +109,9 @@ TEST_CASE("problem folder: files that are missing") {
 
   temporary_folder const empty;
   std::string const files =
-      ", expected a folder with K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt";
+      ", expected a folder with K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt, or "
+      "with W.mtx, q.txt, "
+      "mu.txt";
   fs::path const none = empty / "none";
   CHECK(refusal([&] { (void)from_files::read_problem_folder(none); }) ==
         none.string() + ": got no such folder" + files);

@@ -18,7 +18,8 @@ enum class asymmetric_data : unsigned char {
   refused  ///< bad_input with the asymmetry in the message
 };
 
-/// max |W_ij − W_ji| / max |W_ij|, between 0 and 2; 0 for a W without entries. W is square.
+/// max |W_ij − W_ji| / max |W_ij|, between 0 and 2; 0 for a W without entries, NaN for one with
+/// entries that are not finite. W is square.
 template <class S>
 [[nodiscard]] S asymmetry(Eigen::SparseMatrix<S> const& W) {
   slant::detail::check_size("columns of W", index(W.cols()), index(W.rows()), "as many as rows,");
@@ -27,7 +28,8 @@ template <class S>
     for (index j = 0; j < A.outerSize(); ++j) {
       for (typename Eigen::SparseMatrix<S>::InnerIterator e(A, j); e; ++e) {
         S const size = e.value() < S(0) ? S(-e.value()) : S(e.value());
-        if (size > most) most = size;
+        if (size > most || size != size) most = size;
+        if (most != most) return most;
       }
     }
     return most;

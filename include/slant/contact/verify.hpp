@@ -28,7 +28,8 @@ struct contact_check {
   contact_state state = contact_state::open;
   S natural_map = S(0);      ///< ‖r − P_K(r − ρ û)‖, a force
   S outside_cone = S(0);     ///< distance of r from K_μ, a force
-  S outside_dual = S(0);     ///< distance of û from K_μ*, a velocity: penetration, as it were
+  S outside_dual = S(0);     ///< distance of û from K_μ*, a velocity
+  S penetration = S(0);      ///< max(−u_n, 0): the same but for a factor up to √(1 + μ²)
   S complementarity = S(0);  ///< |ûᵀ r|, a power
   S dissipation = S(0);      ///< −u_tᵀ r_t, a power; >= 0 wherever friction resists
 };
@@ -49,8 +50,10 @@ struct friction_check {
   /// What the natural map may become by rounding r and evaluating u: a few of these are as good as
   /// none. ε ‖ |r| + ρ (1 + μ) (|W| |r| + |q|) ‖.
   S rounding = S(0);
+  S relative_rounding = S(0);  ///< over ρ ‖q‖: where it is not small the natural map says nothing
   violation<S> outside_cone{};
   violation<S> outside_dual{};
+  violation<S> penetration{};
   violation<S> complementarity{};
   violation<S> propulsion{};  ///< −dissipation: friction that drives the motion
   S dissipation = S(0);       ///< sum over the contacts
@@ -81,12 +84,18 @@ template <class S>
   state = contact_state::stick;
   if (tangential <= μ * z[0]) return v;
   state = contact_state::slip;
-  // The nearest point of the ray (1, μ e), e = z_t / ‖z_t‖.
-  S const s = μ <= S(1) ? S((z[0] + μ * tangential) / (S(1) + μ * μ))
-                        : S((z[0] / μ + tangential) / (S(1) / μ + μ));
-  contact_vector<S> P = z * S(μ * s / tangential);
-  P[0] = s;
-  return r - P;
+  // P = s (1, μ e) with e = z_t / ‖z_t‖, s = (z_n + μ‖z_t‖) / (1 + μ²); here in terms of v, which
+  // the difference of two long vectors would lose: with δ = ‖z_t‖ − μ r_n
+  //     F_n = (v_n − μ δ) / (1 + μ²),   F_t = (δ r_t + μ r_n v_t) / ‖z_t‖ + μ F_n e.
+  index const d = r.size() - 1;
+  S const r_t = r.tail(d).stableNorm(), v_t = v.tail(d).stableNorm(), sum = tangential + r_t;
+  S const δ = (r_t - μ * r[0]) +
+              (v_t / sum * v_t - S(2) * contact_vector<S>(r.tail(d) / sum).dot(v.tail(d)));
+  contact_vector<S> F(r.size());
+  F[0] = μ <= S(1) ? S((v[0] - μ * δ) / (S(1) + μ * μ)) : S((v[0] / μ - δ) / (S(1) / μ + μ));
+  F.tail(d) = (δ / tangential) * r.tail(d) + (μ * r[0] / tangential) * v.tail(d) +
+              (μ * F[0] / tangential) * z.tail(d);
+  return F;
 }
 
 /// Distance from {x : ‖x_t‖ <= μ x_n}.
@@ -167,6 +176,7 @@ template <class S>
     c.natural_map = F.stableNorm();
     c.outside_cone = detail::distance_from_cone(ri, μ);
     c.outside_dual = detail::distance_from_dual(ui, μ);
+    c.penetration = ui[0] >= S(0) ? S(0) : S(-ui[0]);
 
     block const f = ri / force, w = ui / velocity;
     S const tangential = f.tail(d - 1).dot(w.tail(d - 1));
@@ -178,6 +188,7 @@ template <class S>
 
     detail::take_larger(all.outside_cone, c.outside_cone, i);
     detail::take_larger(all.outside_dual, c.outside_dual, i);
+    detail::take_larger(all.penetration, c.penetration, i);
     detail::take_larger(all.complementarity, power, i);
     detail::take_larger(all.propulsion, tangential, i);
     ++(c.state == contact_state::open    ? all.open
@@ -189,8 +200,10 @@ template <class S>
   all.natural_map = residual.stableNorm();
   all.relative_natural_map = detail::ratio(S(all.natural_map / ρ), q_norm);
   all.rounding = std::numeric_limits<S>::epsilon() * S(magnitude.stableNorm());
+  all.relative_rounding = detail::ratio(S(all.rounding / ρ), q_norm);
   all.outside_cone.relative = detail::ratio(all.outside_cone.value, r_norm);
   all.outside_dual.relative = detail::ratio(all.outside_dual.value, q_norm);
+  all.penetration.relative = detail::ratio(all.penetration.value, q_norm);
   all.dissipation = dissipation * force * velocity;
   for (auto* power : {&all.complementarity, &all.propulsion}) {
     if (power->value == S(0)) continue;
