@@ -135,8 +135,8 @@ int measure(benchmarks::arguments const& given) {
       std::printf("%s,%td,%td,%td,%s,%.0e,%.0e,%g,%s,%s,%s,%s,%s,%s,%s",
                   folder.filename().string().c_str(), p.dimension(), p.contacts(), p.q.size(),
                   cell("%.0f", double(rank)).c_str(), slant::contact::asymmetry(p.W), zero_error,
-                  std::string(method.name).c_str(), r.solved_by.c_str(), r.status.c_str(),
-                  cell("%.1e", r.error).c_str(), cell("%.0e", r.rounding).c_str(),
+                  tolerance, std::string(method.name).c_str(), r.solved_by.c_str(),
+                  r.status.c_str(), cell("%.1e", r.error).c_str(), cell("%.0e", r.rounding).c_str(),
                   cell("%.1e", r.penetration).c_str(), cell("%.3g", r.seconds).c_str());
       for (double const count : r.work) std::printf(",%s", cell("%.0f", count).c_str());
       std::printf("\n");
