@@ -120,9 +120,8 @@ int measure(benchmarks::arguments const& given) {
 
   std::printf(
       "problem,dimension,contacts,unknowns,rank,asymmetry,zero_error,tolerance,method,solved_by,"
-      "status,error,"
-      "seconds,"
-      "sweeps,products,newton_steps,proximal_steps,factorizations\n");
+      "status,error,rounding,penetration,seconds,sweeps,products,newton_steps,proximal_steps,"
+      "factorizations\n");
   bool good = true;
   for (auto const& folder : folders) {
     auto const p = slant::read_friction_problem(folder);
