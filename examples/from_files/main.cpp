@@ -5,106 +5,125 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <support/command_line.hpp>
 
-#include "result_files.hpp"
-#include "solution.hpp"
+#include "arguments.hpp"
+#include "coulomb.hpp"
+#include "friction.hpp"
+#include "solve.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+using from_files::arguments;
 
 std::map<std::string, from_files::start_point> const starts{
     {"zero", from_files::start_point::zero},
     {"qpc", from_files::start_point::qpc},
     {"interior_point", from_files::start_point::interior_point}};
 
-struct arguments {
-  fs::path folder{};
-  std::string method{from_files::recommended_method};
-  from_files::settings settings{};
-  std::string start{"zero"};
-  fs::path output{};
-  bool list_methods = false;
-};
-
 int list_methods() {
   from_files::for_each_method([](auto const& method) {
     std::printf("%-20s %s%s\n", method.name.data(), method.sentence.data(),
                 method.name == from_files::recommended_method ? " (recommended)" : "");
   });
+  std::printf("\nContacts in local coordinates:\n");
+  from_files::list_friction_methods();
   return examples::succeeded;
 }
 
-/// One line; what is not finite becomes null.
-std::string json_text(arguments const& a, from_files::problem const& p,
-                      from_files::solution const& s, bool written) {
-  nlohmann::ordered_json json{
-      {"status", slant::to_string(s.run.status)},
-      {"reason", s.run.reason},
-      {"method", a.method},
-      {"iterations", s.run.iterations},
-      {"operator_applications", s.run.work.operator_applications + s.run.work.setup_applications},
-      {"setup_applications", s.run.work.setup_applications},
-      {"setup_seconds", s.setup_seconds},
-      {"solve_seconds", s.solve_seconds},
-      {"kkt_residual", s.kkt_residual},
-      {"tolerance", a.settings.tolerance},
-      {"unknowns", p.K.rows()},
-      {"contact_nodes", p.contact.nodes()},
-      {"tangents_per_node", p.contact.tangents()},
-      {"factorization", s.factorization},
-      {"output", nullptr}};
-  if (written) json["output"] = a.output.string();
-  // A path may hold bytes that are no text.
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+/// Reports and writes what came of a body.
+int deliver_solution(arguments const& a, from_files::problem const& p, std::string const& method,
+                     from_files::solution const& s,
+                     std::optional<from_files::result_files>& files) {
+  if (!s.is_finite()) files.reset();
+  if (files) files->write(s.u, s.run.λ);
+  return from_files::deliver(
+      a,
+      {{"status", slant::to_string(s.run.status)},
+       {"reason", s.run.reason},
+       {"method", method},
+       {"iterations", s.run.iterations},
+       {"operator_applications", s.run.work.operator_applications + s.run.work.setup_applications},
+       {"setup_applications", s.run.work.setup_applications},
+       {"setup_seconds", s.setup_seconds},
+       {"solve_seconds", s.solve_seconds},
+       {"kkt_residual", s.kkt_residual},
+       {"tolerance", a.tolerance},
+       {"unknowns", p.K.rows()},
+       {"contact_nodes", p.contact.nodes()},
+       {"tangents_per_node", p.contact.tangents()},
+       {"factorization", s.factorization}},
+      s.converged() && s.is_finite(), files);
+}
+
+from_files::settings settings_of(arguments const& a) {
+  from_files::settings s{.tolerance = a.tolerance, .start = starts.at(a.start)};
+  if (a.max_iterations) s.max_iterations = *a.max_iterations;
+  return s;
+}
+
+int solve_tresca(arguments const& a) {
+  std::string const method =
+      a.method.empty() ? std::string(from_files::recommended_method) : a.method;
+  from_files::with_method(method, [](auto const&) {});
+  auto const problem = from_files::read_problem_folder(a.folder);
+  auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
+  auto const solution = from_files::solve(problem, method, settings_of(a));
+  return deliver_solution(a, problem, method, solution, files);
+}
+
+int solve_coulomb(arguments const& a) {
+  if (!a.method.empty() && a.method != "coulomb")
+    throw slant::bad_input("--method", a.method, "coulomb, as --coulomb is given");
+  if (a.start != "zero") throw slant::bad_input("--start", a.start, "zero, as --coulomb is given");
+  auto const problem = from_files::read_coulomb_folder(a.folder, a.coefficients);
+  auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
+  auto const solution = from_files::solve_coulomb(problem, settings_of(a));
+  return deliver_solution(a, problem.body, "coulomb", solution, files);
 }
 
 int solve_folder(arguments const& a) {
   if (a.list_methods) return list_methods();
   if (a.folder.empty())
     throw slant::bad_input("DIR", "nothing", "the folder with the matrices of the problem");
-  from_files::with_method(a.method, [](auto const&) {});
-  auto const problem = from_files::read_problem_folder(a.folder);
-  std::optional<from_files::result_files> files;
-  if (!a.output.empty()) files.emplace(a.output);
-  from_files::settings settings = a.settings;
-  settings.start = starts.at(a.start);
-  auto const solution = from_files::solve(problem, a.method, settings);
-  if (!solution.is_finite()) files.reset();
-  // No result counts before all of it can arrive: files appear only after the report was printed.
-  if (files) files->write(solution);
-  std::printf("%s\n", json_text(a, problem, solution, files.has_value()).c_str());
-  examples::require_printed();
-  if (files) files->commit();
-  return solution.converged() ? examples::succeeded : examples::not_converged;
+  if (from_files::holds_friction_problem(a.folder)) return from_files::solve_friction_folder(a);
+  if (a.symmetric)
+    throw slant::bad_input("--symmetric", "a folder with K.mtx", "a folder with W.mtx");
+  return a.coefficients.empty() ? solve_tresca(a) : solve_coulomb(a);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Contact with Tresca friction: min 1/2 u'Ku - f'u + sum g_i |(Tu)_i|  subject to  Nu <= d.\n"
-      "DIR holds K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx and g.txt.",
+      "Contact with friction from files. DIR holds either\n"
+      "  a body with Tresca friction: K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt:\n"
+      "    min 1/2 u'Ku - f'u + sum g_i |(Tu)_i|  subject to  Nu <= d\n"
+      "  or with Coulomb friction (--coulomb)\n"
+      "  or contacts with Coulomb friction, each [n, t1(, t2)]: W.mtx, q.txt, mu.txt:\n"
+      "    u = Wr + q,  |r_t| <= mu r_n,  r orthogonal to u + mu |u_t| n,  u_n >= 0",
       "from_files");
   app.footer(
-      "Prints one JSON object. \"kkt_residual\" is relative and computed from the matrices; "
-      "\"operator_applications\" includes \"setup_applications\".\n"
+      "Prints one JSON object. For a body \"kkt_residual\" is relative and computed from the "
+      "matrices;\n\"operator_applications\" includes \"setup_applications\". For contacts "
+      "\"check\" "
+      "holds the violations of the law,\ncomputed from the files and r alone.\n"
       "Exit status: 0 converged; 1 not converged, for the reason in the JSON object; 2 input "
       "that cannot be used or\noutput that cannot be written, named in one line on standard "
       "error; no file is written then.");
   arguments a;
   app.add_option("DIR", a.folder, "folder with the problem");
-  app.add_option("--method", a.method, "name of a method; see --list-methods")
-      ->capture_default_str();
+  app.add_option("--method", a.method,
+                 "name of a method; see --list-methods; default: the one recommended there");
   app.add_option(
-         "--tolerance", a.settings.tolerance,
+         "--tolerance", a.tolerance,
          "relative norm of the reduced gradient at which the method stops (ssn, semismooth_newton: "
-         "of the\nnatural residual; ssn_primal_dual, ssnm_*: of a step); 0: when rounding lets it "
-         "get no further,\nwhich is status \"stalled\" and exit status 1")
+         "of the\nnatural residual; ssn_primal_dual, ssnm_*: of a step; contacts: of the natural "
+         "map over |q|); 0: when\nrounding lets it get no further, or the limit of steps is "
+         "reached, with exit status 1: for a body mostly\nstatus \"stalled\"")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--start", a.start,
@@ -114,11 +133,17 @@ int main(int argc, char** argv) {
       ->check(examples::expects<std::string>(
           "zero, qpc or interior_point",
           [](std::string const& start) { return starts.contains(start); }));
-  app.add_option("--max-iterations", a.settings.max_iterations, "steps at most")
-      ->capture_default_str()
+  app.add_option("--max-iterations", a.max_iterations, "steps at most")
       ->check(examples::expects_at_least(0));
+  app.add_option("--coulomb", a.coefficients,
+                 "file with a friction coefficient F_i >= 0 for each contact node of a body: "
+                 "Coulomb friction,\n|lambda_t,i| <= F_i lambda_n,i; g.txt is not read")
+      ->check(examples::expects_name());
+  app.add_flag("--symmetric", a.symmetric,
+               "refuse a W that is not symmetric up to rounding; else it is used as given");
   app.add_option("--output", a.output,
-                 "folder for u.txt and lambda.txt (normal, then tangential forces)")
+                 "folder for u.txt and lambda.txt (normal, then tangential forces), or r.txt and "
+                 "u.txt")
       ->check(examples::expects_name());
   app.add_flag("--list-methods", a.list_methods, "print the methods and end");
   return examples::run_program(app, argc, argv, [&] { return solve_folder(a); });

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <chrono>
+#include <slant/concepts/convex_set.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <string>

@@ -96,7 +96,7 @@ TEST_CASE("from_files: every method by its name, from zero and after a first pha
   auto const list = run("from_files", "--list-methods").out;
   std::istringstream lines(list);
   int methods = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line) && !line.empty();) {
     ++methods;
     std::string const name = line.substr(0, line.find(' '));
     CAPTURE(name);

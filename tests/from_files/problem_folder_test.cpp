@@ -109,7 +109,9 @@ TEST_CASE("problem folder: files that are missing") {
 
   temporary_folder const empty;
   std::string const files =
-      ", expected a folder with K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt";
+      ", expected a folder with K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt, or "
+      "with W.mtx, q.txt, "
+      "mu.txt";
   fs::path const none = empty / "none";
   CHECK(refusal([&] { (void)from_files::read_problem_folder(none); }) ==
         none.string() + ": got no such folder" + files);
@@ -161,6 +163,21 @@ TEST_CASE("problem folder: values that cannot be") {
   CHECK(with("K.mtx", "not a matrix\n") ==
         "K.mtx:1: got 'not a matrix', expected a first line like '%%MatrixMarket matrix coordinate "
         "real general'");
+}
+
+TEST_CASE("problem folder: friction coefficients instead of slip bounds") {
+  problem const folder;
+  folder.remove("g.txt");
+  folder.put("F.txt", "0.3\n");
+  auto const p = from_files::read_coulomb_folder(folder.folder.path(), folder.folder / "F.txt");
+  CHECK(p.F.size() == 1);
+  CHECK(p.F[0] == 0.3);
+  CHECK(p.body.contact.g[0] == 0);
+  CHECK(p.body.contact.tangents() == 2);
+  folder.put("F.txt", "inf\n");
+  CHECK(refusal([&] {
+          (void)from_files::read_coulomb_folder(folder.folder.path(), folder.folder / "F.txt");
+        }).ends_with("F.txt:1: got 'inf', expected a finite number"));
 }
 
 }  // namespace problem_folder_test

@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/contact/asymmetry.hpp>
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
@@ -21,4 +22,5 @@
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>
+#include <slant/contact/verify.hpp>
 // IWYU pragma: end_exports

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "friction.hpp"
+
+#include <chrono>
+#include <slant/contact/verify.hpp>
+#include <slant/io/friction_folder.hpp>
+
+#include "friction_methods.hpp"
+#include "problem_folder.hpp"
+
+namespace from_files {
+
+namespace {
+
+namespace contact = slant::contact;
+
+[[nodiscard]] nlohmann::ordered_json figures(contact::violation<double> const& worst) {
+  return {{"value", worst.value}, {"relative", worst.relative}, {"contact", worst.contact}};
+}
+
+/// What the checker says, in the units of the data.
+[[nodiscard]] nlohmann::ordered_json figures(contact::friction_check<double> const& check) {
+  return {{"natural_map", check.natural_map},
+          {"relative_natural_map", check.relative_natural_map},
+          {"rounding", check.rounding},
+          {"relative_rounding", check.relative_rounding},
+          {"outside_cone", figures(check.outside_cone)},
+          {"outside_dual", figures(check.outside_dual)},
+          {"penetration", figures(check.penetration)},
+          {"complementarity", figures(check.complementarity)},
+          {"propulsion", figures(check.propulsion)},
+          {"dissipation", check.dissipation},
+          {"open", check.open},
+          {"stick", check.stick},
+          {"slip", check.slip}};
+}
+
+}  // namespace
+
+bool holds_friction_problem(std::filesystem::path const& folder) {
+  if (!detail::is_there(folder / "W.mtx")) return false;
+  if (detail::is_there(folder / "K.mtx"))
+    throw slant::bad_input(slant::detail::printable(folder), "both W.mtx and K.mtx",
+                           "contacts in local coordinates (W.mtx) or a body (K.mtx)");
+  return true;
+}
+
+void list_friction_methods() {
+  for (auto const& method : friction_methods) {
+    std::printf("%-20s %s%s\n", method.name.data(), method.sentence.data(),
+                method.name == friction_methods.front().name ? " (recommended)" : "");
+  }
+}
+
+int solve_friction_folder(arguments const& a) {
+  if (!a.coefficients.empty())
+    throw slant::bad_input("--coulomb", a.coefficients.string(),
+                           "nothing, since DIR holds W.mtx, whose coefficients are in mu.txt");
+  if (a.start != "zero")
+    throw slant::bad_input("--start", a.start, "zero, since DIR holds W.mtx: contacts alone");
+  auto const& method = friction_method_of(a.method);
+  auto const problem = slant::read_friction_problem(
+      a.folder, {.asymmetry = a.symmetric ? contact::asymmetric_data::refused
+                                          : contact::asymmetric_data::used_as_given});
+  auto files = places_for(a, {"r.txt", "u.txt"});
+
+  using clock = std::chrono::steady_clock;
+  auto const begin = clock::now();
+  auto const run =
+      method.run(problem, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
+  double const seconds = std::chrono::duration<double>(clock::now() - begin).count();
+  auto const check = contact::verify(problem, run.r);
+  bool const is_finite = run.r.allFinite() && run.u.allFinite();
+  if (!is_finite) files.reset();
+  if (files) files->write(run.r, run.u);
+  return deliver(a,
+                 {{"status", slant::to_string(run.status)},
+                  {"reason", run.reason},
+                  {"method", method.name},
+                  {"solved_by", contact::to_string(run.solved_by)},
+                  {"sweeps", run.work.sweeps},
+                  {"products", run.work.products},
+                  {"newton_steps", run.work.newton_steps},
+                  {"proximal_steps", run.work.proximal_steps},
+                  {"factorizations", run.work.factorizations},
+                  {"seconds", seconds},
+                  {"check", figures(check)},
+                  {"tolerance", a.tolerance},
+                  {"contacts", problem.contacts()},
+                  {"dimension", problem.dimension()},
+                  {"asymmetry", contact::asymmetry(problem.W)}},
+                 run.converged() && is_finite, files);
+}
+
+}  // namespace from_files

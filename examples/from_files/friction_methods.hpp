@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// The methods for contacts in local coordinates that can be asked for by name. The first one is
+// recommended, and taken unless another is asked for.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/contact/solve_friction.hpp>
+#include <string>
+#include <string_view>
+
+namespace from_files {
+
+struct friction_settings {
+  double tolerance = 1e-8;  ///< of the natural map over ‖q‖
+  std::optional<slant::index> max_iterations{};
+};
+
+/// A way to solve such a problem; `automatic` is the default of the library.
+struct friction_method {
+  std::string_view name;
+  std::string_view sentence;
+  slant::contact::friction_method kind;
+
+  [[nodiscard]] slant::contact::friction_result<double> run(
+      slant::contact::friction_problem<> const& p, friction_settings const& s) const {
+    slant::contact::friction_options<> o;
+    o.method = kind;
+    // 0: as far as rounding lets it get.
+    o.tolerance = s.tolerance > 0 ? s.tolerance : std::numeric_limits<double>::min();
+    if (s.max_iterations) {
+      o.first_sweeps = std::min(o.first_sweeps, *s.max_iterations);
+      o.sweeps = o.newton_steps = *s.max_iterations;
+    }
+    return slant::contact::solve_friction(p, o);
+  }
+};
+
+inline constexpr std::array friction_methods{
+    friction_method{"coulomb", "The three below in turn, until one of them has solved the problem.",
+                    slant::contact::friction_method::automatic},
+    friction_method{"gauss_seidel", "One contact after the other exactly, with extrapolation.",
+                    slant::contact::friction_method::gauss_seidel},
+    friction_method{"newton", "Semismooth Newton for the natural map, after a few sweeps.",
+                    slant::contact::friction_method::newton},
+    friction_method{"proximal_newton", "The proximal point method around it.",
+                    slant::contact::friction_method::proximal_newton},
+};
+
+/// The method of that name; the recommended one for an empty name. Throws slant::bad_input that
+/// lists the known names.
+[[nodiscard]] inline friction_method const& friction_method_of(std::string_view name) {
+  if (name.empty()) return friction_methods.front();
+  std::string known;
+  for (auto const& method : friction_methods) {
+    if (method.name == name) return method;
+    known.append(known.empty() ? "" : ", ").append(method.name);
+  }
+  throw slant::bad_input("--method", name, "one of " + known);
+}
+
+}  // namespace from_files

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// from_files on contacts with Coulomb friction in local coordinates.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <slant/contact/verify.hpp>
+#include <slant/io/friction_folder.hpp>
+#include <sstream>
+#include <support/friction_cases.hpp>
+#include <support/test_data.hpp>
+#include <vector>
+
+#include "problem_files.hpp"
+
+namespace {
+
+using examples_test::contains;
+using examples_test::is_one_line;
+using examples_test::problem_files;
+using examples_test::run;
+using nlohmann::json;
+
+/// A problem in a folder, and one for results.
+struct friction_files : problem_files {
+  explicit friction_files(test::friction_problem const& p) {
+    std::filesystem::create_directories(input());
+    slant::write_friction_problem(input(), p);
+  }
+};
+
+/// What the report says is what the checker makes of the files that were written.
+void check_report(problem_files const& files, test::friction_problem const& p, json const& result) {
+  Eigen::VectorXd const r = files.read("r.txt"), u = files.read("u.txt");
+  CHECK((u - (p.W * r + p.q)).norm() <= 1e-15 * p.q.norm());
+  auto const check = slant::contact::verify(p, r);
+  json const& said = result["check"];
+  CHECK(said["relative_natural_map"] == check.relative_natural_map);
+  CHECK(said["outside_cone"]["value"] == check.outside_cone.value);
+  CHECK(said["outside_dual"]["relative"] == check.outside_dual.relative);
+  CHECK(said["complementarity"]["value"] == check.complementarity.value);
+  CHECK(said["open"] == check.open);
+  CHECK(said["stick"] == check.stick);
+  CHECK(said["slip"] == check.slip);
+  CHECK(check.relative_natural_map <= 1e-8);
+}
+
+}  // namespace
+
+TEST_CASE("from_files: contacts whose forces are known") {
+  for (auto const& c : test::solvable_cases()) {
+    CAPTURE(c.name);
+    friction_files const files(c.problem);
+    auto const ran = files.solve();
+    CHECK(ran.status == 0);
+    CHECK(ran.err == "");
+    REQUIRE(is_one_line(ran.out));
+    json const result = json::parse(ran.out);
+    CHECK(result["status"] == "converged");
+    CHECK(result["method"] == "coulomb");
+    CHECK(result["contacts"] == c.problem.contacts());
+    CHECK(result["dimension"] == c.problem.dimension());
+    CHECK(result["asymmetry"] == 0);
+    CHECK(files.files_written() == 2);
+    check_report(files, c.problem, result);
+    if (c.r.size() == 1) {
+      CHECK((files.read("r.txt") - c.r[0]).norm() <= 1e-7 * (1 + c.r[0].norm()));
+    }
+  }
+}
+
+TEST_CASE("from_files: contacts from simulations") {
+  for (auto const* const name : {"FC3D_Example1", "FrictionContact3D_RR_1c",
+                                 "GFC3D_Example00_badly_scaled", "GFC3D_TwoRods1", "Rover4396",
+                                 "Rover4609", "Rover11035", "Confeti-ex13-4contact-Fc3D-SBM"}) {
+    CAPTURE(name);
+    auto const p = slant::read_friction_problem(test::data("friction") / name);
+    friction_files const files(p);
+    auto const ran = files.solve();
+    CHECK(ran.status == 0);
+    json const result = json::parse(ran.out);
+    CHECK(result["status"] == "converged");
+    CHECK(result["asymmetry"] == slant::contact::asymmetry(p.W));
+    check_report(files, p, result);
+  }
+}
+
+TEST_CASE("from_files: every method for contacts by its name") {
+  auto const c = test::single_solution_cases().back();
+  std::istringstream lines(run("from_files", "--list-methods").out);
+  std::string line;
+  while (std::getline(lines, line) && line != "Contacts in local coordinates:") continue;
+  int methods = 0;
+  while (std::getline(lines, line)) {
+    std::string const name = line.substr(0, line.find(' '));
+    CAPTURE(name);
+    if (++methods == 1) CHECK(name == "coulomb");
+    friction_files const files(c.problem);
+    auto const ran = files.solve("--method " + name);
+    CHECK(ran.status == 0);
+    json const result = json::parse(ran.out);
+    CHECK(result["method"] == name);
+    check_report(files, c.problem, result);
+  }
+  CHECK(methods >= 2);
+}
+
+TEST_CASE("from_files: contacts without solution end with a status") {
+  for (slant::index const d : {2, 3}) {
+    friction_files const files(test::no_solution_case(d).problem);
+    auto const ran = files.solve();
+    CHECK(ran.status == 1);
+    REQUIRE(is_one_line(ran.out));
+    json const result = json::parse(ran.out);
+    CHECK(result["status"] != "converged");
+    CHECK(result["reason"].get<std::string>() != "");
+    CHECK(result["check"]["relative_natural_map"].get<double>() > 1e-2);
+  }
+}
+
+TEST_CASE("from_files: contacts that cannot be used") {
+  auto const c = test::single_solution_cases().front();
+  auto const check_refusal = [](problem_files const& files, std::string const& options,
+                                std::string const& expected) {
+    CAPTURE(expected);
+    auto const ran = files.solve(options);
+    CAPTURE(ran.err);
+    CHECK(ran.status == 2);
+    CHECK(ran.out == "");
+    CHECK(is_one_line(ran.err));
+    CHECK(ran.err.starts_with("from_files: "));
+    CHECK(contains(ran.err, expected));
+    CHECK(files.files_written() == 0);
+  };
+  friction_files const files(c.problem);
+  check_refusal(files, "--method kprgp", "--method: got kprgp, expected one of coulomb");
+  check_refusal(files, "--start qpc", "--start: got qpc, expected zero");
+  files.put("mu.txt", "-1\n");
+  check_refusal(files, "", "mu.txt: got -1 of contact 0, expected a number >= 0");
+  files.put("K.mtx", "no matrix\n");
+  check_refusal(files, "", "both W.mtx and K.mtx");
+
+  auto const rover = slant::read_friction_problem(test::data("friction/Rover4396"));
+  check_refusal(friction_files(rover), "--symmetric", "W.mtx: got a matrix of asymmetry ");
+  check_refusal(examples_test::small_brick(), "--symmetric", "--symmetric: got ");
+}
