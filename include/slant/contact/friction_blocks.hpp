@@ -34,6 +34,8 @@ struct friction_error {
   S plain{};   ///< ‖F₁‖ / ‖q‖ in the units of the data
   S floor{};   ///< what rounding of r makes of `plain`
 
+  /// The larger of the two, `plain` only as far as it is more than rounding.
+  [[nodiscard]] S worst() const { return std::max(scaled, plain > floor ? plain : S(0)); }
   /// Both at most `tolerance`, `plain` as far as rounding allows.
   [[nodiscard]] bool at_most(S const& tolerance) const {
     return scaled <= tolerance && plain <= std::max(tolerance, floor);

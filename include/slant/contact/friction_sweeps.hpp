@@ -184,7 +184,7 @@ class friction_gauss_seidel {
     }
     pass(s, s.trial);
     auto const extrapolated = measure(s, s.trial, s.trial_u);
-    if (larger(extrapolated) <= options_.slack * larger(s.error)) {
+    if (extrapolated.worst() <= options_.slack * s.error.worst()) {
       s.x.swap(s.trial);
       s.u.swap(s.trial_u);
       s.error = extrapolated;
@@ -192,9 +192,9 @@ class friction_gauss_seidel {
     } else {
       s.length = std::max(S(1), S(s.length * options_.shrink));
     }
-    if (!slant::detail::is_finite(larger(s.error))) {
+    if (!slant::detail::is_finite(s.error.worst())) {
       s.status = slant::status::breakdown;
-    } else if (larger(s.error) < larger(s.best_error)) {
+    } else if (s.error.worst() < s.best_error.worst()) {
       s.best = s.x;
       s.best_error = s.error;
       s.since_best = 0;
@@ -204,9 +204,6 @@ class friction_gauss_seidel {
   }
 
  private:
-  static S larger(friction_error<S> const& e) {
-    return std::max(e.scaled, e.plain > e.floor ? e.plain : S(0));
-  }
   friction_error<S> measure(state_type& s, vector_type const& x, vector_type& u) const {
     blocks_->velocity(x, u);
     ++s.evaluations;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <random>
+#include <slant/contact/asymmetry.hpp>
+
+namespace asymmetry_test {
+
+using slant::contact::asymmetry;
+using slant::contact::require_symmetric;
+
+Eigen::SparseMatrix<double> sparse(Eigen::MatrixXd const& A) {
+  return A.sparseView();
+}
+
+TEST_CASE("asymmetry: the largest difference over the largest entry") {
+  Eigen::Matrix3d A;
+  A << 4, 1, 0, 1.5, -8, 0, 0, 2, 3;
+  CHECK(asymmetry(sparse(A)) == 0.25);
+  CHECK(asymmetry(sparse(A + A.transpose())) == 0);
+  CHECK(asymmetry(sparse(1e-300 * A)) == doctest::Approx(0.25));
+  CHECK(asymmetry(sparse(0x1p1020 * A)) == 0.25);
+  CHECK(asymmetry(sparse(A - A.transpose())) == 2);
+  CHECK(asymmetry(sparse(Eigen::Matrix3d::Zero())) == 0);
+  CHECK(asymmetry(sparse(Eigen::MatrixXd(0, 0))) == 0);
+  CHECK_THROWS_WITH_AS((void)asymmetry(sparse(Eigen::MatrixXd::Zero(2, 3))),
+                       "columns of W: got 3, expected as many as rows, 2", slant::bad_input);
+}
+
+TEST_CASE("asymmetry: what rounding does to H M^-1 H' is allowed, more is not") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  auto const draw = [&] { return number(random); };
+  Eigen::MatrixXd const H = Eigen::MatrixXd::NullaryExpr(60, 20, draw);
+  Eigen::VectorXd const m = Eigen::VectorXd::NullaryExpr(20, [&] { return 2 + draw(); });
+  Eigen::MatrixXd W = (H * m.cwiseInverse().asDiagonal()) * H.transpose();
+  CHECK(asymmetry(sparse(W)) > 0);
+  CHECK_NOTHROW(require_symmetric("W", sparse(W)));
+  W(3, 7) += 1e-5 * W.cwiseAbs().maxCoeff();
+  double const found = asymmetry(sparse(W));
+  CHECK(found == doctest::Approx(1e-5).epsilon(1e-3));
+  try {
+    require_symmetric("W.mtx", sparse(W));
+    FAIL("accepted");
+  } catch (slant::bad_input const& refused) {
+    CHECK(std::string(refused.what())
+              .starts_with("W.mtx: got a matrix of asymmetry " + slant::detail::show(found) +
+                           ", expected a symmetric one, max |W - W^T| <= "));
+  }
+}
+
+}  // namespace asymmetry_test
