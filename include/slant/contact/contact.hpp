@@ -10,6 +10,7 @@
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/friction_blocks.hpp>
+#include <slant/contact/friction_gauss_seidel.hpp>
 #include <slant/contact/friction_newton.hpp>
 #include <slant/contact/friction_options.hpp>
 #include <slant/contact/friction_problem.hpp>

@@ -81,7 +81,6 @@ class friction_newton {
   /// One step from r, for which `begin` or the last `advance` was called; false, and r unchanged,
   /// if there is no direction or no length that makes ‖F‖ fall.
   bool advance(vector_type& r, S const& δ, index halvings) {
-    auto const& p = *blocks_;
     ++work_.steps;
     differentiate(r);
     if (!find_direction(δ)) return false;
@@ -100,7 +99,6 @@ class friction_newton {
         return slant::detail::is_finite(F_norm_);
       }
     }
-    static_cast<void>(p);
     return false;
   }
   /// ‖F‖ at the point of the last begin or advance, and the length of the last step.
@@ -130,9 +128,8 @@ class friction_newton {
   S residual(vector_type const& r, vector_type const& u) {
     detail::friction_map<N, S> f;
     for (index i = 0; i < blocks_->contacts(); ++i) {
-      detail::friction_equation<false, N, S>(which_, blocks_->cone(i), rho(i),
-                                             part_type(r.template segment<N>(N * i)),
-                                             part_type(u.template segment<N>(N * i)), f);
+      f.look(which_, blocks_->mu(i), rho(i), part_type(r.template segment<N>(N * i)),
+             part_type(u.template segment<N>(N * i)), false);
       F_.template segment<N>(N * i) = f.F;
     }
     return F_.norm();
@@ -141,9 +138,8 @@ class friction_newton {
     closed_.clear();
     for (index i = 0; i < blocks_->contacts(); ++i) {
       auto& f = maps_[std::size_t(i)];
-      detail::friction_equation<true, N, S>(which_, blocks_->cone(i), rho(i),
-                                            part_type(r.template segment<N>(N * i)),
-                                            part_type(u_.template segment<N>(N * i)), f);
+      f.look(which_, blocks_->mu(i), rho(i), part_type(r.template segment<N>(N * i)),
+             part_type(u_.template segment<N>(N * i)), true);
       place_[std::size_t(i)] = f.open ? -1 : index(closed_.size());
       if (!f.open) closed_.push_back(i);
       direction_.template segment<N>(N * i) = -f.F;

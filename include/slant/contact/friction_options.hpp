@@ -8,7 +8,7 @@
 #include <slant/contact/asymmetry.hpp>
 #include <slant/contact/detail/friction_map.hpp>
 #include <slant/contact/friction_blocks.hpp>
-#include <slant/contact/friction_sweeps.hpp>
+#include <slant/contact/friction_gauss_seidel.hpp>
 #include <slant/methods/proximal_point.hpp>
 
 #include <limits>
@@ -49,14 +49,15 @@ struct friction_options {
   S tolerance = S(1e-8);
   friction_equations equations = friction_equations::natural_map;
   asymmetric_data asymmetry = asymmetric_data::used_as_given;
-  index first_sweeps = 100;   ///< before the first Newton step
-  index sweeps = 300000;      ///< of Gauss–Seidel at most, in all
-  index newton_steps = 3000;  ///< at most, in all
-  index attempt = 40;         ///< Newton steps in one attempt of `newton`
-  S damping = S(1e-6);        ///< first δ of friction_newton in `newton`
-  index halvings = 8;         ///< of a Newton step at most
-  index inner_steps = 20;     ///< Newton steps between two rescues in one proximal step
-  index rescues = 2;          ///< of a proximal step, by sweeps, before α grows
+  index first_sweeps = 100;    ///< before the first Newton step
+  index further_sweeps = 400;  ///< between Newton steps, four times as many each time
+  index sweeps = 300000;       ///< of Gauss–Seidel at most, in all
+  index newton_steps = 3000;   ///< at most, in all
+  index attempt = 40;          ///< Newton steps in one attempt of `newton`
+  S damping = S(1e-6);         ///< first δ of friction_newton in `newton`
+  index halvings = 8;          ///< of a Newton step at most
+  index inner_steps = 20;      ///< Newton steps between two rescues in one proximal step
+  index rescues = 2;           ///< of a proximal step, by sweeps, before α grows
   gauss_seidel_options<S> gauss_seidel{};
   proximal_point_options<S> proximal{};
 
@@ -70,6 +71,7 @@ struct friction_options {
       throw bad_input("damping", show(damping), "a finite number > 0");
     }
     at_least_zero("first_sweeps", first_sweeps);
+    at_least_zero("further_sweeps", further_sweeps);
     at_least_zero("sweeps", sweeps);
     at_least_zero("newton_steps", newton_steps);
     at_least_zero("halvings", halvings);
