@@ -28,4 +28,5 @@
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>
+#include <slant/contact/verify.hpp>
 // IWYU pragma: end_exports

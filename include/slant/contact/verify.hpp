@@ -194,7 +194,8 @@ template <class S>
   all.outside_dual.relative = detail::ratio(all.outside_dual.value, q_norm);
   all.dissipation = dissipation * force * velocity;
   for (auto* power : {&all.complementarity, &all.propulsion}) {
-    power->relative = power->value * detail::ratio(force, r_norm) * detail::ratio(velocity, q_norm);
+    if (power->value == S(0)) continue;
+    power->relative = power->value * (force / r_norm) * (velocity / q_norm);
     power->value *= force * velocity;
   }
   return all;

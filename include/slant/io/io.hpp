@@ -5,6 +5,7 @@
 
 // IWYU pragma: begin_exports
 #include <slant/io/atomic_file.hpp>
+#include <slant/io/friction_folder.hpp>
 #include <slant/io/matrix_market.hpp>
 #include <slant/io/matrix_market_header.hpp>
 #include <slant/io/number_text.hpp>
