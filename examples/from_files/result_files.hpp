@@ -9,12 +9,11 @@
 #include <filesystem>
 #include <slant/io/atomic_file.hpp>
 #include <slant/io/text_vector.hpp>
+#include <string>
 #include <support/command_line.hpp>
 #include <system_error>
 #include <utility>
 #include <vector>
-
-#include "solution.hpp"
 
 namespace from_files {
 
@@ -55,24 +54,24 @@ class new_folder {
 
 }  // namespace detail
 
-/// u.txt and lambda.txt in a folder. Destroyed without commit(), everything is as it was.
+/// Vectors as text in a folder. Destroyed without commit(), everything is as it was.
 class result_files {
  public:
   /// Throws slant::bad_input naming the option, or a file that cannot be written there.
-  explicit result_files(std::filesystem::path folder)
-      : created_(folder), folder_(std::move(folder)) {
+  result_files(std::filesystem::path folder, std::vector<std::string> names)
+      : created_(folder), folder_(std::move(folder)), names_(std::move(names)) {
     slant::atomic_files probe;
-    probe.add(folder_ / "u.txt");
-    probe.add(folder_ / "lambda.txt");
+    for (auto const& name : names_) probe.add(folder_ / name);
   }
 
-  /// Puts the content on the disk, not yet under its names.
-  void write(solution const& s) {
-    slant::write_text_vector(files_.add(folder_ / "u.txt"), s.u);
-    slant::write_text_vector(files_.add(folder_ / "lambda.txt"), s.run.λ);
+  /// Puts one vector for each name on the disk, not yet under these names.
+  template <class... Vectors>
+  void write(Vectors const&... x) {
+    auto name = names_.begin();
+    (slant::write_text_vector(files_.add(folder_ / *name++), x), ...);
     files_.seal();
   }
-  /// Both files appear.
+  /// All files appear.
   void commit() {
     files_.commit();
     created_.keep();
@@ -81,6 +80,7 @@ class result_files {
  private:
   detail::new_folder created_;  // first: it can go when the temporary files are gone
   std::filesystem::path folder_;
+  std::vector<std::string> names_;
   slant::atomic_files files_{};
 };
 

@@ -3,6 +3,7 @@
 // That the contacts with known solutions have these solutions and no other, by enumeration.
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <oracle/naive_friction.hpp>
