@@ -17,11 +17,11 @@ using blocks = slant::contact::friction_blocks<N, double>;
 /// ‖natural map‖ / ‖q‖ in long double.
 double naive_error(test::friction_problem const& p, Eigen::VectorXd const& r) {
   using oracle::friction_real;
-  auto const all = oracle::naive_friction(
-      oracle::friction_matrix(Eigen::MatrixXd(p.W).cast<friction_real>()),
-      oracle::friction_vector(p.q.cast<friction_real>()),
-      oracle::friction_vector(p.mu.cast<friction_real>()),
-      oracle::friction_vector(r.cast<friction_real>()));
+  auto const all =
+      oracle::naive_friction(oracle::friction_matrix(Eigen::MatrixXd(p.W).cast<friction_real>()),
+                             oracle::friction_vector(p.q.cast<friction_real>()),
+                             oracle::friction_vector(p.mu.cast<friction_real>()),
+                             oracle::friction_vector(r.cast<friction_real>()));
   friction_real sum = 0;
   for (auto const& c : all) sum += c.natural_map * c.natural_map;
   return double(std::sqrt(sum)) / p.q.norm();
@@ -42,7 +42,8 @@ TEST_CASE("blocks: products and errors are those of the dense problem in the uni
     CHECK((b.speed(u) - (Eigen::MatrixXd(p.W) * r + p.q)).norm() <= 1e-13 * b.speed(u).norm());
     CHECK(b.error(scaled, u).plain == doctest::Approx(naive_error(p, r)).epsilon(1e-10));
   };
-  auto const plane = test::random_friction(4, 2, 0.4, 1), space = test::random_friction(5, 3, 0.7, 2);
+  auto const plane = test::random_friction(4, 2, 0.4, 1),
+             space = test::random_friction(5, 3, 0.7, 2);
   check.operator()<2>(plane, 1, 1);
   check.operator()<3>(space, 1, 1);
   check.operator()<3>(space, 1e3, 1e-9);

@@ -15,9 +15,8 @@ namespace test {
 
 /// `contacts` contacts with W = H Hᵀ + I/10, H random with rows of length about 1; pushed together
 /// where q_n < 0, about three of four, and moving along.
-[[nodiscard]] inline friction_problem random_friction(slant::index contacts,
-                                                      slant::index dimension, double mu,
-                                                      unsigned seed) {
+[[nodiscard]] inline friction_problem random_friction(slant::index contacts, slant::index dimension,
+                                                      double mu, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   slant::index const n = contacts * dimension;

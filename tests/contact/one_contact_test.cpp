@@ -17,10 +17,10 @@ double violation(Eigen::Matrix<double, N, N> const& W, Eigen::Matrix<double, N, 
   using oracle::friction_real;
   oracle::friction_vector m(1);
   m[0] = mu;
-  auto const all = oracle::naive_friction(oracle::friction_matrix(W.template cast<friction_real>()),
-                                          oracle::friction_vector(q.template cast<friction_real>()),
-                                          m,
-                                          oracle::friction_vector(r.template cast<friction_real>()));
+  auto const all =
+      oracle::naive_friction(oracle::friction_matrix(W.template cast<friction_real>()),
+                             oracle::friction_vector(q.template cast<friction_real>()), m,
+                             oracle::friction_vector(r.template cast<friction_real>()));
   return double(all[0].natural_map) / q.norm();
 }
 

@@ -30,9 +30,10 @@ namespace slant::contact {
 /// The two measures of the top of this file, relative to ‖q‖.
 template <class S>
 struct friction_error {
-  S scaled{};  ///< ‖F_ρ‖ / (ρ ‖q‖), ρ = 1/ω
-  S plain{};   ///< ‖F₁‖ / ‖q‖ in the units of the data
-  S floor{};   ///< what rounding of r makes of `plain`
+  /// (‖F_ρ‖/ρ + ε ‖r‖/ρ) / ‖q‖, ρ = 1/ω: forces so large that their rounding hides û are none.
+  S scaled{};
+  S plain{};  ///< ‖F₁‖ / ‖q‖ in the units of the data
+  S floor{};  ///< what rounding of r makes of `plain`
 
   /// The larger of the two, `plain` only as far as it is more than rounding.
   [[nodiscard]] S worst() const { return std::max(scaled, plain > floor ? plain : S(0)); }
@@ -120,8 +121,9 @@ class friction_blocks {
       scaled += (ri - cone(i).project(part_type(ri - v))).squaredNorm();
       plain += (ri - cone(i).project(part_type(ri - ρ * v))).squaredNorm() / ρ / ρ;
     }
-    S const rounding = S(16) * std::numeric_limits<S>::epsilon() * r.norm() / ρ;
-    return {sqrt(scaled) / q_norm_, sqrt(plain) / q_norm_, rounding / q_norm_};
+    S const rounding = std::numeric_limits<S>::epsilon() * r.norm();
+    return {(sqrt(scaled) + rounding) / q_norm_, sqrt(plain) / q_norm_,
+            S(16) * rounding / ρ / q_norm_};
   }
 
   /// r and u in the units of the data.
