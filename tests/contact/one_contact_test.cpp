@@ -77,4 +77,23 @@ TEST_CASE("one contact: no friction, and very much of it") {
             .r.norm() == 0);
 }
 
+TEST_CASE("one contact: hardly any friction, slip λ beyond the range of squares") {
+  Eigen::Matrix3d W = Eigen::Matrix3d::Identity();
+  W(1, 2) = W(2, 1) = 0.5;
+  for (double const mu : {1e-150, 1e-160, 1e-200, 1e-300, 1e-320}) {
+    for (double const guess : {0., 1e10, 1e300}) {
+      auto const c = slant::contact::detail::solve_one_contact<3, double>(
+          W, Eigen::Vector3d(-1, 3, 4), mu, guess);
+      CHECK(c.r(0) == doctest::Approx(1));
+      CHECK(std::abs(c.r(1) / mu + 0.6) <= 1e-3);  // digits of mu itself where it is subnormal
+      CHECK(std::abs(c.r(2) / mu + 0.8) <= 1e-3);
+      CHECK(c.slip > 1e149);
+    }
+  }
+  // A block that is tiny: its determinant is below the range.
+  auto const c = slant::contact::detail::solve_one_contact<3, double>(
+      1e-170 * W, Eigen::Vector3d(-1, 0.1, 0.1), 1., 0.);
+  CHECK((1e-170 * W * c.r + Eigen::Vector3d(-1, 0.1, 0.1)).norm() <= 1e-15);
+}
+
 }  // namespace one_contact_test

@@ -96,7 +96,10 @@ class friction_newton {
         velocity(r, u_);
         F_norm_ = residual(r, u_);
         length_ = β;
-        return slant::detail::is_finite(F_norm_);
+        if (slant::detail::is_finite(F_norm_)) return true;
+        r.swap(trial_);
+        static_cast<void>(begin(r));
+        return false;
       }
     }
     return false;

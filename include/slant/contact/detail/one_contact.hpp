@@ -22,6 +22,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,16 +35,20 @@ struct one_contact {
   S slip{0};
 };
 
-/// (S + λI)⁻¹ b for 1 × 1 and 2 × 2 matrices.
+/// m (S + λI)⁻¹ b for 1 × 1 and 2 × 2 matrices, m the largest entry of S and λ: neither squares
+/// nor inverses leave the range of numbers where λ is huge.
 template <int T, class S>
-[[nodiscard]] Eigen::Matrix<S, T, 1> shifted_inverse(Eigen::Matrix<S, T, T> const& m, S const& λ,
+[[nodiscard]] Eigen::Matrix<S, T, 1> shifted_inverse(Eigen::Matrix<S, T, T> const& matrix,
+                                                     S const& λ, S const& m,
                                                      Eigen::Matrix<S, T, 1> const& b) {
   if constexpr (T == 1) {
-    return b / (m(0, 0) + λ);
+    return b / ((matrix(0, 0) + λ) / m);
   } else {
-    S const a = m(0, 0) + λ, d = m(1, 1) + λ;
-    S const determinant = a * d - m(0, 1) * m(1, 0);
-    return Eigen::Matrix<S, T, 1>(d * b(0) - m(0, 1) * b(1), a * b(1) - m(1, 0) * b(0)) /
+    Eigen::Matrix<S, T, T> s = matrix / m;
+    s.diagonal().array() += λ / m;
+    S const determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
+    return Eigen::Matrix<S, T, 1>(s(1, 1) * b(0) - s(0, 1) * b(1),
+                                  s(0, 0) * b(1) - s(1, 0) * b(0)) /
            determinant;
   }
 }
@@ -71,9 +76,10 @@ template <int N, class S>
   tangent const b = q.template tail<T>() - lever * q(0);
   auto const normal = [&](tangent const& t) { return S(-(q(0) + coupling.dot(t)) / w); };
 
-  tangent t = -shifted_inverse<T, S>(schur, S(0), b);
+  S const largest = schur.cwiseAbs().maxCoeff();
+  tangent t = -shifted_inverse<T, S>(schur, S(0), largest, b) / largest;
   S n = normal(t);
-  if (t.norm() <= μ * n) {
+  if (t.stableNorm() <= μ * n) {
     c.r << n, t;
     return c;
   }
@@ -84,26 +90,37 @@ template <int N, class S>
     c.r << n, sign * μ * n;
     return c;
   }
+  S const push = b.stableNorm(), first = push / μ * (w / -q(0));
+  if (!(first <= std::numeric_limits<S>::max())) {  // λ → ∞: r_t against b
+    tangent const e = b / push;
+    n = -q(0) / (w - μ * coupling.dot(e));
+    c.slip = std::numeric_limits<S>::max();
+    c.r << n, e * (-μ * n);
+    return c;
+  }
   S low = S(0), high = std::numeric_limits<S>::infinity();
-  S λ = guess > S(0) ? guess : S(b.norm() * w / (μ * -q(0)));
+  S λ = guess > S(0) ? guess : first;
+  tangent e = tangent::Zero();  // direction of r_t
   for (int k = 0; k < 80; ++k) {
-    t = -shifted_inverse<T, S>(schur, λ, b);
-    n = normal(t);
-    S const size = t.norm();
-    S const ψ = μ * n / size - S(1);
+    S const m = std::max(largest, λ);
+    tangent const y = -shifted_inverse<T, S>(schur, λ, m, b);  // m r_t
+    S const size = y.stableNorm();
+    e = y / size;
+    n = normal(tangent(y / m));
+    S const ψ = μ * n / size * m - S(1);
     if (abs(ψ) <= S(4) * std::numeric_limits<S>::epsilon()) break;
     (ψ < S(0) ? low : high) = λ;
-    tangent const dt = -shifted_inverse<T, S>(schur, λ, t);
-    S const slope = μ * (-coupling.dot(dt) / w - n * (t.dot(dt) / size) / size) / size;
+    tangent const z = shifted_inverse<T, S>(schur, λ, m, e);  // −(dr_t/dλ) m / ‖r_t‖
+    S const slope = μ * (coupling.dot(z) / w / m + n * (e.dot(z) / size));
     S next = λ - ψ / slope;
     if (!(next > low && next < high)) {
-      next = high < std::numeric_limits<S>::infinity() ? S((low + high) / S(2)) : S(8) * λ;
+      next = high < std::numeric_limits<S>::infinity() ? S(low + (high - low) / S(2)) : S(8) * λ;
     }
     if (next == λ) break;
     λ = next;
   }
   c.slip = λ;
-  c.r << n, t * (μ * n / t.norm());
+  c.r << n, e * (μ * n);
   return c;
 }
 
