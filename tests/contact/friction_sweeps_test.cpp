@@ -84,4 +84,21 @@ TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay 
   CHECK(r.allFinite());
 }
 
+TEST_CASE("sweeps: indefinite blocks with a positive diagonal are made definite") {
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
+  D(0, 1) = D(1, 0) = 5;
+  auto const p =
+      test::make_friction_problem(D, Eigen::Vector3d(-1, 2, 1), Eigen::VectorXd::Constant(1, 0.5));
+  blocks const b(p);
+  double const shift = sweeps(b).shift(0) / b.diagonal(0)(2, 2);  // in units of D
+  CHECK(shift > 4);                                               // its smallest eigenvalue is −4
+  CHECK(shift < 4.1);
+  blocks const definite(test::chain_friction(2));
+  CHECK(sweeps(definite).shift(1) == 0);
+  sweeps s(b);
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
+  for (int k = 0; k < 10; ++k) s.sweep(r);
+  CHECK(r.allFinite());
+}
+
 }  // namespace friction_sweeps_test
