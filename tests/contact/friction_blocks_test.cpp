@@ -71,9 +71,42 @@ TEST_CASE("blocks: the scaled error knows no units, and rounding is told apart")
   tiny.W *= 1e-20;
   auto const e = blocks<3>(tiny).error(r, u);
   CHECK(e.floor > 1e3);
-  CHECK(slant::contact::friction_error<double>{1e-9, 1e3, 1e4}.at_most(1e-8));
-  CHECK(!slant::contact::friction_error<double>{1e-9, 1e5, 1e4}.at_most(1e-8));
-  CHECK(!slant::contact::friction_error<double>{1e-7, 1e-9, 1e4}.at_most(1e-8));
+  CHECK(slant::contact::friction_error<double>{1e-9, 1e3, 1e4, 0}.at_most(1e-8));
+  CHECK(!slant::contact::friction_error<double>{1e-9, 1e5, 1e4, 0}.at_most(1e-8));
+  CHECK(!slant::contact::friction_error<double>{1e-7, 1e-9, 1e4, 0}.at_most(1e-8));
+}
+
+TEST_CASE("blocks: penetration counts however large μ is, and rounding is no sliding") {
+  auto const at = [](double mu, Eigen::Vector3d const& r) {
+    auto const p = test::make_friction_problem(
+        Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));
+    blocks<3> const b(p);
+    Eigen::VectorXd const x = r;
+    Eigen::VectorXd u(3);
+    b.velocity(x, u);
+    return b.error(x, u);
+  };
+  auto const none = at(1e9, Eigen::Vector3d::Zero());
+  CHECK(none.scaled <= 1e-8);  // the natural map alone
+  CHECK(none.penetration == doctest::Approx(std::sqrt(0.5)));
+  CHECK(none.worst() == none.penetration);
+  CHECK(!none.at_most(1e-8));
+  CHECK(at(1e9, Eigen::Vector3d(1, -1, 0)).at_most(1e-15));
+  CHECK(at(1e9, Eigen::Vector3d(1, -1 + 1e-15, 0)).at_most(1e-14));
+  CHECK(!at(1e9, Eigen::Vector3d(1, -1 + 1e-12, 0)).at_most(1e-8));
+}
+
+TEST_CASE("blocks: a NaN in an error is not hidden") {
+  double const nan = std::nan("");
+  using error = slant::contact::friction_error<double>;
+  for (auto const& e : {error{nan, 0, 0, 0}, error{0, nan, 0, 0}, error{0, nan, nan, 0},
+                        error{0, 0, 0, nan}, error{nan, 1, 0, 1}}) {
+    CHECK(std::isnan(e.worst()));
+    CHECK(!e.at_most(1));
+  }
+  CHECK(error{1, 2, 3, 0.5}.worst() == 1);
+  CHECK(error{1, 4, 3, 0.5}.worst() == 4);
+  CHECK(error{1, 4, 3, 5}.worst() == 5);
 }
 
 TEST_CASE("blocks: those without an entry are left out, nothing is allocated afterwards") {

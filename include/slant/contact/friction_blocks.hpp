@@ -10,11 +10,13 @@
 // How good r is, is measured twice. The natural map F_ρ = r − P_K(r − ρ (u + μ‖u_t‖ n)), ‖F_ρ‖/ρ
 // relative to ‖q‖, is independent of units for ρ = 1/ω; for ρ = 1 it is what the literature
 // compares (Acary, Brémond and Huber, 2018), but below the rounding of r itself it says nothing
-// more.
+// more. Where μ is large the natural map hardly sees the gaps, −u_n counts as −u_n/√(1 + μ²) only:
+// penetration is measured besides.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
 #include <slant/contact/friction_problem.hpp>
+#include <slant/sets/detail/scaling.hpp>
 #include <slant/sets/second_order_cone.hpp>
 
 #include <Eigen/Core>
@@ -27,19 +29,26 @@
 
 namespace slant::contact {
 
-/// The two measures of the top of this file, relative to ‖q‖.
+/// The measures of the top of this file, relative to ‖q‖. NaN in one is NaN in `worst`.
 template <class S>
 struct friction_error {
   /// (‖F_ρ‖/ρ + ε ‖r‖/ρ) / ‖q‖, ρ = 1/ω: forces so large that their rounding hides û are none.
   S scaled{};
-  S plain{};  ///< ‖F₁‖ / ‖q‖ in the units of the data
-  S floor{};  ///< what rounding of r makes of `plain`
+  S plain{};        ///< ‖F₁‖ / ‖q‖ in the units of the data
+  S floor{};        ///< what rounding of r makes of `plain`
+  S penetration{};  ///< ‖max(0, −u_n)‖ / ‖q‖
 
-  /// The larger of the two, `plain` only as far as it is more than rounding.
-  [[nodiscard]] S worst() const { return std::max(scaled, plain > floor ? plain : S(0)); }
-  /// Both at most `tolerance`, `plain` as far as rounding allows.
+  /// The largest of them, `plain` only as far as it is more than rounding.
+  [[nodiscard]] S worst() const {
+    S most = scaled;
+    for (S const& e : {plain <= floor ? S(0) : plain, penetration}) {
+      if (most == most && !(e <= most)) most = e;
+    }
+    return most;
+  }
+  /// All at most `tolerance`, `plain` as far as rounding allows.
   [[nodiscard]] bool at_most(S const& tolerance) const {
-    return scaled <= tolerance && plain <= std::max(tolerance, floor);
+    return scaled <= tolerance && plain <= std::max(tolerance, floor) && penetration <= tolerance;
   }
 };
 
@@ -107,23 +116,29 @@ class friction_blocks {
     }
   }
 
-  /// How good r is, u = velocity(r).
+  /// How good r is, u = velocity(r). Sliding slower than the rounding of u is none: times a large
+  /// μ it would hide every sticking contact.
   [[nodiscard]] friction_error<S> error(vector_type const& r, vector_type const& u) const {
     using std::ldexp;
     using std::sqrt;
-    S scaled(0), plain(0);
+    S scaled(0), plain(0), penetration(0);
     int const far = 2 * std::numeric_limits<S>::max_exponent / 5;  // squares must not overflow
     S const ρ = ldexp(S(1), std::clamp(compliance_, -far, far));
+    S const ε = std::numeric_limits<S>::epsilon(), rounding = ε * r.norm();
+    S const still = size() > 0 ? S(S(4) * ε * (S(2) + r.cwiseAbs().maxCoeff())) : S(0);
     for (index i = 0; i < contacts(); ++i) {
       part_type const ri = r.template segment<N>(N * i);
       part_type v = u.template segment<N>(N * i);
-      v(0) += mu_[i] * v.template tail<N - 1>().norm();
-      scaled += (ri - cone(i).project(part_type(ri - v))).squaredNorm();
-      plain += (ri - cone(i).project(part_type(ri - ρ * v))).squaredNorm() / ρ / ρ;
+      if (!(v(0) >= S(0))) penetration += v(0) * v(0);
+      S const sliding = v.template tail<N - 1>().norm();
+      if (!(sliding <= still)) v(0) += mu_[i] * sliding;
+      scaled += natural_map(i, ri, v).squaredNorm();
+      plain += natural_map(i, ri, part_type(ρ * v)).squaredNorm() / ρ / ρ;
     }
-    S const rounding = std::numeric_limits<S>::epsilon() * r.norm();
-    return {(sqrt(scaled) + rounding) / q_norm_, sqrt(plain) / q_norm_,
-            S(16) * rounding / ρ / q_norm_};
+    return {.scaled = (sqrt(scaled) + rounding) / q_norm_,
+            .plain = sqrt(plain) / q_norm_,
+            .floor = S(16) * rounding / ρ / q_norm_,
+            .penetration = sqrt(penetration) / q_norm_};
   }
 
   /// r and u in the units of the data.
@@ -137,20 +152,22 @@ class friction_blocks {
   }
 
  private:
+  /// r − P_K(r − v); v itself, not what is left of it, where r − v is in K.
+  part_type natural_map(index i, part_type const& r, part_type const& v) const {
+    part_type const z = r - v, p = cone(i).project(z);
+    return p == z ? v : part_type(r - p);
+  }
   static S abs_of(S const& x) {
     using std::abs;
     return abs(x);
   }
   /// e with x in [2ᵉ, 2ᵉ⁺¹); 0 for 0.
   static int exponent_of(S const& x) {
-    using std::frexp;
-    int e = 1;
-    if (x > S(0)) static_cast<void>(frexp(x, &e));
-    return e - 1;
+    return x > S(0) ? slant::detail::binary_exponent(x) - 1 : 0;
   }
   static vector_type scaled_by(vector_type const& x, int exponent) {
-    using std::ldexp;
-    return x.unaryExpr([exponent](S const& a) { return S(ldexp(a, exponent)); });
+    return x.unaryExpr(
+        [exponent](S const& a) { return slant::detail::times_power_of_two(a, exponent); });
   }
 
   void collect(Eigen::SparseMatrix<S> const& W) {
