@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 namespace friction_gauss_seidel_test {
 
 using blocks = slant::contact::friction_blocks<3, double>;
@@ -44,6 +46,18 @@ TEST_CASE("Gauss–Seidel: at a solution it rests, without progress it says so")
   CHECK(s.iteration == last);
 }
 
+TEST_CASE("Gauss–Seidel: a step of no more sweeps than it is given") {
+  auto const p = test::random_friction(4, 3, 0.4, 2);
+  blocks const b(p);
+  method m(b);
+  for (slant::index const most : {1, 10, 13, 20}) {
+    auto s = m.start(Eigen::VectorXd::Zero(b.size()));
+    m.step(s, most);
+    CHECK(s.sweeps == most);
+    CHECK(s.evaluations == (most <= 10 ? 2 : 3));
+  }
+}
+
 TEST_CASE("Gauss–Seidel: bad options and starts are named") {
   auto const p = test::chain_friction(2);
   blocks const b(p);
@@ -53,6 +67,11 @@ TEST_CASE("Gauss–Seidel: bad options and starts are named") {
   CHECK_THROWS_WITH_AS(method(b, {.growth = 0.5}), doctest::Contains("growth"), slant::bad_input);
   CHECK_THROWS_WITH_AS(method(b, {.shrink = 1}), doctest::Contains("shrink"), slant::bad_input);
   CHECK_THROWS_WITH_AS(method(b, {.slack = 0}), doctest::Contains("slack"), slant::bad_input);
+  double const infinity = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(method(b, {.growth = infinity}), doctest::Contains("growth"),
+                       slant::bad_input);
+  CHECK_THROWS_WITH_AS(method(b, {.slack = infinity}), doctest::Contains("slack"),
+                       slant::bad_input);
   CHECK_THROWS_WITH_AS(method(b, {.patience = 0}), doctest::Contains("patience"), slant::bad_input);
   CHECK_THROWS_AS(static_cast<void>(method(b).start(Eigen::VectorXd::Zero(5))), slant::bad_input);
 }

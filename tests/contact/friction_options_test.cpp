@@ -37,6 +37,7 @@ TEST_CASE("friction options: the defaults are valid, each bad one is named") {
   CHECK(names(complaint([](auto& o) { o.newton_steps = -1; }), "newton_steps"));
   CHECK(names(complaint([](auto& o) { o.attempt = 0; }), "attempt"));
   CHECK(names(complaint([](auto& o) { o.halvings = -1; }), "halvings"));
+  CHECK(names(complaint([](auto& o) { o.patience = 0; }), "patience"));
   CHECK(names(complaint([](auto& o) { o.inner_steps = 0; }), "inner_steps"));
   CHECK(names(complaint([](auto& o) { o.rescues = -1; }), "rescues"));
   CHECK(names(complaint([](auto& o) { o.gauss_seidel.shrink = 2; }), "shrink"));

@@ -20,23 +20,27 @@ namespace slant::contact {
 /// Options of friction_gauss_seidel.
 template <class S>
 struct gauss_seidel_options {
-  index sweeps = 10;        ///< of one step, before and after the extrapolation
-  index full_every = 10;    ///< every which sweep looks at all contacts
-  S growth = S(2);          ///< of the extrapolation when it is accepted
-  S shrink = S(0.25);       ///< when not
-  S slack = S(1.02);        ///< accepted if the error is at most that multiple
-  index patience = 100000;  ///< steps without a new smallest error that mean stalled
+  index sweeps = 10;      ///< of one step, before and after the extrapolation
+  index full_every = 10;  ///< every which sweep looks at all contacts
+  S growth = S(2);        ///< of the extrapolation when it is accepted
+  S shrink = S(0.25);     ///< when not
+  S slack = S(1.02);      ///< accepted if the error is at most that multiple
+  index patience = 3000;  ///< steps without a new smallest error that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
     using slant::detail::show;
     if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
     if (full_every < 1) throw bad_input("full_every", show(full_every), "at least 1");
-    if (!(growth >= S(1))) throw bad_input("growth", show(growth), "a number >= 1");
+    if (!(growth >= S(1)) || !slant::detail::is_finite(growth)) {
+      throw bad_input("growth", show(growth), "a finite number >= 1");
+    }
     if (!(shrink > S(0) && shrink < S(1))) {
       throw bad_input("shrink", show(shrink), "a number in (0, 1)");
     }
-    if (!(slack >= S(1))) throw bad_input("slack", show(slack), "a number >= 1");
+    if (!(slack >= S(1)) || !slant::detail::is_finite(slack)) {
+      throw bad_input("slack", show(slack), "a finite number >= 1");
+    }
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
   }
 };
@@ -87,18 +91,25 @@ class friction_gauss_seidel {
     return s;
   }
 
-  void step(state_type& s) {
+  /// One step; of at most `most` sweeps if there is a limit.
+  void step(state_type& s, index most = std::numeric_limits<index>::max()) {
     if (s.status != slant::status::running) return;
     ++s.iteration;
     s.trial = s.x;
-    pass(s, s.x);
+    pass(s, s.x, most);
     s.error = measure(s, s.x, s.u);
+    if (most > options_.sweeps) extrapolate(s, most - options_.sweeps);
+    judge(s);
+  }
+
+ private:
+  void extrapolate(state_type& s, index most) {
     s.trial = s.x + s.length * (s.x - s.trial);
     for (index i = 0; i < blocks_->contacts(); ++i) {
       auto part = s.trial.template segment<N>(N * i);
       part = blocks_->cone(i).project(typename friction_blocks<N, S>::part_type(part));
     }
-    pass(s, s.trial);
+    pass(s, s.trial, most);
     auto const extrapolated = measure(s, s.trial, s.trial_u);
     if (extrapolated.worst() <= options_.slack * s.error.worst()) {
       s.x.swap(s.trial);
@@ -108,6 +119,8 @@ class friction_gauss_seidel {
     } else {
       s.length = std::max(S(1), S(s.length * options_.shrink));
     }
+  }
+  void judge(state_type& s) const {
     if (!slant::detail::is_finite(s.error.worst())) {
       s.status = slant::status::breakdown;
     } else if (s.error.worst() < s.best_error.worst()) {
@@ -118,15 +131,13 @@ class friction_gauss_seidel {
       s.status = slant::status::stalled;
     }
   }
-
- private:
   friction_error<S> measure(state_type& s, vector_type const& x, vector_type& u) const {
     blocks_->velocity(x, u);
     ++s.evaluations;
     return blocks_->error(x, u);
   }
-  void pass(state_type& s, vector_type& x) {
-    for (index k = 0; k < options_.sweeps; ++k) {
+  void pass(state_type& s, vector_type& x, index most) {
+    for (index k = 0; k < std::min(options_.sweeps, most); ++k) {
       s.block_products += sweeps_.sweep(x, s.sweeps % options_.full_every == 0);
       ++s.sweeps;
     }

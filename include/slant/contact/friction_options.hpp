@@ -58,6 +58,7 @@ struct friction_options {
   index halvings = 8;          ///< of a Newton step at most
   index inner_steps = 20;      ///< Newton steps between two rescues in one proximal step
   index rescues = 2;           ///< of a proximal step, by sweeps, before α grows
+  index patience = 3;          ///< turns of `automatic` that hardly lessen the error, till stalled
   gauss_seidel_options<S> gauss_seidel{};
   proximal_point_options<S> proximal{};
 
@@ -77,6 +78,7 @@ struct friction_options {
     at_least_zero("halvings", halvings);
     at_least_zero("rescues", rescues);
     if (attempt < 1) throw bad_input("attempt", show(attempt), "at least 1");
+    if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
     if (inner_steps < 1) throw bad_input("inner_steps", show(inner_steps), "at least 1");
     gauss_seidel.validate();
     proximal.validate();

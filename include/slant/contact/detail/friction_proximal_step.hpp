@@ -35,7 +35,7 @@ class friction_proximal_step {
     newton_->set_proximal(α, center);
     S first(-1);
     for (index rescue = 0; rescue <= options_->rescues; ++rescue) {
-      for (index k = 0; k < 20 * rescue * rescue; ++k) {
+      for (index k = 0; k < 20 * rescue * rescue && work_->sweeps < options_->sweeps; ++k) {
         work_->block_products += sweeps_.sweep(x, k == 0, α, newton_->weight(), center);
         ++work_->sweeps;
       }
@@ -48,17 +48,21 @@ class friction_proximal_step {
           report.solved = true;
           return report;
         }
-        if (k == options_->inner_steps) break;
+        if (k == options_->inner_steps || no_steps_left()) break;
         ++report.steps;
         if (!newton_->advance(x, S(0), options_->halvings)) break;
         now = newton_->residual_norm();
       }
+      if (no_steps_left()) break;
     }
     report.accept = error_at(x) < error_at(center);
     return report;
   }
 
  private:
+  [[nodiscard]] bool no_steps_left() const {
+    return newton_->work().steps >= options_->newton_steps;
+  }
   S error_at(vector_type const& x) {
     blocks_->velocity(x, u_);
     ++work_->products;

@@ -69,15 +69,15 @@ class friction_run {
   void run() {
     auto sweeping = gauss_seidel_.start(best_);
     if (options_.method == method::gauss_seidel) {
-      if (!sweep(sweeping, options_.sweeps)) end_with(sweeping.status);
+      if (!sweep(sweeping, options_.sweeps)) end_with(sweeping.status, no_sweeps_left());
       return;
     }
     if (sweep(sweeping, options_.first_sweeps)) return;
     if (options_.method == method::newton) {
-      if (!attempt_newton(options_.newton_steps)) end_with(status::stalled);
+      if (!attempt_newton(options_.newton_steps)) end_with(status::stalled, no_steps_left());
     } else if (options_.method == method::proximal_newton) {
       auto path = proximal_.start(best_);
-      if (!follow(path, options_.newton_steps)) end_with(path.status);
+      if (!follow(path, options_.newton_steps)) end_with(path.status, no_steps_left());
     } else {
       take_turns(sweeping);
     }
@@ -85,8 +85,10 @@ class friction_run {
 
   void take_turns(gauss_seidel_state<S>& sweeping) {
     index path_steps = options_.attempt, sweeps = options_.further_sweeps;
-    while (!out_of_work()) {
+    index idle = 0;
+    while (!out_of_work() && idle < options_.patience) {
       index const before = work_.sweeps + newton_.work().steps;
+      S const error_before = best_error_.worst();
       if (attempt_newton(options_.attempt)) return;
       auto path = proximal_.start(best_);
       if (follow(path, path_steps)) return;
@@ -96,18 +98,20 @@ class friction_run {
       if (lost || best_error_.worst() < S(0.1) * sweeping.best_error.worst()) restart(sweeping);
       if (sweep(sweeping, sweeps)) return;
       if (work_.sweeps + newton_.work().steps == before) break;
-      path_steps *= 2;
-      sweeps = std::min(4 * sweeps, options_.sweeps);
+      idle = best_error_.worst() <= S(0.9) * error_before ? 0 : idle + 1;
+      path_steps = path_steps < options_.newton_steps / 2 ? 2 * path_steps : options_.newton_steps;
+      sweeps = sweeps < options_.sweeps / 4 ? 4 * sweeps : options_.sweeps;
     }
-    end_with(status::running);
+    end_with(status::stalled, out_of_work());
   }
 
-  [[nodiscard]] bool out_of_work() const {
-    return work_.sweeps >= options_.sweeps && newton_.work().steps >= options_.newton_steps;
-  }
-  void end_with(status how) {
-    bool const limit = how == status::running || newton_.work().steps >= options_.newton_steps;
-    status_ = limit ? status::iteration_limit : how;
+  [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
+  [[nodiscard]] bool no_steps_left() const { return newton_.work().steps >= options_.newton_steps; }
+  [[nodiscard]] bool out_of_work() const { return no_sweeps_left() && no_steps_left(); }
+  /// Without a solution: at a limit, or because a method has nothing left to do.
+  void end_with(status how, bool limit) {
+    if (how == status::running) how = status::stalled;
+    status_ = limit && how != status::breakdown ? status::iteration_limit : how;
   }
   void restart(gauss_seidel_state<S>& s) {
     s = gauss_seidel_.start(best_);
@@ -116,11 +120,11 @@ class friction_run {
 
   /// Gauss–Seidel until the problem is solved, `count` sweeps more are made, or it stops.
   bool sweep(gauss_seidel_state<S>& s, index count) {
-    index const end = std::min(work_.sweeps + count, options_.sweeps);
+    index const end = work_.sweeps + std::min(count, options_.sweeps - work_.sweeps);
     while (work_.sweeps < end && s.status == status::running &&
            !s.best_error.at_most(options_.tolerance)) {
       index const sweeps = s.sweeps, products = s.block_products, evaluations = s.evaluations;
-      gauss_seidel_.step(s);
+      gauss_seidel_.step(s, end - work_.sweeps);
       work_.sweeps += s.sweeps - sweeps;
       work_.block_products += s.block_products - products;
       work_.products += s.evaluations - evaluations;
@@ -152,7 +156,8 @@ class friction_run {
 
   /// The proximal point method for about so many Newton steps.
   bool follow(path_type& s, index steps) {
-    index const end = std::min(newton_.work().steps + steps, options_.newton_steps);
+    index const done = newton_.work().steps;
+    index const end = done + std::min(steps, options_.newton_steps - done);
     while (newton_.work().steps < end && s.status == status::running) {
       index const before = newton_.work().steps;
       proximal_.step(s);
@@ -163,6 +168,13 @@ class friction_run {
     return false;
   }
 
+  /// Whether the forces in the units of the data are still those that were found.
+  [[nodiscard]] bool keeps(vector_type const& force) const {
+    if (blocks_.size() == 0) return true;
+    vector_type const back = blocks_.from_force(force);
+    return (back - best_).cwiseAbs().maxCoeff() <= options_.tolerance * blocks_.q_norm();
+  }
+
   [[nodiscard]] friction_result<S> finished() {
     using slant::detail::show;
     auto const& n = newton_.work();
@@ -171,14 +183,20 @@ class friction_run {
     work_.factorizations = n.factorizations;
     work_.factored_rows = n.unknowns;
     work_.sparse_factorizations = n.sparse;
-    if (solved()) status_ = status::converged;
+    vector_type force = blocks_.force(best_), speed = blocks_.speed(best_u_);
+    bool const lost = !keeps(force) || !slant::detail::is_finite(S(speed.cwiseAbs().sum()));
+    if (solved()) status_ = lost ? status::breakdown : status::converged;
     std::string const figures = "natural map " + show(best_error_.worst()) + " relative to q";
-    return {.r = blocks_.force(best_),
-            .u = blocks_.speed(best_u_),
+    std::string reason = figures + " is at most " + show(options_.tolerance);
+    if (status_ != status::converged) {
+      reason = "method " + std::string(to_string(options_.method)) + ": " +
+               std::string(to_string(status_)) + " at " + figures;
+      if (lost) reason += ", forces or velocities leave the range of numbers in these units";
+    }
+    return {.r = std::move(force),
+            .u = std::move(speed),
             .status = status_,
-            .reason = solved() ? figures + " is at most " + show(options_.tolerance)
-                               : "method " + std::string(to_string(options_.method)) + ": " +
-                                     std::string(to_string(status_)) + " at " + figures,
+            .reason = std::move(reason),
             .error = best_error_,
             .solved_by = solved_by_,
             .work = work_};
