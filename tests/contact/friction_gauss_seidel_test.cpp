@@ -58,6 +58,17 @@ TEST_CASE("Gauss–Seidel: a step of no more sweeps than it is given") {
   }
 }
 
+TEST_CASE("Gauss–Seidel: all that changes is in the state") {
+  auto const p = test::random_friction(6, 3, 0.4, 8);
+  blocks const b(p);
+  method const m(b);
+  auto alone = m.start(Eigen::VectorXd::Zero(b.size())), other = alone;
+  for (int k = 0; k < 3; ++k) m.step(alone);
+  for (int k = 0; k < 3; ++k) m.step(other);  // another run by the same method
+  CHECK(alone.x == other.x);
+  CHECK(alone.block_products == other.block_products);
+}
+
 TEST_CASE("Gauss–Seidel: bad options and starts are named") {
   auto const p = test::chain_friction(2);
   blocks const b(p);

@@ -18,14 +18,17 @@ TEST_CASE("sweeps: one contact takes one, many coupled ones converge to a soluti
     if (c.problem.dimension() != 3) continue;
     blocks const b(c.problem);
     Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
-    sweeps(b).sweep(r);
+    sweeps const once(b);
+    auto memory = once.memory();
+    once.sweep(r, memory);
     CHECK((b.force(r) - c.r[0]).norm() <= 1e-13 * (1 + c.r[0].norm()));
   }
   auto const p = test::random_friction(8, 3, 0.4, 11);
   blocks const b(p);
-  sweeps s(b);
+  sweeps const s(b);
+  auto memory = s.memory();
   Eigen::VectorXd r = Eigen::VectorXd::Zero(24);
-  for (int k = 0; k < 400; ++k) s.sweep(r);
+  for (int k = 0; k < 400; ++k) s.sweep(r, memory);
   CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
 }
 
@@ -43,9 +46,10 @@ TEST_CASE("sweeps: with α they solve the problem of W + αΛ, q − αΛc") {
     shifted.q[i] -= α * weight[i / 3] / unit * c[i];
   }
   shifted.W = dense.sparseView();
-  sweeps s(b);
+  sweeps const s(b);
+  auto memory = s.memory();
   Eigen::VectorXd r = Eigen::VectorXd::Zero(18);
-  for (int k = 0; k < 300; ++k) s.sweep(r, true, α, weight, center);
+  for (int k = 0; k < 300; ++k) s.sweep(r, memory, true, α, weight, center);
   CHECK(slant::contact::verify(shifted, b.force(r)).relative_natural_map <= 1e-12);
 }
 
@@ -54,12 +58,14 @@ TEST_CASE(
   slant::index const m = 40;
   auto const p = test::chain_friction(m);
   blocks const b(p);
-  sweeps s(b);
+  sweeps const s(b);
+  auto memory = s.memory();
   Eigen::VectorXd r = Eigen::VectorXd::Zero(3 * m);
-  for (int k = 0; k < 5; ++k) s.sweep(r);
+  for (int k = 0; k < 5; ++k) s.sweep(r, memory);
   // Every second contact is open: all neighbours of the others.
-  CHECK(s.sweep(r, true) == m + (m - 1));  // diagonals, and closed neighbours of open contacts
-  CHECK(s.sweep(r, false) == m / 2);       // the diagonals of the closed
+  CHECK(s.sweep(r, memory, true) ==
+        m + (m - 1));                         // diagonals, and closed neighbours of open contacts
+  CHECK(s.sweep(r, memory, false) == m / 2);  // the diagonals of the closed
 }
 
 TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay finite") {
@@ -70,17 +76,19 @@ TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay 
   p.W = W.sparseView();
   p.q[3] = 1;  // leaves by itself
   blocks const b(p);
-  sweeps s(b);
+  sweeps const s(b);
+  auto memory = s.memory();
   Eigen::VectorXd r = Eigen::VectorXd::Constant(9, 1.);
-  for (int k = 0; k < 1000; ++k) s.sweep(r);
+  for (int k = 0; k < 1000; ++k) s.sweep(r, memory);
   CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-10);
   W.block(3, 3, 3, 3) = -Eigen::Matrix3d::Identity();
   p.W = W.sparseView();
   p.q[3] = -1;
   blocks const negative(p);
-  sweeps t(negative);
+  sweeps const t(negative);
+  auto new_memory = t.memory();
   r.setZero();
-  for (int k = 0; k < 10; ++k) t.sweep(r);
+  for (int k = 0; k < 10; ++k) t.sweep(r, new_memory);
   CHECK(r.allFinite());
 }
 
@@ -95,9 +103,10 @@ TEST_CASE("sweeps: indefinite blocks with a positive diagonal are made definite"
   CHECK(shift < 4.1);
   blocks const definite(test::chain_friction(2));
   CHECK(sweeps(definite).shift(1) == 0);
-  sweeps s(b);
+  sweeps const s(b);
+  auto memory = s.memory();
   Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
-  for (int k = 0; k < 10; ++k) s.sweep(r);
+  for (int k = 0; k < 10; ++k) s.sweep(r, memory);
   CHECK(r.allFinite());
 }
 

@@ -62,6 +62,7 @@ struct gauss_seidel_state {
   index since_best = 0;
   slant::status status = slant::status::running;
   vector_type trial{}, trial_u{};
+  friction_sweep_memory<S> memory{};
 };
 
 /// Block Gauss–Seidel with extrapolation; see the top of this file. No allocation in a step.
@@ -77,7 +78,7 @@ class friction_gauss_seidel {
     options_.validate();
   }
 
-  [[nodiscard]] state_type start(vector_type const& x0) {
+  [[nodiscard]] state_type start(vector_type const& x0) const {
     slant::detail::check_size("x0", index(x0.size()), blocks_->size());
     slant::detail::check_finite("x0", x0);
     state_type s;
@@ -88,11 +89,12 @@ class friction_gauss_seidel {
     s.error = measure(s, s.x, s.u);
     s.best = s.x;
     s.best_error = s.error;
+    s.memory = sweeps_.memory();
     return s;
   }
 
   /// One step; of at most `most` sweeps if there is a limit.
-  void step(state_type& s, index most = std::numeric_limits<index>::max()) {
+  void step(state_type& s, index most = std::numeric_limits<index>::max()) const {
     if (s.status != slant::status::running) return;
     ++s.iteration;
     s.trial = s.x;
@@ -103,7 +105,7 @@ class friction_gauss_seidel {
   }
 
  private:
-  void extrapolate(state_type& s, index most) {
+  void extrapolate(state_type& s, index most) const {
     s.trial = s.x + s.length * (s.x - s.trial);
     for (index i = 0; i < blocks_->contacts(); ++i) {
       auto part = s.trial.template segment<N>(N * i);
@@ -136,9 +138,9 @@ class friction_gauss_seidel {
     ++s.evaluations;
     return blocks_->error(x, u);
   }
-  void pass(state_type& s, vector_type& x, index most) {
+  void pass(state_type& s, vector_type& x, index most) const {
     for (index k = 0; k < std::min(options_.sweeps, most); ++k) {
-      s.block_products += sweeps_.sweep(x, s.sweeps % options_.full_every == 0);
+      s.block_products += sweeps_.sweep(x, s.memory, s.sweeps % options_.full_every == 0);
       ++s.sweeps;
     }
   }

@@ -10,7 +10,8 @@
 // natural map starts from where it is; where that finds no descent, the proximal point method
 // follows the path of forces to where there is some. If that ends too, the sweeps go on from where
 // they were, ever longer. So each problem is solved by the method that suits it, without
-// settings, and a problem without solution ends at the limits of the options.
+// settings, and a problem without solution ends when turns no longer lessen the error, or at the
+// limits of the options.
 #pragma once
 
 #include <slant/contact/asymmetry.hpp>
@@ -22,7 +23,8 @@ namespace slant::contact {
 /// Solves the problem of friction_problem.hpp. `start`: forces from before, in the units of the
 /// problem; empty for none. Throws bad_input if the problem, the options or the start are not
 /// valid, or W is not symmetric and the option says refused; whatever goes wrong later is the
-/// status: iteration_limit, stalled (a single method gets no further) or breakdown.
+/// status: iteration_limit, stalled (no method gets further) or breakdown, also where forces or
+/// velocities are out of the range of numbers in the units of the problem.
 template <scalar S>
 [[nodiscard]] friction_result<S> solve_friction(
     friction_problem<S> const& problem, friction_options<S> const& options = {},

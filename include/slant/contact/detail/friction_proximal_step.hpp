@@ -26,6 +26,7 @@ class friction_proximal_step {
       : blocks_(&blocks),
         newton_(&newton),
         sweeps_(blocks),
+        memory_(sweeps_.memory()),
         options_(&options),
         work_(&work),
         u_(blocks.size()) {}
@@ -36,7 +37,7 @@ class friction_proximal_step {
     S first(-1);
     for (index rescue = 0; rescue <= options_->rescues; ++rescue) {
       for (index k = 0; k < 20 * rescue * rescue && work_->sweeps < options_->sweeps; ++k) {
-        work_->block_products += sweeps_.sweep(x, k == 0, α, newton_->weight(), center);
+        work_->block_products += sweeps_.sweep(x, memory_, k == 0, α, newton_->weight(), center);
         ++work_->sweeps;
       }
       S now = newton_->begin(x);
@@ -72,6 +73,7 @@ class friction_proximal_step {
   friction_blocks<N, S> const* blocks_;
   friction_newton<N, S>* newton_;
   friction_sweeps<N, S> sweeps_;
+  friction_sweep_memory<S> memory_;
   friction_options<S> const* options_;
   friction_work* work_;
   vector_type u_;

@@ -114,7 +114,9 @@ class friction_run {
     status_ = limit && how != status::breakdown ? status::iteration_limit : how;
   }
   void restart(gauss_seidel_state<S>& s) {
+    auto memory = std::move(s.memory);
     s = gauss_seidel_.start(best_);
+    s.memory = std::move(memory);
     work_.products += s.evaluations;
   }
 
