@@ -9,7 +9,12 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/friction_blocks.hpp>
+#include <slant/contact/friction_gauss_seidel.hpp>
+#include <slant/contact/friction_newton.hpp>
+#include <slant/contact/friction_options.hpp>
 #include <slant/contact/friction_problem.hpp>
+#include <slant/contact/friction_sweeps.hpp>
 #include <slant/contact/load_step.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/load_steps.hpp>
@@ -19,6 +24,7 @@
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>

@@ -44,6 +44,7 @@
 #include <slant/methods/preconditioner_for.hpp>
 #include <slant/methods/projected_search.hpp>
 #include <slant/methods/proportioning.hpp>
+#include <slant/methods/proximal_point.hpp>
 #include <slant/methods/qpc.hpp>
 #include <slant/methods/qpc_options.hpp>
 #include <slant/methods/qpq.hpp>

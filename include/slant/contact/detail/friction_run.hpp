@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+//
+// One run of solve_friction: the methods, their turns and their limits.
+#pragma once
+
+#include <slant/contact/detail/friction_proximal_step.hpp>
+#include <slant/contact/friction_gauss_seidel.hpp>
+#include <slant/contact/friction_newton.hpp>
+#include <slant/contact/friction_options.hpp>
+#include <slant/methods/proximal_point.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace slant::contact::detail {
+
+/// See the top of this file. Used once.
+template <int N, class S>
+class friction_run {
+ public:
+  using vector_type = typename friction_blocks<N, S>::vector_type;
+  using method = friction_method;
+
+  friction_run(friction_problem<S> const& problem, friction_options<S> const& options)
+      : options_(options),
+        blocks_(problem),
+        gauss_seidel_(blocks_, options.gauss_seidel),
+        newton_(blocks_, options.equations),
+        inner_(blocks_, newton_, options_, work_),
+        proximal_(inner_, options.proximal),
+        best_(vector_type::Zero(blocks_.size())),
+        best_u_(blocks_.q()),
+        u_(blocks_.size()) {}
+  friction_run(friction_run const&) = delete;
+  friction_run& operator=(friction_run const&) = delete;
+
+  [[nodiscard]] friction_result<S> result(vector_type const& start) {
+    if (blocks_.q_norm() > S(0)) {
+      best_error_.scaled = std::numeric_limits<S>::infinity();
+      consider(best_, method::automatic);
+      if (start.size() != 0) consider(blocks_.from_force(start), method::automatic);
+      if (!solved()) run();
+    }  // else r = 0 is a solution, and no error can be relative to q
+    return finished();
+  }
+
+ private:
+  using proximal_type = proximal_point<friction_proximal_step<N, S>&, S>;
+  using path_type = proximal_point_state<vector_type>;
+
+  [[nodiscard]] bool solved() const { return best_error_.at_most(options_.tolerance); }
+
+  /// Keeps x if it is the best so far; true if the problem is solved.
+  bool consider(vector_type const& x, method by) {
+    blocks_.velocity(x, u_);
+    ++work_.products;
+    auto const e = blocks_.error(x, u_);
+    if (e.worst() < best_error_.worst()) {
+      best_ = x;
+      best_u_ = u_;
+      best_error_ = e;
+      solved_by_ = by;
+    }
+    return solved();
+  }
+
+  void run() {
+    auto sweeping = gauss_seidel_.start(best_);
+    if (options_.method == method::gauss_seidel) {
+      if (!sweep(sweeping, options_.sweeps)) end_with(sweeping.status, no_sweeps_left());
+      return;
+    }
+    if (sweep(sweeping, options_.first_sweeps)) return;
+    if (options_.method == method::newton) {
+      if (!attempt_newton(options_.newton_steps)) end_with(status::stalled, no_steps_left());
+    } else if (options_.method == method::proximal_newton) {
+      auto path = proximal_.start(best_);
+      if (!follow(path, options_.newton_steps)) end_with(path.status, no_steps_left());
+    } else {
+      take_turns(sweeping);
+    }
+  }
+
+  void take_turns(gauss_seidel_state<S>& sweeping) {
+    index path_steps = options_.attempt, sweeps = options_.further_sweeps;
+    index idle = 0;
+    while (!out_of_work() && idle < options_.patience) {
+      index const before = work_.sweeps + newton_.work().steps;
+      S const error_before = best_error_.worst();
+      if (attempt_newton(options_.attempt)) return;
+      auto path = proximal_.start(best_);
+      if (follow(path, path_steps)) return;
+      // What Newton's method has found is a better start, unless the sweeps are about as far: where
+      // forces wander the error does not tell how far they have come.
+      bool const lost = sweeping.status != status::running;
+      if (lost || best_error_.worst() < S(0.1) * sweeping.best_error.worst()) restart(sweeping);
+      if (sweep(sweeping, sweeps)) return;
+      if (work_.sweeps + newton_.work().steps == before) break;
+      idle = best_error_.worst() <= S(0.9) * error_before ? 0 : idle + 1;
+      path_steps = path_steps < options_.newton_steps / 2 ? 2 * path_steps : options_.newton_steps;
+      sweeps = sweeps < options_.sweeps / 4 ? 4 * sweeps : options_.sweeps;
+    }
+    end_with(status::stalled, out_of_work());
+  }
+
+  [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
+  [[nodiscard]] bool no_steps_left() const { return newton_.work().steps >= options_.newton_steps; }
+  [[nodiscard]] bool out_of_work() const { return no_sweeps_left() && no_steps_left(); }
+  /// Without a solution: at a limit, or because a method has nothing left to do.
+  void end_with(status how, bool limit) {
+    if (how == status::running) how = status::stalled;
+    status_ = limit && how != status::breakdown ? status::iteration_limit : how;
+  }
+  void restart(gauss_seidel_state<S>& s) {
+    auto memory = std::move(s.memory);
+    s = gauss_seidel_.start(best_);
+    s.memory = std::move(memory);
+    work_.products += s.evaluations;
+  }
+
+  /// Gauss–Seidel until the problem is solved, `count` sweeps more are made, or it stops.
+  bool sweep(gauss_seidel_state<S>& s, index count) {
+    index const end = work_.sweeps + std::min(count, options_.sweeps - work_.sweeps);
+    while (work_.sweeps < end && s.status == status::running &&
+           !s.best_error.at_most(options_.tolerance)) {
+      index const sweeps = s.sweeps, products = s.block_products, evaluations = s.evaluations;
+      gauss_seidel_.step(s, end - work_.sweeps);
+      work_.sweeps += s.sweeps - sweeps;
+      work_.block_products += s.block_products - products;
+      work_.products += s.evaluations - evaluations;
+    }
+    return consider(s.best, method::gauss_seidel);
+  }
+
+  /// Newton's method from the best forces, with a damping that follows its success.
+  bool attempt_newton(index steps) {
+    constexpr index failures_allowed = 3;
+    S const least = S(16) * std::numeric_limits<S>::epsilon();
+    vector_type x = best_;
+    newton_.set_proximal(S(0), x);
+    newton_.begin(x);
+    S δ = options_.damping;
+    index failures = 0;
+    for (index k = 0; k < steps && newton_.work().steps < options_.newton_steps; ++k) {
+      if (newton_.advance(x, δ, options_.halvings)) {
+        if (newton_.length() == S(1)) δ = std::max(least, S(δ * S(0.1)));
+        if (newton_.length() < S(0.1)) δ *= S(10);
+        if (consider(x, method::newton)) return true;
+      } else {
+        if (++failures > failures_allowed) break;
+        δ *= S(100);
+      }
+    }
+    return false;
+  }
+
+  /// The proximal point method for about so many Newton steps.
+  bool follow(path_type& s, index steps) {
+    index const done = newton_.work().steps;
+    index const end = done + std::min(steps, options_.newton_steps - done);
+    while (newton_.work().steps < end && s.status == status::running) {
+      index const before = newton_.work().steps;
+      proximal_.step(s);
+      ++work_.proximal_steps;
+      if (consider(s.x, method::proximal_newton)) return true;
+      if (newton_.work().steps == before) break;  // nothing left to do at this precision
+    }
+    return false;
+  }
+
+  /// Whether the forces in the units of the data are still those that were found.
+  [[nodiscard]] bool keeps(vector_type const& force) const {
+    if (blocks_.size() == 0) return true;
+    vector_type const back = blocks_.from_force(force);
+    return (back - best_).cwiseAbs().maxCoeff() <= options_.tolerance * blocks_.q_norm();
+  }
+
+  [[nodiscard]] friction_result<S> finished() {
+    using slant::detail::show;
+    auto const& n = newton_.work();
+    work_.products += n.evaluations;
+    work_.newton_steps = n.steps;
+    work_.factorizations = n.factorizations;
+    work_.factored_rows = n.unknowns;
+    work_.sparse_factorizations = n.sparse;
+    vector_type force = blocks_.force(best_), speed = blocks_.speed(best_u_);
+    bool const lost = !keeps(force) || !slant::detail::is_finite(S(speed.cwiseAbs().sum()));
+    if (solved()) status_ = lost ? status::breakdown : status::converged;
+    std::string const figures = "natural map " + show(best_error_.worst()) + " relative to q";
+    std::string reason = figures + " is at most " + show(options_.tolerance);
+    if (status_ != status::converged) {
+      reason = "method " + std::string(to_string(options_.method)) + ": " +
+               std::string(to_string(status_)) + " at " + figures;
+      if (lost) reason += ", forces or velocities leave the range of numbers in these units";
+    }
+    return {.r = std::move(force),
+            .u = std::move(speed),
+            .status = status_,
+            .reason = std::move(reason),
+            .error = best_error_,
+            .solved_by = solved_by_,
+            .work = work_};
+  }
+
+  friction_options<S> options_;
+  friction_work work_{};
+  friction_blocks<N, S> blocks_;
+  friction_gauss_seidel<N, S> gauss_seidel_;
+  friction_newton<N, S> newton_;
+  friction_proximal_step<N, S> inner_;
+  proximal_type proximal_;
+  vector_type best_, best_u_, u_;
+  friction_error<S> best_error_{};
+  method solved_by_ = method::automatic;
+  status status_ = status::running;
+};
+
+}  // namespace slant::contact::detail

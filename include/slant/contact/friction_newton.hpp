@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+//
+// Semismooth Newton for u = W r + q + α Λ (r − c) with Coulomb friction, on the equations of
+// detail/friction_map.hpp with one ρ for each contact, 1/ρ = (1 + α) Λ:
+//
+//     (A + B (W + (α + δ) Λ)) dr = −F,    r ← r + β dr,   β = 1, ½, … until ‖F‖ falls enough.
+//
+// δ, a damping of the matrix alone, makes a singular system solvable; the step is then one of a
+// proximal point method with the centre r, and its fixed points are those of δ = 0.
+//
+// Open contacts have dr = −F and leave the system: what is factored has the size of the contacts
+// that are closed. A sparse system is factored by a sparse LU, which allocates, as does the
+// assembly; one that is small or full by a dense LU.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/contact/detail/friction_map.hpp>
+#include <slant/contact/friction_blocks.hpp>
+#include <slant/newton/detail/sparse_lu.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace slant::contact {
+
+/// Counts of friction_newton.
+struct friction_newton_work {
+  index steps = 0;           ///< directions
+  index evaluations = 0;     ///< of F: a product by W each
+  index factorizations = 0;  ///< matrices factored
+  index unknowns = 0;        ///< rows of all of them together
+  index sparse = 0;          ///< how many of them were sparse
+};
+
+/// Newton steps on a problem in blocks, to which it refers.
+template <int N, scalar S = double>
+class friction_newton {
+ public:
+  using blocks_type = friction_blocks<N, S>;
+  using vector_type = typename blocks_type::vector_type;
+  using part_type = typename blocks_type::part_type;
+  using block_type = typename blocks_type::block_type;
+
+  friction_newton(blocks_type const& blocks, friction_equations which)
+      : blocks_(&blocks),
+        which_(which),
+        weight_(blocks.contacts()),
+        place_(std::size_t(blocks.contacts())),
+        maps_(std::size_t(blocks.contacts())),
+        F_(blocks.size()),
+        u_(blocks.size()),
+        direction_(blocks.size()),
+        image_(blocks.size()),
+        trial_(blocks.size()),
+        trial_u_(blocks.size()) {
+    for (index i = 0; i < blocks.contacts(); ++i) {
+      S const mean = blocks.diagonal(i).trace() / S(N);
+      weight_[i] = mean > S(0) ? mean : S(1);
+    }
+  }
+
+  /// Λ: the mean diagonal of W of each contact (1 where that is 0).
+  [[nodiscard]] vector_type const& weight() const { return weight_; }
+  [[nodiscard]] friction_newton_work const& work() const { return work_; }
+
+  /// Sets the problem: α and c. c is referred to.
+  void set_proximal(S const& α, vector_type const& center) {
+    α_ = α;
+    center_ = &center;
+  }
+  /// F at r; also what `advance` starts from. Returns ‖F‖.
+  S begin(vector_type const& r) {
+    velocity(r, u_);
+    F_norm_ = residual(r, u_);
+    return F_norm_;
+  }
+  /// One step from r, for which `begin` or the last `advance` was called; false, and r unchanged,
+  /// if there is no direction or no length that makes ‖F‖ fall.
+  bool advance(vector_type& r, S const& δ, index halvings) {
+    ++work_.steps;
+    differentiate(r);
+    if (!find_direction(δ)) return false;
+    multiply(direction_, image_);
+    S β = S(1);
+    for (index k = 0; k <= halvings; ++k, β /= S(2)) {
+      trial_ = r + β * direction_;
+      trial_u_ = u_ + β * image_;
+      S const now = residual(trial_, trial_u_);
+      if (now <= (S(1) - S(1e-4) * β) * F_norm_) {
+        r.swap(trial_);
+        // u afresh: sums of images drift
+        velocity(r, u_);
+        F_norm_ = residual(r, u_);
+        length_ = β;
+        if (slant::detail::is_finite(F_norm_)) return true;
+        r.swap(trial_);
+        static_cast<void>(begin(r));
+        return false;
+      }
+    }
+    return false;
+  }
+  /// ‖F‖ at the point of the last begin or advance, and the length of the last step.
+  [[nodiscard]] S residual_norm() const { return F_norm_; }
+  [[nodiscard]] S length() const { return length_; }
+
+ private:
+  void velocity(vector_type const& r, vector_type& u) {
+    blocks_->velocity(r, u);
+    ++work_.evaluations;
+    if (α_ == S(0)) return;
+    for (index i = 0; i < blocks_->contacts(); ++i) {
+      u.template segment<N>(N * i) +=
+          α_ * weight_[i] * (r.template segment<N>(N * i) - center_->template segment<N>(N * i));
+    }
+  }
+  void multiply(vector_type const& x, vector_type& y) {
+    blocks_->multiply(x, y);
+    ++work_.evaluations;
+    if (α_ == S(0)) return;
+    for (index i = 0; i < blocks_->contacts(); ++i) {
+      y.template segment<N>(N * i) += α_ * weight_[i] * x.template segment<N>(N * i);
+    }
+  }
+  [[nodiscard]] S rho(index i) const { return S(1) / ((S(1) + α_) * weight_[i]); }
+
+  S residual(vector_type const& r, vector_type const& u) {
+    detail::friction_map<N, S> f;
+    for (index i = 0; i < blocks_->contacts(); ++i) {
+      f.look(which_, blocks_->mu(i), rho(i), part_type(r.template segment<N>(N * i)),
+             part_type(u.template segment<N>(N * i)), false);
+      F_.template segment<N>(N * i) = f.F;
+    }
+    return F_.norm();
+  }
+  void differentiate(vector_type const& r) {
+    closed_.clear();
+    for (index i = 0; i < blocks_->contacts(); ++i) {
+      auto& f = maps_[std::size_t(i)];
+      f.look(which_, blocks_->mu(i), rho(i), part_type(r.template segment<N>(N * i)),
+             part_type(u_.template segment<N>(N * i)), true);
+      place_[std::size_t(i)] = f.open ? -1 : index(closed_.size());
+      if (!f.open) closed_.push_back(i);
+      direction_.template segment<N>(N * i) = -f.F;
+    }
+  }
+
+  /// The system of the closed contacts; direction_ holds −F of all.
+  bool find_direction(S const& δ) {
+    index const n = N * index(closed_.size());
+    if (n == 0) return true;
+    right_.resize(n);
+    index entries = 0;
+    for (index k = 0; k < index(closed_.size()); ++k) {
+      index const i = closed_[std::size_t(k)];
+      part_type known = part_type::Zero();
+      blocks_->for_row(i, [&](index j, block_type const& b) {
+        if (place_[std::size_t(j)] < 0) {
+          known.noalias() += b * direction_.template segment<N>(N * j);
+        } else {
+          ++entries;
+        }
+      });
+      right_.template segment<N>(N * k) =
+          direction_.template segment<N>(N * i) - maps_[std::size_t(i)].B * known;
+    }
+    ++work_.factorizations;
+    work_.unknowns += n;
+    bool const full = n <= 48 || N * N * entries * 8 > n * n;
+    bool const good = full ? dense_solution(n, δ) : sparse_solution(n, entries, δ);
+    if (!good || !slant::detail::is_finite(S(solution_.norm()))) return false;
+    for (index k = 0; k < index(closed_.size()); ++k) {
+      direction_.template segment<N>(N * closed_[std::size_t(k)]) =
+          solution_.template segment<N>(N * k);
+    }
+    return true;
+  }
+  /// put(k, l, block) for every block of the system.
+  template <class Put>
+  void assemble(S const& δ, Put put) const {
+    for (index k = 0; k < index(closed_.size()); ++k) {
+      index const i = closed_[std::size_t(k)];
+      auto const& f = maps_[std::size_t(i)];
+      block_type d = blocks_->diagonal(i);
+      d.diagonal().array() += (α_ + δ) * weight_[i];
+      put(k, k, block_type(f.A + f.B * d));
+      blocks_->for_row(i, [&](index j, block_type const& b) {
+        index const l = place_[std::size_t(j)];
+        if (l >= 0) put(k, l, block_type(f.B * b));
+      });
+    }
+  }
+  bool dense_solution(index n, S const& δ) {
+    dense_.setZero(n, n);
+    assemble(δ, [&](index k, index l, block_type const& b) {
+      dense_.template block<N, N>(N * k, N * l) = b;
+    });
+    dense_lu_.compute(dense_);
+    for (index i = 0; i < n; ++i) {
+      S const pivot = dense_lu_.matrixLU()(i, i);
+      if (pivot == S(0) || !slant::detail::is_finite(pivot)) return false;
+    }
+    solution_ = dense_lu_.solve(right_);
+    return true;
+  }
+  bool sparse_solution(index n, index entries, S const& δ) {
+    ++work_.sparse;
+    triplets_.clear();
+    triplets_.reserve(std::size_t(N * N * (entries + index(closed_.size()))));
+    assemble(δ, [&](index k, index l, block_type const& b) {
+      for (int c = 0; c < N; ++c) {
+        for (int r = 0; r < N; ++r) {
+          if (b(r, c) != S(0)) triplets_.emplace_back(int(N * k + r), int(N * l + c), b(r, c));
+        }
+      }
+    });
+    sparse_.resize(n, n);
+    sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
+    solution_.resize(n);
+    if (!sparse_lu_.factor(sparse_)) return false;
+    sparse_lu_.solve(right_, solution_);
+    return true;
+  }
+
+  blocks_type const* blocks_;
+  friction_equations which_;
+  vector_type weight_;
+  S α_ = S(0);
+  vector_type const* center_ = nullptr;
+  std::vector<index> place_, closed_;
+  std::vector<detail::friction_map<N, S>> maps_;
+  vector_type F_, u_, direction_, image_, trial_, trial_u_, right_, solution_;
+  S F_norm_{}, length_{1};
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> dense_;
+  Eigen::PartialPivLU<Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>> dense_lu_;
+  std::vector<Eigen::Triplet<S>> triplets_;
+  Eigen::SparseMatrix<S> sparse_;
+  slant::detail::sparse_lu<S> sparse_lu_;
+  friction_newton_work work_;
+};
+
+}  // namespace slant::contact

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/friction_blocks.hpp>
+
+#include "contact/friction_scenes.hpp"
+#include "oracle/naive_friction.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+namespace friction_blocks_test {
+
+template <int N>
+using blocks = slant::contact::friction_blocks<N, double>;
+
+/// ‖natural map‖ / ‖q‖ in long double.
+double naive_error(test::friction_problem const& p, Eigen::VectorXd const& r) {
+  using oracle::friction_real;
+  auto const all =
+      oracle::naive_friction(oracle::friction_matrix(Eigen::MatrixXd(p.W).cast<friction_real>()),
+                             oracle::friction_vector(p.q.cast<friction_real>()),
+                             oracle::friction_vector(p.mu.cast<friction_real>()),
+                             oracle::friction_vector(r.cast<friction_real>()));
+  friction_real sum = 0;
+  for (auto const& c : all) sum += c.natural_map * c.natural_map;
+  return double(std::sqrt(sum)) / p.q.norm();
+}
+
+TEST_CASE("blocks: products and errors are those of the dense problem in the units of the data") {
+  auto const check = [&]<int N>(test::friction_problem p, double compliance, double velocity) {
+    p.W *= compliance;
+    p.q *= velocity;
+    blocks<N> const b(p);
+    CHECK(b.q().cwiseAbs().maxCoeff() >= 1);
+    CHECK(b.q().cwiseAbs().maxCoeff() < 2);
+    Eigen::VectorXd const r = p.q.cwiseAbs() / p.W.coeff(0, 0);
+    Eigen::VectorXd const scaled = b.from_force(r);
+    CHECK((b.force(scaled) - r).norm() == 0);
+    Eigen::VectorXd u(r.size());
+    b.velocity(scaled, u);
+    CHECK((b.speed(u) - (Eigen::MatrixXd(p.W) * r + p.q)).norm() <= 1e-13 * b.speed(u).norm());
+    CHECK(b.error(scaled, u).plain == doctest::Approx(naive_error(p, r)).epsilon(1e-10));
+  };
+  auto const plane = test::random_friction(4, 2, 0.4, 1),
+             space = test::random_friction(5, 3, 0.7, 2);
+  check.operator()<2>(plane, 1, 1);
+  check.operator()<3>(space, 1, 1);
+  check.operator()<3>(space, 1e3, 1e-9);
+  check.operator()<3>(space, 1e-3, 1e120);
+}
+
+TEST_CASE("blocks: the scaled error knows no units, and rounding is told apart") {
+  auto p = test::random_friction(5, 3, 0.7, 3);
+  blocks<3> const one(p);
+  Eigen::VectorXd const r = one.q().cwiseAbs();
+  Eigen::VectorXd u(r.size());
+  one.velocity(r, u);
+  double const expected = one.error(r, u).scaled;
+  for (double const unit : {1e150, 1e-150, 1e10}) {
+    auto scaled = p;
+    scaled.W *= unit;
+    blocks<3> const b(scaled);
+    auto const e = b.error(r, u);
+    // W in other units, rounded to a power of two: ρ changes by at most 2.
+    CHECK(e.scaled <= 2.001 * expected);
+    CHECK(e.scaled >= 0.499 * expected);
+  }
+  // r = 1e20 in units of u: its rounding alone is 1e4 |q|.
+  auto tiny = p;
+  tiny.W *= 1e-20;
+  auto const e = blocks<3>(tiny).error(r, u);
+  CHECK(e.floor > 1e3);
+  CHECK(slant::contact::friction_error<double>{1e-9, 1e3, 1e4, 0}.at_most(1e-8));
+  CHECK(!slant::contact::friction_error<double>{1e-9, 1e5, 1e4, 0}.at_most(1e-8));
+  CHECK(!slant::contact::friction_error<double>{1e-7, 1e-9, 1e4, 0}.at_most(1e-8));
+}
+
+TEST_CASE("blocks: penetration counts however large μ is, and rounding is no sliding") {
+  auto const at = [](double mu, Eigen::Vector3d const& r) {
+    auto const p = test::make_friction_problem(
+        Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));
+    blocks<3> const b(p);
+    Eigen::VectorXd const x = r;
+    Eigen::VectorXd u(3);
+    b.velocity(x, u);
+    return b.error(x, u);
+  };
+  auto const none = at(1e9, Eigen::Vector3d::Zero());
+  CHECK(none.scaled <= 1e-8);  // the natural map alone
+  CHECK(none.penetration == doctest::Approx(std::sqrt(0.5)));
+  CHECK(none.worst() == none.penetration);
+  CHECK(!none.at_most(1e-8));
+  CHECK(at(1e9, Eigen::Vector3d(1, -1, 0)).at_most(1e-15));
+  CHECK(at(1e9, Eigen::Vector3d(1, -1 + 1e-15, 0)).at_most(1e-14));
+  CHECK(!at(1e9, Eigen::Vector3d(1, -1 + 1e-12, 0)).at_most(1e-8));
+}
+
+TEST_CASE("blocks: a NaN in an error is not hidden") {
+  double const nan = std::nan("");
+  using error = slant::contact::friction_error<double>;
+  for (auto const& e : {error{nan, 0, 0, 0}, error{0, nan, 0, 0}, error{0, nan, nan, 0},
+                        error{0, 0, 0, nan}, error{nan, 1, 0, 1}}) {
+    CHECK(std::isnan(e.worst()));
+    CHECK(!e.at_most(1));
+  }
+  CHECK(error{1, 2, 3, 0.5}.worst() == 1);
+  CHECK(error{1, 4, 3, 0.5}.worst() == 4);
+  CHECK(error{1, 4, 3, 5}.worst() == 5);
+}
+
+TEST_CASE("blocks: those without an entry are left out, nothing is allocated afterwards") {
+  auto const p = test::chain_friction(20);
+  blocks<3> const b(p);
+  CHECK(b.block_count() == 20 + 2 * 19);
+  Eigen::VectorXd r = Eigen::VectorXd::Ones(60), u(60);
+  slant::testing::allocation_guard guard;
+  b.velocity(r, u);
+  auto const e = b.error(r, u);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(e.plain > 0);
+}
+
+}  // namespace friction_blocks_test

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/friction_newton.hpp>
+
+#include "contact/friction_scenes.hpp"
+#include "oracle/naive_friction.hpp"
+
+#include <slant/contact/verify.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+namespace friction_newton_test {
+
+using slant::contact::friction_equations;
+using blocks = slant::contact::friction_blocks<3, double>;
+using newton = slant::contact::friction_newton<3, double>;
+constexpr friction_equations both[] = {friction_equations::natural_map,
+                                       friction_equations::alart_curnier};
+
+template <int N>
+void check_differences(friction_equations which) {
+  using part = Eigen::Matrix<double, N, 1>;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  auto const number = [&](auto...) { return normal(random); };
+  int smooth = 0, open = 0;
+  for (int k = 0; k < 400; ++k) {
+    part const r = part::NullaryExpr(number), u = part::NullaryExpr(number);
+    part const dr = part::NullaryExpr(number), du = part::NullaryExpr(number);
+    double const mu = std::exp(normal(random)), ρ = std::exp(normal(random)), h = 1e-6;
+    slant::contact::detail::friction_map<N, double> f, ahead, behind;
+    f.look(which, mu, ρ, r, u, true);
+    ahead.look(which, mu, ρ, part(r + h * dr), part(u + h * du), true);
+    behind.look(which, mu, ρ, part(r - h * dr), part(u - h * du), true);
+    if (f.open) {
+      ++open;
+      CHECK(f.B.norm() == 0);
+      CHECK(f.F == r);
+    }
+    // Kinks between the two points are seen by the derivatives, which jump there.
+    if ((ahead.B - behind.B).norm() > 1e-3 || (ahead.A - behind.A).norm() > 1e-3) continue;
+    ++smooth;
+    part const difference = (ahead.F - behind.F) / (2 * h);
+    part const derivative = f.A * dr + f.B * du;
+    CHECK((difference - derivative).norm() <= 1e-5 * (1 + derivative.norm()));
+  }
+  CHECK(smooth > 350);
+  CHECK(open > 50);
+}
+
+TEST_CASE("maps of one contact: derivatives against differences") {
+  for (auto const which : both) {
+    check_differences<2>(which);
+    check_differences<3>(which);
+  }
+}
+
+TEST_CASE("maps of one contact: the natural map is that of the oracle") {
+  auto const p = test::random_friction(1, 3, 0.6, 8);
+  Eigen::Vector3d const r(0.3, 0.4, -0.2);
+  Eigen::Vector3d const u = p.W * r + p.q;
+  slant::contact::detail::friction_map<3, double> f;
+  f.look(friction_equations::natural_map, 0.6, 1., r, u, false);
+  using oracle::friction_real;
+  auto const naive =
+      oracle::naive_friction(oracle::friction_matrix(Eigen::MatrixXd(p.W).cast<friction_real>()),
+                             oracle::friction_vector(p.q.cast<friction_real>()),
+                             oracle::friction_vector(p.mu.cast<friction_real>()),
+                             oracle::friction_vector(r.cast<friction_real>()));
+  CHECK(f.F.norm() == doctest::Approx(double(naive[0].natural_map)).epsilon(1e-12));
+}
+
+TEST_CASE("Newton: few steps near a solution, sparse or dense, with α the shifted problem") {
+  for (auto const which : both) {
+    auto const p = test::chain_friction(60);
+    blocks const b(p);
+    newton n(b, which);
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(b.size());
+    n.set_proximal(0, r);
+    n.begin(r);
+    for (int k = 0; k < 15 && n.residual_norm() > 1e-13; ++k) CHECK(n.advance(r, 0, 20));
+    CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
+    CHECK(n.work().steps <= 12);
+    CHECK(n.work().factorizations == n.work().steps);
+    CHECK(n.work().sparse > 0);  // three diagonals: never a full matrix
+    // Every second contact is open, and in no system after the first.
+    CHECK(n.work().unknowns < 60 * 3 + (n.work().steps - 1) * (30 * 3 + 1));
+
+    Eigen::VectorXd const center = r;
+    Eigen::VectorXd x = r;
+    n.set_proximal(1, center);
+    CHECK(n.begin(x) <= 1e-12);  // the solution is a fixed point of every α
+    Eigen::VectorXd const elsewhere = Eigen::VectorXd::Zero(b.size());
+    n.set_proximal(1, elsewhere);
+    n.begin(x);
+    for (int k = 0; k < 20 && n.residual_norm() > 1e-13; ++k) n.advance(x, 0, 20);
+    CHECK(n.residual_norm() <= 1e-13);
+    auto shifted = p;
+    for (slant::index i = 0; i < shifted.q.size(); ++i) {
+      shifted.W.coeffRef(i, i) += p.W.diagonal().segment<3>(i / 3 * 3).mean();
+    }
+    CHECK(slant::contact::verify(shifted, b.force(x)).relative_natural_map <= 1e-12);
+  }
+}
+
+TEST_CASE("Newton: a singular system has a direction if damped, one of no use is refused") {
+  auto const p = test::repeated(test::random_friction(20, 3, 0.4, 2), 2);
+  blocks const b(p);
+  newton n(b, friction_equations::natural_map);
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(b.size());
+  for (slant::index i = 0; i < b.contacts(); ++i) r[3 * i] = 1;  // all stick
+  n.set_proximal(0, r);
+  double const before = n.begin(r);
+  CHECK(n.advance(r, 1e-6, 20));
+  CHECK(n.residual_norm() < before);
+  // No step can be short enough if none is allowed to be shorter than a full one that fails.
+  Eigen::VectorXd bad = Eigen::VectorXd::Constant(b.size(), std::nan(""));
+  n.begin(bad);
+  CHECK(!n.advance(bad, 1e-6, 3));
+}
+
+}  // namespace friction_newton_test

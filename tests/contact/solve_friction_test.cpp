@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/solve_friction.hpp>
+
+#include "contact/friction_scenes.hpp"
+
+#include <slant/contact/verify.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace solve_friction_test {
+
+using slant::contact::friction_method;
+using slant::contact::solve_friction;
+using slant::contact::verify;
+using options = slant::contact::friction_options<double>;
+constexpr friction_method all_methods[] = {friction_method::automatic,
+                                           friction_method::gauss_seidel, friction_method::newton,
+                                           friction_method::proximal_newton};
+
+TEST_CASE("solve_friction: every state of one contact, several solutions, redundant contacts") {
+  for (auto const& c : test::solvable_cases()) {
+    CAPTURE(c.name);
+    for (auto const method : all_methods) {
+      auto const s = solve_friction(c.problem, {.method = method, .tolerance = 1e-12});
+      CHECK(s.converged());
+      CHECK(verify(c.problem, s.r).relative_natural_map <= 2e-12);
+      CHECK((s.u - (c.problem.W * s.r + c.problem.q)).norm() <= 1e-13 * c.problem.q.norm());
+      double nearest = std::numeric_limits<double>::infinity();
+      for (auto const& r : c.r) nearest = std::min(nearest, (s.r - r).norm());
+      if (!c.infinitely_many) CHECK(nearest <= 1e-10 * (1 + s.r.norm()));
+    }
+  }
+}
+
+TEST_CASE("solve_friction: all methods agree with Gauss–Seidel to 1e-12 where W is definite") {
+  for (slant::index const dimension : {2, 3}) {
+    for (unsigned const seed : {1U, 2U, 3U, 4U}) {
+      auto const p = test::random_friction(30, dimension, 0.3, seed);
+      auto const reference =
+          solve_friction(p, {.method = friction_method::gauss_seidel, .tolerance = 1e-13});
+      CHECK(reference.converged());
+      for (auto const method : all_methods) {
+        for (auto const equations : {slant::contact::friction_equations::natural_map,
+                                     slant::contact::friction_equations::alart_curnier}) {
+          auto const s = solve_friction(
+              p,
+              {.method = method, .tolerance = 1e-12, .equations = equations, .first_sweeps = 20});
+          CHECK(s.converged());
+          CHECK((s.r - reference.r).norm() <= 1e-9 * reference.r.norm());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("solve_friction: contacts four times over, W with a quarter of full rank") {
+  auto const p = test::repeated(test::random_friction(12, 3, 0.5, 9), 4);
+  auto const single = solve_friction(test::random_friction(12, 3, 0.5, 9), {.tolerance = 1e-12});
+  for (auto const method : all_methods) {
+    auto const s = solve_friction(p, {.method = method, .tolerance = 1e-11});
+    CHECK(s.converged());
+    CHECK(verify(p, s.r).relative_natural_map <= 2e-11);
+    // Velocities are unique here, forces are not.
+    CHECK((s.u.head(36) - single.u).norm() <= 1e-9 * single.u.norm());
+  }
+}
+
+TEST_CASE("solve_friction: units do not matter") {
+  auto const p = test::repeated(test::random_friction(8, 3, 0.5, 5), 2);
+  auto const reference = solve_friction(p);
+  for (auto const& [compliance, velocity] : {std::pair{0x1p330, 1.},
+                                             {0x1p-330, 1.},
+                                             {1., 0x1p330},
+                                             {1., 0x1p-330},
+                                             {0x1p400, 0x1p-400}}) {
+    auto scaled = p;
+    scaled.W *= compliance;
+    scaled.q *= velocity;
+    auto const s = solve_friction(scaled);
+    CHECK(s.converged());
+    CHECK(s.error.scaled == reference.error.scaled);  // the same steps, digit by digit
+    CHECK((s.u / velocity - reference.u).norm() <= 1e-15 * reference.u.norm());
+    CHECK((s.r * compliance / velocity - reference.r).norm() <= 1e-15 * reference.r.norm());
+  }
+}
+
+TEST_CASE("solve_friction: without a solution it ends with a status, for every method") {
+  for (slant::index const dimension : {2, 3}) {
+    auto const c = test::no_solution_case(dimension);
+    for (auto const method : all_methods) {
+      auto const s =
+          solve_friction(c.problem, {.method = method, .sweeps = 5000, .newton_steps = 200});
+      CHECK(!s.converged());
+      CHECK((s.status == slant::status::iteration_limit || s.status == slant::status::stalled ||
+             s.status == slant::status::breakdown));
+      CHECK(s.r.allFinite());
+      CHECK(s.work.newton_steps <= 200);
+      CHECK(s.work.sweeps <= 5000);
+      CHECK(s.error.worst() > 1e-8);
+      CHECK(s.reason.find(to_string(method)) != std::string::npos);
+    }
+  }
+  auto nothing = test::chain_friction(1);
+  nothing.W.setZero();  // no force prevents the penetration
+  CHECK(!solve_friction(nothing, {.sweeps = 1000, .newton_steps = 100}).converged());
+}
+
+TEST_CASE("solve_friction: forces without bound are no solution, and the search for them ends") {
+  using Eigen::Matrix3d, Eigen::Vector3d, Eigen::Vector4d, Eigen::VectorXd;
+  VectorXd const one = VectorXd::Constant(1, 0.5), two = VectorXd::Constant(2, 0.5);
+  Matrix3d const flat = Vector3d(0, 1, 1).asDiagonal();
+  Eigen::Matrix4d wedge = Eigen::Matrix4d::Identity();
+  wedge(0, 2) = wedge(2, 0) = -1;
+  for (auto const& p : {test::make_friction_problem(Matrix3d::Zero(), Vector3d(-1, 0, 0), one),
+                        test::make_friction_problem(flat, Vector3d(-1, 1, 0), one),
+                        test::make_friction_problem(wedge, Vector4d(-1, 0, -1, 0), two),
+                        test::make_friction_problem(wedge, Vector4d(-1, 0, 1 - 1e-6, 0), two)}) {
+    for (auto const method : all_methods) {
+      for (double const start : {0., 1e17}) {
+        VectorXd r = VectorXd::Zero(p.q.size());
+        for (slant::index i = 0; i < p.contacts(); ++i) r[i * p.dimension()] = start;
+        auto const s = solve_friction(p, {.method = method}, r);
+        CHECK(!s.converged());
+        CHECK(s.status != slant::status::running);
+        CHECK(s.r.allFinite());
+      }
+    }
+    auto const s = solve_friction(p);
+    CHECK(s.status == slant::status::stalled);  // no limit was reached
+    CHECK(s.work.sweeps < 300000);
+    CHECK(s.work.newton_steps < 3000);
+  }
+}
+
+TEST_CASE("solve_friction: friction without bound, and hardly any") {
+  for (double const mu : {1e9, 1e-200}) {
+    auto const p = test::make_friction_problem(
+        Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));
+    for (auto const method : all_methods) {
+      auto const s = solve_friction(p, {.method = method});
+      CHECK(s.converged());
+      CHECK((s.r - Eigen::Vector3d(1, mu > 1 ? -1 : 0, 0)).norm() <= 1e-8);
+    }
+  }
+  auto rough = test::random_friction(10, 3, 1e9, 3);  // all that are closed stick
+  auto const s = solve_friction(rough);
+  CHECK(s.converged());
+  CHECK(verify(rough, s.r).slip == 0);
+  for (slant::index i = 0; i < 10; ++i) {
+    CHECK(s.u[3 * i] >= -1e-8 * rough.q.norm());
+    if (s.r[3 * i] > 1e-6) CHECK(s.u.segment<3>(3 * i).norm() <= 1e-8 * rough.q.norm());
+  }
+}
+
+TEST_CASE("solve_friction: results outside of the range of numbers are a breakdown") {
+  for (double const sign : {1., -1.}) {
+    auto const p = test::make_friction_problem(
+        std::pow(10., -200 * sign) * Eigen::Matrix3d::Identity(),
+        -std::pow(10., 200 * sign) * Eigen::Vector3d::UnitX(), Eigen::VectorXd::Constant(1, 0.5));
+    auto const s = solve_friction(p);
+    CHECK(s.status == slant::status::breakdown);
+    CHECK(s.reason.find("range of numbers") != std::string::npos);
+  }
+}
+
+TEST_CASE("solve_friction: no method does more than its limits") {
+  auto const p = test::no_solution_case(3).problem;
+  for (auto const method : all_methods) {
+    for (slant::index const most : {0, 1, 7, 25, 101}) {
+      auto const s = solve_friction(p, {.method = method, .sweeps = most, .newton_steps = most});
+      CHECK(s.work.sweeps <= most);
+      CHECK(s.work.newton_steps <= most);
+      CHECK(!s.converged());
+    }
+  }
+  auto const large = std::numeric_limits<slant::index>::max();
+  auto const s = solve_friction(p, {.first_sweeps = large,
+                                    .further_sweeps = large,
+                                    .sweeps = 1000,
+                                    .newton_steps = 100,
+                                    .attempt = large});
+  CHECK(s.work.sweeps <= 1000);
+  CHECK(s.work.newton_steps <= 100);
+}
+
+TEST_CASE("solve_friction: contacts that open cost nothing later, a sparse W stays sparse") {
+  slant::index const m = 100;
+  auto const p = test::chain_friction(m);
+  auto const s =
+      solve_friction(p, {.method = friction_method::newton, .tolerance = 1e-12, .first_sweeps = 0});
+  CHECK(s.converged());
+  CHECK(verify(p, s.r).open == m / 2);
+  CHECK(s.work.factorizations > 0);
+  // The first system may hold more; open contacts leave for good.
+  CHECK(s.work.factored_rows <= (s.work.factorizations - 1) * 3 * (m / 2) + 3 * m);
+  CHECK(s.work.sparse_factorizations == s.work.factorizations);
+  auto const g = solve_friction(p, {.method = friction_method::gauss_seidel, .tolerance = 1e-12});
+  CHECK(g.converged());
+  // Of 298 blocks the closed contacts need their 50 diagonals; every tenth sweep looks at all.
+  CHECK(g.work.block_products < g.work.sweeps * 80 + 4 * 298);
+}
+
+TEST_CASE("solve_friction: nothing to do, warm starts") {
+  auto p = test::chain_friction(10);
+  auto const cold = solve_friction(p);
+  auto const warm = solve_friction(p, {}, cold.r);
+  CHECK(warm.converged());
+  CHECK(warm.work.sweeps == 0);
+  CHECK(warm.r == cold.r);
+  for (slant::index i = 0; i < 10; ++i) p.q[3 * i] = 1;  // all part by themselves
+  auto const parted = solve_friction(p);
+  CHECK(parted.converged());
+  CHECK(parted.r.norm() == 0);
+  CHECK(parted.u == p.q);
+  CHECK(parted.work.sweeps == 0);
+  p.q.setZero();
+  CHECK(solve_friction(p).r.norm() == 0);
+  CHECK(solve_friction(p, {}, cold.r).r.norm() == 0);
+  slant::contact::friction_problem<double> const none;
+  auto const empty = solve_friction(none);
+  CHECK(empty.converged());
+  CHECK(empty.r.size() == 0);
+}
+
+TEST_CASE("solve_friction: W that is not symmetric is used as given, or refused") {
+  auto p = test::random_friction(10, 3, 0.4, 6);
+  p.W.coeffRef(0, 3) += 0.05;
+  auto const s = solve_friction(p, {.tolerance = 1e-11});
+  CHECK(s.converged());
+  CHECK(verify(p, s.r).relative_natural_map <= 2e-11);
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(solve_friction(p, {.asymmetry = slant::contact::asymmetric_data::refused})),
+      doctest::Contains("asymmetry"), slant::bad_input);
+  p.mu[3] = -1;
+  CHECK_THROWS_WITH_AS(static_cast<void>(solve_friction(p)), doctest::Contains("mu[3]"),
+                       slant::bad_input);
+  p.mu[3] = 1;
+  CHECK_THROWS_WITH_AS(static_cast<void>(solve_friction(p, {}, Eigen::VectorXd::Zero(3))),
+                       doctest::Contains("start"), slant::bad_input);
+}
+
+}  // namespace solve_friction_test
