@@ -10,6 +10,7 @@
 #include <slant/sets/detail/exit_root.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
+#include <slant/sets/detail/stretch.hpp>
 
 #include <Eigen/Core>
 
@@ -42,6 +43,13 @@ class ball {
 
   [[nodiscard]] ball with(S const& radius) const { return ball(radius); }
   [[nodiscard]] S const& radius() const { return radius_; }
+
+  /// { diag(s) x : x in the set }; s > 0.
+  /// @throws bad_input if the factors differ.
+  [[nodiscard]] ball stretched(vector_type const& s) const {
+    detail::require_round_stretch<S, N>(s, 0);
+    return ball(radius_ * s(0));
+  }
 
   /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {

@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: MIT
 //
 // The slanting operator of a projection onto a product: one small symmetric matrix per block, and
-// nothing at all for blocks without a constraint.
+// nothing at all for blocks without a constraint. With other laws than those of a nearest point the
+// blocks are any small matrices: what functions given block by block need.
 #pragma once
 
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/sets/blocks.hpp>
 #include <slant/sets/place.hpp>
 
 #include <Eigen/Core>
 
 namespace slant {
 
-/// diag(G₁, …, G_m) with symmetric N × N blocks 0 ⪯ G_i ⪯ I in the places that Layout says. With
-/// Identity all blocks are I: nothing is stored or computed. Half lines and intervals (N = 1) store
-/// one number per block, 0 or 1.
-template <class S, int N, class Layout = consecutive, bool Identity = false>
+namespace detail {
+
+/// What the slanting operators of nearest points promise.
+[[nodiscard]] consteval law_set projection_laws(bool identity) {
+  return identity ? slant::laws<slant::self_adjoint, slant::positive_definite, slant::projector>
+                  : slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+}
+
+}  // namespace detail
+
+/// diag(G₁, …, G_m) with N × N blocks in the places that Layout says; with the laws L of a nearest
+/// point (the default) symmetric, 0 ⪯ G_i ⪯ I. With Identity all blocks are I: nothing is stored or
+/// computed. Half lines and intervals (N = 1) store one number per block, 0 or 1.
+template <class S, int N, class Layout = consecutive, bool Identity = false,
+          law_set L = detail::projection_laws(Identity)>
 class block_diagonal_slant {
  public:
   using scalar = S;
   using matrix_type = Eigen::Matrix<S, N, N>;
-  static constexpr auto laws =
-      Identity ? slant::laws<slant::self_adjoint, slant::positive_definite, slant::projector>
-               : slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+  static constexpr law_set laws = L;
 
   /// m blocks, to be assigned; allocates.
   explicit block_diagonal_slant(index m)
@@ -42,7 +53,7 @@ class block_diagonal_slant {
     }
   }
 
-  /// G_i = g, symmetric with 0 ⪯ g ⪯ I.
+  /// G_i = g, which keeps the laws.
   template <class G>
   void assign(index i, G const& g)
     requires(!Identity)
@@ -59,14 +70,28 @@ class block_diagonal_slant {
   /// y = G x; several columns at once are fine.
   template <class X, class Y>
   void apply(X const& x, Y& y) const {
-    combine(slant::local(x), slant::local(y), [](auto const&, auto const& gx) { return gx; });
+    combine<false>(slant::local(x), slant::local(y),
+                   [](auto const&, auto const& gx) { return gx; });
   }
 
   /// y ← y + α G x.
   template <class X, class Y>
   void apply_add(S const& α, X const& x, Y& y) const {
-    combine(slant::local(x), slant::local(y),
-            [&α](auto const& yi, auto const& gx) { return S(yi + α * gx); });
+    combine<false>(slant::local(x), slant::local(y),
+                   [&α](auto const& yi, auto const& gx) { return S(yi + α * gx); });
+  }
+
+  /// y = Gᵀx, where that is not G x.
+  template <class X, class Y>
+    requires(!L.contains(law::self_adjoint))
+  void apply_adjoint(X const& x, Y& y) const {
+    combine<true>(slant::local(x), slant::local(y), [](auto const&, auto const& gx) { return gx; });
+  }
+  template <class X, class Y>
+    requires(!L.contains(law::self_adjoint))
+  void apply_adjoint_add(S const& α, X const& x, Y& y) const {
+    combine<true>(slant::local(x), slant::local(y),
+                  [&α](auto const& yi, auto const& gx) { return S(yi + α * gx); });
   }
 
   /// d = diag(G).
@@ -81,8 +106,8 @@ class block_diagonal_slant {
  private:
   [[nodiscard]] auto at(index i) const { return block_place<N, Layout>(i, count_); }
 
-  /// y_j = result(y_j, (G x)_j) for every component j of every column.
-  template <class X, class Y, class Result>
+  /// y_j = result(y_j, (G x)_j), or (Gᵀx)_j, for every component j of every column.
+  template <bool Adjoint, class X, class Y, class Result>
   void combine(X const& x, Y& y, Result const& result) const {
     for (index k = 0; k < index(x.cols()); ++k) {
       for (index i = 0; i < count_; ++i) {
@@ -92,10 +117,11 @@ class block_diagonal_slant {
           if constexpr (Identity) {
             target = result(target, x.coeff(p.component(j), k));
           } else {
-            S sum = entries_.coeff(j, N * i) * x.coeff(p.component(0), k);
-            for (index l = 1; l < N; ++l) {
-              sum += entries_.coeff(j, N * i + l) * x.coeff(p.component(l), k);
-            }
+            auto const entry = [&](index l) -> S const& {
+              return Adjoint ? entries_.coeffRef(l, N * i + j) : entries_.coeffRef(j, N * i + l);
+            };
+            S sum = entry(0) * x.coeff(p.component(0), k);
+            for (index l = 1; l < N; ++l) sum += entry(l) * x.coeff(p.component(l), k);
             target = result(target, sum);
           }
         }
@@ -106,5 +132,14 @@ class block_diagonal_slant {
   index count_;
   Eigen::Matrix<S, N, Eigen::Dynamic> entries_;
 };
+
+namespace detail {
+
+/// The slanting operator of a power of the block C: an oblique projection keeps no law.
+template <class S, class C, class Layout = consecutive>
+using power_slant = block_diagonal_slant<S, C::dimension, Layout, whole_space<C>,
+                                         oblique<C> ? law_set{} : projection_laws(whole_space<C>)>;
+
+}  // namespace detail
 
 }  // namespace slant

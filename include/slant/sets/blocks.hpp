@@ -63,6 +63,11 @@ template <class C> concept whole_space = requires { requires C::whole_space; };
 /// interior; methods that need one keep its components where they are.
 template <class C> concept single_point = requires { requires C::single_point; };
 
+/// A block whose projection is nearest in a norm of its own, which says so: `static constexpr bool
+/// oblique = true`. Its slanting operator is not symmetric (in_metric.hpp), and so that no method
+/// takes it for an ordinary set it has no state.
+template <class C> concept oblique = requires { requires C::oblique; };
+
 namespace detail {
 
 struct block_count_fn {

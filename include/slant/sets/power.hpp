@@ -104,19 +104,20 @@ class power_product {
     return sum;
   }
 
-  /// The slanting operator of the projection at x: block diagonal, symmetric, 0 ⪯ G ⪯ I.
+  /// The slanting operator of the projection at x: block diagonal, symmetric, 0 ⪯ G ⪯ I (no law
+  /// holds for oblique blocks).
   template <class X>
   [[nodiscard]] auto slant(X const& x) const
     requires has_slant<Block, vector_type>
   {
-    block_diagonal_slant<scalar_t<X>, n, Layout, whole_space<Block>> g(blocks_.size());
+    detail::power_slant<scalar_t<X>, Block, Layout> g(blocks_.size());
     slant(x, g);
     return g;
   }
 
   /// The same into an operator that slant(x) made earlier; does not allocate.
   template <class X>
-  void slant(X const& x, block_diagonal_slant<scalar_t<X>, n, Layout, whole_space<Block>>& g) const
+  void slant(X const& x, detail::power_slant<scalar_t<X>, Block, Layout>& g) const
     requires has_slant<Block, vector_type>
   {
     eigen_assert(g.block_count() == blocks_.size());

@@ -18,7 +18,7 @@ struct projection_slant_fn {
     requires has_slant<C, X>
   [[nodiscard]] auto operator()(C const& c, X const& x) const {
     if constexpr (has_static_dimension<C>) {
-      block_diagonal_slant<scalar_t<X>, C::dimension, consecutive, whole_space<C>> g(1);
+      power_slant<scalar_t<X>, C> g(1);
       (*this)(c, x, g);
       return g;
     } else {

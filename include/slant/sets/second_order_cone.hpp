@@ -8,9 +8,11 @@
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/sets/detail/cone_projection.hpp>
+#include <slant/sets/detail/cone_slant.hpp>
 #include <slant/sets/detail/cone_step.hpp>
 #include <slant/sets/detail/double_word.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
+#include <slant/sets/detail/stretch.hpp>
 
 #include <Eigen/Core>
 
@@ -48,24 +50,17 @@ class second_order_cone {
   [[nodiscard]] second_order_cone with(S const& mu) const { return second_order_cone(mu); }
   [[nodiscard]] S const& mu() const { return mu_; }
 
+  /// { diag(s) x : x in the set }, a cone of another coefficient; s > 0.
+  /// @throws bad_input if the tangential factors differ.
+  [[nodiscard]] second_order_cone stretched(vector_type const& s) const {
+    detail::require_round_stretch<S, N>(s, 1);
+    return second_order_cone(mu_ * (s(1) / s(0)));
+  }
+
   /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
-    auto const foot = detail::nearest_on_cone<S, N>(mu_, v);
-    switch (foot.region) {
-      case detail::cone_region::inside:
-        break;
-      case detail::cone_region::apex:
-        v.setZero();
-        break;
-      case detail::cone_region::undefined:
-        v.setConstant(detail::not_a_number<S>());
-        break;
-      case detail::cone_region::mantle:
-        scale(v, foot.factor, foot.exponent);
-        v(0) = foot.normal;
-        break;
-    }
+    detail::nearest_on_cone<S, N>(mu_, v).move(v);
     return v;
   }
 
@@ -92,33 +87,16 @@ class second_order_cone {
   /// differentiate p = w wᵀx with de = (I − eeᵀ) dx_t/‖x_t‖. For μ = 0, where there is no interior,
   /// the derivative e₀e₀ᵀ of the projection to the ray stands for I.
   [[nodiscard]] matrix_type slant(auto const& x) const {
-    using std::sqrt;
     vector_type const v = x;
     auto const foot = detail::nearest_on_cone<S, N>(mu_, v);
+    if (foot.region == detail::cone_region::mantle) {
+      return detail::mantle_slant<S, N>(mu_, S(1), foot, v);
+    }
     matrix_type G = matrix_type::Zero();
     if (foot.region == detail::cone_region::undefined) G.setConstant(detail::not_a_number<S>());
     if (foot.region == detail::cone_region::inside) {
       if (mu_ > S(0)) G.setIdentity();
       G(0, 0) = S(1);
-    }
-    if (foot.region != detail::cone_region::mantle) return G;
-    bool const steep = mu_ > S(1);
-    S const q = steep ? S(S(1) / mu_) : mu_;
-    S const larger = S(1) / sqrt(S(1) + q * q), smaller = q * larger;
-    Eigen::Matrix<S, N - 1, 1> e = v.template tail<N - 1>();
-    auto const ρ = detail::scaled_norm<S, N - 1>(e);
-    e = detail::times_power_of_two<S, N - 1>(e, -ρ.exponent) / ρ.value;
-    S const θ = detail::times_power_of_two<S>(foot.factor, foot.exponent);
-    vector_type w;
-    w(0) = steep ? smaller : larger;
-    w.template tail<N - 1>() = (steep ? larger : smaller) * e;
-    G.noalias() = w * w.transpose();
-    for (int i = 0; i < N - 1; ++i) {
-      for (int j = 0; j < N - 1; ++j) {
-        if (j == i) continue;
-        G(i + 1, i + 1) += θ * (e(j) * e(j));  // 1 − eᵢ² without cancellation
-        G(i + 1, j + 1) -= θ * (e(i) * e(j));
-      }
     }
     return G;
   }
@@ -129,20 +107,18 @@ class second_order_cone {
     vector_type const v = x, w = d;
     if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
-    return detail::cone_step<S, N>(mu_, v, w);
+    return detail::cone_step<S, N>(mu_, S(1), v, w);
   }
 
   /// 0 for y in the polar cone y_n + μ‖y_t‖ <= 0 (up to 8 ε |y_n|), otherwise ∞.
   [[nodiscard]] S support(auto const& y) const {
-    vector_type v = y;
+    vector_type const v = y;
     if (v.hasNaN()) return detail::not_a_number<S>();
     if (v(0) > S(0)) return detail::infinity<S>();
     S const depth = -v(0) * (S(1) + detail::rounding_band<S>());
-    auto const ρ = detail::scaled_norm<S, N - 1>(v.template tail<N - 1>());
-    int const k = detail::binary_exponent(mu_);
-    S const μρ = detail::times_power_of_two<S>(detail::times_power_of_two<S>(mu_, -k) * ρ.value,
-                                               k + ρ.exponent);
-    return μρ <= depth ? S(0) : detail::infinity<S>();
+    auto const μρ = detail::scaled_slip<S, N>(mu_, v);
+    return detail::times_power_of_two<S>(μρ.value, μρ.exponent) <= depth ? S(0)
+                                                                         : detail::infinity<S>();
   }
 
   /// f(x) = (‖x_t‖² − μ²x_n², −x_n) <= 0; the first accurate also near the mantle.
@@ -172,16 +148,6 @@ class second_order_cone {
   }
 
  private:
-  /// v · factor · 2^exponent, factor in [1/2, 1), also where factor · 2^exponent underflows.
-  static void scale(vector_type& v, S const& factor, int exponent) {
-    S const product = detail::times_power_of_two<S>(factor, exponent);
-    if (product >= (std::numeric_limits<S>::min)()) {
-      v *= product;
-    } else {
-      v = detail::times_power_of_two<S, N>(factor * v, exponent);
-    }
-  }
-
   /// ‖x_t‖ <= factor · μ x_n and x_n >= 0, with one unit of the smallest numbers allowed for every
   /// component: there rounding is no longer relative.
   [[nodiscard]] bool ratio_at_most(vector_type const& v, S const& factor) const {

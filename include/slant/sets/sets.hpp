@@ -11,10 +11,12 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>
+#include <slant/sets/dual_cone.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
+#include <slant/sets/in_metric.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/place.hpp>
 #include <slant/sets/point.hpp>

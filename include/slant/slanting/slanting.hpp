@@ -5,7 +5,9 @@
 
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
+#include <slant/slanting/blockwise.hpp>
 #include <slant/slanting/composition.hpp>
+#include <slant/slanting/de_saxce.hpp>
 #include <slant/slanting/difference.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
 #include <slant/slanting/identity.hpp>

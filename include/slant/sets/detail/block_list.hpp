@@ -12,6 +12,7 @@
 #include <concepts>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace slant::detail {
@@ -105,6 +106,10 @@ class listed_blocks {
     blocks_.reserve(std::size_t(n));
     for (index i = 0; i < n; ++i) blocks_.push_back(block_with(shape_, i, params...));
   }
+
+  /// These blocks; the first one is the shape of those that update() makes.
+  explicit listed_blocks(std::vector<Block> blocks)
+      : shape_(blocks.empty() ? Block{} : blocks.front()), blocks_(std::move(blocks)) {}
 
   /// New parameters, no allocation. If one of them is bad nothing changes.
   template <class... Params>

@@ -1,63 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// Nearest point of the cone { (n, t) : ‖t‖ <= μ n }.
+// Nearest point of the cone { (n, t) : ‖t‖ <= μ n } and of its dual { (n, t) : μ‖t‖ <= n }.
 //
-// With ρ = ‖t‖ the point is its own projection for ρ <= μ n, the apex is the projection for
-// n + μρ <= 0 (the polar cone), and in between the mantle is met at
+// Both are { ν‖t‖ <= κ n }, (κ, ν) = (μ, 1) or (1, μ). With ρ = ‖t‖ the point is its own projection
+// for νρ <= κ n, the apex is the projection for νn + κρ <= 0 (the polar cone), and in between the
+// mantle is met at
 //
-//     p_n = (n + μρ)/(1 + μ²),   p_t = (μ p_n/ρ) t.
+//     p_n = ν (νn + κρ)/(1 + μ²),   p_t = (κ/ρ) (νn + κρ)/(1 + μ²) t.
 //
-// For n < 0 the sum n + μρ cancels, and ρ is no number of the format: double words keep its digits,
-// and where even they run out, just outside the polar cone, the sum is (μ²ρ² − n²)/(μρ − n) with a
-// numerator that is a polynomial in the data and can be had to any precision.
-// Each of n, ρ, μ is split into a number of order one and a power of two, so that neither tiny nor
-// huge data nor any μ overflows.
+// For n < 0 the sum νn + κρ cancels, and ρ is no number of the format: double words keep its
+// digits, and where even they run out, just outside the polar cone, the sum is
+// (κ²ρ² − ν²n²)/(κρ − νn) with a numerator that is a polynomial in the data and can be had to any
+// precision. Each of n, ρ, μ is split into a number of order one and a power of two, so that
+// neither tiny nor huge data nor any μ overflows.
 #pragma once
 
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/exact_squares.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cstddef>
+#include <limits>
 
 namespace slant::detail {
-
-/// m² Σ tᵢ² − n² to about four times the digits of S relative to n²: all products are split without
-/// error, and three sweeps of exact sums move the value to the last place before the rest is added
-/// (SumK with K = 4: Ogita, Rump, Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26,
-/// 2005).
-template <class S, int M>
-[[nodiscard]] double_word<S> difference_of_squares(S const& m, Eigen::Matrix<S, M, 1> const& t,
-                                                   S const& n) {
-  std::array<S, 8 * M + 2> terms;
-  std::size_t count = 0;
-  auto const put = [&](double_word<S> const& v) {
-    terms[count++] = v.lo;
-    terms[count++] = v.hi;
-  };
-  auto const mm = exact_product(m, m);
-  for (int i = 0; i < M; ++i) {
-    auto const tt = exact_product<S>(t(i), t(i));
-    put(exact_product(mm.lo, tt.lo));
-    put(exact_product(mm.lo, tt.hi));
-    put(exact_product(mm.hi, tt.lo));
-    put(exact_product(mm.hi, tt.hi));
-  }
-  put(exact_product(S(-n), n));
-  for (int sweep = 0; sweep < 3; ++sweep) {
-    for (std::size_t i = 1; i < count; ++i) {
-      auto const sum = exact_sum(terms[i - 1], terms[i]);
-      terms[i - 1] = sum.lo;
-      terms[i] = sum.hi;
-    }
-  }
-  double_word<S> value;
-  for (auto const& term : terms) value = value + double_word<S>(term);
-  return value;
-}
 
 enum class cone_region : unsigned char { inside, mantle, apex, undefined };
 
@@ -65,13 +32,41 @@ template <class S>
 struct cone_foot {
   cone_region region;
   S normal;  ///< p_n
-  S factor;  ///< factor · 2^exponent = μ p_n/ρ ∈ [0, 1], the factor of t
+  S factor;  ///< factor · 2^exponent = p_t/t ∈ [0, 1]
   int exponent;
+
+  /// Makes the point x its nearest one.
+  template <int N>
+  void move(Eigen::Matrix<S, N, 1>& x) const {
+    if (region == cone_region::apex) x.setZero();
+    if (region == cone_region::undefined) x.setConstant(not_a_number<S>());
+    if (region != cone_region::mantle) return;
+    S const product = times_power_of_two<S>(factor, exponent);
+    if (product >= (std::numeric_limits<S>::min)()) {
+      x *= product;
+    } else {  // factor · 2^exponent underflows
+      x = times_power_of_two<S, N>(factor * x, exponent);
+    }
+    x(0) = normal;
+  }
 };
 
-/// `x` is (n, t). The region is undefined for an x that holds a NaN or an infinity.
+/// mantissa · 2^exponent; 0 has the smallest exponent of all.
+template <class S>
+struct split_number {
+  S mantissa;
+  int exponent;
+
+  explicit split_number(S const& v)
+      : mantissa(times_power_of_two<S>(v, -binary_exponent(v))),
+        exponent(v == S(0) ? std::numeric_limits<int>::min() / 8 : binary_exponent(v)) {}
+};
+
+/// Nearest point of { ν‖t‖ <= κ n }, (κ, ν) = (μ, 1) or (1, μ), to x = (n, t). The region is
+/// undefined for an x that holds a NaN or an infinity.
 template <class S, int N>
-[[nodiscard]] cone_foot<S> nearest_on_cone(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
+[[nodiscard]] cone_foot<S> nearest_on_mantle(S const& κ, S const& ν,
+                                             Eigen::Matrix<S, N, 1> const& x) {
   using word = double_word<S>;
   if (!x.allFinite()) return {cone_region::undefined, S(0), S(0), 0};
   S const n = x(0);
@@ -82,34 +77,55 @@ template <class S, int N>
   int const t_unit = binary_exponent(t);
   t = times_power_of_two<S, N - 1>(t, -t_unit);
   auto const ρ = square_root(precise_dot<S>(t, t));
-  int const k = binary_exponent(μ);
-  S const m = times_power_of_two(μ, -k);
+  split_number<S> const k(κ), l(ν), ns(n);
+  auto const larger = [](int a, int b) { return a < b ? b : a; };
 
-  if (n >= S(0)) {  // ρ <= μ n ?
-    int const n_unit = binary_exponent(n) + k;
-    int const unit = n_unit > t_unit ? n_unit : t_unit;
-    auto const bound = word(m) * word(times_power_of_two(n, k - unit));
-    if ((times_power_of_two(ρ, t_unit - unit) - bound).hi <= S(0)) {
+  if (n >= S(0)) {  // νρ <= κ n ?
+    int const unit = larger(k.exponent + ns.exponent, l.exponent + t_unit);
+    auto const bound = exact_product(k.mantissa, ns.mantissa);
+    auto const radius = word(l.mantissa) * ρ;
+    if ((times_power_of_two(radius, l.exponent + t_unit - unit) -
+         times_power_of_two(bound, k.exponent + ns.exponent - unit))
+            .hi <= S(0)) {
       return {cone_region::inside, S(0), S(0), 0};
     }
   }
-  int const unit = n == S(0) || binary_exponent(n) < t_unit + k ? t_unit + k : binary_exponent(n);
-  S const ns = times_power_of_two(n, -unit);
-  auto const μρ = word(m) * times_power_of_two(ρ, t_unit + k - unit);
-  auto sum = word(ns) + μρ;
-  if (ns < S(0) && sum.hi < -ns / S(1024) && sum.hi > ns / S(1024)) {
-    auto const ts = times_power_of_two<S, N - 1>(t, t_unit + k - unit);
-    sum = difference_of_squares(m, ts, ns) / (μρ - word(ns));
+  int const n_unit = l.exponent + ns.exponent;  // of νn
+  int const unit = larger(n_unit, k.exponent + t_unit);
+  auto const νn = times_power_of_two(exact_product(l.mantissa, ns.mantissa), n_unit - unit);
+  auto const κρ = times_power_of_two(word(k.mantissa) * ρ, k.exponent + t_unit - unit);
+  auto sum = νn + κρ;
+  if (νn.hi < S(0) && sum.hi < -νn.hi / S(1024) && sum.hi > νn.hi / S(1024)) {
+    exact_squares<S, N> squares;
+    for (int i = 0; i < N - 1; ++i) {
+      squares.add(k.mantissa, times_power_of_two<S>(t(i), k.exponent + t_unit - unit));
+    }
+    squares.subtract(l.mantissa, times_power_of_two<S>(ns.mantissa, n_unit - unit));
+    sum = squares.sum() / (κρ - νn);
   }
   if (sum.hi <= S(0)) return {cone_region::apex, S(0), S(0), 0};
-  // 1 + μ², for μ > 1 in units of 2^2k.
-  int const s_unit = μ > S(1) ? 2 * k : 0;
-  auto const s = word(times_power_of_two(S(1), -s_unit)) +
-                 times_power_of_two(exact_product(m, m), 2 * k - s_unit);
-  S const factor = (word(m) * sum / (s * ρ)).hi;
+  // 1 + μ² = κ² + ν², for μ > 1 in units of 2^2k.
+  int const s_unit = 2 * larger(0, larger(k.exponent, l.exponent));
+  auto const s =
+      times_power_of_two(exact_product(k.mantissa, k.mantissa), 2 * k.exponent - s_unit) +
+      times_power_of_two(exact_product(l.mantissa, l.mantissa), 2 * l.exponent - s_unit);
+  S const factor = (word(k.mantissa) * sum / (s * ρ)).hi;
   int const e = binary_exponent(factor);
-  return {cone_region::mantle, times_power_of_two((sum / s).hi, unit - s_unit),
-          times_power_of_two(factor, -e), e + k + unit - s_unit - t_unit};
+  return {cone_region::mantle,
+          times_power_of_two((word(l.mantissa) * sum / s).hi, l.exponent + unit - s_unit),
+          times_power_of_two(factor, -e), e + k.exponent + unit - s_unit - t_unit};
+}
+
+/// Nearest point of { ‖t‖ <= μ n }.
+template <class S, int N>
+[[nodiscard]] cone_foot<S> nearest_on_cone(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
+  return nearest_on_mantle<S, N>(μ, S(1), x);
+}
+
+/// Nearest point of { μ‖t‖ <= n }.
+template <class S, int N>
+[[nodiscard]] cone_foot<S> nearest_on_dual_cone(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
+  return nearest_on_mantle<S, N>(S(1), μ, x);
 }
 
 }  // namespace slant::detail
