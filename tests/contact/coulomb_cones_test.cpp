@@ -3,12 +3,10 @@
 
 #include "coulomb_scenes.hpp"
 
-#include <slant/contact/coulomb_radii.hpp>
+#include <slant/contact/coulomb.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/successive_approximations.hpp>
-#include <slant/methods/symmetric_newton.hpp>
 
 #include <fem/two_plates.hpp>
 
@@ -23,15 +21,7 @@ constexpr double tolerance = 1e-11;
 
 template <class Family, class M>
 auto solve(Family& family, M const& m) {
-  auto const make = [&](double goal) {
-    slant::symmetric_newton_options<double> o;
-    o.forcing.goal = goal;
-    return slant::symmetric_newton{family.qp(), m, o};
-  };
-  slant::successive_options<double> o;
-  o.forcing.goal = tolerance;
-  slant::successive_approximations const method(family, make, o);
-  return slant::solve(method, family.zero(),
+  return slant::solve(contact::coulomb(family, m, {.goal = tolerance}), family.zero(),
                       slant::reduced_gradient_below(tolerance) || slant::at_most(200));
 }
 

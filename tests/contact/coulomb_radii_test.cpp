@@ -4,10 +4,9 @@
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
 
+#include <slant/contact/coulomb.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/successive_approximations.hpp>
-#include <slant/methods/symmetric_newton.hpp>
 
 #include <doctest/doctest.h>
 
@@ -44,15 +43,7 @@ struct fixture {
     contact::dual problem(contact::friction_disc{}, factor, c);
     contact::coulomb_radii family(problem, F);
     auto const M = contact::lumped_preconditioner(scene.K, problem.constraints());
-    auto const make = [&](double goal) {
-      slant::symmetric_newton_options<double> o;
-      o.forcing.goal = goal;
-      return slant::symmetric_newton{family.qp(), M, o};
-    };
-    slant::successive_options<double> o;
-    o.forcing.goal = tolerance;
-    slant::successive_approximations const method(family, make, o);
-    auto const r = slant::solve(method, problem.zero(),
+    auto const r = slant::solve(contact::coulomb(family, M, {.goal = tolerance}), problem.zero(),
                                 slant::reduced_gradient_below(tolerance) || slant::at_most(100));
     return {r.status, r.x(), r.state.work, r.iterations()};
   }
@@ -169,7 +160,7 @@ TEST_CASE("coefficients that do not fit are refused") {
   };
   CHECK(message(t.constant(-1)) == "F[0]: got -1, expected a finite number >= 0");
   CHECK(message(VectorXd::Constant(2, 0.1)) ==
-        "number of friction coefficients: got 2, expected 18, one per contact node");
+        "number of friction coefficients: got 2, expected one per contact node, 18");
 }
 
 }  // namespace coulomb_radii_test

@@ -64,7 +64,7 @@ concept parametric_program = requires(F& family, F const& c, V const& x, V& p) {
 ///     });
 ///     auto r = slant::solve(method, x0, slant::reduced_gradient_below(1e-8) || slant::at_most(50));
 ///
-/// Refers to the family, in which each step leaves the parameters of its state.
+/// Refers to the family, in which each step leaves P(x) of its state.
 template <parametric_program Family, class Make>
 class successive_approximations {
  public:
@@ -116,8 +116,8 @@ class successive_approximations {
   /// One inner problem, and new parameters.
   void step(state_type& s) const {
     if (s.status != status::running) return;
-    choose_parameters(s);
-    solve_inner(s);
+    bool const anew = choose_parameters(s);
+    solve_inner(s, anew);
     ++s.iteration;
     if (s.status != status::running) return;
     scalar const before = s.reduced_gradient_norm;
@@ -159,21 +159,30 @@ class successive_approximations {
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
   }
 
-  void choose_parameters(state_type& s) const {
+  /// The next p; false if it is the last one, x being a start for it or not yet accurate enough.
+  bool choose_parameters(state_type& s) const {
     s.accelerated = false;
-    if (s.solved_once) {
+    bool const moves = norm(s.change) > scalar(0);
+    if (!moves) {
+      slant::local(s.next) = slant::local(s.parameters);
+    } else if (s.solved_once) {
       s.accelerated = s.mixing.mix(s.parameters, s.change, s.relaxation, s.next);
-      std::swap(s.parameters, s.next);
     } else {
-      slant::local(s.parameters) = slant::local(s.image);
+      slant::local(s.next) = slant::local(s.image);
     }
+    std::swap(s.parameters, s.next);
     family_->assign(s.parameters);
+    return moves;
   }
 
-  void solve_inner(state_type& s) const {
-    scalar const target = s.forcing.next(options_.forcing) * s.reduced_gradient_norm;
-    restart(s);
+  void solve_inner(state_type& s, bool anew) const {
+    scalar const η = s.forcing.next(options_.forcing);
     auto& in = s.inner;
+    // Where p stays as it is there is nothing to save for later.
+    auto const whole = scalar(options_.forcing.goal / 2) * in.gradient_scale;
+    scalar const target = anew || whole == scalar(0) ? η * s.reduced_gradient_norm : whole;
+    if (anew) restart(s);
+    work const before = anew ? work{} : in.work;
     scalar const most(0.999);
     scalar const goal = std::min<scalar>(most, target / in.gradient_scale);
     auto const method = make_(goal > scalar(0) ? goal : scalar(0));
@@ -187,12 +196,13 @@ class successive_approximations {
     }
     s.inner_iterations = in.iteration - first;
     s.inner_status = in.status;
-    s.work.operator_applications += in.work.operator_applications;
+    s.work.operator_applications += in.work.operator_applications - before.operator_applications;
+    s.work.factorizations += in.work.factorizations - before.factorizations;
     s.work.inner_iterations += s.inner_iterations;
-    s.work.factorizations += in.work.factorizations;
     s.solved_once = true;
     bool const lost = in.status == status::breakdown || in.status == status::unbounded;
     if (lost) s.status = in.status;
+    if (!lost && !anew && s.inner_iterations == 0) s.status = status::stalled;
   }
 
   /// The inner method at s.x for the present parameters. One product.

@@ -14,7 +14,7 @@ template <class S = double>
 struct successive_options {
   /// Inner accuracy, relative to the residual of the parameters: more than Ψ brings them nearer is
   /// wasted. With a goal the last problem is not solved too well.
-  eisenstat_walker forcing{.γ = 0.3, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
+  eisenstat_walker forcing{.γ = 1, .exponent = 1.001, .η_max = 0.1, .η_first = 0.1};
   index window = 5;         ///< differences that Anderson's acceleration keeps; 0: none
   S growth = S(2);          ///< >= 1: the residual may grow so much in a step before it is a failure
   S relaxation = S(1);      ///< ω in (0, 1]: p ← p + ω (Ψ(p) − p) for a plain step
