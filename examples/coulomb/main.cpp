@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact with Coulomb friction through a sequence of load steps: a body is pressed down, dragged
+// along and released. Quasi-static: in each step friction resists the increment of the slip, so the
+// solution depends on the path, and what was dragged is held back when the load goes.
+#include <cmath>
+#include <cstdio>
+#include <fem/contact_field.hpp>
+#include <fem/contact_vtu.hpp>
+#include <fem/plots/slip_history_plot.hpp>
+#include <limits>
+#include <optional>
+#include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/coulomb.hpp>
+#include <slant/contact/load_stepper.hpp>
+#include <slant/contact/preconditioner.hpp>
+#include <slant/factorizations/static_condensation.hpp>
+#include <slant/io/vtu_series.hpp>
+#include <support/command_line.hpp>
+
+#include "scene.hpp"
+
+namespace {
+
+namespace contact = slant::contact;
+using vector = Eigen::VectorXd;
+
+struct settings {
+  std::string model = "brick";
+  int k = 6;
+  double friction = 0.3;
+  double across = std::numeric_limits<double>::quiet_NaN();  // second coefficient
+  int steps = 8;                                             // of each of the three phases
+  double tolerance = 1e-8;
+  std::filesystem::path output{};
+};
+
+void print_problem(settings const& s, coulomb::loaded_scene const& loaded) {
+  auto const& scene = loaded.scene;
+  std::printf("%s: pressed, dragged, released in %d load steps\n", loaded.title.c_str(),
+              3 * s.steps);
+  std::printf("  friction       %g", s.friction);
+  if (!std::isnan(s.across)) std::printf(" along x, %g along y (orthotropic)", s.across);
+  std::printf(" (Coulomb)\n  mesh           %td tetrahedra, %td unknowns\n",
+              scene.mesh.cell_count(), scene.unknowns.count);
+  std::printf("  contact        %td nodes\n\n", scene.contact_count());
+  std::printf("  step   press   drag   open  stick   slip   products   status\n");
+  std::fflush(stdout);
+}
+
+/// The coefficient in the direction of t: that of the ellipse with the semi-axes F¹, F².
+double coefficient_along(Eigen::Vector2d const& t, double first, double second) {
+  if (first == second || t.norm() == 0) return first;
+  return first * second * t.norm() / std::hypot(second * t[0], first * t[1]);
+}
+
+/// make_friction(m) makes the coefficients of m contact nodes.
+template <class MakeFriction>
+int follow(settings const& s, double across, MakeFriction const& make_friction) {
+  auto const loaded = coulomb::make_scene(s.model, s.k);
+  auto const& scene = loaded.scene;
+  Eigen::Index const m = scene.contact_count();
+  print_problem(s, loaded);
+
+  vector const rest = vector::Zero(scene.f.size());
+  contact::data<double> const data{scene.N, scene.T, rest, scene.d, scene.g};
+  slant::static_condensation const factor(scene.K, contact::contact_unknowns(data));
+  contact::dual problem(contact::friction_disc{}, factor, data);
+  contact::coulomb_radii family(problem, make_friction(m));
+  auto const M = contact::lumped_preconditioner(scene.K, problem.constraints());
+  contact::load_stepper stepper(family, contact::coulomb(family, M, {.goal = s.tolerance}),
+                                slant::reduced_gradient_below(s.tolerance) || slant::at_most(200));
+
+  std::optional<slant::vtu_series> series;
+  if (!s.output.empty()) {
+    examples::make_folder("--output", s.output);
+    series.emplace(s.output / "coulomb.pvd");
+  }
+  std::vector<fem::slip_record> records;
+  fem::contact_field<3> field;
+  vector position = vector::Zero(2 * m);  // T u of the step before
+  slant::index products = 0;
+  bool good = true;
+  for (int i = 1; i <= 3 * s.steps && good; ++i) {
+    double const time = static_cast<double>(i) / s.steps;
+    auto const share = coulomb::share_at(time);
+    auto const& step = stepper.advance(
+        {.f = share.press * loaded.press + share.drag * loaded.drag, .w = position});
+    good = step.converged();
+    vector const& λ = step.x();
+    vector const u = problem.displacement(λ);
+    vector bound(m);
+    for (Eigen::Index j = 0; j < m; ++j) {
+      bound[j] = std::fmax(λ[j], 0) *
+                 coefficient_along(λ.segment<2>(m + 2 * j), s.friction, across);
+    }
+    field = fem::make_contact_field(scene, {bound, position}, u, vector(λ.head(m)),
+                                    vector(λ.tail(2 * m)));
+    records.push_back({time, field.state});
+    if (series) fem::write_contact_vtu(series->next(time), scene, field, u);
+    position = scene.T * u;
+    products += step.work.operator_applications + step.work.setup_applications;
+    std::printf("  %4d  %6.3f %6.3f  %5td  %5td  %5td  %9td   %s\n", i, share.press, share.drag,
+                field.count(fem::contact_state::open), field.count(fem::contact_state::stick),
+                field.count(fem::contact_state::slip), step.work.operator_applications,
+                slant::to_string(step.status).data());
+    std::fflush(stdout);
+  }
+  std::printf("\n  products       %td in all; K was factored once\n", products);
+  std::printf("  left behind    slip of %.3g at most, displacement of %.3g\n",
+              position.cwiseAbs().maxCoeff(),
+              problem.displacement(vector::Zero(3 * m)).cwiseAbs().maxCoeff());
+  if (series) {
+    series->write();
+    std::printf("\nwrote %s\n", (s.output / "coulomb.pvd").c_str());
+    auto const plot =
+        fem::slip_history_plot(s.output / "slip.png", field, records,
+                               loaded.title + ": pressed (1), dragged (2), released (3)");
+    std::printf("%s\n", plot.message.c_str());
+  }
+  return good ? examples::succeeded : examples::not_converged;
+}
+
+int solve(settings const& s) {
+  auto const all = [](Eigen::Index m, double F) { return vector::Constant(m, F).eval(); };
+  if (std::isnan(s.across)) {
+    return follow(s, s.friction, [&](Eigen::Index m) {
+      return contact::coefficients(all(m, s.friction));
+    });
+  }
+  return follow(s, s.across, [&](Eigen::Index m) {
+    return contact::orthotropic_coefficients(all(m, s.friction), all(m, s.across));
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("A body pressed, dragged and released, with Coulomb friction.", "coulomb");
+  app.footer(std::string(examples::exit_status_help));
+  settings s;
+  auto const coefficient = [](double F) { return F >= 0 && std::isfinite(F); };
+  app.add_option("--model", s.model, "brick (on a foundation) or bricks (two)")
+      ->capture_default_str()
+      ->check(examples::expects<std::string>("brick or bricks", [](std::string const& name) {
+        return name == "brick" || name == "bricks";
+      }));
+  app.add_option("--cells", s.k, "k of the 3k x k x k cells, or of the k x (k-1) x (k-1) of each")
+      ->capture_default_str()
+      ->check(examples::expects_at_least(2));
+  app.add_option("--friction", s.friction, "friction coefficient")
+      ->capture_default_str()
+      ->check(examples::expects<double>("a finite number >= 0", coefficient));
+  app.add_option("--friction-across", s.across, "that along y, if it is another one (orthotropic)")
+      ->check(examples::expects<double>("a finite number >= 0", coefficient));
+  app.add_option("--steps", s.steps, "load steps of each phase")
+      ->capture_default_str()
+      ->check(examples::expects_at_least(1));
+  app.add_option("--tolerance", s.tolerance, "relative norm of the reduced gradient")
+      ->capture_default_str()
+      ->check(examples::expects_tolerance());
+  app.add_option("--output", s.output,
+                 "folder for coulomb.pvd with a VTU file per step (ParaView) and slip.png")
+      ->check(examples::expects_name());
+  return examples::run_program(app, argc, argv, [&] { return solve(s); });
+}
