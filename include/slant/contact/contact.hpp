@@ -7,7 +7,12 @@
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/coulomb.hpp>
+#include <slant/contact/coulomb_cones.hpp>
+#include <slant/contact/coulomb_newton.hpp>
+#include <slant/contact/coulomb_radii.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/friction_coefficient.hpp>
 #include <slant/contact/friction_problem.hpp>
 #include <slant/contact/load_step.hpp>
 #include <slant/contact/load_stepper.hpp>

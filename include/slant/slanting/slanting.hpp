@@ -10,6 +10,7 @@
 #include <slant/slanting/de_saxce.hpp>
 #include <slant/slanting/difference.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
+#include <slant/slanting/friction_projection.hpp>
 #include <slant/slanting/identity.hpp>
 #include <slant/slanting/inequalities.hpp>
 #include <slant/slanting/inequality_curvature.hpp>
