@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Coulomb friction on the steel brick against Tresca's problem at the slip bounds that it ends with:
+// Coulomb friction on the steel brick against Tresca's problem at the slip bounds that it ends
+// with:
 //
 //     coulomb [F [K...]]      default 0.3 6 8 10 12; three loads
 //
@@ -85,10 +86,12 @@ bool brick(fem::brick_load load, int k, double F) {
   auto const error = [&](vector const& y) { return energy(y - λ) / size; };
   auto const local_error = [&](vector const& y) { return error(cones.by_directions(y)); };
 
-  auto const newton = run(contact::coulomb_newton(alart_curnier, goal), problem.zero(), local_error);
+  auto const newton =
+      run(contact::coulomb_newton(alart_curnier, goal), problem.zero(), local_error);
   auto const natural = run(contact::coulomb_newton(de_saxce, goal), problem.zero(), local_error);
   auto const by_radii = run(contact::coulomb(radii, I, {.goal = goal}), problem.zero(), error);
-  auto const by_cones = run(contact::coulomb(cones, I, {.goal = goal}), problem.zero(), local_error);
+  auto const by_cones =
+      run(contact::coulomb(cones, I, {.goal = goal}), problem.zero(), local_error);
   problem.update_bounds(μ.cwiseProduct(λ.head(μ.size()).cwiseMax(0)));
   slant::symmetric_newton_options<double> o;
   o.forcing.goal = goal;

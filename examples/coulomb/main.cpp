@@ -91,8 +91,8 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
     vector const u = problem.displacement(λ);
     vector bound(m);
     for (Eigen::Index j = 0; j < m; ++j) {
-      bound[j] = std::fmax(λ[j], 0) *
-                 coefficient_along(λ.segment<2>(m + 2 * j), s.friction, across);
+      bound[j] =
+          std::fmax(λ[j], 0) * coefficient_along(λ.segment<2>(m + 2 * j), s.friction, across);
     }
     field = fem::make_contact_field(scene, {bound, position}, u, vector(λ.head(m)),
                                     vector(λ.tail(2 * m)));
@@ -124,9 +124,8 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
 int solve(settings const& s) {
   auto const all = [](Eigen::Index m, double F) { return vector::Constant(m, F).eval(); };
   if (std::isnan(s.across)) {
-    return follow(s, s.friction, [&](Eigen::Index m) {
-      return contact::coefficients(all(m, s.friction));
-    });
+    return follow(s, s.friction,
+                  [&](Eigen::Index m) { return contact::coefficients(all(m, s.friction)); });
   }
   return follow(s, s.across, [&](Eigen::Index m) {
     return contact::orthotropic_coefficients(all(m, s.friction), all(m, s.across));

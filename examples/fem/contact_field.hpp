@@ -78,7 +78,8 @@ template <int D>
     auto const λ_t = tangential.segment<D - 1>((D - 1) * i);
     field.friction.col(i) = -λ_t / scene.contact_weights[i];
     bool const closed = normal[i] / k[i] > gap[i];
-    bool const slips = (λ_t + k[i] * motion.segment<D - 1>((D - 1) * i)).norm() > friction.slip_bound[i];
+    bool const slips =
+        (λ_t + k[i] * motion.segment<D - 1>((D - 1) * i)).norm() > friction.slip_bound[i];
     auto const at = static_cast<std::size_t>(i);
     field.state[at] = !closed ? contact_state::open
                       : slips ? contact_state::slip

@@ -88,8 +88,7 @@ TEST_CASE("no friction: the products of the frictionless problem, for both famil
     return work;
   }());
   CHECK((cones.by_directions(by_cones.x()) - tresca.x()).norm() <= 1e-7 * tresca.x().norm());
-  CHECK(by_cones.state.work.operator_applications <=
-        tresca.state.work.operator_applications + 5);
+  CHECK(by_cones.state.work.operator_applications <= tresca.state.work.operator_applications + 5);
 }
 
 TEST_CASE("new tangential positions: no solve, and data that do not fit are refused") {

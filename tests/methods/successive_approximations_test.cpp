@@ -42,8 +42,8 @@ struct moving_obstacle {
   using set_type = decltype(slant::half_lines(VectorXd()));
 
   double rate, unit;
-  operator_type A{slant::counted(
-      slant::matrix<slant::self_adjoint, slant::positive_definite>(laplacian()))};
+  operator_type A{
+      slant::counted(slant::matrix<slant::self_adjoint, slant::positive_definite>(laplacian()))};
   VectorXd b;
   set_type set;
   slant::separable_qp<operator_type const&, VectorXd const&, set_type const&> qp_;
@@ -151,8 +151,7 @@ TEST_CASE("products are counted, and iterations do not allocate") {
   for (int i = 0; i < 4; ++i) method.step(s);
   auto const allocations = guard.count();
   CHECK(allocations == 0);
-  CHECK(family.A.applications() ==
-        s.work.operator_applications + s.work.setup_applications);
+  CHECK(family.A.applications() == s.work.operator_applications + s.work.setup_applications);
 }
 
 TEST_CASE("no contraction and no solution in reach: stalled or at the limit, never converged") {

@@ -105,7 +105,8 @@ TEST_CASE("any scale, of the operator and of the right-hand side") {
   }
 }
 
-TEST_CASE("singular operators: solved where that is possible, else the best there is and a status") {
+TEST_CASE(
+    "singular operators: solved where that is possible, else the best there is and a status") {
   MatrixXd A = nonsymmetric(6);
   A.row(5).setZero();
   A.col(5).setZero();

@@ -23,6 +23,7 @@
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/solve_coulomb.hpp>
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>

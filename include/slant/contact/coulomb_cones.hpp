@@ -126,8 +126,8 @@ class coulomb_cones {
     return C;
   }
 
-  using set_type = decltype(power(second_order_cone<dimension, scalar>{},
-                                  std::declval<vector_type const&>()));
+  using set_type =
+      decltype(power(second_order_cone<dimension, scalar>{}, std::declval<vector_type const&>()));
   using qp_type =
       separable_qp<decltype(std::declval<Dual const&>().a(std::declval<sparse_type const&>())),
                    vector_type const&, set_type const&>;

@@ -8,8 +8,9 @@
 //
 //     contact::coulomb_cones cones(problem, mu);
 //     auto const F = contact::coulomb_residual(cones, ρ);
-//     auto const r = slant::solve(contact::coulomb_newton(F), cones.zero(), slant::residual_below(1e-8) || …);
-//     auto const u = problem.displacement(cones.by_directions(r.x()));
+//     auto const r = slant::solve(contact::coulomb_newton(F), cones.zero(),
+//     slant::residual_below(1e-8) || …); auto const u =
+//     problem.displacement(cones.by_directions(r.x()));
 //
 // Where radii and cones are fixed points of linear convergence, this is a Newton method for the
 // same equations: superlinear, at the price of nonsymmetric systems and of the safety that each
@@ -46,9 +47,9 @@ template <class Family, class S>
 [[nodiscard]] auto coulomb_residual(Family const& family, S const& ρ) {
   index const n = family.local_b().size();
   typename Family::vector_type c = -family.local_b();
-  return identity_map(n) - slant::friction_projection<Family::dimension>(family.mu()) *
-                               (identity_map(n) - slant::positive(ρ) *
-                                                      slant::affine(family.qp().a(), std::move(c)));
+  return identity_map(n) -
+         slant::friction_projection<Family::dimension>(family.mu()) *
+             (identity_map(n) - slant::positive(ρ) * slant::affine(family.qp().a(), std::move(c)));
 }
 
 /// λ − P_K(λ − ρ û), û = A λ − b + μ‖u_t‖ n; ρ in units of 1/A. Refers to the family.
@@ -58,9 +59,9 @@ template <class Family, class S>
   typename Family::vector_type c = -family.local_b();
   return identity_map(n) -
          slant::projection(family.set()) *
-             (identity_map(n) - slant::positive(ρ) *
-                                    (slant::de_saxce<Family::dimension>(family.mu()) *
-                                     slant::affine(family.qp().a(), std::move(c))));
+             (identity_map(n) -
+              slant::positive(ρ) * (slant::de_saxce<Family::dimension>(family.mu()) *
+                                    slant::affine(family.qp().a(), std::move(c))));
 }
 
 /// Newton's method for one of them: GMRES, halving line search. `goal` is the relative residual one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Coulomb's law as a family of Tresca's problems [K (22); Haslinger 1983]: with the slip bounds g as
-// parameters of
+// Coulomb's law as a family of Tresca's problems [K (22); Haslinger 1983]: with the slip bounds g
+// as parameters of
 //
 //     min ½ λᵀAλ − bᵀλ   over   λ_ν ≥ 0,  ‖λ_t,i‖ ≤ gᵢ,            P(λ) = F λ_ν,
 //
@@ -117,11 +117,10 @@ class coulomb_radii {
     }
   }
 
-  using sets_type =
-      decltype(detail::sticking_sets<orthotropic, tangents, vector_type>(index(0)));
+  using sets_type = decltype(detail::sticking_sets<orthotropic, tangents, vector_type>(index(0)));
   using set_type = cartesian_product<decltype(half_lines<scalar>(index(0))), sets_type const&>;
-  using qp_type = separable_qp<decltype(std::declval<Dual const&>().a()), vector_type const&,
-                               set_type const&>;
+  using qp_type =
+      separable_qp<decltype(std::declval<Dual const&>().a()), vector_type const&, set_type const&>;
 
   Dual* problem_;
   Coefficient F_;

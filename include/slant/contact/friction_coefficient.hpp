@@ -46,9 +46,7 @@ template <class V>
 class place_dependent_friction {
  public:
   using scalar = scalar_t<V>;
-  explicit place_dependent_friction(V F) : F_(std::move(F)) {
-    detail::check_coefficients("F", F_);
-  }
+  explicit place_dependent_friction(V F) : F_(std::move(F)) { detail::check_coefficients("F", F_); }
   [[nodiscard]] index size() const { return F_.size(); }
   [[nodiscard]] scalar operator()(index i, scalar const&) const { return F_(i); }
 

@@ -32,8 +32,8 @@ class anderson_mixing {
   anderson_mixing(V const& prototype, index n, index window)
       : last_p_(like(prototype, n)), last_f_(like(prototype, n)) {
     for (index i = 0; i < window; ++i) {
-      differences_.push_back({like(prototype, n), like(prototype, n), like(prototype, n),
-                              like(prototype, n)});
+      differences_.push_back(
+          {like(prototype, n), like(prototype, n), like(prototype, n), like(prototype, n)});
     }
   }
 
@@ -88,8 +88,8 @@ class anderson_mixing {
   static constexpr double independent_ = 0.05;  // of a difference has to be new
 
   struct difference {
-    V step, change;     // Δp, Δf
-    V p, f;             // the same, f orthonormal to newer ones
+    V step, change;  // Δp, Δf
+    V p, f;          // the same, f orthonormal to newer ones
     bool used = false;
   };
   /// The j-th newest.

@@ -62,7 +62,8 @@ concept parametric_program = requires(F& family, F const& c, V const& x, V& p) {
 ///     slant::successive_approximations method(family, [&](double goal) {
 ///       return slant::symmetric_newton{qp, M, {.forcing = {…, .goal = goal}}};
 ///     });
-///     auto r = slant::solve(method, x0, slant::reduced_gradient_below(1e-8) || slant::at_most(50));
+///     auto r = slant::solve(method, x0, slant::reduced_gradient_below(1e-8) ||
+///     slant::at_most(50));
 ///
 /// Refers to the family, in which each step leaves P(x) of its state.
 template <parametric_program Family, class Make>
@@ -91,8 +92,17 @@ class successive_approximations {
     family_->guess(x0, p);
     family_->assign(p);
     auto const one = [&] { return like(x0, index(slant::local(x0).size())); };
-    state_type s{x0,    p,     p,     p,     p, one(), one(),
-                 one(), one(), make_(scalar(0.5)).start(x0), {p, n, options_.window}};
+    state_type s{x0,
+                 p,
+                 p,
+                 p,
+                 p,
+                 one(),
+                 one(),
+                 one(),
+                 one(),
+                 make_(scalar(0.5)).start(x0),
+                 {p, n, options_.window}};
     begin(s);
     s.work = s.inner.work;
     return s;
@@ -150,8 +160,8 @@ class successive_approximations {
     slant::local(s.r) = slant::local(in.r) + slant::local(family_->qp().b()) / in.unit;
     family_->assign(s.image);
     slant::local(s.r) -= slant::local(family_->qp().b()) / in.unit;
-    reduced_gradient(family_->qp().set(), s.x, s.r, in.step_length * in.unit, s.trial,
-                     s.projected, s.reduced);
+    reduced_gradient(family_->qp().set(), s.x, s.r, in.step_length * in.unit, s.trial, s.projected,
+                     s.reduced);
     slant::local(s.change) = slant::local(s.image) - slant::local(s.parameters);
     s.reduced_gradient_norm = in.unit * norm(s.reduced);
     s.gradient_scale = in.gradient_scale;

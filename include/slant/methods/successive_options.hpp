@@ -19,8 +19,8 @@ struct successive_options {
   /// Differences that Anderson's acceleration keeps; 0: none. One is a secant rule. More of them
   /// see errors of inexact solves: on bricks 1 and 2 were the best of 0, 1, 2, 5.
   index window = 1;
-  S growth = S(2);          ///< >= 1: the residual may grow so much in a step before it is a failure
-  S relaxation = S(1);      ///< ω in (0, 1]: p ← p + ω (Ψ(p) − p) for a plain step
+  S growth = S(2);      ///< >= 1: the residual may grow so much in a step before it is a failure
+  S relaxation = S(1);  ///< ω in (0, 1]: p ← p + ω (Ψ(p) − p) for a plain step
   index inner_steps = 200;  ///< of the inner method in one outer step at most
   index patience = 30;      ///< outer steps in which the residual does not fall that mean stalled
 

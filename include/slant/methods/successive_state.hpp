@@ -18,16 +18,16 @@ struct successive_state {
   using vector_type = V;
   using scalar = scalar_t<V>;
 
-  V x;             ///< solution of the inner problem at `parameters`
-  V parameters;    ///< p of the last inner problem
-  V image;         ///< Ψ(p), of x
-  V change;        ///< Ψ(p) − p
-  V next;          ///< scratch: the next p
-  V r;             ///< gradient at x of the problem at Ψ(p), in multiples of inner.unit
-  V reduced;       ///< its reduced gradient
-  V trial;         ///< scratch
-  V projected;     ///< scratch
-  Inner inner;     ///< state of the inner method
+  V x;           ///< solution of the inner problem at `parameters`
+  V parameters;  ///< p of the last inner problem
+  V image;       ///< Ψ(p), of x
+  V change;      ///< Ψ(p) − p
+  V next;        ///< scratch: the next p
+  V r;           ///< gradient at x of the problem at Ψ(p), in multiples of inner.unit
+  V reduced;     ///< its reduced gradient
+  V trial;       ///< scratch
+  V projected;   ///< scratch
+  Inner inner;   ///< state of the inner method
 
   anderson_mixing<V> mixing;          ///< differences of p and Ψ(p) − p
   forcing_history<scalar> forcing{};  ///< residuals and inner tolerances so far
@@ -35,9 +35,9 @@ struct successive_state {
   scalar relaxation{1};               ///< ω; smaller after plain steps that have failed
   bool solved_once = false;           ///< x is a solution at p, up to η R, and no start
   bool accelerated = false;           ///< the last p is one of Anderson's
-  scalar reduced_gradient_norm{0};    ///< ‖r̃‖ at x for the problem at Ψ(p): 0 at a fixed point
-  scalar gradient_scale{0};           ///< that of the inner problem
-  index inner_iterations = 0;         ///< of the inner method in the last step
+  scalar reduced_gradient_norm{0};  ///< ‖r̃‖ at x for the problem at Ψ(p): 0 at a fixed point
+  scalar gradient_scale{0};         ///< that of the inner problem
+  index inner_iterations = 0;       ///< of the inner method in the last step
   index iteration = 0;
   slant::status status = slant::status::running;
   slant::status inner_status = slant::status::running;  ///< how the last inner solve ended

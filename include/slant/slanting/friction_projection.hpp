@@ -20,8 +20,8 @@
 // the values from inside at the kinks, as those of half lines and discs. For μ p = 0 the disc is a
 // point, and the block 0, except that μ e is kept: a contact on the point of closing slides.
 //
-// Source: P. Alart, A. Curnier, "A mixed formulation for frictional contact problems prone to Newton
-// like solution methods", Comput. Methods Appl. Mech. Engrg. 92 (1991).
+// Source: P. Alart, A. Curnier, "A mixed formulation for frictional contact problems prone to
+// Newton like solution methods", Comput. Methods Appl. Mech. Engrg. 92 (1991).
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
