@@ -57,6 +57,7 @@ double coefficient_along(Eigen::Vector2d const& t, double first, double second) 
 /// make_friction(m) makes the coefficients of m contact nodes.
 template <class MakeFriction>
 int follow(settings const& s, double across, MakeFriction const& make_friction) {
+  if (!s.output.empty()) examples::make_folder("--output", s.output);
   auto const loaded = coulomb::make_scene(s.model, s.k);
   auto const& scene = loaded.scene;
   Eigen::Index const m = scene.contact_count();
@@ -73,7 +74,6 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
 
   std::optional<slant::vtu_series> series;
   if (!s.output.empty()) {
-    examples::make_folder("--output", s.output);
     series.emplace(s.output / "coulomb.pvd");
   }
   std::vector<fem::slip_record> records;
