@@ -26,6 +26,7 @@
 #   condensation        a frictional contact problem over one linear solve, brick k = 8, 12, 16, 24
 #   load_steps          twenty load steps against the first one and against cold solves
 #   coulomb             Coulomb friction on the brick against Tresca's problem at its slip bounds
+#   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks without friction, iterated on u by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
@@ -45,7 +46,7 @@ programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  load_steps coulomb multilevel multilevel_large precision growth)
+  load_steps coulomb coulomb_models multilevel multilevel_large precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -104,7 +105,8 @@ run_condensation() {  # nor has CHOLMOD any use of its four threads beside it
   OMP_THREAD_LIMIT=1 "$(program condensation)" 8 12 16 24 >"$output/condensation.csv"
 }
 run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
-run_coulomb() { "$(program coulomb)" >"$output/coulomb.csv"; }
+run_coulomb() { "$(program coulomb)" brick >"$output/coulomb.csv"; }
+run_coulomb_models() { "$(program coulomb)" models >"$output/coulomb_models.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
 run_precision() { "$here/precision.sh" precision "$programs" "$output"; }
 run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
@@ -235,6 +237,7 @@ write_summary() {
   section condensation "Contact with friction over one linear solve: brick, relative energy error at most 1e-8"
   section load_steps "Twenty load steps, relative energy error 1e-8"
   section coulomb "Coulomb friction 0.3: products until the relative energy error is at most 1e-8"
+  section coulomb_models "The same on two bricks and two plates"
   section multilevel "Multigrid: bricks without friction, processor seconds, tolerance 1e-8"
   section multilevel_large "Multigrid: the same, where K is not factored"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows

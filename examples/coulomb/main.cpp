@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Contact with Coulomb friction through a sequence of load steps: a body is pressed down, dragged
-// along and released. Quasi-static: in each step friction resists the increment of the slip, so the
-// solution depends on the path, and what was dragged is held back when the load goes.
+// along and released from the drag. Quasi-static: in each step friction resists the increment of
+// the slip, so the solution depends on the path, and what was dragged is held back.
 #include <cmath>
 #include <cstdio>
 #include <fem/contact_field.hpp>
@@ -37,7 +37,7 @@ struct settings {
 
 void print_problem(settings const& s, coulomb::loaded_scene const& loaded) {
   auto const& scene = loaded.scene;
-  std::printf("%s: pressed, dragged, released in %d load steps\n", loaded.title.c_str(),
+  std::printf("%s: pressed, dragged and released in %d load steps\n", loaded.title.c_str(),
               3 * s.steps);
   std::printf("  friction       %g", s.friction);
   if (!std::isnan(s.across)) std::printf(" along x, %g along y (orthotropic)", s.across);
@@ -107,9 +107,8 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
     std::fflush(stdout);
   }
   std::printf("\n  products       %td in all; K was factored once\n", products);
-  std::printf("  left behind    slip of %.3g at most, displacement of %.3g\n",
-              position.cwiseAbs().maxCoeff(),
-              problem.displacement(vector::Zero(3 * m)).cwiseAbs().maxCoeff());
+  std::printf("  left behind    slip of %.3g at most, friction of %.3g MPa at most\n",
+              position.cwiseAbs().maxCoeff(), field.friction.colwise().norm().maxCoeff());
   if (series) {
     series->write();
     std::printf("\nwrote %s\n", (s.output / "coulomb.pvd").c_str());

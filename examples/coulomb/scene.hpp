@@ -41,7 +41,8 @@ struct loaded_scene {
   return s;
 }
 
-/// Shares of both loads at a time in [0, 3]: pressed until 1, dragged until 2, released until 3.
+/// Shares of both loads at a time in [0, 3]: pressed until 1, dragged until 2, released from the
+/// drag until 3. Friction holds back what was dragged.
 struct load_share {
   double press;
   double drag;
@@ -49,7 +50,7 @@ struct load_share {
 [[nodiscard]] constexpr load_share share_at(double time) {
   if (time <= 1) return {time, 0};
   if (time <= 2) return {1, time - 1};
-  return {3 - time, 3 - time};
+  return {1, 3 - time};
 }
 
 }  // namespace coulomb

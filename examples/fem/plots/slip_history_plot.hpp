@@ -78,12 +78,15 @@ template <int D>
   out << "EOD\n$shares << EOD\n";
   double whole = 0;
   for (auto const& patch : field.patches) whole += patch.measure();
+  before = 0;
   for (auto const& r : records) {
     std::array<double, 3> area{};
     for (std::size_t i = 0; i < r.state.size(); ++i) {
       area[static_cast<std::size_t>(r.state[i])] += field.patches[i].measure();
     }
-    out << r.time << ' ' << area[2] / whole << ' ' << (area[2] + area[1]) / whole << '\n';
+    out << (before + r.time) / 2 << ' ' << before << ' ' << r.time << ' ' << area[2] / whole << ' '
+        << (area[2] + area[1]) / whole << '\n';
+    before = r.time;
   }
   out << "EOD\nset multiplot layout 2,1 title " << gnuplot_string(title)
       << " font 'Sans Bold,16' noenhanced\n"
@@ -103,9 +106,10 @@ template <int D>
   }
   out << "\nunset object 1\nset title 'Share of the contact side' noenhanced\n"
       << "set xlabel 'time' tc rgb '#555555'\nset ylabel 'area'\nset yrange [0:1]\n"
-      << "plot 1 with filledcurves y1=0 lc rgb '" << colours[0] << "' title 'open', "
-      << "$shares using 1:3 with filledcurves y1=0 lc rgb '" << colours[1] << "' title 'stick', "
-      << "$shares using 1:2 with filledcurves y1=0 lc rgb '" << colours[2] << "' title 'slip'\n"
+      << "plot $shares using 1:(0.5):2:3:5:(1) with boxxyerror lc rgb '" << colours[0]
+      << "' title 'open', $shares using 1:(0.5):2:3:4:5 with boxxyerror lc rgb '" << colours[1]
+      << "' title 'stick', $shares using 1:(0.5):2:3:(0):4 with boxxyerror lc rgb '" << colours[2]
+      << "' title 'slip'\n"
       << "unset multiplot\n";
   return out.str();
 }

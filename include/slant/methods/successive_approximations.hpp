@@ -150,6 +150,7 @@ class successive_approximations {
   void look(state_type& s) const {
     auto const& in = s.inner;
     slant::local(s.x) = slant::local(in.x);
+    s.unit = in.unit;
     slant::local(s.trial) = in.unit * slant::local(in.r);
     family_->parameters(s.x, s.trial, s.image);
     if (!detail::is_finite(norm(s.image))) {

@@ -23,7 +23,7 @@ struct successive_state {
   V image;       ///< Ψ(p), of x
   V change;      ///< Ψ(p) − p
   V next;        ///< scratch: the next p
-  V r;           ///< gradient at x of the problem at Ψ(p), in multiples of inner.unit
+  V r;           ///< gradient at x of the problem at Ψ(p), in multiples of unit
   V reduced;     ///< its reduced gradient
   V trial;       ///< scratch
   V projected;   ///< scratch
@@ -35,6 +35,7 @@ struct successive_state {
   scalar relaxation{1};               ///< ω; smaller after plain steps that have failed
   bool solved_once = false;           ///< x is a solution at p, up to η R, and no start
   bool accelerated = false;           ///< the last p is one of Anderson's
+  scalar unit{1};                     ///< of r and r̃, a power of two: that of the inner method
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖ at x for the problem at Ψ(p): 0 at a fixed point
   scalar gradient_scale{0};         ///< that of the inner problem
   index inner_iterations = 0;       ///< of the inner method in the last step
