@@ -37,7 +37,7 @@ TEST_CASE("pressed, dragged and released: each step obeys the law for its increm
 
   VectorXd position = VectorXd::Zero(2 * m), previous = position;
   double largest = 0, released = 0;
-  slant::index number = 0;
+  slant::index number = 0, first = 0;
   for (double const time : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
     CAPTURE(time);
     double const p = time <= 2 ? std::min(time, 1.0) : 3 - time;
@@ -46,6 +46,10 @@ TEST_CASE("pressed, dragged and released: each step obeys the law for its increm
     auto const& step = stepper.advance({.f = c.f, .w = position});
     CHECK(step.number == ++number);
     REQUIRE(step.converged());
+    // The second step is in proportion to the first, which is seen before it is solved.
+    if (number == 1) first = step.work.operator_applications;
+    if (number == 2) CHECK(2 * step.work.operator_applications <= first);
+    CHECK((number == 1) == (step.work.setup_applications > 0));
     test::dense_dual dense(press.K, c);
     dense.b.tail(2 * m) -= position;
     if (c.f.norm() > 0) CHECK(test::natural_map(dense, F, step.x()) <= 1e-8);
