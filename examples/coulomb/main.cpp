@@ -12,6 +12,7 @@
 #include <optional>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/coulomb.hpp>
+#include <slant/contact/coulomb_newton.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/factorizations/static_condensation.hpp>
@@ -30,7 +31,8 @@ struct settings {
   int k = 6;
   double friction = 0.3;
   double across = std::numeric_limits<double>::quiet_NaN();  // second coefficient
-  int steps = 8;                                             // of each of the three phases
+  std::string method = "radii";
+  int steps = 8;  // of each of the three phases
   double tolerance = 1e-8;
   std::filesystem::path output{};
 };
@@ -54,9 +56,10 @@ double coefficient_along(Eigen::Vector2d const& t, double first, double second) 
   return first * second * t.norm() / std::hypot(second * t[0], first * t[1]);
 }
 
-/// make_friction(m) makes the coefficients of m contact nodes.
-template <class MakeFriction>
-int follow(settings const& s, double across, MakeFriction const& make_friction) {
+/// Goes along the path. with_stepper(problem, K, go) calls go(stepper, to_lambda): a load_stepper
+/// of the problem, and what makes (λ_ν, λ_t) of its solutions.
+template <class WithStepper>
+int follow(settings const& s, double across, WithStepper const& with_stepper) {
   if (!s.output.empty()) examples::make_folder("--output", s.output);
   auto const loaded = coulomb::make_scene(s.model, s.k);
   auto const& scene = loaded.scene;
@@ -67,11 +70,6 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
   contact::data<double> const data{scene.N, scene.T, rest, scene.d, scene.g};
   slant::static_condensation const factor(scene.K, contact::contact_unknowns(data));
   contact::dual problem(contact::friction_disc{}, factor, data);
-  contact::coulomb_radii family(problem, make_friction(m));
-  auto const M = contact::lumped_preconditioner(scene.K, problem.constraints());
-  contact::load_stepper stepper(family, contact::coulomb(family, M, {.goal = s.tolerance}),
-                                slant::reduced_gradient_below(s.tolerance) || slant::at_most(200));
-
   std::optional<slant::vtu_series> series;
   if (!s.output.empty()) {
     series.emplace(s.output / "coulomb.pvd");
@@ -81,31 +79,33 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
   vector position = vector::Zero(2 * m);  // T u of the step before
   slant::index products = 0;
   bool good = true;
-  for (int i = 1; i <= 3 * s.steps && good; ++i) {
-    double const time = static_cast<double>(i) / s.steps;
-    auto const share = coulomb::share_at(time);
-    auto const& step = stepper.advance(
-        {.f = share.press * loaded.press + share.drag * loaded.drag, .w = position});
-    good = step.converged();
-    vector const& λ = step.x();
-    vector const u = problem.displacement(λ);
-    vector bound(m);
-    for (Eigen::Index j = 0; j < m; ++j) {
-      bound[j] =
-          std::fmax(λ[j], 0) * coefficient_along(λ.segment<2>(m + 2 * j), s.friction, across);
+  with_stepper(problem, scene.K, [&](auto& stepper, auto const& to_lambda) {
+    for (int i = 1; i <= 3 * s.steps && good; ++i) {
+      double const time = static_cast<double>(i) / s.steps;
+      auto const share = coulomb::share_at(time);
+      auto const& step = stepper.advance(
+          {.f = share.press * loaded.press + share.drag * loaded.drag, .w = position});
+      good = step.converged();
+      vector const λ = to_lambda(step.x());
+      vector const u = problem.displacement(λ);
+      vector bound(m);
+      for (Eigen::Index j = 0; j < m; ++j) {
+        bound[j] =
+            std::fmax(λ[j], 0) * coefficient_along(λ.segment<2>(m + 2 * j), s.friction, across);
+      }
+      field = fem::make_contact_field(scene, {bound, position}, u, vector(λ.head(m)),
+                                      vector(λ.tail(2 * m)));
+      records.push_back({time, field.state});
+      if (series) fem::write_contact_vtu(series->next(time), scene, field, u);
+      position = scene.T * u;
+      products += step.work.operator_applications + step.work.setup_applications;
+      std::printf("  %4d  %6.3f %6.3f  %5td  %5td  %5td  %9td   %s\n", i, share.press, share.drag,
+                  field.count(fem::contact_state::open), field.count(fem::contact_state::stick),
+                  field.count(fem::contact_state::slip), step.work.operator_applications,
+                  slant::to_string(step.status).data());
+      std::fflush(stdout);
     }
-    field = fem::make_contact_field(scene, {bound, position}, u, vector(λ.head(m)),
-                                    vector(λ.tail(2 * m)));
-    records.push_back({time, field.state});
-    if (series) fem::write_contact_vtu(series->next(time), scene, field, u);
-    position = scene.T * u;
-    products += step.work.operator_applications + step.work.setup_applications;
-    std::printf("  %4d  %6.3f %6.3f  %5td  %5td  %5td  %9td   %s\n", i, share.press, share.drag,
-                field.count(fem::contact_state::open), field.count(fem::contact_state::stick),
-                field.count(fem::contact_state::slip), step.work.operator_applications,
-                slant::to_string(step.status).data());
-    std::fflush(stdout);
-  }
+  });
   std::printf("\n  products       %td in all; K was factored once\n", products);
   std::printf("  left behind    slip of %.3g at most, friction of %.3g MPa at most\n",
               position.cwiseAbs().maxCoeff(), field.friction.colwise().norm().maxCoeff());
@@ -120,15 +120,43 @@ int follow(settings const& s, double across, MakeFriction const& make_friction) 
   return good ? examples::succeeded : examples::not_converged;
 }
 
+constexpr slant::index most_steps = 200;
+
+/// Newton's method for the whole law.
+int follow_by_newton(settings const& s) {
+  return follow(s, s.friction, [&](auto& problem, auto const&, auto const& go) {
+    contact::coulomb_cones family(problem,
+                                  vector::Constant(problem.zero().size() / 3, s.friction).eval());
+    auto const F = contact::coulomb_residual(family, contact::residual_step(family).length);
+    contact::load_stepper stepper(family, contact::coulomb_newton(F, s.tolerance),
+                                  slant::residual_below(s.tolerance) || slant::at_most(most_steps));
+    go(stepper, [&](vector const& x) { return family.by_directions(x); });
+  });
+}
+
+/// Successive approximations over Tresca's problems; make_friction(m) makes m coefficients.
+template <class MakeFriction>
+int follow_by_radii(settings const& s, double across, MakeFriction const& make_friction) {
+  return follow(s, across, [&](auto& problem, auto const& K, auto const& go) {
+    contact::coulomb_radii family(problem, make_friction(problem.zero().size() / 3));
+    auto const M = contact::lumped_preconditioner(K, problem.constraints());
+    contact::load_stepper stepper(
+        family, contact::coulomb(family, M, {.goal = s.tolerance}),
+        slant::reduced_gradient_below(s.tolerance) || slant::at_most(most_steps));
+    go(stepper, [](vector const& λ) { return λ; });
+  });
+}
+
 int solve(settings const& s) {
   auto const all = [](Eigen::Index m, double F) { return vector::Constant(m, F).eval(); };
-  if (std::isnan(s.across)) {
-    return follow(s, s.friction,
-                  [&](Eigen::Index m) { return contact::coefficients(all(m, s.friction)); });
+  if (!std::isnan(s.across)) {
+    return follow_by_radii(s, s.across, [&](Eigen::Index m) {
+      return contact::orthotropic_coefficients(all(m, s.friction), all(m, s.across));
+    });
   }
-  return follow(s, s.across, [&](Eigen::Index m) {
-    return contact::orthotropic_coefficients(all(m, s.friction), all(m, s.across));
-  });
+  if (s.method == "newton") return follow_by_newton(s);
+  return follow_by_radii(s, s.friction,
+                         [&](Eigen::Index m) { return contact::coefficients(all(m, s.friction)); });
 }
 
 }  // namespace
@@ -151,6 +179,12 @@ int main(int argc, char** argv) {
       ->check(examples::expects<double>("a finite number >= 0", coefficient));
   app.add_option("--friction-across", s.across, "that along y, if it is another one (orthotropic)")
       ->check(examples::expects<double>("a finite number >= 0", coefficient));
+  app.add_option("--method", s.method,
+                 "radii (successive approximations) or newton (isotropic friction only)")
+      ->capture_default_str()
+      ->check(examples::expects<std::string>("radii or newton", [](std::string const& name) {
+        return name == "radii" || name == "newton";
+      }));
   app.add_option("--steps", s.steps, "load steps of each phase")
       ->capture_default_str()
       ->check(examples::expects_at_least(1));

@@ -3,6 +3,7 @@
 
 #include "coulomb_scenes.hpp"
 
+#include <slant/contact/load_stepper.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
@@ -58,6 +59,26 @@ TEST_CASE("both residuals on the brick: the law, each other, and the work of Tre
       CHECK(work.operator_applications <= limit);
     }
   }
+}
+
+TEST_CASE("load steps: the residual refers to the data, and starts from the step before") {
+  auto const s = fem::make_steel_brick({.k = 2, .load = fem::brick_load::pull});
+  auto c = test::contact_data(s);
+  auto const factor = slant::ldlt(s.K);
+  contact::dual problem(contact::friction_disc{}, factor, c);
+  VectorXd const μ = VectorXd::Constant(c.d.size(), 0.3);
+  contact::coulomb_cones cones(problem, μ);
+  auto const F = contact::coulomb_residual(cones, contact::residual_step(cones).length);
+  contact::load_stepper stepper(cones, contact::coulomb_newton(F), stop(1e-12));
+  REQUIRE(stepper.advance({}).converged());
+  VectorXd const w = 1e-7 * VectorXd::LinSpaced(c.T.rows(), -1, 1);
+  c.f *= 1.02;
+  auto const& step = stepper.advance({.f = c.f, .w = w});
+  REQUIRE(step.converged());
+  CHECK(step.iterations() <= 5);
+  test::dense_dual dense(s.K, c);
+  dense.b.tail(w.size()) -= w;
+  CHECK(test::natural_map(dense, μ, cones.by_directions(step.x())) <= 1e-9);
 }
 
 TEST_CASE("plates in the plane; another linear solver; no friction") {

@@ -47,8 +47,8 @@ class coulomb_cones {
         μ_(detail::one_per_contact(std::move(μ), problem.b().size() / dimension)),
         shift_(vector_type::Zero(μ_.size())),
         C_(by_contacts(problem.constraints(), μ_.size())),
-        local_b_(by_contacts(problem.b())),
-        b_(local_b_),
+        q_(-by_contacts(problem.b())),
+        b_(-q_),
         set_(power(second_order_cone<dimension, scalar>{}, μ_)),
         qp_(problem.a(C_), b_, set_) {}
   coulomb_cones(coulomb_cones const&) = delete;
@@ -59,8 +59,8 @@ class coulomb_cones {
   /// B with its rows contact by contact, for preconditioners.
   [[nodiscard]] sparse_type const& constraints() const { return C_; }
   [[nodiscard]] vector_type const& mu() const { return μ_; }
-  /// The linear term without a shift: u = A λ − local_b().
-  [[nodiscard]] vector_type const& local_b() const { return local_b_; }
+  /// What u = A λ + q is without forces, no shift in it: −b contact by contact; changes in place.
+  [[nodiscard]] vector_type const& q() const { return q_; }
   [[nodiscard]] vector_type const& b() const { return b_; }
   [[nodiscard]] auto const& set() const { return set_; }
   [[nodiscard]] vector_type zero() const { return problem_->zero(); }
@@ -81,7 +81,7 @@ class coulomb_cones {
   /// New data, as dual::update; slip bounds among them are without effect.
   void update(load_step<scalar> step) {
     problem_->update(std::move(step));
-    local_b_ = by_contacts(problem_->b());
+    q_ = -by_contacts(problem_->b());
     assign(shift_);
   }
 
@@ -98,9 +98,9 @@ class coulomb_cones {
   void assign(vector_type& s) {
     for (index i = 0; i < μ_.size(); ++i) {
       if (!(s(i) > scalar(0))) s(i) = scalar(0);
-      b_(dimension * i) = local_b_(dimension * i) - s(i);
+      b_(dimension * i) = -q_(dimension * i) - s(i);
       b_.template segment<dimension - 1>(dimension * i + 1) =
-          local_b_.template segment<dimension - 1>(dimension * i + 1);
+          -q_.template segment<dimension - 1>(dimension * i + 1);
     }
     if (&s != &shift_) shift_ = s;
   }
@@ -136,7 +136,7 @@ class coulomb_cones {
   vector_type μ_;
   vector_type shift_;
   sparse_type C_;
-  vector_type local_b_;
+  vector_type q_;
   vector_type b_;
   set_type set_;
   qp_type qp_;

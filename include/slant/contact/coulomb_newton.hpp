@@ -9,8 +9,12 @@
 //     contact::coulomb_cones cones(problem, mu);
 //     auto const F = contact::coulomb_residual(cones, ρ);
 //     auto const r = slant::solve(contact::coulomb_newton(F), cones.zero(),
-//     slant::residual_below(1e-8) || …); auto const u =
-//     problem.displacement(cones.by_directions(r.x()));
+//                                 slant::residual_below(1e-8) || slant::at_most(100));
+//     auto const u = problem.displacement(cones.by_directions(r.x()));
+//
+// Both refer to the data of the family and see new ones, so load steps go as with any method:
+//
+//     contact::load_stepper stepper(cones, contact::coulomb_newton(F), residual_below(1e-8) || …);
 //
 // Where radii and cones are fixed points of linear convergence, this is a Newton method for the
 // same equations: superlinear, at the price of nonsymmetric systems and of the safety that each
@@ -45,23 +49,21 @@ template <class Family>
 /// λ − P(λ − ρ (A λ − b)); ρ in units of 1/A. Refers to the family.
 template <class Family, class S>
 [[nodiscard]] auto coulomb_residual(Family const& family, S const& ρ) {
-  index const n = family.local_b().size();
-  typename Family::vector_type c = -family.local_b();
+  index const n = family.q().size();
   return identity_map(n) -
          slant::friction_projection<Family::dimension>(family.mu()) *
-             (identity_map(n) - slant::positive(ρ) * slant::affine(family.qp().a(), std::move(c)));
+             (identity_map(n) - slant::positive(ρ) * slant::affine(family.qp().a(), family.q()));
 }
 
 /// λ − P_K(λ − ρ û), û = A λ − b + μ‖u_t‖ n; ρ in units of 1/A. Refers to the family.
 template <class Family, class S>
 [[nodiscard]] auto de_saxce_residual(Family const& family, S const& ρ) {
-  index const n = family.local_b().size();
-  typename Family::vector_type c = -family.local_b();
+  index const n = family.q().size();
   return identity_map(n) -
          slant::projection(family.set()) *
              (identity_map(n) -
               slant::positive(ρ) * (slant::de_saxce<Family::dimension>(family.mu()) *
-                                    slant::affine(family.qp().a(), std::move(c))));
+                                    slant::affine(family.qp().a(), family.q())));
 }
 
 /// Newton's method for one of them: GMRES, halving line search. `goal` is the relative residual one
