@@ -15,9 +15,9 @@
 //     look        P(x), R
 //     mix         p ← Anderson's combination of the last p and Ψ(p); where R has grown: p ← P(x)
 //
-// A linear iteration for p, of rate κ say, whose inner problems are solved by a factor η ~ κ each,
-// asks conjugate gradients for the same digits in portions that one solve would ask for at once:
-// that is why the whole can cost little more than one problem at the final p.
+// The convergence is linear, of rate κ say; inner problems solved by a factor η ~ κ each ask
+// conjugate gradients for the same digits in portions that one problem would ask for at once, but
+// also to begin anew each time. Measured for Coulomb friction: benchmarks/coulomb.cpp.
 //
 // Where even plain steps let R grow the relaxation ω is halved. What Ψ is not a contraction for may
 // still have a solution that is not found: the status is `stalled` then.
