@@ -52,6 +52,23 @@ TEST_CASE("in_metric: optimality in the metric, at all scales of point and metri
   }
 }
 
+TEST_CASE("in_metric: metrics as unequal as numbers can be") {
+  // Exactly, p is below the smallest numbers.
+  CHECK(slant::in_metric(cone(0.5), Vector3d(1e100, 1, 1)).project(Vector3d(0, 1e-300, 0)) ==
+        Vector3d(0, 0, 0));
+  // Heavy along n: x_n stays, and ‖p_t‖ = μ x_n; heavy along t: x_t stays.
+  for (double s : {1e-150, 1.0, 1e150}) {
+    Vector3d const x(s, 3 * s, 0);
+    Vector3d const along_n = slant::in_metric(cone(0.5), Vector3d(1e200, 1, 1)).project(x);
+    CHECK((along_n - Vector3d(s, 0.5 * s, 0)).norm() <= 8 * ε * s);
+    Vector3d const along_t = slant::in_metric(cone(0.5), Vector3d(1e-200, 1, 1)).project(x);
+    CHECK((along_t - Vector3d(6 * s, 3 * s, 0)).norm() <= 32 * ε * s);
+  }
+  CHECK(oracle::complaint<slant::bad_input>([] {
+          return slant::in_metric(cone(1e-250), Vector3d(1e300, 1e-300, 1e-300));
+        }).substr(0, 2) == "d:");
+}
+
 TEST_CASE("in_metric: what stays is not rounded, projecting twice changes only last digits") {
   oracle::number_source<double> source(2);
   for (int i = 0; i < 100; ++i) {

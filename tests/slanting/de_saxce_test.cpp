@@ -6,6 +6,7 @@
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"
 
+#include <slant/sets/elliptic_cone.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/arithmetic.hpp>
@@ -140,6 +141,25 @@ TEST_CASE("the natural map: value and renewal allocate nothing") {
   auto const allocations = guard.count();
   CHECK(allocations == 0);
   CHECK(dense(g, r) == dense_slant(F, r));
+}
+
+TEST_CASE("de Saxcé: orthotropic friction") {
+  auto const f = slant::de_saxce(VectorXd{{2.0, 0.5}}, VectorXd{{0.5, 0.0}});
+  VectorXd const u{{1.0, 1.5, -8.0, 1.0, -2.0, 7.0}};
+  VectorXd expected = u;
+  expected[0] += 5;  // ‖(3, −4)‖
+  expected[3] += 1;
+  CHECK((slant::evaluate(f, u) - expected).norm() <= 4 * ε);
+  MatrixXd slope = MatrixXd::Identity(6, 6);
+  slope(0, 1) = 2.0 * 0.6;
+  slope(0, 2) = 0.5 * -0.8;
+  slope(3, 4) = -0.5;
+  CHECK((dense_slant(f, u) - slope).norm() <= 2 * ε);
+  slant::testing::check_slanting_laws(f, u, VectorXd{{1.0, 0.0, 0.0, 1.0, 0.0, 3.0}});
+  // û = ‖(μ₁u₁, μ₂u₂)‖ of a contact that slides is on the mantle of the dual of the elliptic cone.
+  slant::elliptic_cone<> const K(2.0, 0.5);
+  Eigen::Vector3d const sliding = f.block(0).value(Eigen::Vector3d(0, 1.5, -8));
+  CHECK(K.project(-sliding).norm() <= 4 * ε * sliding.norm());
 }
 
 TEST_CASE("de Saxcé: bad input is named") {

@@ -3,7 +3,7 @@
 // Contact with Coulomb friction by Newton's method for a natural residual of the whole law, over
 // the problem of contact/coulomb_cones.hpp, multipliers contact by contact:
 //
-//     coulomb_residual    λ − P(λ − ρ (A λ − b)),   P that of Alart and Curnier
+//     coulomb_residual    λ − P(λ − ρ (A λ − b)),   P of slanting/alart_curnier.hpp
 //     de_saxce_residual   λ − P_K(λ − ρ (A λ − b + μ‖u_t‖ n))
 //
 //     contact::coulomb_cones cones(problem, mu);
@@ -29,9 +29,9 @@
 #include <slant/newton/globalisation.hpp>
 #include <slant/newton/gmres_solver.hpp>
 #include <slant/slanting/affine.hpp>
+#include <slant/slanting/alart_curnier.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/de_saxce.hpp>
-#include <slant/slanting/friction_projection.hpp>
 #include <slant/slanting/identity.hpp>
 #include <slant/slanting/projection.hpp>
 
@@ -51,7 +51,7 @@ template <class Family, class S>
 [[nodiscard]] auto coulomb_residual(Family const& family, S const& ρ) {
   index const n = family.q().size();
   return identity_map(n) -
-         slant::friction_projection<Family::dimension>(family.mu()) *
+         slant::alart_curnier_projection<Family::dimension>(family.mu()) *
              (identity_map(n) - slant::positive(ρ) * slant::affine(family.qp().a(), family.q()));
 }
 

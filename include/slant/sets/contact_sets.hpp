@@ -7,10 +7,13 @@
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
+#include <slant/sets/plane_cone.hpp>
 #include <slant/sets/power.hpp>
+#include <slant/sets/second_order_cone.hpp>
 #include <slant/sets/symmetric_interval.hpp>
 
 #include <concepts>
+#include <type_traits>
 
 namespace slant {
 
@@ -51,6 +54,15 @@ template <detail::parameter_list G>
 template <class Layout = consecutive, detail::parameter_list G>
 [[nodiscard]] auto discs(G const& g) {
   return power<Layout>(ball<2, detail::list_scalar_t<G>>{}, g);
+}
+
+/// Friction cones |x_t| <= μ_i x_n, contact by contact [n, t₁(, t₂)]; N = 2 are those of the plane,
+/// as polyhedra. @throws bad_input "mu[3]: …".
+template <int N, detail::parameter_list M>
+  requires(N == 2 || N == 3)
+[[nodiscard]] auto friction_cones(M const& mu) {
+  using S = detail::list_scalar_t<M>;
+  return power(std::conditional_t<N == 2, plane_cone<S>, second_order_cone<N, S>>{}, mu);
 }
 
 /// n components without any constraint. They cost one copy in a projection and nothing elsewhere.

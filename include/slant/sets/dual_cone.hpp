@@ -39,6 +39,7 @@ class dual_cone {
   using scalar = S;
   static constexpr int dimension = N;
   static constexpr int inequalities = 2;
+  static constexpr bool is_cone = true;
   using vector_type = Eigen::Matrix<S, N, 1>;
   using matrix_type = Eigen::Matrix<S, N, N>;
 
@@ -56,7 +57,7 @@ class dual_cone {
   /// @throws bad_input if the tangential factors differ.
   [[nodiscard]] dual_cone stretched(vector_type const& s) const {
     detail::require_round_stretch<S, N>(s, 1);
-    return dual_cone(mu() * (s(0) / s(1)));
+    return dual_cone(detail::stretched_parameter<S>(mu(), s(0), s(1)));
   }
 
   /// Nearest point of the set.
@@ -80,13 +81,14 @@ class dual_cone {
     return inside ? block_state::free : block_state::sliding;
   }
 
-  /// Slanting operator of the projection at x: I − G(−x), G that of K_μ, so
+  /// Slanting operator of the projection at x, the value from inside as for all sets:
   ///
-  ///     μ‖x_t‖ <= x_n         I                                (mantle included, apex excluded)
-  ///     μx_n + ‖x_t‖ <= 0     0                                (−K_μ, apex included)
+  ///     μ‖x_t‖ <= x_n         I                                (mantle and apex included)
+  ///     μx_n + ‖x_t‖ <= 0     0                                (−K_μ, apex excluded)
   ///     otherwise             w wᵀ + θ (0 ⊕ (I − e eᵀ)),       e = x_t/‖x_t‖,
   ///
-  /// w = (μ, e)/√(1 + μ²), θ = ‖p_t‖/‖x_t‖. For μ = 0 the second line is 0 ⊕ I, as the third.
+  /// w = (μ, e)/√(1 + μ²), θ = ‖p_t‖/‖x_t‖. For μ = 0 the second line is 0 ⊕ I, as the third. It is
+  /// I − G(−x), G that of K_μ, but at x = 0, where both are the values from inside.
   [[nodiscard]] matrix_type slant(auto const& x) const {
     vector_type const v = x;
     auto const foot = detail::nearest_on_dual_cone<S, N>(mu(), v);
@@ -96,9 +98,8 @@ class dual_cone {
     if (foot.region == detail::cone_region::undefined) {
       return matrix_type::Constant(detail::not_a_number<S>());
     }
-    bool const at_apex = (v.array() == S(0)).all();
     matrix_type G = matrix_type::Zero();
-    if (foot.region == detail::cone_region::inside && !at_apex) {
+    if (foot.region == detail::cone_region::inside) {
       G.setIdentity();
     } else if (mu() == S(0)) {
       G.template bottomRightCorner<N - 1, N - 1>().setIdentity();

@@ -41,6 +41,8 @@ concept stretchable =
 /// Λ with the projection in the norm of diag(d); made by `in_metric`.
 template <stretchable Block>
 class in_metric_block {
+  /// The units of the points do not matter to a cone.
+  static constexpr bool is_cone = requires { requires Block::is_cone; };
   using stretched_type =
       decltype(std::declval<Block const&>().stretched(std::declval<point_t<Block> const&>()));
 
@@ -69,10 +71,13 @@ class in_metric_block {
   /// Nearest point of the set in the norm of d.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
-    vector_type const z = roots_.cwiseProduct(v);
+    int const e = unit_of(v);
+    vector_type const z = stretched_point(v, e);
     vector_type const p = stretched_.project(z);
     for (int i = 0; i < dimension; ++i) {
-      if (!(p(i) == z(i))) v(i) = p(i) / roots_(i);  // what stays is not rounded
+      bool const vanished = z(i) == scalar(0) && v(i) != scalar(0);
+      if (p(i) == z(i) && !vanished) continue;  // what stays is not rounded
+      v(i) = detail::times_power_of_two<scalar>(p(i) / roots_(i), e);
     }
     return v;
   }
@@ -82,11 +87,20 @@ class in_metric_block {
 
   /// Slanting operator of the projection, D-symmetric; the choice at kinks is that of the set.
   [[nodiscard]] matrix_type slant(auto const& x) const {
-    matrix_type const g = stretched_.slant(vector_type(roots_.cwiseProduct(vector_type(x))));
+    vector_type const v = x;
+    matrix_type const g = stretched_.slant(stretched_point(v, unit_of(v)));
     return roots_.cwiseInverse().asDiagonal() * g * roots_.asDiagonal();
   }
 
  private:
+  /// Points of cones are taken in units of themselves, 2^e: their products with √d are numbers
+  /// then.
+  [[nodiscard]] static int unit_of(vector_type const& x) {
+    return is_cone && x.allFinite() ? detail::binary_exponent(x) : 0;
+  }
+  [[nodiscard]] vector_type stretched_point(vector_type const& x, int e) const {
+    return roots_.cwiseProduct(detail::times_power_of_two<scalar, dimension>(x, -e));
+  }
   /// √d in units of a power of two: a common factor of d does not matter.
   [[nodiscard]] static vector_type roots(vector_type const& d) {
     using std::sqrt;

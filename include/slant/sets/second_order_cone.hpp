@@ -35,6 +35,7 @@ class second_order_cone {
   using scalar = S;
   static constexpr int dimension = N;
   static constexpr int inequalities = 2;
+  static constexpr bool is_cone = true;
   using vector_type = Eigen::Matrix<S, N, 1>;
   using matrix_type = Eigen::Matrix<S, N, N>;
 
@@ -54,7 +55,7 @@ class second_order_cone {
   /// @throws bad_input if the tangential factors differ.
   [[nodiscard]] second_order_cone stretched(vector_type const& s) const {
     detail::require_round_stretch<S, N>(s, 1);
-    return second_order_cone(mu_ * (s(1) / s(0)));
+    return second_order_cone(detail::stretched_parameter<S>(mu_, s(1), s(0)));
   }
 
   /// Nearest point of the set.

@@ -4,13 +4,14 @@
 #pragma once
 
 #include <slant/slanting/affine.hpp>
+#include <slant/slanting/alart_curnier.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/blockwise.hpp>
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/de_saxce.hpp>
 #include <slant/slanting/difference.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
-#include <slant/slanting/friction_projection.hpp>
+#include <slant/slanting/fischer_burmeister_cone.hpp>
 #include <slant/slanting/identity.hpp>
 #include <slant/slanting/inequalities.hpp>
 #include <slant/slanting/inequality_curvature.hpp>

@@ -24,4 +24,15 @@ void require_round_stretch(Eigen::Matrix<S, N, 1> const& s, int first) {
   }
 }
 
+/// value · (a/b), which must not vanish or overflow: the metric would be another one.
+template <class S>
+[[nodiscard]] S stretched_parameter(S const& value, S const& a, S const& b) {
+  S const result = value * (a / b);
+  if (!is_finite(result) || (result == S(0) && value != S(0))) {
+    throw bad_input("d", "a ratio of roots " + show(S(a / b)),
+                    "one by which " + show(value) + " can be multiplied");
+  }
+  return result;
+}
+
 }  // namespace slant::detail
