@@ -5,10 +5,10 @@
 //
 //     V_{j+1} H_j = F° V_j,      dy = V_j argmin ‖β e₁ − H_j t‖,      β = ‖F‖, v₁ = −F/β.
 //
-// One application a step, where BiCGSTAB has two, and a residual that never grows; in exchange for
-// memory, a vector a step, and for inner products with all of them. So it is the solver of choice
-// where an application is dear and some tens of steps are enough, as for B K⁻¹ Bᵀ. After `restart`
-// steps it begins anew at what it has.
+// One application a step, where BiCGSTAB has two, one more at the end, for the residual that is
+// reported, and a residual that never grows; in exchange for memory, a vector a step, and for inner
+// products with all of them. So it is the solver of choice where an application is dear and some
+// tens of steps are enough, as for B K⁻¹ Bᵀ. After `restart` steps it begins anew at what it has.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -80,27 +80,32 @@ struct gmres_solver {
     S size = request.residual_norm;
     while (size > target && report.iterations < limit) {
       slant::local(m.basis[0]) /= size;
-      S const reached = cycle(g, target, size, limit, report, dy, m);
-      if (!(reached < report.residual_norm)) {  // no progress, or not a number
-        report.status = status::breakdown;
+      std::size_t const used = cycle(g, target, size, limit, report, dy, m);
+      // What the rotations say of the residual is true up to rounding errors of ‖F°‖‖dy‖ only.
+      V& r = m.basis[used];
+      if (used > 0) {
+        slant::apply(g, std::as_const(dy), r, m.workspace);
+        ++report.operator_applications;
+        slant::local(r) = -slant::local(f) - slant::local(r);
+        size = norm(r);
+      }
+      if (used == 0 || !(size < report.residual_norm)) {  // no progress, or not a number
+        take_back(used, report, request.residual_norm, dy, m);
+        report.status = report.residual_norm <= target ? status::converged : status::breakdown;
         return report;
       }
-      report.residual_norm = size = reached;
-      if (size <= target || report.iterations >= limit) break;
-      slant::apply(g, std::as_const(dy), m.basis[0], m.workspace);
-      ++report.operator_applications;
-      slant::local(m.basis[0]) = -slant::local(f) - slant::local(m.basis[0]);
-      size = norm(m.basis[0]);
+      report.residual_norm = size;
+      std::swap(m.basis[0], r);
     }
     report.status = report.residual_norm <= target ? status::converged : status::iteration_limit;
     return report;
   }
 
  private:
-  /// One run from v₁; adds to dy and returns the norm of the residual.
+  /// One run from v₁; adds to dy, and returns of how many vectors.
   template <class G, class S, class V, class Memory>
-  static S cycle(G const& g, S const& target, S const& size, index limit,
-                 direction_report<S>& report, V& dy, Memory& m) {
+  static std::size_t cycle(G const& g, S const& target, S const& size, index limit,
+                           direction_report<S>& report, V& dy, Memory& m) {
     std::size_t const most = m.c.size();
     std::size_t used = 0;
     m.t[0] = size;
@@ -132,7 +137,19 @@ struct gmres_solver {
       m.t[i] /= entry(m, i, i);
       slant::local(dy) += m.t[i] * slant::local(m.basis[i]);
     }
-    return detail::is_finite(norm(dy)) ? residual : std::numeric_limits<S>::quiet_NaN();
+    return used;
+  }
+
+  /// dy as it was before the last cycle; 0 if that is not a number.
+  template <class S, class V, class Memory>
+  static void take_back(std::size_t used, direction_report<S>& report, S const& whole, V& dy,
+                        Memory const& m) {
+    for (std::size_t i = 0; i < used; ++i) {
+      slant::local(dy) -= m.t[i] * slant::local(m.basis[i]);
+    }
+    if (detail::is_finite(norm(dy))) return;
+    slant::local(dy).setZero();
+    report.residual_norm = whole;
   }
 
   /// R_il.
