@@ -38,6 +38,18 @@ TEST_CASE("coefficients by place, by slip, by direction") {
   CHECK(two.second()(0) == 0.3);
 }
 
+TEST_CASE("coefficients that depend on the slip are looked at whenever they are asked for") {
+  auto const F = contact::slip_dependent(3, [](slant::index i, double s) {
+    return i == 0 ? std::numeric_limits<double>::infinity() : i == 1 ? 0.25 - s : NAN;
+  });
+  CHECK(F(0, 1.0) == std::numeric_limits<double>::infinity());  // sticks
+  CHECK(F(1, 0.25) == 0);
+  CHECK(refusal([&] { static_cast<void>(F(1, 0.75)); }) ==
+        "f[1]: got -0.5, expected a friction coefficient >= 0 for the slip 0.75");
+  CHECK(refusal([&] { static_cast<void>(F(2, 0.5)); }) ==
+        "f[2]: got nan, expected a friction coefficient >= 0 for the slip 0.5");
+}
+
 TEST_CASE("coefficients out of range are refused") {
   CHECK(refusal([] {
           static_cast<void>(contact::coefficients(VectorXd{{0.1, -0.2}}));

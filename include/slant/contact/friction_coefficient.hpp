@@ -6,6 +6,8 @@
 //     slip_dependent(m, f)           ‖λ_t,i‖ ≤ f(i, ‖u_t,i‖) λ_ν,i            and on the slip
 //     orthotropic_coefficients(F¹, F²)   (λ¹/F¹ᵢ)² + (λ²/F²ᵢ)² ≤ λ_ν,i²      and on the direction
 //
+// F λ_ν beyond the range of the scalar is ∞: the contact sticks.
+//
 // Slip: f should be continuous, and where it falls with the slip, slowly: uniqueness is lost where
 // its slope exceeds the stiffness of the bodies, and with it the convergence of whatever iterates.
 #pragma once
@@ -61,7 +63,14 @@ class slip_dependent_friction {
   using scalar = S;
   slip_dependent_friction(index contacts, Function f) : contacts_(contacts), f_(std::move(f)) {}
   [[nodiscard]] index size() const { return contacts_; }
-  [[nodiscard]] scalar operator()(index i, scalar const& slip) const { return f_(i, slip); }
+  /// Throws bad_input "f[3]: …" where f has no value >= 0 for contact 3, whatever calls it.
+  [[nodiscard]] scalar operator()(index i, scalar const& slip) const {
+    scalar const F = f_(i, slip);
+    if (F >= scalar(0)) return F;
+    throw bad_input("f", slant::detail::show(F),
+                    "a friction coefficient >= 0 for the slip " + slant::detail::show(slip))
+        .at(i);
+  }
 
  private:
   index contacts_;
@@ -91,7 +100,8 @@ template <class V>
 [[nodiscard]] auto coefficients(V F) {
   return place_dependent_friction<V>(std::move(F));
 }
-/// f(i, slip) >= 0 for contact i and the length of its slip, a displacement.
+/// f(i, slip) >= 0 for contact i and the length of its slip, a displacement; ∞ sticks. What calls f
+/// throws bad_input naming the contact where the value is negative or NaN.
 template <class S = double, class Function>
   requires std::convertible_to<std::invoke_result_t<Function const&, index, S>, S>
 [[nodiscard]] auto slip_dependent(index contacts, Function f) {
