@@ -17,7 +17,6 @@
 
 #include <cmath>
 #include <limits>
-#include <string>
 #include <support/allocation_guard.hpp>
 
 namespace successive_approximations_test {
@@ -183,22 +182,6 @@ TEST_CASE("goes on from a solution after the data have changed") {
   CHECK(slant::detail::run_to_end(method, s, rule).how == slant::status::converged);
   CHECK(s.work.operator_applications < spent.operator_applications);
   CHECK((s.x - family.by_relaxation()).norm() <= 1e-10);
-}
-
-TEST_CASE("options out of range are refused") {
-  auto const message = [](slant::successive_options<double> const& o) -> std::string {
-    try {
-      o.validate();
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "accepted";
-  };
-  CHECK(message({.window = -1}) == "window: got -1, expected a number >= 0");
-  CHECK(message({.growth = 0.5}) == "growth: got 0.5, expected a finite number >= 1");
-  CHECK(message({.relaxation = 0}) == "relaxation: got 0, expected a number in (0, 1]");
-  CHECK(message({.inner_steps = 0}) == "inner_steps: got 0, expected at least 1");
-  CHECK(message({.patience = 0}) == "patience: got 0, expected at least 1");
 }
 
 }  // namespace successive_approximations_test
