@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace coulomb_radii_test {
@@ -138,6 +139,32 @@ TEST_CASE("friction that falls with the slip: the coefficient is that of the sli
   for (Eigen::Index i = 0; i < m; ++i) F(i) = law(u.segment<2>(m + 2 * i).norm());
   CHECK(F.maxCoeff() - F.minCoeff() >= 0.01);
   CHECK(test::natural_map(dense, F, r.λ) <= 1e-8);
+}
+
+TEST_CASE("bounds beyond the range of the scalar: as much friction as there can be") {
+  fixture t(fem::brick_load::press);
+  t.c.f *= 1e20;
+  auto const much = t.solve(contact::coefficients(t.constant(1e6)));
+  auto const most = t.solve(contact::coefficients(t.constant(1e300)));
+  REQUIRE(much.status == slant::status::converged);
+  REQUIRE(most.status == slant::status::converged);
+  CHECK((most.λ - much.λ).norm() <= 1e-8 * much.λ.norm());
+  auto const sticks = t.solve(contact::slip_dependent<double>(
+      t.c.d.size(), [](slant::index, double) { return std::numeric_limits<double>::infinity(); }));
+  REQUIRE(sticks.status == slant::status::converged);
+  CHECK((sticks.λ - much.λ).norm() <= 1e-8 * much.λ.norm());
+}
+
+TEST_CASE("a friction law that turns negative is no other law: it is refused, with the contact") {
+  fixture t;
+  bool refused = false;
+  try {
+    static_cast<void>(t.solve(contact::slip_dependent<double>(
+        t.c.d.size(), [](slant::index i, double) { return i == 2 ? -0.1 : 0.3; })));
+  } catch (slant::bad_input const& e) {
+    refused = std::string(e.what()).starts_with("f[2]: got -0.1, expected");
+  }
+  CHECK(refused);
 }
 
 TEST_CASE("nothing but what the report says, and nothing learnt about A twice") {

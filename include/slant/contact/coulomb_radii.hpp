@@ -18,6 +18,7 @@
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/power.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -95,15 +96,20 @@ class coulomb_radii {
       g(i) = bound(i, λ(i), norm(r.template segment<tangents>(m + tangents * i)));
     }
   }
-  /// The slip bounds of qp(); a negative one becomes 0.
+  /// The slip bounds of qp(); a negative one becomes 0. Those too large to be added up are ∞ in
+  /// qp(), but stay finite in g, which is calculated with.
   void assign(vector_type& g) {
-    for (scalar& bound : g) bound = bound > scalar(0) ? bound : scalar(0);
+    for (scalar& bound : g) bound = bound > scalar(0) ? std::min<scalar>(bound, most()) : scalar(0);
     if constexpr (orthotropic) {
       first_ = F_.first().cwiseProduct(g);
       second_ = F_.second().cwiseProduct(g);
       sets_.update(first_, second_);
     } else {
-      sets_.update(g);
+      bounds_ = g;
+      for (scalar& bound : bounds_) {
+        if (!(bound < most())) bound = std::numeric_limits<scalar>::infinity();
+      }
+      sets_.update(bounds_);
     }
   }
 
@@ -113,8 +119,12 @@ class coulomb_radii {
     if constexpr (orthotropic) {
       return pressure;
     } else {
-      return F_(i, slip) * pressure;
+      return std::min<scalar>(F_(i, slip) * pressure, most());
     }
+  }
+  /// The largest bound: sums and norms of as many as there are do not overflow.
+  [[nodiscard]] scalar most() const {
+    return std::numeric_limits<scalar>::max() / scalar(8 * (F_.size() + 1));
   }
 
   using sets_type = decltype(detail::sticking_sets<orthotropic, tangents, vector_type>(index(0)));
@@ -127,6 +137,7 @@ class coulomb_radii {
   sets_type sets_;
   set_type set_;
   qp_type qp_;
+  vector_type bounds_{};            // of the discs
   vector_type first_{}, second_{};  // semi-axes
 };
 
