@@ -3,7 +3,9 @@
 // Contact with Coulomb friction solved, for those who do not want to choose: Newton's method for
 // the residual of Alart and Curnier, which costs no more than a problem of Tresca's; where it ends
 // without a solution (much friction, a bad start) successive approximations over Tresca's problems,
-// each of which is convex. The better of both answers, and what it cost in all.
+// each of which is convex. The answer is the one that has converged; if none has, that with the
+// smaller residual of Alart and Curnier ‖λ − P(λ − ρ (A λ − b))‖, which both are measured with. The
+// work is that of all.
 //
 //     contact::dual problem(contact::friction_disc{}, slant::factorize(K), data);
 //     auto const r = contact::solve_coulomb(problem, F, {.tolerance = 1e-10});
@@ -25,8 +27,8 @@ namespace slant::contact {
 /// Options of solve_coulomb.
 struct solve_coulomb_options {
   double tolerance = 1e-10;  ///< of the residuals, relative to those at λ = 0
-  index newton_steps = 60;   ///< of Newton's method at most; 0: none
-  index outer_steps = 300;   ///< of successive approximations at most; 0: none
+  index newton_steps = 60;   ///< of Newton's method at most; 0: none, if the others are some
+  index outer_steps = 300;   ///< of successive approximations at most; 0: none, if the others are
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
@@ -38,6 +40,9 @@ struct solve_coulomb_options {
     }
     if (outer_steps < 0) {
       throw bad_input("outer_steps", slant::detail::show(outer_steps), "a number >= 0");
+    }
+    if (newton_steps == 0 && outer_steps == 0) {
+      throw bad_input("newton_steps and outer_steps", "0 and 0", "at least one of them > 0");
     }
   }
 };
@@ -59,15 +64,30 @@ struct coulomb_result {
 namespace detail {
 
 template <class V, class Report>
-void take_result(coulomb_result<V>& r, Report const& report, std::string_view method) {
-  r.status = report.status;
-  r.reason = report.reason;
-  r.method = method;
-  r.steps = report.iterations();
+void add_work(coulomb_result<V>& r, Report const& report) {
   r.work.operator_applications += report.state.work.operator_applications;
   r.work.setup_applications += report.state.work.setup_applications;
   r.work.inner_iterations += report.state.work.inner_iterations;
   r.work.factorizations += report.state.work.factorizations;
+}
+
+template <class V, class Report>
+void take_answer(coulomb_result<V>& r, Report const& report, std::string_view method, V λ) {
+  r.λ = std::move(λ);
+  r.status = report.status;
+  r.reason = report.reason;
+  r.method = method;
+  r.steps = report.iterations();
+}
+
+/// Successive approximations from x0.
+template <class Radii>
+[[nodiscard]] auto approximate(Radii& radii, typename Radii::vector_type const& x0,
+                               solve_coulomb_options const& o) {
+  identity_operator const I(radii.b().size());
+  return slant::solve(
+      coulomb(radii, I, {.goal = o.tolerance}), x0,
+      reduced_gradient_below(typename Radii::scalar(o.tolerance)) || at_most(o.outer_steps));
 }
 
 }  // namespace detail
@@ -86,24 +106,34 @@ template <class Dual>
   // Every contact sticks still, so that the start keeps its tangential forces.
   auto start = unconstrained_start(radii.qp());
   r.work.setup_applications = start.applications;
-  if (o.newton_steps > 0) {
-    coulomb_cones const cones(problem, F);
-    auto const ρ = residual_step(cones);
-    r.work.setup_applications += ρ.applications;
-    auto const residual = coulomb_residual(cones, ρ.length);
-    auto const report =
-        slant::solve(coulomb_newton(residual, o.tolerance), cones.by_contacts(start.x),
-                     residual_below(S(o.tolerance)) || at_most(o.newton_steps));
-    detail::take_result(r, report, "Newton");
-    r.λ = cones.by_directions(report.x());
-    if (r.converged() || o.outer_steps == 0) return r;
+  constexpr std::string_view approximations = "successive approximations";
+  if (o.newton_steps == 0) {
+    auto const report = detail::approximate(radii, start.x, o);
+    detail::add_work(r, report);
+    detail::take_answer(r, report, approximations, report.x());
+    return r;
   }
-  identity_operator const I(problem.b().size());
-  auto const report =
-      slant::solve(coulomb(radii, I, {.goal = o.tolerance}), start.x,
-                   reduced_gradient_below(S(o.tolerance)) || at_most(o.outer_steps));
-  detail::take_result(r, report, "successive approximations");
-  r.λ = report.x();
+  coulomb_cones const cones(problem, F);
+  auto const ρ = residual_step(cones);
+  r.work.setup_applications += ρ.applications;
+  auto const residual = coulomb_residual(cones, ρ.length);
+  auto const newton =
+      slant::solve(coulomb_newton(residual, o.tolerance), cones.by_contacts(start.x),
+                   residual_below(S(o.tolerance)) || at_most(o.newton_steps));
+  detail::add_work(r, newton);
+  detail::take_answer(r, newton, "Newton", cones.by_directions(newton.x()));
+  if (r.converged() || o.outer_steps == 0) return r;
+
+  auto const report = detail::approximate(radii, start.x, o);
+  detail::add_work(r, report);
+  bool better = report.converged();
+  if (!better) {
+    S const size = norm(slant::evaluate(residual, cones.by_contacts(report.x())));
+    ++r.work.operator_applications;
+    better =
+        size < newton.state.residual_norm || !slant::detail::is_finite(newton.state.residual_norm);
+  }
+  if (better) detail::take_answer(r, report, approximations, report.x());
   return r;
 }
 
