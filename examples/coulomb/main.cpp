@@ -77,6 +77,7 @@ int follow(settings const& s, double across, WithStepper const& with_stepper) {
   std::vector<fem::slip_record> records;
   fem::contact_field<3> field;
   vector position = vector::Zero(2 * m);  // T u of the step before
+  vector pressed = position;              // T u before the drag
   slant::index products = 0;
   bool good = true;
   with_stepper(problem, scene.K, [&](auto& stepper, auto const& to_lambda) {
@@ -98,6 +99,7 @@ int follow(settings const& s, double across, WithStepper const& with_stepper) {
       records.push_back({time, field.state});
       if (series) fem::write_contact_vtu(series->next(time), scene, field, u);
       position = scene.T * u;
+      if (i == s.steps) pressed = position;
       products += step.work.operator_applications + step.work.setup_applications;
       std::printf("  %4d  %6.3f %6.3f  %5td  %5td  %5td  %9td   %s\n", i, share.press, share.drag,
                   field.count(fem::contact_state::open), field.count(fem::contact_state::stick),
@@ -107,8 +109,10 @@ int follow(settings const& s, double across, WithStepper const& with_stepper) {
     }
   });
   std::printf("\n  products       %td in all; K was factored once\n", products);
-  std::printf("  left behind    slip of %.3g at most, friction of %.3g MPa at most\n",
-              position.cwiseAbs().maxCoeff(), field.friction.colwise().norm().maxCoeff());
+  // The loads of the last step are those before the drag: without friction nothing would be left.
+  std::printf("  left behind    by the drag: slip of %.3g at most; friction of %.3g MPa at most\n",
+              (position - pressed).cwiseAbs().maxCoeff(),
+              field.friction.colwise().norm().maxCoeff());
   if (series) {
     series->write();
     std::printf("\nwrote %s\n", (s.output / "coulomb.pvd").c_str());
