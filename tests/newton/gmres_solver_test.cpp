@@ -52,14 +52,14 @@ solved run(G const& g, VectorXd const& f, double tolerance, slant::gmres_solver 
   return {dy, report};
 }
 
-TEST_CASE("the residual asked for, at an application a step and one for the residual") {
+TEST_CASE("the residual asked for, at an application a step, and one for a small residual") {
   MatrixXd const A = nonsymmetric(40);
   VectorXd const f = VectorXd::LinSpaced(40, -1, 2);
   for (double const tolerance : {1e-2, 1e-6, 1e-12}) {
     CAPTURE(tolerance);
     auto const r = run(slant::matrix(A), f, tolerance);
     CHECK(r.report.status == slant::status::converged);
-    CHECK(r.report.operator_applications == r.report.iterations + 1);
+    CHECK(r.report.operator_applications == r.report.iterations + (tolerance < 1e-8 ? 1 : 0));
     CHECK((f + A * r.dy).norm() <= 1.001 * tolerance * f.norm() + 1e-14);
     CHECK(r.report.residual_norm == doctest::Approx((f + A * r.dy).norm()).epsilon(1e-2));
   }
