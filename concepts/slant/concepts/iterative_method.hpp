@@ -14,6 +14,8 @@
 //     observer  observer(state)
 // and, for methods that update a residual where it could be computed from x,
 //     method    refresh(state) → bool: computes it; whether there was anything to do
+// or that can go on after the data of the problem have changed:
+//     method    resume(state, x0)
 //
 // Laws.   start gives iteration 0; step adds 1 to it, or sets a status other than running;
 //         a step from a state at rest changes nothing; refresh leaves x alone, and a second one
@@ -94,6 +96,11 @@ template <class M, class State>
 concept has_refresh = requires(M& m, State& s) {
   { m.refresh(s) } -> std::same_as<bool>;
 };
+
+/// The method can begin anew at x0 in a state that it has made, after the data of its problem have
+/// changed: what does not depend on them (all memory, bounds of A) stays.
+template <class M, class State, class V>
+concept has_resume_at = requires(M const& m, State& s, V const& x0) { m.resume(s, x0); };
 
 template <class R, class State>
 concept has_verdict = requires(R& r, State const& s) {

@@ -8,8 +8,13 @@
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/coulomb.hpp>
+#include <slant/contact/coulomb_cones.hpp>
+#include <slant/contact/coulomb_newton.hpp>
+#include <slant/contact/coulomb_radii.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
 #include <slant/contact/friction_blocks.hpp>
+#include <slant/contact/friction_coefficient.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
 #include <slant/contact/friction_newton.hpp>
 #include <slant/contact/friction_options.hpp>
@@ -24,6 +29,7 @@
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/solve_coulomb.hpp>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>

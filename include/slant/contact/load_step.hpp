@@ -4,8 +4,13 @@
 // factors, its bounds and everything else that was learnt about it:
 //
 //     f    b = B K⁻¹ f − c      one solve with K
-//     d    c = (d, 0)           no solve
+//     d    c = (d, w)           no solve
 //     g    Λ                    no solve
+//     w    c = (d, w)           no solve
+//
+// w is where the contact nodes stood when friction began to act: Σ gᵢ‖(T u)ᵢ − wᵢ‖ instead of
+// Σ gᵢ‖(T u)ᵢ‖. In a quasi-static sequence friction resists the increment of a step, so w is T u of
+// the step before; it is 0 until it is given.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -26,6 +31,7 @@ struct load_step {
   std::optional<vector_type> f{};  ///< load
   std::optional<vector_type> d{};  ///< gaps; infinite exactly where they have been
   std::optional<vector_type> g{};  ///< slip bounds
+  std::optional<vector_type> w{};  ///< tangential positions without friction, one per row of T
 };
 
 namespace detail {
@@ -52,6 +58,10 @@ void check_step(load_step<S> const& step, index unknowns,
     check_reach(B, *step.d);
   }
   if (step.g) check_slip_bounds(*step.g, d.size(), B.rows() > d.size());
+  if (step.w) {
+    slant::detail::check_size("w", step.w->size(), B.rows() - d.size(), "one per row of T,");
+    slant::detail::check_finite("w", *step.w);
+  }
 }
 
 }  // namespace detail

@@ -33,10 +33,6 @@
 
 namespace slant::contact {
 
-/// A method can go on in a state after the problem has changed.
-template <class Method, class State, class V>
-concept has_resume_at = requires(Method const& m, State& s, V const& x) { m.resume(s, x); };
-
 namespace detail {
 
 /// The state keeps its gradient as methods/gradient_point.hpp does.

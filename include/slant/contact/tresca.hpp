@@ -42,6 +42,7 @@ class dual {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
+  using friction_type = Friction;
 
   /// One solve with K, for b. Throws bad_input if the data do not fit (see
   /// contact::data::validate), or if K⁻¹f overflows.
@@ -63,14 +64,17 @@ class dual {
 
   /// A = B K⁻¹ Bᵀ, never formed; by the condensed factor if the factorisation is a
   /// static_condensation.
-  [[nodiscard]] auto a() const& {
-    if constexpr (requires { factor_.get().restricted(B_); }) {
-      return factor_.get().restricted(B_);
+  [[nodiscard]] auto a() const& { return a(B_); }
+  auto a() const&& = delete;
+  /// The same for another C in place of B, such as its rows in another order. Refers to C too.
+  [[nodiscard]] auto a(sparse_type const& C) const& {
+    if constexpr (requires { factor_.get().restricted(C); }) {
+      return factor_.get().restricted(C);
     } else {
-      return congruence(B_, inverse(factor_.get()));
+      return congruence(C, inverse(factor_.get()));
     }
   }
-  auto a() const&& = delete;
+  auto a(sparse_type const&) const&& = delete;
   /// The dual problem; refers to this object. It has no minimum (status `unbounded`) exactly if no
   /// u satisfies N u ≤ d with (T u)ᵢ = 0 where gᵢ = ∞.
   [[nodiscard]] auto qp() const& { return separable_qp{a(), b_, set_}; }
@@ -114,8 +118,9 @@ class dual {
         known_.add(*step.f, displacement);
       }
     }
-    if (step.f || step.d) {
+    if (step.f || step.d || step.w) {
       b.noalias() = B_ * (step.f ? displacement : free_displacement_);
+      if (step.w || w_.size() > 0) b.tail(B_.rows() - d_.size()) -= step.w ? *step.w : w_;
       detail::subtract_gaps(step.d ? *step.d : d_, b);
       slant::detail::check_finite("b", b);
     }
@@ -126,6 +131,7 @@ class dual {
       free_displacement_.swap(displacement);
     }
     if (step.d) d_.swap(*step.d);
+    if (step.w) w_.swap(*step.w);
     if (b.size() > 0) b_.swap(b);
   }
   /// update with a new load alone: one solve with K at most.
@@ -134,6 +140,8 @@ class dual {
   void update_gaps(vector_type d) { update({.d = std::move(d)}); }
   /// update with new slip bounds alone: no solve.
   void update_bounds(vector_type g) { update({.g = std::move(g)}); }
+  /// update with new tangential positions alone, see load_step: no solve.
+  void update_positions(vector_type w) { update({.w = std::move(w)}); }
 
  private:
   void solve_once(vector_type const& load, vector_type& u) const {
@@ -159,6 +167,7 @@ class dual {
   held<Factorization> factor_;
   vector_type f_;
   vector_type d_;
+  vector_type w_{};  // empty: 0
   sparse_type B_;
   detail::feasible_set_t<Friction, S> set_;
   vector_type free_displacement_;  // K⁻¹ f

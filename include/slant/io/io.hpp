@@ -12,5 +12,6 @@
 #include <slant/io/text_scanner.hpp>
 #include <slant/io/text_vector.hpp>
 #include <slant/io/vtu_array.hpp>
+#include <slant/io/vtu_series.hpp>
 #include <slant/io/write_matrix_market.hpp>
 // IWYU pragma: end_exports

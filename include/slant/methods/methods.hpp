@@ -8,6 +8,7 @@
 #include <slant/methods/kprgp.hpp>
 
 #include <slant/methods/active_rows.hpp>
+#include <slant/methods/anderson_mixing.hpp>
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>
@@ -65,6 +66,9 @@
 #include <slant/methods/ssnm_options.hpp>
 #include <slant/methods/ssnm_problem.hpp>
 #include <slant/methods/ssnm_state.hpp>
+#include <slant/methods/successive_approximations.hpp>
+#include <slant/methods/successive_options.hpp>
+#include <slant/methods/successive_state.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>

@@ -11,6 +11,7 @@
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/globalisation.hpp>
+#include <slant/newton/gmres_solver.hpp>
 #include <slant/newton/saddle_direct.hpp>
 #include <slant/newton/schur_bicgstab.hpp>
 #include <slant/newton/schur_cg.hpp>

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+//
+// Successive approximations with inexact inner solves, for problems whose data depend on their own
+// solution (quasi-variational inequalities):
+//
+//     x minimises   q_p(x) = ½ xᵀA x − b_pᵀx   over   Λ_p,      p = P(x).                [K (22)]
+//
+// Coulomb's law is one: the slip bounds g = F λ_ν are parameters of Tresca's problem. With x(p) the
+// solution at p it is a fixed point of Ψ(p) = P(x(p)). The residual, free of charge after each
+// solve, is the reduced gradient of x in the problem that x itself asks for,
+//
+//     R = ‖r̃(x)‖ for b and Λ at P(x):       0 exactly at a solution.
+//
+//     solve       min q_p over Λ_p from the last x, until ‖r̃‖ ≤ η R
+//     look        P(x), R
+//     mix         p ← Anderson's combination of the last p and Ψ(p); where R has grown: p ← P(x)
+//
+// The convergence is linear, of rate κ say; inner problems solved by a factor η ~ κ each ask
+// conjugate gradients for the same digits in portions that one problem would ask for at once, but
+// also to begin anew each time. Measured for Coulomb friction: benchmarks/coulomb.cpp.
+//
+// Where even plain steps let R grow the relaxation ω is halved. What Ψ is not a contraction for may
+// still have a solution that is not found: the status is `stalled` then.
+//
+// A family of problems has
+//
+//     qp()                      the problem at the present p, whose b and set change in place
+//     parameter_count()         entries of p
+//     guess(x, p)               p ← a first guess for a start at x
+//     parameters(x, r, p)       p ← P(x); r is the gradient at x of qp()
+//     assign(p)                 makes p the present one; entries may be out of range: they are
+//                               brought back into it, in p too
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/iterative_method.hpp>
+#include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/successive_options.hpp>
+#include <slant/methods/successive_state.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// A family of quadratic programs with parameters; see the top of this file.
+template <class F, class V = typename F::vector_type>
+concept parametric_program = requires(F& family, F const& c, V const& x, V& p) {
+  c.qp().b();
+  c.qp().set();
+  { c.parameter_count() } -> std::convertible_to<index>;
+  c.guess(x, p);
+  c.parameters(x, x, p);
+  family.assign(p);
+};
+
+/// The method at the top of this file. make(goal) makes the inner method, for family.qp(), that
+/// does not look for more than goal · gradient_scale: its states are those of gradient_point.
+///
+///     slant::successive_approximations method(family, [&](double goal) {
+///       return slant::symmetric_newton{qp, M, {.forcing = {…, .goal = goal}}};
+///     });
+///     auto r = slant::solve(method, x0, slant::reduced_gradient_below(1e-8) ||
+///     slant::at_most(50));
+///
+/// Refers to the family, in which each step leaves P(x) of its state.
+template <parametric_program Family, class Make>
+class successive_approximations {
+ public:
+  using vector_type = typename Family::vector_type;
+  using scalar = scalar_t<vector_type>;
+  using inner_method = std::remove_cvref_t<std::invoke_result_t<Make const&, scalar>>;
+  using inner_state = state_t<inner_method const, vector_type>;
+  using options = successive_options<scalar>;
+  using state_type = successive_state<inner_state, vector_type>;
+
+  successive_approximations(Family& family, Make make)
+      : successive_approximations(family, std::move(make), options{}) {}
+  /// Throws bad_input for options out of range.
+  successive_approximations(Family& family, Make make, options o)
+      : family_(&family), make_(std::move(make)), options_(std::move(o)) {
+    options_.validate();
+  }
+
+  /// The state of the inner method at x0, for the parameters that the family guesses. Throws
+  /// bad_input as the inner method does.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    index const n = family_->parameter_count();
+    vector_type p = like(x0, n);
+    family_->guess(x0, p);
+    family_->assign(p);
+    auto const one = [&] { return like(x0, index(slant::local(x0).size())); };
+    state_type s{x0,
+                 p,
+                 p,
+                 p,
+                 p,
+                 one(),
+                 one(),
+                 one(),
+                 one(),
+                 make_(scalar(0.5)).start(x0),
+                 {p, n, options_.window}};
+    begin(s);
+    s.work = s.inner.work;
+    return s;
+  }
+
+  /// As start(x0), in a state that start has made, after the data of the family have changed.
+  void resume(state_type& s, vector_type const& x0) const
+    requires has_resume_at<inner_method, inner_state, vector_type>
+  {
+    family_->guess(x0, s.parameters);
+    family_->assign(s.parameters);
+    make_(scalar(0.5)).resume(s.inner, x0);
+    s.mixing.forget();
+    s.progress = {};
+    s.iteration = s.inner_iterations = 0;
+    s.status = status::running;
+    begin(s);
+    s.work = s.inner.work;
+  }
+
+  /// One inner problem, and new parameters.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    bool const anew = choose_parameters(s);
+    solve_inner(s, anew);
+    ++s.iteration;
+    if (s.status != status::running) return;
+    scalar const before = s.reduced_gradient_norm;
+    look(s);
+    s.forcing.record(s.reduced_gradient_norm);
+    guard(s, before);
+  }
+
+ private:
+  void begin(state_type& s) const {
+    s.relaxation = options_.relaxation;
+    s.accelerated = false;
+    s.solved_once = false;
+    look(s);
+    s.forcing = forcing_history<scalar>::starting_at(s.reduced_gradient_norm);
+    s.forcing.first_error = s.gradient_scale;
+  }
+
+  /// P(x) and R; no product.
+  void look(state_type& s) const {
+    auto const& in = s.inner;
+    slant::local(s.x) = slant::local(in.x);
+    s.unit = in.unit;
+    slant::local(s.trial) = in.unit * slant::local(in.r);
+    family_->parameters(s.x, s.trial, s.image);
+    if (!detail::is_finite(norm(s.image))) {
+      s.status = s.inner_status = status::breakdown;
+      return;
+    }
+    // r for the other b: r + b_p − b_P(x).
+    slant::local(s.r) = slant::local(in.r) + slant::local(family_->qp().b()) / in.unit;
+    family_->assign(s.image);
+    slant::local(s.r) -= slant::local(family_->qp().b()) / in.unit;
+    reduced_gradient(family_->qp().set(), s.x, s.r, in.step_length * in.unit, s.trial, s.projected,
+                     s.reduced);
+    slant::local(s.change) = slant::local(s.image) - slant::local(s.parameters);
+    s.reduced_gradient_norm = in.unit * norm(s.reduced);
+    s.gradient_scale = in.gradient_scale;
+    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+  }
+
+  /// The next p; false if it is the last one, x being a start for it or not yet accurate enough.
+  bool choose_parameters(state_type& s) const {
+    s.accelerated = false;
+    bool const moves = norm(s.change) > scalar(0);
+    if (!moves) {
+      slant::local(s.next) = slant::local(s.parameters);
+    } else if (s.solved_once) {
+      s.accelerated = s.mixing.mix(s.parameters, s.change, s.relaxation, s.next);
+    } else {
+      slant::local(s.next) = slant::local(s.image);
+    }
+    std::swap(s.parameters, s.next);
+    family_->assign(s.parameters);
+    return moves;
+  }
+
+  void solve_inner(state_type& s, bool anew) const {
+    scalar const η = s.forcing.next(options_.forcing);
+    auto& in = s.inner;
+    // Where p stays as it is there is nothing to save for later.
+    auto const whole = scalar(options_.forcing.goal / 2) * in.gradient_scale;
+    scalar const target = anew || whole == scalar(0) ? η * s.reduced_gradient_norm : whole;
+    if (anew) restart(s);
+    work const before = anew ? work{} : in.work;
+    scalar const most(0.999);
+    scalar const goal = std::min<scalar>(most, target / in.gradient_scale);
+    auto const method = make_(goal > scalar(0) ? goal : scalar(0));
+    index const first = in.iteration;
+    auto const done = [&] { return in.reduced_gradient_norm <= target; };
+    while (in.status == status::running && !done() && in.iteration - first < options_.inner_steps) {
+      method.step(in);
+      if constexpr (has_refresh<inner_method const, inner_state>) {
+        if (done()) method.refresh(in);
+      }
+    }
+    s.inner_iterations = in.iteration - first;
+    s.inner_status = in.status;
+    s.work.operator_applications += in.work.operator_applications - before.operator_applications;
+    s.work.factorizations += in.work.factorizations - before.factorizations;
+    s.work.inner_iterations += s.inner_iterations;
+    s.solved_once = true;
+    bool const lost = in.status == status::breakdown || in.status == status::unbounded;
+    if (lost) s.status = in.status;
+    if (!lost && !anew && s.inner_iterations == 0) s.status = status::stalled;
+  }
+
+  /// The inner method at s.x for the present parameters. One product.
+  void restart(state_type& s) const {
+    auto const method = make_(scalar(0.5));
+    if constexpr (has_resume_at<inner_method, inner_state, vector_type>) {
+      method.resume(s.inner, s.x);
+    } else {
+      s.inner = method.start(s.x);
+      s.work.setup_applications += s.inner.work.setup_applications;
+    }
+  }
+
+  /// Where the residual has grown: no more of Anderson's steps from what is known, or shorter ones.
+  void guard(state_type& s, scalar const& before) const {
+    if (s.status != status::running) return;
+    if (s.reduced_gradient_norm > options_.growth * before) {
+      if (!s.accelerated && s.iteration > 1) s.relaxation /= scalar(2);
+      s.mixing.forget();
+    }
+    auto const no_energy = [] {
+      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
+    };
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
+      s.status = status::stalled;
+    }
+  }
+
+  Family* family_;
+  Make make_;
+  options options_;
+};
+
+}  // namespace slant

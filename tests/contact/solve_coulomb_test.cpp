@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/solve_coulomb.hpp>
+
+#include "coulomb_scenes.hpp"
+#include "counting_factor.hpp"
+
+#include <fem/two_bricks.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace solve_coulomb_test {
+
+using Eigen::VectorXd;
+namespace contact = slant::contact;
+
+TEST_CASE("two bricks, friction coefficients 0 to 2 on the mean: by Newton and by radii") {
+  auto const s = fem::make_two_bricks(4);
+  contact::data<double> const c{s.N, s.T, s.f, s.d, s.g};
+  test::counting_factor const factor{s.K};
+  test::dense_dual const dense(s.K, c);
+  contact::dual problem(contact::friction_disc{}, factor, c);
+  for (double const mean : {0.0, 0.3, 1.0, 2.0}) {
+    CAPTURE(mean);
+    VectorXd const F = mean * VectorXd::LinSpaced(c.d.size(), 0.5, 1.5);
+    factor.solves = 0;
+    auto const newton = contact::solve_coulomb(problem, F, {.tolerance = 1e-12});
+    REQUIRE(newton.converged());
+    CHECK(newton.method == "Newton");
+    CHECK(test::natural_map(dense, F, newton.λ) <= 1e-8);
+    CHECK(factor.solves == newton.work.operator_applications + newton.work.setup_applications);
+    auto const radii = contact::solve_coulomb(problem, F, {.tolerance = 1e-12, .newton_steps = 0});
+    REQUIRE(radii.converged());
+    CHECK(radii.method == "successive approximations");
+    CHECK((radii.λ - newton.λ).norm() <= 1e-8 * newton.λ.norm());
+  }
+}
+
+TEST_CASE("Newton's method that is not given time: the other takes over, and all is counted") {
+  auto const s = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const c = test::contact_data(s);
+  test::counting_factor const factor{s.K};
+  contact::dual problem(contact::friction_disc{}, factor, c);
+  VectorXd const F = VectorXd::Constant(c.d.size(), 0.3);
+  factor.solves = 0;
+  auto const r = contact::solve_coulomb(problem, F, {.tolerance = 1e-10, .newton_steps = 1});
+  REQUIRE(r.converged());
+  CHECK(r.method == "successive approximations");
+  CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
+  CHECK(test::natural_map(test::dense_dual(s.K, c), F, r.λ) <= 1e-8);
+  auto const given_up =
+      contact::solve_coulomb(problem, F, {.tolerance = 1e-10, .newton_steps = 1, .outer_steps = 0});
+  CHECK(given_up.status == slant::status::iteration_limit);
+  CHECK(given_up.method == "Newton");
+  CHECK(given_up.steps == 1);
+}
+
+/// ‖λ − P(λ − ρ (A λ − b))‖, P that of Alart and Curnier.
+double alart_curnier_residual(test::dense_dual const& p, VectorXd const& μ, VectorXd const& λ,
+                              double ρ) {
+  Eigen::Index const m = μ.size();
+  VectorXd const z = λ - ρ * (p.A * λ - p.b);
+  VectorXd r = λ;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    double const n = std::max(0.0, z(i));
+    Eigen::Vector2d const t = z.segment<2>(m + 2 * i);
+    double const bound = μ(i) * n;
+    r(i) -= n;
+    r.segment<2>(m + 2 * i) -= t.norm() > bound ? Eigen::Vector2d(bound / t.norm() * t) : t;
+  }
+  return r.norm();
+}
+
+TEST_CASE("neither is given time: the better answer is kept, whichever it is") {
+  auto const s = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
+  auto const c = test::contact_data(s);
+  test::counting_factor const factor{s.K};
+  contact::dual problem(contact::friction_disc{}, factor, c);
+  test::dense_dual const dense(s.K, c);
+  VectorXd const F = VectorXd::Constant(c.d.size(), 0.3);
+  double const ρ = contact::residual_step(contact::coulomb_cones(problem, F)).length;
+  auto const run = [&](slant::index newton, slant::index outer) {
+    factor.solves = 0;
+    auto r = contact::solve_coulomb(
+        problem, F, {.tolerance = 1e-12, .newton_steps = newton, .outer_steps = outer});
+    CHECK_FALSE(r.converged());
+    CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
+    return r;
+  };
+  slant::index newton_wins = 0, approximations_win = 0;
+  for (auto const& [newton_steps, outer_steps] :
+       {std::pair<slant::index, slant::index>{1, 3}, {4, 1}}) {
+    CAPTURE(newton_steps);
+    auto const newton = run(newton_steps, 0), outer = run(0, outer_steps);
+    double const by_newton = alart_curnier_residual(dense, F, newton.λ, ρ);
+    double const by_outer = alart_curnier_residual(dense, F, outer.λ, ρ);
+    CAPTURE(by_newton);
+    CAPTURE(by_outer);
+    auto const& better = by_newton <= by_outer ? newton : outer;
+    ++(by_newton <= by_outer ? newton_wins : approximations_win);
+    auto const both = run(newton_steps, outer_steps);
+    CHECK(both.λ == better.λ);
+    CHECK(both.method == better.method);
+    CHECK(both.steps == better.steps);
+    CHECK(both.status == better.status);
+    CHECK(both.reason == better.reason);
+  }
+  CHECK(newton_wins == 1);
+  CHECK(approximations_win == 1);
+}
+
+TEST_CASE("options and coefficients that do not fit are refused") {
+  auto const s = fem::make_steel_brick({.k = 1});
+  auto const c = test::contact_data(s);
+  test::counting_factor const factor{s.K};
+  contact::dual problem(contact::friction_disc{}, factor, c);
+  auto const message = [&](VectorXd const& F,
+                           contact::solve_coulomb_options const& o = {}) -> std::string {
+    try {
+      static_cast<void>(contact::solve_coulomb(problem, F, o));
+    } catch (slant::bad_input const& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  VectorXd const F = VectorXd::Constant(c.d.size(), 0.3);
+  CHECK(message(-F) == "F[0]: got -0.3, expected a finite number >= 0");
+  CHECK(message(F.head(2)).starts_with("number of friction coefficients: got 2"));
+  CHECK(message(F, {.tolerance = 0}) == "tolerance: got 0, expected a number in (0, 1)");
+  CHECK(message(F, {.newton_steps = -1}) == "newton_steps: got -1, expected a number >= 0");
+  CHECK(message(F, {.outer_steps = -1}) == "outer_steps: got -1, expected a number >= 0");
+  CHECK(message(F, {.newton_steps = 0, .outer_steps = 0}) ==
+        "newton_steps and outer_steps: got 0 and 0, expected at least one of them > 0");
+}
+
+}  // namespace solve_coulomb_test
