@@ -20,9 +20,8 @@ TEST_CASE("states along one line of nodes, and shares of the whole side, by step
   auto const scene = fem::make_steel_brick({.k = 1});  // 3 × 2 nodes, the side is 3 × 1
   auto const field = field_of(scene);
   using enum fem::contact_state;
-  std::vector<fem::slip_record> const records{
-      {0.5, {stick, stick, stick, stick, stick, stick}},
-      {1.0, {slip, slip, stick, stick, open, open}}};
+  std::vector<fem::slip_record> const records{{0.5, {stick, stick, stick, stick, stick, stick}},
+                                              {1.0, {slip, slip, stick, stick, open, open}}};
   auto const script = fem::slip_history_script("slip.png", field, records, "It's slipping");
   CHECK(script.find("'It''s slipping'") != std::string::npos);
   auto const block = [&](std::string const& name) {
