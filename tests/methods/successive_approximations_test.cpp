@@ -58,7 +58,7 @@ struct moving_obstacle {
   [[nodiscard]] slant::index parameter_count() const { return n; }
   void guess(VectorXd const& x, VectorXd& l) const { parameters(x, x, l); }
   void parameters(VectorXd const& x, VectorXd const&, VectorXd& l) const {
-    l = rate * x.reverse() - unit * VectorXd::Ones(n);
+    for (Eigen::Index i = 0; i < n; ++i) l(i) = rate * x(n - 1 - i) - unit;
   }
   void assign(VectorXd& l) { set.update(l); }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -33,7 +34,7 @@ inline friction_vector nearest_in_cone(friction_vector const& x, friction_real s
 }
 
 struct naive_contact {
-  friction_real natural_map, outside_cone, outside_dual, complementarity, dissipation;
+  friction_real natural_map, outside_cone, outside_dual, penetration, complementarity, dissipation;
 };
 
 /// Contact by contact, ρ = 1.
@@ -52,6 +53,7 @@ inline std::vector<naive_contact> naive_friction(friction_matrix const& W, frict
     all.push_back({.natural_map = (ri - nearest_in_cone(ri - v, mu[i])).norm(),
                    .outside_cone = (ri - nearest_in_cone(ri, mu[i])).norm(),
                    .outside_dual = (v - nearest_in_cone(v, dual)).norm(),
+                   .penetration = std::max(0.0L, -ui[0]),
                    .complementarity = std::abs(v.dot(ri)),
                    .dissipation = -ui.tail(d - 1).dot(ri.tail(d - 1))});
   }
