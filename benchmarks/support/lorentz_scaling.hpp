@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+//
+// The Lorentz cone L = {x : ‖x_t‖ <= x_0} in N dimensions as interior-point methods see it: its
+// Jordan algebra, and the scaling of Nesterov and Todd ("Self-scaled barriers and interior-point
+// methods for convex programming", 1997) for a pair x, s inside of it,
+//
+//     T x = T⁻ᵀ s = λ,    T L = L,    xᵀs = λᵀλ.
+//
+// Near the boundary x_0 − ‖x_t‖ has no digits left. So x and s are no data here, but T⁻¹λ and Tᵀλ:
+// a step is made from λ, which is well inside, and T is multiplied by the scaling of what the step
+// has made of λ (Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010, §5).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SVD>
+#include <cmath>
+
+namespace benchmarks {
+
+template <int N>
+struct lorentz {
+  using part = Eigen::Matrix<double, N, 1>;
+  using block = Eigen::Matrix<double, N, N>;
+
+  /// x_0² − ‖x_t‖².
+  [[nodiscard]] static double determinant(part const& x) {
+    double const t = x.template tail<N - 1>().norm();
+    return (x[0] - t) * (x[0] + t);
+  }
+  /// x ∘ y = (xᵀy, x_0 y_t + y_0 x_t).
+  [[nodiscard]] static part product(part const& x, part const& y) {
+    part z = x[0] * y + y[0] * x;
+    z[0] = x.dot(y);
+    return z;
+  }
+  /// y with x ∘ y = z.
+  [[nodiscard]] static part quotient(part const& z, part const& x) {
+    double const tangential = x.template tail<N - 1>().dot(z.template tail<N - 1>());
+    double const y0 = (x[0] * z[0] - tangential) / determinant(x);
+    part y = (z - y0 * x) / x[0];
+    y[0] = y0;
+    return y;
+  }
+  /// J x = (x_0, −x_t).
+  [[nodiscard]] static part reflected(part const& x) {
+    part y = -x;
+    y[0] = x[0];
+    return y;
+  }
+  /// 2 v vᵀ − J.
+  [[nodiscard]] static block hyperbolic(part const& v) {
+    block h = 2 * v * v.transpose();
+    h(0, 0) -= 1;
+    for (int k = 1; k < N; ++k) h(k, k) += 1;
+    return h;
+  }
+};
+
+/// A pair x, s as λ and T.
+template <int N>
+class lorentz_scaling {
+ public:
+  using cone = lorentz<N>;
+  using part = typename cone::part;
+  using block = typename cone::block;
+
+  /// x = x0 e, s = s0 e with e = (1, 0), the unit of the algebra; x0, s0 > 0.
+  lorentz_scaling(double x0, double s0)
+      : T_(std::sqrt(s0 / x0) * block::Identity()),
+        inverse_(std::sqrt(x0 / s0) * block::Identity()),
+        λ_(std::sqrt(x0 * s0) * part::Unit(0)) {}
+
+  [[nodiscard]] part x() const { return inverse_ * λ_; }
+  [[nodiscard]] part s() const { return T_.transpose() * λ_; }
+  [[nodiscard]] part const& λ() const { return λ_; }
+  [[nodiscard]] block const& T() const { return T_; }
+
+  /// x and s move by T⁻¹dx and Tᵀds; both stay inside of the cone.
+  void move(part const& dx, part const& ds) {
+    part const x = λ_ + dx, s = λ_ + ds;
+    double const x_length = std::sqrt(cone::determinant(x));
+    double const s_length = std::sqrt(cone::determinant(s));
+    part const x1 = x / x_length, s1 = s / s_length;
+    part const w = (s1 + cone::reflected(x1)) / std::sqrt(2 * (1 + x1.dot(s1)));
+    part v = w;
+    v[0] += 1;
+    v /= std::sqrt(2 * (w[0] + 1));
+    double const β = std::sqrt(s_length / x_length);
+    block const S = β * cone::hyperbolic(v);
+    T_ = (S * T_).eval();
+    inverse_ = (inverse_ * cone::hyperbolic(cone::reflected(v)) / β).eval();
+    λ_ = S * x;
+  }
+
+ private:
+  block T_, inverse_;
+  part λ_;
+};
+
+}  // namespace benchmarks
