@@ -26,7 +26,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <from_files/friction_methods.hpp>
+#include <slant/contact/solve_friction.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <stdexcept>
 #include <string>

@@ -117,8 +117,9 @@ class friction_interior {
     part x, s, p;  ///< of the problem at the top of this file
     part aim;      ///< λ \ c
     part dx, ds;   ///< T dx and T⁻ᵀ ds
-    part Σ, D1, D2;
-    block U, V, E;
+    part D1, D2;
+    block E;
+    typename lorentz_scaling<N>::axes T;
   };
 
   [[nodiscard]] Eigen::Index count() const { return problem_->contacts(); }
@@ -154,13 +155,10 @@ class friction_interior {
       c.p[0] += speed;
       c.E.setIdentity();
       if (speed > 0) c.E.row(0).template tail<N - 1>() -= slip.transpose() / speed;
-      Eigen::JacobiSVD<block> const T(c.at.T(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-      c.U = T.matrixU();
-      c.V = T.matrixV();
-      c.Σ = T.singularValues();
+      c.T = c.at.singular_axes();
       double const w = weight_[std::size_t(i)];
-      c.D1 = (w / c.Σ.array().square()).min(1.0);
-      c.D2 = c.Σ.array().square().min(w);
+      c.D1 = (w / c.T.Σ.array().square()).min(1.0);
+      c.D2 = c.T.Σ.array().square().min(w);
       γ_ += c.at.λ().squaredNorm() / double(count());
     });
   }
@@ -201,10 +199,10 @@ class friction_interior {
       each([&](contact& c, Eigen::Index i) {
         block d = scaled(i, i, problem_->diagonal(i));
         d.diagonal().array() += α_ * weight_[std::size_t(i)];
-        put(i, i, block(d * c.V * c.D1.asDiagonal() + c.E * c.V * c.D2.asDiagonal()));
+        put(i, i, block(d * c.T.V * c.D1.asDiagonal() + c.E * c.T.V * c.D2.asDiagonal()));
         problem_->for_row(i, [&](Eigen::Index j, block const& b) {
           auto const& other = contacts_[std::size_t(j)];
-          put(i, j, block(scaled(i, j, b) * other.V * other.D1.asDiagonal()));
+          put(i, j, block(scaled(i, j, b) * other.T.V * other.D1.asDiagonal()));
         });
       });
     };
@@ -235,7 +233,7 @@ class friction_interior {
     vector const z = full_ ? vector(dense_.solve(right)) : vector(sparse_.solve(right));
     each([&](contact& c, Eigen::Index i) {
       auto const zi = z.template segment<N>(N * i);
-      c.dx = c.U * c.Σ.cwiseProduct(c.D1).cwiseProduct(zi);
+      c.dx = c.T.U * c.T.Σ.cwiseProduct(c.D1).cwiseProduct(zi);
       c.ds = c.aim - c.dx;
     });
     return z.allFinite();

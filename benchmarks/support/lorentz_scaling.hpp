@@ -12,7 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 namespace benchmarks {
@@ -68,12 +68,32 @@ class lorentz_scaling {
   lorentz_scaling(double x0, double s0)
       : T_(std::sqrt(s0 / x0) * block::Identity()),
         inverse_(std::sqrt(x0 / s0) * block::Identity()),
-        λ_(std::sqrt(x0 * s0) * part::Unit(0)) {}
+        λ_(std::sqrt(x0 * s0) * part::Unit(0)),
+        η_(s0 / x0) {}
 
   [[nodiscard]] part x() const { return inverse_ * λ_; }
   [[nodiscard]] part s() const { return T_.transpose() * λ_; }
   [[nodiscard]] part const& λ() const { return λ_; }
   [[nodiscard]] block const& T() const { return T_; }
+
+  /// T = U diag(Σ) Vᵀ, in closed form: TᵀT = η (2 w wᵀ − J) with w_0² − ‖w_t‖² = 1, so that Σ² / η
+  /// is (w_0 + ‖w_t‖)², its inverse and 1, on the light rays (1, ±w_t/‖w_t‖) and across.
+  struct axes {
+    part Σ;
+    block U, V;
+  };
+  [[nodiscard]] axes singular_axes() const {
+    part const Te = T_.col(0);
+    double const r = std::max(1.0, Te.squaredNorm() / η_);
+    double const stretch = std::sqrt((r + 1) / 2) + std::sqrt((r - 1) / 2);
+    axes a;
+    a.V = frame(T_.transpose() * Te);
+    a.U = frame(T_ * a.V.col(0));
+    a.Σ.setConstant(std::sqrt(η_));
+    a.Σ[0] *= stretch;
+    a.Σ[1] /= stretch;
+    return a;
+  }
 
   /// x and s move by T⁻¹dx and Tᵀds; both stay inside of the cone.
   void move(part const& dx, part const& ds) {
@@ -90,11 +110,27 @@ class lorentz_scaling {
     T_ = (S * T_).eval();
     inverse_ = (inverse_ * cone::hyperbolic(cone::reflected(v)) / β).eval();
     λ_ = S * x;
+    η_ *= β * β;
   }
 
  private:
+  /// (1, d), (1, −d) over √2 and (0, d⊥), d the direction of x_t.
+  [[nodiscard]] static block frame(part const& x) {
+    using tangential = Eigen::Matrix<double, N - 1, 1>;
+    tangential d = x.template tail<N - 1>();
+    double const t = d.norm();
+    d = t > 0 ? tangential(d / t) : tangential(tangential::Unit(0));
+    block f = block::Zero();
+    f(0, 0) = f(0, 1) = std::sqrt(0.5);
+    f.col(0).template tail<N - 1>() = std::sqrt(0.5) * d;
+    f.col(1).template tail<N - 1>() = -std::sqrt(0.5) * d;
+    if constexpr (N == 3) f.col(2) << 0, -d[1], d[0];
+    return f;
+  }
+
   block T_, inverse_;
   part λ_;
+  double η_;  ///< T J Tᵀ = η J
 };
 
 }  // namespace benchmarks
