@@ -13,10 +13,9 @@
 //     A dx − E ds = −p,    λ ∘ (T dx + T⁻ᵀ ds) = c.
 //
 // c = −λ∘λ for the predictor dx, ds of length a, then −λ∘λ − a² (T dx)∘(T⁻ᵀ ds) + σγ e, γ the mean
-// xᵀs of a contact (Mehrotra, "On the implementation of a primal-dual interior point method",
-// 1992). What is solved: T = U Σ Vᵀ, and z is, direction by direction, dx where Σ is small (a free
-// force) and −ds where it is large (a free velocity): dx = V D₁ z, ds = Tᵀ(λ\c) − V D₂ z, D₂ = Σ²
-// D₁,
+// xᵀs of a contact (Mehrotra, 1992). What is solved: T = U Σ Vᵀ, and z is, direction by direction,
+// dx where Σ is small (a free force) and −ds where it is large (a free velocity):
+// dx = V D₁ z, ds = Tᵀ(λ\c) − V D₂ z with D₂ = Σ² D₁,
 //
 //     (A V D₁ + E V D₂) z = −p + E Tᵀ(λ\c),
 //
@@ -35,7 +34,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/contact/friction_blocks.hpp>
-#include <slant/sets/second_order_cone.hpp>
 #include <vector>
 
 #include "lorentz_scaling.hpp"
@@ -44,7 +42,7 @@ namespace benchmarks {
 
 /// No setting is of a problem: q and diag(W) are of the size of 1 in the units of friction_blocks.
 struct interior_options {
-  double tolerance = 1e-8;      ///< of the natural map and the penetration over ‖q‖
+  double tolerance = 1e-8;      ///< of friction_error, as in solve_friction
   Eigen::Index steps = 300;     ///< at most
   Eigen::Index patience = 100;  ///< steps without a smaller error until stalled
   double fraction = 0.99;       ///< of the way to the boundary
@@ -68,16 +66,15 @@ class friction_interior {
   /// Refers to the problem. Throws bad_input for μ = 0, a cone without inside.
   friction_interior(blocks_type const& problem, interior_options const& options)
       : problem_(&problem), options_(options), r_(problem.size()), u_(problem.size()) {
-    Eigen::Index entries = problem.block_count();
-    full_ = size() <= 48 || 8 * N * N * entries > size() * size();
+    full_ = size() <= 48 || 8 * N * N * problem.block_count() > size() * size();
     double b = 0, mean = 0;
     for (Eigen::Index i = 0; i < count(); ++i) {
       if (!(problem.mu(i) > 0)) throw slant::bad_input("mu", "0", "a number > 0");
       double const w = scaled(i, i, problem.diagonal(i)).trace() / N;
       weight_.push_back(w > 0 ? w : 1);
       mean += weight_.back() / double(count());
-      b = std::max(
-          b, scale(i).cwiseProduct(problem.q().template segment<N>(N * i)).cwiseAbs().maxCoeff());
+      part const q = scale(i).cwiseProduct(problem.q().template segment<N>(N * i));
+      b = std::max(b, q.cwiseAbs().maxCoeff());
     }
     contacts_.assign(std::size_t(count()), contact(b / mean, b));
   }
@@ -86,22 +83,22 @@ class friction_interior {
     interior_result out{.r = vector::Zero(size())};
     if (problem_->q_norm() == 0) out.status = slant::status::converged;
     double best = std::numeric_limits<double>::infinity();
-    for (Eigen::Index idle = 0; out.status == slant::status::running; ++out.steps) {
+    for (Eigen::Index idle = 0; out.status == slant::status::running;) {
       evaluate();
       auto const e = problem_->error(r_, u_);
-      double const error = std::max(e.plain, e.penetration);
+      double const error = e.worst();
       if (error < best) out.r = r_;
       idle = error <= 0.9 * best ? 0 : idle + 1;
       best = std::min(best, error);
-      if (best <= options_.tolerance) {
+      if (e.at_most(options_.tolerance)) {
         out.status = slant::status::converged;
       } else if (out.steps >= options_.steps) {
         out.status = slant::status::iteration_limit;
       } else if (idle > options_.patience) {
         out.status = slant::status::stalled;
+      } else if (++out.steps; !step()) {
+        out.status = slant::status::breakdown;
       }
-      if (out.status != slant::status::running) break;
-      if (!step()) out.status = slant::status::breakdown;
     }
     return out;
   }
@@ -109,7 +106,6 @@ class friction_interior {
  private:
   using part = typename lorentz<N>::part;
   using block = typename lorentz<N>::block;
-  using cone = lorentz<N>;
 
   struct contact {
     contact(double x0, double s0) : at(x0, s0) {}
@@ -150,13 +146,12 @@ class friction_interior {
     γ_ = 0;
     each([&](contact& c, Eigen::Index i) {
       auto const slip = c.s.template tail<N - 1>();
-      double const speed = slip.norm();
+      double const speed = slip.norm(), w = weight_[std::size_t(i)];
       c.p = scale(i).cwiseProduct(u_.template segment<N>(N * i)) - c.s;
       c.p[0] += speed;
       c.E.setIdentity();
       if (speed > 0) c.E.row(0).template tail<N - 1>() -= slip.transpose() / speed;
       c.T = c.at.singular_axes();
-      double const w = weight_[std::size_t(i)];
       c.D1 = (w / c.T.Σ.array().square()).min(1.0);
       c.D2 = c.T.Σ.array().square().min(w);
       γ_ += c.at.λ().squaredNorm() / double(count());
@@ -165,10 +160,7 @@ class friction_interior {
 
   /// False if there is no direction.
   bool step() {
-    if (!factor()) {
-      α_ = std::max(10 * α_, options_.proximal);
-      return α_ < 1;
-    }
+    if (!factor()) return (α_ = std::max(10 * α_, options_.proximal)) < 1;
     each([](contact& c, Eigen::Index) { c.aim = -c.at.λ(); });
     if (!find_direction()) return false;
     double const a = std::min(1.0, length());
@@ -180,9 +172,9 @@ class friction_interior {
     double σ = std::pow(std::clamp(after / γ_, 0.0, 1.0), 2);
     σ = std::max(σ, std::min(options_.largest_aim, options_.balance * work / γ_));
     each([&](contact& c, Eigen::Index) {
-      part second = a * a * cone::product(c.dx, c.ds);
+      part second = a * a * lorentz<N>::product(c.dx, c.ds);
       second[0] -= σ * γ_;
-      c.aim = -c.at.λ() - cone::quotient(second, c.at.λ());
+      c.aim = -c.at.λ() - lorentz<N>::quotient(second, c.at.λ());
     });
     if (!find_direction()) return false;
     double const t = std::min(1.0, options_.fraction * length());
@@ -232,19 +224,16 @@ class friction_interior {
     });
     vector const z = full_ ? vector(dense_.solve(right)) : vector(sparse_.solve(right));
     each([&](contact& c, Eigen::Index i) {
-      auto const zi = z.template segment<N>(N * i);
-      c.dx = c.T.U * c.T.Σ.cwiseProduct(c.D1).cwiseProduct(zi);
+      part const y = c.D1.cwiseProduct(z.template segment<N>(N * i));
+      c.dx = c.T.U * c.T.Σ.cwiseProduct(y);
       c.ds = c.aim - c.dx;
     });
     return z.allFinite();
   }
   /// How far it is to the boundary.
   double length() {
-    slant::second_order_cone<N> const L(1.0);
     double a = std::numeric_limits<double>::infinity();
-    each([&](contact& c, Eigen::Index) {
-      for (part const& d : {c.dx, c.ds}) a = std::min(a, L.step_to_boundary(c.at.λ(), d));
-    });
+    each([&](contact& c, Eigen::Index) { a = std::min(a, c.at.length(c.dx, c.ds)); });
     return a;
   }
 

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <slant/sets/second_order_cone.hpp>
 
 namespace benchmarks {
 
@@ -95,6 +96,11 @@ class lorentz_scaling {
     return a;
   }
 
+  /// How far λ + t dx and λ + t ds are both in the cone.
+  [[nodiscard]] double length(part const& dx, part const& ds) const {
+    slant::second_order_cone<N> const L(1.0);
+    return std::min(L.step_to_boundary(λ_, dx), L.step_to_boundary(λ_, ds));
+  }
   /// x and s move by T⁻¹dx and Tᵀds; both stay inside of the cone.
   void move(part const& dx, part const& ds) {
     part const x = λ_ + dx, s = λ_ + ds;
