@@ -8,8 +8,8 @@
 // are named:
 //
 //     coulomb             the default of the library
-//     interior_point      support/friction_interior.hpp, until error and penetration are at most T
-//     crossover           the same until they are at most 1e-4, then the default from its r
+//     interior_point      support/friction_interior.hpp, with the same rule for when to stop
+//     crossover           the same with tolerance 1e-4, then the default from its r
 //
 //     problem, contacts, unknowns
 //     tolerance           of error, rounding and penetration; what is above is not solved

@@ -21,8 +21,8 @@
 //
 // where no entry grows as γ → 0 and none is lost beside another. Two safeguards: α Λ dx, Λ the mean
 // diagonal of A at a contact, is added after short steps, a proximal term that solves singular
-// systems and leaves no bias; and the aim σγ is at least a part of the work of x on p, else x and s
-// run into the boundary before p is small, and stay there.
+// systems and leaves no bias; and until p is small the aim σγ is at least a part of the work of x
+// on p, else x and s run into the boundary before, and stay there.
 #pragma once
 
 #include <Eigen/Core>
@@ -162,22 +162,24 @@ class friction_interior {
   bool step() {
     if (!factor()) return (α_ = std::max(10 * α_, options_.proximal)) < 1;
     each([](contact& c, Eigen::Index) { c.aim = -c.at.λ(); });
-    if (!find_direction()) return false;
-    double const a = std::min(1.0, length());
-    double after = 0, work = 0;
+    double const a = std::min(1.0, find_direction());
+    if (!(a > 0)) return false;
+    double after = 0, work = 0, p = 0;
     each([&](contact& c, Eigen::Index) {
       after += (c.at.λ() + a * c.dx).dot(c.at.λ() + a * c.ds) / double(count());
       work += c.p.norm() * c.x.norm() / double(count());
+      p += c.p.squaredNorm();
     });
     double σ = std::pow(std::clamp(after / γ_, 0.0, 1.0), 2);
-    σ = std::max(σ, std::min(options_.largest_aim, options_.balance * work / γ_));
+    if (std::sqrt(p) > 0.01 * options_.tolerance * problem_->q_norm()) {
+      σ = std::max(σ, std::min(options_.largest_aim, options_.balance * work / γ_));
+    }
     each([&](contact& c, Eigen::Index) {
       part second = a * a * lorentz<N>::product(c.dx, c.ds);
       second[0] -= σ * γ_;
       c.aim = -c.at.λ() - lorentz<N>::quotient(second, c.at.λ());
     });
-    if (!find_direction()) return false;
-    double const t = std::min(1.0, options_.fraction * length());
+    double const t = std::min(1.0, options_.fraction * find_direction());
     if (!(t > std::numeric_limits<double>::epsilon())) return false;
     each([&](contact& c, Eigen::Index) { c.at.move(t * c.dx, t * c.ds); });
     if (t < 0.1) α_ = std::max(3 * α_, options_.proximal);
@@ -216,25 +218,22 @@ class friction_interior {
     return sparse_.info() == Eigen::Success;
   }
 
-  /// dx and ds for the aim; false if they are no numbers.
-  bool find_direction() {
+  /// dx and ds for the aim, and how far it is to the boundary; 0 if they are no numbers.
+  double find_direction() {
     vector right(size());
     each([&](contact& c, Eigen::Index i) {
       right.template segment<N>(N * i) = -c.p + c.E * (c.at.T().transpose() * c.aim);
     });
     vector const z = full_ ? vector(dense_.solve(right)) : vector(sparse_.solve(right));
+    if (!z.allFinite()) return 0;
+    double length = std::numeric_limits<double>::infinity();
     each([&](contact& c, Eigen::Index i) {
       part const y = c.D1.cwiseProduct(z.template segment<N>(N * i));
       c.dx = c.T.U * c.T.Σ.cwiseProduct(y);
       c.ds = c.aim - c.dx;
+      length = std::min(length, c.at.length(c.dx, c.ds));
     });
-    return z.allFinite();
-  }
-  /// How far it is to the boundary.
-  double length() {
-    double a = std::numeric_limits<double>::infinity();
-    each([&](contact& c, Eigen::Index) { a = std::min(a, c.at.length(c.dx, c.ds)); });
-    return a;
+    return length;
   }
 
   blocks_type const* problem_;
