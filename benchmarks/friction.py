@@ -89,9 +89,27 @@ def interior_sentence(default, interior):
     return "; ".join(parts) + "."
 
 
-def interior_section(rows):
+def variants_text(rows, methods):
+    """How many of the problems with other μ and q, with which nothing has been tuned, are solved."""
+    names = list(dict.fromkeys(row["variant"] for row in rows))
+    if not names:
+        return []
+
+    def told(method):
+        mine = [row for row in rows if row["method"] == method]
+        missed = [f"{row['problem']} ({row['variant']})" for row in mine if not is_solved(row)]
+        seconds = sum(float(row["seconds"]) for row in mine if is_solved(row))
+        return (f"`{method}` solves {len(mine) - len(missed)} of {len(mine)}, in {seconds:.3g} s"
+                + (f", not {', '.join(missed)}" if missed else ""))
+
+    return [f"The same with other data ({', '.join(names)}), with which no setting was chosen: "
+            + "; ".join(told(method) for method in methods) + ".\n"]
+
+
+def interior_section(every_row):
     """The interior-point method beside the default of the library, in one run."""
-    methods = list(dict.fromkeys(row["method"] for row in rows))
+    methods = list(dict.fromkeys(row["method"] for row in every_row))
+    rows = [row for row in every_row if row["variant"] == "given"]
     problems = list(dict.fromkeys(row["problem"] for row in rows))
     of = {m: {row["problem"]: row for row in rows if row["method"] == m} for m in methods}
 
@@ -119,6 +137,7 @@ def interior_section(rows):
             "default from its forces. Steps are factorisations; the default makes sweeps besides.\n"]
     if len(methods) > 1:
         page += [interior_sentence(of[methods[0]], of[methods[1]]) + "\n"]
+    page += variants_text([row for row in every_row if row["variant"] != "given"], methods)
     return [*page, table(head, [*lines, last]),
             "`SLANT_FRICTION=FOLDER ./run bench --only friction_interior` measures this section.\n"]
 

@@ -12,6 +12,8 @@
 //     crossover           the same with tolerance 1e-4, then the default from its r
 //
 //     problem, contacts, unknowns
+//     variant             the problem as given; μ times a factor; or q with one per cent of noise.
+//                         The settings have been found with the given ones, not with the others
 //     tolerance           of error, rounding and penetration; what is above is not solved
 //     method
 //     status              what the method says of itself, or time_limit, failed
@@ -26,10 +28,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <random>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "support/arguments.hpp"
 #include "support/friction_interior.hpp"
@@ -69,6 +73,27 @@ template <int N>
   return out;
 }
 
+struct variant {
+  std::string name;
+  problem p;
+};
+
+[[nodiscard]] std::vector<variant> variants(problem const& given) {
+  std::vector<variant> all{{"given", given}};
+  for (double const factor : {0.5, 0.8, 1.25, 2.0}) {
+    all.push_back({"mu times " + benchmarks::cell("%g", factor), given});
+    all.back().p.mu *= factor;
+  }
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    all.push_back({"noise " + std::to_string(seed), given});
+    std::mt19937 random(seed);
+    Eigen::VectorXd noise(given.q.size());
+    for (double& x : noise) x = double(random()) / double(std::mt19937::max()) - 0.5;
+    all.back().p.q += 0.01 * given.q.norm() / noise.norm() * noise;
+  }
+  return all;
+}
+
 int measure(benchmarks::arguments const& given) {
   if (given.words().empty()) throw std::invalid_argument("FOLDER is missing");
   double const tolerance = given.number("tolerance", 1e-8);
@@ -78,28 +103,28 @@ int measure(benchmarks::arguments const& given) {
   given.require_known(1);
 
   std::printf(
-      "problem,contacts,unknowns,tolerance,method,status,error,rounding,penetration,seconds,"
-      "steps\n");
+      "problem,contacts,unknowns,variant,tolerance,method,status,error,rounding,penetration,"
+      "seconds,steps\n");
   bool good = true;
   for (auto const& folder : benchmarks::friction_folders(given.words()[0])) {
-    auto const p = slant::read_friction_problem(folder);
-    for (auto const& method : methods) {
-      if (!given.wants(method, 1)) continue;
-      auto const r = benchmarks::measure_friction(p, 1, limit, [&] {
-        return method == "coulomb"          ? coulomb(p, tolerance, {})
-               : method == "interior_point" ? interior_point(p, tolerance)
-                                            : crossover(p, tolerance);
-      });
-      std::printf("%s,%td,%td,%g,%s,%s,%s,%s,%s,%s,%s\n", folder.filename().string().c_str(),
-                  p.contacts(), p.q.size(), tolerance, method.c_str(), r.status.c_str(),
-                  benchmarks::cell("%.1e", r.error).c_str(),
-                  benchmarks::cell("%.0e", r.rounding).c_str(),
-                  benchmarks::cell("%.1e", r.penetration).c_str(),
-                  benchmarks::cell("%.3g", r.seconds).c_str(),
-                  benchmarks::cell("%.0f", r.counts[0]).c_str());
-      std::fflush(stdout);
-      if (method == "interior_point") {
-        good = good && r.status != "failed" && r.status != "time_limit";
+    for (auto const& [name, p] : variants(slant::read_friction_problem(folder))) {
+      for (auto const& method : methods) {
+        if (!given.wants(method, 1)) continue;
+        auto const r = benchmarks::measure_friction(p, 1, limit, [&] {
+          return method == "coulomb"          ? coulomb(p, tolerance, {})
+                 : method == "interior_point" ? interior_point(p, tolerance)
+                                              : crossover(p, tolerance);
+        });
+        std::printf("%s,%td,%td,%s,%g,%s,%s,%s,%s,%s,%s,%s\n", folder.filename().string().c_str(),
+                    p.contacts(), p.q.size(), name.c_str(), tolerance, method.c_str(),
+                    r.status.c_str(), benchmarks::cell("%.1e", r.error).c_str(),
+                    benchmarks::cell("%.0e", r.rounding).c_str(),
+                    benchmarks::cell("%.1e", r.penetration).c_str(),
+                    benchmarks::cell("%.3g", r.seconds).c_str(),
+                    benchmarks::cell("%.0f", r.counts[0]).c_str());
+        std::fflush(stdout);
+        bool const ended = r.status != "failed" && r.status != "time_limit";
+        if (method == "interior_point") good = good && ended;
       }
     }
   }
