@@ -115,7 +115,6 @@ class friction_interior {
     part dx, ds;   ///< T dx and T⁻ᵀ ds
     part D1, D2;
     block E;
-    typename lorentz_scaling<N>::axes T;
   };
 
   [[nodiscard]] Eigen::Index count() const { return problem_->contacts(); }
@@ -151,9 +150,8 @@ class friction_interior {
       c.p[0] += speed;
       c.E.setIdentity();
       if (speed > 0) c.E.row(0).template tail<N - 1>() -= slip.transpose() / speed;
-      c.T = c.at.singular_axes();
-      c.D1 = (w / c.T.Σ.array().square()).min(1.0);
-      c.D2 = c.T.Σ.array().square().min(w);
+      c.D1 = (w / c.at.Σ().array().square()).min(1.0);
+      c.D2 = c.at.Σ().array().square().min(w);
       γ_ += c.at.λ().squaredNorm() / double(count());
     });
   }
@@ -193,10 +191,10 @@ class friction_interior {
       each([&](contact& c, Eigen::Index i) {
         block d = scaled(i, i, problem_->diagonal(i));
         d.diagonal().array() += α_ * weight_[std::size_t(i)];
-        put(i, i, block(d * c.T.V * c.D1.asDiagonal() + c.E * c.T.V * c.D2.asDiagonal()));
+        put(i, i, block(d * c.at.V() * c.D1.asDiagonal() + c.E * c.at.V() * c.D2.asDiagonal()));
         problem_->for_row(i, [&](Eigen::Index j, block const& b) {
           auto const& other = contacts_[std::size_t(j)];
-          put(i, j, block(scaled(i, j, b) * other.T.V * other.D1.asDiagonal()));
+          put(i, j, block(scaled(i, j, b) * other.at.V() * other.D1.asDiagonal()));
         });
       });
     };
@@ -222,14 +220,14 @@ class friction_interior {
   double find_direction() {
     vector right(size());
     each([&](contact& c, Eigen::Index i) {
-      right.template segment<N>(N * i) = -c.p + c.E * (c.at.T().transpose() * c.aim);
+      right.template segment<N>(N * i) = -c.p + c.E * c.at.adjoint(c.aim);
     });
     vector const z = full_ ? vector(dense_.solve(right)) : vector(sparse_.solve(right));
     if (!z.allFinite()) return 0;
     double length = std::numeric_limits<double>::infinity();
     each([&](contact& c, Eigen::Index i) {
       part const y = c.D1.cwiseProduct(z.template segment<N>(N * i));
-      c.dx = c.T.U * c.T.Σ.cwiseProduct(y);
+      c.dx = c.at.U() * c.at.Σ().cwiseProduct(y);
       c.ds = c.aim - c.dx;
       length = std::min(length, c.at.length(c.dx, c.ds));
     });

@@ -9,6 +9,8 @@
 // Near the boundary x_0 − ‖x_t‖ has no digits left. So x and s are no data here, but T⁻¹λ and Tᵀλ:
 // a step is made from λ, which is well inside, and T is multiplied by the scaling of what the step
 // has made of λ (Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010, §5).
+// T is kept by its singular values, which are known in closed form: its smallest would be lost
+// beside its largest, and T⁻¹ no longer be its inverse.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,7 +59,7 @@ struct lorentz {
   }
 };
 
-/// A pair x, s as λ and T.
+/// A pair x, s as λ and T = U diag(Σ) Vᵀ.
 template <int N>
 class lorentz_scaling {
  public:
@@ -66,35 +68,20 @@ class lorentz_scaling {
   using block = typename cone::block;
 
   /// x = x0 e, s = s0 e with e = (1, 0), the unit of the algebra; x0, s0 > 0.
-  lorentz_scaling(double x0, double s0)
-      : T_(std::sqrt(s0 / x0) * block::Identity()),
-        inverse_(std::sqrt(x0 / s0) * block::Identity()),
-        λ_(std::sqrt(x0 * s0) * part::Unit(0)),
-        η_(s0 / x0) {}
-
-  [[nodiscard]] part x() const { return inverse_ * λ_; }
-  [[nodiscard]] part s() const { return T_.transpose() * λ_; }
-  [[nodiscard]] part const& λ() const { return λ_; }
-  [[nodiscard]] block const& T() const { return T_; }
-
-  /// T = U diag(Σ) Vᵀ, in closed form: TᵀT = η (2 w wᵀ − J) with w_0² − ‖w_t‖² = 1, so that Σ² / η
-  /// is (w_0 + ‖w_t‖)², its inverse and 1, on the light rays (1, ±w_t/‖w_t‖) and across.
-  struct axes {
-    part Σ;
-    block U, V;
-  };
-  [[nodiscard]] axes singular_axes() const {
-    part const Te = T_.col(0);
-    double const r = std::max(1.0, Te.squaredNorm() / η_);
-    double const stretch = std::sqrt((r + 1) / 2) + std::sqrt((r - 1) / 2);
-    axes a;
-    a.V = frame(T_.transpose() * Te);
-    a.U = frame(T_ * a.V.col(0));
-    a.Σ.setConstant(std::sqrt(η_));
-    a.Σ[0] *= stretch;
-    a.Σ[1] /= stretch;
-    return a;
+  lorentz_scaling(double x0, double s0) : λ_(std::sqrt(x0 * s0) * part::Unit(0)), η_(s0 / x0) {
+    factor(std::sqrt(η_) * block::Identity());
   }
+
+  [[nodiscard]] part const& λ() const { return λ_; }
+  [[nodiscard]] part x() const { return V_ * (U_.transpose() * λ_).cwiseQuotient(Σ_); }
+  [[nodiscard]] part s() const { return adjoint(λ_); }
+  /// Tᵀ y.
+  [[nodiscard]] part adjoint(part const& y) const {
+    return V_ * (U_.transpose() * y).cwiseProduct(Σ_);
+  }
+  [[nodiscard]] block const& U() const { return U_; }
+  [[nodiscard]] block const& V() const { return V_; }
+  [[nodiscard]] part const& Σ() const { return Σ_; }
 
   /// How far λ + t dx and λ + t ds are both in the cone.
   [[nodiscard]] double length(part const& dx, part const& ds) const {
@@ -113,13 +100,24 @@ class lorentz_scaling {
     v /= std::sqrt(2 * (w[0] + 1));
     double const β = std::sqrt(s_length / x_length);
     block const S = β * cone::hyperbolic(v);
-    T_ = (S * T_).eval();
-    inverse_ = (inverse_ * cone::hyperbolic(cone::reflected(v)) / β).eval();
     λ_ = S * x;
     η_ *= β * β;
+    factor(S * U_ * Σ_.asDiagonal() * V_.transpose());
   }
 
  private:
+  /// TᵀT = η (2 w wᵀ − J) with w_0² − ‖w_t‖² = 1, so that Σ² / η is k² = (w_0 + ‖w_t‖)², 1/k² and
+  /// 1: on the light rays (1, ±w_t/‖w_t‖), and across. TᵀT e has the tangential part 2 η w_0 w_t.
+  void factor(block const& T) {
+    part const z = T.transpose() * T.col(0);
+    double const h = z.template tail<N - 1>().norm() / η_;
+    double const k = std::sqrt(h + std::sqrt(1 + h * h));
+    V_ = frame(z);
+    U_ = frame(T * V_.col(0));
+    Σ_.setConstant(std::sqrt(η_));
+    Σ_[0] *= k;
+    Σ_[1] /= k;
+  }
   /// (1, d), (1, −d) over √2 and (0, d⊥), d the direction of x_t.
   [[nodiscard]] static block frame(part const& x) {
     using tangential = Eigen::Matrix<double, N - 1, 1>;
@@ -134,9 +132,10 @@ class lorentz_scaling {
     return f;
   }
 
-  block T_, inverse_;
   part λ_;
   double η_;  ///< T J Tᵀ = η J
+  block U_, V_;
+  part Σ_;
 };
 
 }  // namespace benchmarks
