@@ -91,7 +91,19 @@ TEST_CASE("blocks: contacts of very different stiffness are measured by units of
   };
   CHECK(error_at(r).at_most(1e-14));
   CHECK(error_at((1 + 1e-6) * r).worst() > 1e-7);
-  // Where the force of the compliant contact moves the other, its rounding does as well.
+  // A force at an open contact counts among those of the others, however little it moves.
+  p.q[3] = 1;
+  r.tail<3>().setZero();
+  CHECK(error_at(r).at_most(1e-14));
+  r[3] = 1e-3;
+  CHECK(error_at(r).scaled > 1e-4);
+  p.W *= 1e12;  // also where forces are small numbers
+  r *= 1e-12;
+  CHECK(error_at(r).scaled > 1e-4);
+  p.W /= 1e12;
+  p.q[3] = -1;
+  r = -p.q.cwiseQuotient(d);
+  // Where the force of the one contact moves the other, its rounding does as well.
   p.W.coeffRef(0, 3) = 1;
   r[0] = -r[3];
   CHECK(error_at(r).scaled > 1);

@@ -33,7 +33,8 @@ namespace slant::contact {
 /// The measures of the top of this file, relative to ‖q‖. NaN in one is NaN in `worst`.
 template <class S>
 struct friction_error {
-  /// (‖F_ρ/ρ‖ + ε ‖r/ρ‖) / ‖q‖: forces so large that their rounding hides û are none.
+  /// (‖F_ρ/ρ‖ + ε ‖r/ρ‖) / ‖q‖, with the rounding that hides û where forces are too large; or the
+  /// same with 1/ρ = ω for all, should that be larger than what rounding of r makes of it.
   S scaled{};
   S plain{};        ///< ‖F₁‖ / ‖q‖ in the units of the data
   S floor{};        ///< what rounding of r makes of `plain`
@@ -123,7 +124,7 @@ class friction_blocks {
   [[nodiscard]] friction_error<S> error(vector_type const& r, vector_type const& u) const {
     using std::ldexp;
     using std::sqrt;
-    S scaled(0), plain(0), penetration(0);
+    S own(0), common(0), plain(0), penetration(0);
     int const far = 2 * std::numeric_limits<S>::max_exponent / 5;  // squares must not overflow
     S const ρ = ldexp(S(1), std::clamp(compliance_, -far, far));
     S const ε = std::numeric_limits<S>::epsilon();
@@ -140,12 +141,16 @@ class friction_blocks {
       if (!(v(0) >= S(0))) penetration += v(0) * v(0);
       S const sliding = v.template tail<N - 1>().norm();
       if (!(sliding <= still)) v(0) += mu_[i] * sliding;
-      scaled += natural_map(i, part_type(unit_[i] * ri), v).squaredNorm();
+      S const square = natural_map(i, part_type(unit_[i] * ri), v).squaredNorm();
+      own += square;
+      common += unit_[i] == S(1) ? square : natural_map(i, ri, v).squaredNorm();
       plain += natural_map(i, ri, part_type(ρ * v)).squaredNorm() / ρ / ρ;
     }
-    return {.scaled = (sqrt(scaled) + ε * sqrt(squares)) / q_norm_,
+    S const scaled = (sqrt(own) + ε * sqrt(squares)) / q_norm_;
+    S const rounding = S(16) * ε * r.norm() / q_norm_, other = sqrt(common) / q_norm_;
+    return {.scaled = other <= rounding || other <= scaled ? scaled : other,
             .plain = sqrt(plain) / q_norm_,
-            .floor = S(16) * ε * r.norm() / ρ / q_norm_,
+            .floor = rounding / ρ,
             .penetration = sqrt(penetration) / q_norm_};
   }
 
