@@ -154,6 +154,9 @@ int follow_by_radii(settings const& s, double across, MakeFriction const& make_f
 int solve(settings const& s) {
   auto const all = [](Eigen::Index m, double F) { return vector::Constant(m, F).eval(); };
   if (!std::isnan(s.across)) {
+    if (s.method == "newton") {
+      throw slant::bad_input("--method", "newton", "radii, as --friction-across is given");
+    }
     return follow_by_radii(s, s.across, [&](Eigen::Index m) {
       return contact::orthotropic_coefficients(all(m, s.friction), all(m, s.across));
     });

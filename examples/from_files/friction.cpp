@@ -38,8 +38,11 @@ namespace contact = slant::contact;
 }  // namespace
 
 bool holds_friction_problem(std::filesystem::path const& folder) {
-  if (!detail::is_there(folder / "W.mtx")) return false;
-  if (detail::is_there(folder / "K.mtx"))
+  bool const body = detail::is_there(folder / "K.mtx");
+  // Without a matrix the other files tell which one is missing.
+  if (!detail::is_there(folder / "W.mtx"))
+    return !body && (detail::is_there(folder / "q.txt") || detail::is_there(folder / "mu.txt"));
+  if (body)
     throw slant::bad_input(slant::detail::printable(folder), "both W.mtx and K.mtx",
                            "contacts in local coordinates (W.mtx) or a body (K.mtx)");
   return true;

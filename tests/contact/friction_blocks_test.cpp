@@ -76,6 +76,39 @@ TEST_CASE("blocks: the scaled error knows no units, and rounding is told apart")
   CHECK(!slant::contact::friction_error<double>{1e-7, 1e-9, 1e4, 0}.at_most(1e-8));
 }
 
+TEST_CASE("blocks: contacts of very different stiffness are measured by units of their own") {
+  Eigen::VectorXd d(6), r(6), u(6);
+  d << 1, 1, 1, 1e-18, 1e-18, 1e-18;
+  auto p = test::make_friction_problem(
+      d.asDiagonal().toDenseMatrix(), (Eigen::VectorXd(6) << -1, 0.1, 0.7, -1, 0.1, 0.7).finished(),
+      Eigen::Vector2d(2, 2));
+  r = -p.q.cwiseQuotient(d);
+  auto const error_at = [&](Eigen::VectorXd const& force) {
+    blocks<3> const b(p);
+    Eigen::VectorXd const x = b.from_force(force);
+    b.velocity(x, u);
+    return b.error(x, u);
+  };
+  CHECK(error_at(r).at_most(1e-14));
+  CHECK(error_at((1 + 1e-6) * r).worst() > 1e-7);
+  // A force at an open contact counts among those of the others, however little it moves.
+  p.q[3] = 1;
+  r.tail<3>().setZero();
+  CHECK(error_at(r).at_most(1e-14));
+  r[3] = 1e-3;
+  CHECK(error_at(r).scaled > 1e-4);
+  p.W *= 1e12;  // also where forces are small numbers
+  r *= 1e-12;
+  CHECK(error_at(r).scaled > 1e-4);
+  p.W /= 1e12;
+  p.q[3] = -1;
+  r = -p.q.cwiseQuotient(d);
+  // Where the force of the one contact moves the other, its rounding does as well.
+  p.W.coeffRef(0, 3) = 1;
+  r[0] = -r[3];
+  CHECK(error_at(r).scaled > 1);
+}
+
 TEST_CASE("blocks: penetration counts however large μ is, and rounding is no sliding") {
   auto const at = [](double mu, Eigen::Vector3d const& r) {
     auto const p = test::make_friction_problem(

@@ -88,6 +88,29 @@ TEST_CASE("solve_friction: units do not matter") {
   }
 }
 
+TEST_CASE("solve_friction: contacts stiffer than others by any factor") {
+  auto const p = test::random_friction(6, 3, 0.5, 7);
+  auto const reference = solve_friction(p, {.tolerance = 1e-12});
+  for (double const factor : {1e-6, 1e-10, 1e-16, 1e-60}) {
+    // Contacts that do not touch each other, each second one in other units of force.
+    auto apart = test::make_friction_problem(Eigen::MatrixXd::Identity(18, 18), p.q, p.mu);
+    auto stiff = apart;
+    for (slant::index i = 0; i < 18; ++i) stiff.W.coeffRef(i, i) = i / 3 % 2 == 1 ? factor : 1;
+    auto const a = solve_friction(apart), b = solve_friction(stiff);
+    CHECK(b.converged());
+    CHECK((a.u - b.u).norm() <= 1e-8 * p.q.norm());
+  }
+  // And where they do: W = D W D, forces D⁻¹ r, velocities D u.
+  Eigen::VectorXd d = Eigen::VectorXd::Ones(18);
+  for (slant::index i = 3; i < 9; ++i) d[i] = 1e-5;
+  auto scaled = p;
+  scaled.W = Eigen::MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
+  scaled.q = d.cwiseProduct(p.q);
+  auto const s = solve_friction(scaled, {.tolerance = 1e-14});
+  CHECK(s.converged());
+  CHECK((d.cwiseProduct(s.r) - reference.r).norm() <= 1e-6 * reference.r.norm());
+}
+
 TEST_CASE("solve_friction: without a solution it ends with a status, for every method") {
   for (slant::index const dimension : {2, 3}) {
     auto const c = test::no_solution_case(dimension);
@@ -102,6 +125,7 @@ TEST_CASE("solve_friction: without a solution it ends with a status, for every m
       CHECK(s.work.sweeps <= 5000);
       CHECK(s.error.worst() > 1e-8);
       CHECK(s.reason.find(to_string(method)) != std::string::npos);
+      CHECK(s.reason.find("error 0.") != std::string::npos);
     }
   }
   auto nothing = test::chain_friction(1);

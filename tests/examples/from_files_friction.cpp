@@ -139,6 +139,9 @@ TEST_CASE("from_files: contacts that cannot be used") {
   check_refusal(files, "", "mu.txt: got -1 of contact 0, expected a number >= 0");
   files.put("K.mtx", "no matrix\n");
   check_refusal(files, "", "both W.mtx and K.mtx");
+  friction_files const incomplete(c.problem);
+  incomplete.remove("W.mtx");
+  check_refusal(incomplete, "", "W.mtx: got no such file");
 
   auto const rover = slant::read_friction_problem(test::data("friction/Rover4396"));
   check_refusal(friction_files(rover), "--symmetric", "W.mtx: got a matrix of asymmetry ");

@@ -131,6 +131,11 @@ TEST_CASE("coulomb: a sequence of load steps, and its files") {
   CHECK(contains(io_test::get(folder / "coulomb_005.vtu"), "contact_state"));
   CHECK(contains(ran.out, "wrote " + (folder / "slip.png").string()) == has_gnuplot());
 
+  auto const refused = run("coulomb", "--cells 2 --method newton --friction-across 0.5");
+  CHECK(refused.status == 2);
+  CHECK(
+      contains(refused.err, "--method: got newton, expected radii, as --friction-across is given"));
+
   auto const bricks = run("coulomb", "--model bricks --cells 3 --steps 1 --friction 1");
   CHECK(bricks.status == 0);
   CHECK(contains(bricks.out, "Two bricks"));

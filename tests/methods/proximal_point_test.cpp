@@ -116,6 +116,10 @@ TEST_CASE("proximal point: bad options are named") {
   CHECK_THROWS_WITH_AS(make({.smallest = -1}), doctest::Contains("smallest"), slant::bad_input);
   CHECK_THROWS_WITH_AS(make({.largest = std::nan("")}), doctest::Contains("largest"),
                        slant::bad_input);
+  CHECK_THROWS_WITH_AS(make({.first = 1e9}), doctest::Contains("between smallest"),
+                       slant::bad_input);
+  CHECK_THROWS_WITH_AS(make({.first = 1e-3, .smallest = 1e-2}), doctest::Contains("first"),
+                       slant::bad_input);
   CHECK_THROWS_WITH_AS(make({.quick = -1}), doctest::Contains("quick"), slant::bad_input);
   CHECK_THROWS_WITH_AS(make({.quick = 5, .fair = 3}), doctest::Contains("fair"), slant::bad_input);
   CHECK_THROWS_WITH_AS(make({.fast = 0}), doctest::Contains("fast"), slant::bad_input);

@@ -147,6 +147,10 @@ TEST_CASE("in_metric: bad input is named") {
   CHECK(made(1, 2, 2).empty());
   CHECK(made(0, 2, 2) == "d(0): got 0, expected a finite number > 0");
   CHECK(made(1, 4, 1).substr(0, 8) == "factor 2");
+  CHECK(slant::in_metric(cone(0.5), {1.0, 2.0, 2.0}).contains(Vector3d(1, 0.5, 0)));
+  CHECK(oracle::complaint<slant::bad_input>([] {
+          return slant::in_metric(cone(0.5), VectorXd{{1.0, 2.0}});
+        }) == "d: got 2, expected the dimension of the set, 3");
   auto const K = slant::power(cone{}, 2);
   CHECK(oracle::complaint<slant::bad_input>([&] {
           return slant::in_metric(K, VectorXd{{1.0, 1.0, 1.0, 1.0, -1.0, 1.0}});

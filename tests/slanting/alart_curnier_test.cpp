@@ -45,6 +45,10 @@ TEST_CASE("Alart–Curnier: the three cases and what counts at their borders") {
   block const smooth(0.0);
   CHECK(smooth.value(Vector3d(2, 3, 4)) == Vector3d(2, 0, 0));
   CHECK(smooth.slant(Vector3d(2, 0, 0)) == Vector3d(1, 0, 0).asDiagonal().toDenseMatrix());
+  Vector3d const overflow(std::numeric_limits<double>::infinity(), 3, 4);
+  CHECK(smooth.value(overflow).tail<2>() == Eigen::Vector2d(0, 0));
+  CHECK(smooth.slant(overflow) == Vector3d(1, 0, 0).asDiagonal().toDenseMatrix());
+  CHECK(a.value(overflow) == overflow);
   CHECK(a.value(Vector3d(std::nan(""), 1, 1)).hasNaN());
   CHECK(a.slant(Vector3d(1, std::nan(""), 1)).hasNaN());
 }

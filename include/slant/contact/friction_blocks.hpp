@@ -4,14 +4,15 @@
 //
 //     W = ω W′,   q = υ q′,   r = (υ/ω) r′,   u = υ u′,     ω, υ powers of two
 //
-// with max diag W′ and max |q′| in [1, 2), so that no solver meets the units of the data. W′ is
-// kept in rows of N × N blocks, those without an entry left out, the diagonal ones apart.
+// with max |W′| and max |q′| in [1, 2), so that no solver meets the units of the data. W′ is kept
+// in rows of N × N blocks, those without an entry left out, the diagonal ones apart.
 //
 // How good r is, is measured twice. The natural map F_ρ = r − P_K(r − ρ (u + μ‖u_t‖ n)), ‖F_ρ‖/ρ
-// relative to ‖q‖, is independent of units for ρ = 1/ω; for ρ = 1 it is what the literature
-// compares (Acary, Brémond and Huber, 2018), but below the rounding of r itself it says nothing
-// more. Where μ is large the natural map hardly sees the gaps, −u_n counts as −u_n/√(1 + μ²) only:
-// penetration is measured besides.
+// relative to ‖q‖, is independent of units where every contact has a ρ of its own, 1/ρ the largest
+// of |W| in its columns: contacts may be stiffer than others by any factor. For ρ = 1 it is what
+// the literature compares (Acary, Brémond and Huber, 2018), but below the rounding of r itself it
+// says nothing more. Where μ is large the natural map hardly sees the gaps, −u_n counts as
+// −u_n/√(1 + μ²) only: penetration is measured besides.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -32,7 +33,8 @@ namespace slant::contact {
 /// The measures of the top of this file, relative to ‖q‖. NaN in one is NaN in `worst`.
 template <class S>
 struct friction_error {
-  /// (‖F_ρ‖/ρ + ε ‖r‖/ρ) / ‖q‖, ρ = 1/ω: forces so large that their rounding hides û are none.
+  /// (‖F_ρ/ρ‖ + ε ‖r/ρ‖) / ‖q‖, with the rounding that hides û where forces are too large; or the
+  /// same with 1/ρ = ω for all, should that be larger than what rounding of r makes of it.
   S scaled{};
   S plain{};        ///< ‖F₁‖ / ‖q‖ in the units of the data
   S floor{};        ///< what rounding of r makes of `plain`
@@ -79,6 +81,7 @@ class friction_blocks {
     }
     compliance_ = exponent_of(largest);
     collect(p.W);
+    measure_units();
     cones_.reserve(std::size_t(contacts()));
     for (index i = 0; i < contacts(); ++i) cones_.emplace_back(mu_[i]);
   }
@@ -121,23 +124,33 @@ class friction_blocks {
   [[nodiscard]] friction_error<S> error(vector_type const& r, vector_type const& u) const {
     using std::ldexp;
     using std::sqrt;
-    S scaled(0), plain(0), penetration(0);
+    S own(0), common(0), plain(0), penetration(0);
     int const far = 2 * std::numeric_limits<S>::max_exponent / 5;  // squares must not overflow
     S const ρ = ldexp(S(1), std::clamp(compliance_, -far, far));
-    S const ε = std::numeric_limits<S>::epsilon(), rounding = ε * r.norm();
-    S const still = size() > 0 ? S(S(4) * ε * (S(2) + r.cwiseAbs().maxCoeff())) : S(0);
+    S const ε = std::numeric_limits<S>::epsilon();
+    S squares(0), largest(0);  // of r/ρ, velocities
+    for (index i = 0; i < contacts(); ++i) {
+      part_type const x = unit_[i] * r.template segment<N>(N * i);
+      squares += x.squaredNorm();
+      largest = std::max(largest, S(x.cwiseAbs().maxCoeff()));
+    }
+    S const still = S(4) * ε * (S(2) + largest);
     for (index i = 0; i < contacts(); ++i) {
       part_type const ri = r.template segment<N>(N * i);
       part_type v = u.template segment<N>(N * i);
       if (!(v(0) >= S(0))) penetration += v(0) * v(0);
       S const sliding = v.template tail<N - 1>().norm();
       if (!(sliding <= still)) v(0) += mu_[i] * sliding;
-      scaled += natural_map(i, ri, v).squaredNorm();
+      S const square = natural_map(i, part_type(unit_[i] * ri), v).squaredNorm();
+      own += square;
+      common += unit_[i] == S(1) ? square : natural_map(i, ri, v).squaredNorm();
       plain += natural_map(i, ri, part_type(ρ * v)).squaredNorm() / ρ / ρ;
     }
-    return {.scaled = (sqrt(scaled) + rounding) / q_norm_,
+    S const scaled = (sqrt(own) + ε * sqrt(squares)) / q_norm_;
+    S const rounding = S(16) * ε * r.norm() / q_norm_, other = sqrt(common) / q_norm_;
+    return {.scaled = other <= rounding || other <= scaled ? scaled : other,
             .plain = sqrt(plain) / q_norm_,
-            .floor = S(16) * rounding / ρ / q_norm_,
+            .floor = rounding / ρ,
             .penetration = sqrt(penetration) / q_norm_};
   }
 
@@ -202,7 +215,21 @@ class friction_blocks {
     }
   }
 
-  vector_type mu_, q_;
+  /// 1/ρ of the contacts: powers of two, 1 where W has no entry.
+  void measure_units() {
+    using std::ldexp;
+    unit_.setZero(contacts());
+    auto const include = [&](index j, block_type const& b) {
+      unit_[j] = std::max(unit_[j], S(b.cwiseAbs().maxCoeff()));
+    };
+    for (index i = 0; i < contacts(); ++i) {
+      include(i, diagonal(i));
+      for_row(i, include);
+    }
+    for (S& unit : unit_) unit = ldexp(S(1), exponent_of(unit));
+  }
+
+  vector_type mu_, q_, unit_;
   S q_norm_{};
   int velocity_ = 0, compliance_ = 0;
   std::vector<index> first_, column_;

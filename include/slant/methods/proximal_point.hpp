@@ -54,6 +54,11 @@ struct proximal_point_options {
     require_positive("first", first);
     require_positive("smallest", smallest);
     require_positive("largest", largest);
+    if (!(smallest <= first && first <= largest)) {
+      throw bad_input("first", detail::show(first),
+                      "a number between smallest, " + detail::show(smallest) + ", and largest, " +
+                          detail::show(largest));
+    }
     if (quick < 0) throw bad_input("quick", detail::show(quick), "a number >= 0");
     if (fair < quick) throw bad_input("fair", detail::show(fair), "a number >= quick");
     require_fraction("fast", fast);

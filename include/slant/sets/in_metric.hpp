@@ -122,11 +122,14 @@ class in_metric_block {
 
 /// A block with the projection in the norm (xᵀdiag(d) x)^½, d > 0:
 /// in_metric(second_order_cone<3>{μ}, {d_n, d_t, d_t}).
-/// @throws bad_input if an entry of d is not a finite number > 0, or if the block cannot be
-/// stretched so (a cone needs the same d for all tangential components, an elliptic one does not).
-template <stretchable Block, class D>
+/// @throws bad_input if d has another size or an entry that is not a finite number > 0, or if the
+/// block cannot be stretched so (a cone needs the same d for all tangential components, an elliptic
+/// one does not).
+template <stretchable Block, class D = point_t<Block>>
 [[nodiscard]] in_metric_block<Block> in_metric(Block const& set, D const& d) {
-  return in_metric_block<Block>(set, point_t<Block>(d));
+  detail::check_size("d", index(slant::local(d).size()), index(Block::dimension),
+                     "the dimension of the set,");
+  return in_metric_block<Block>(set, point_t<Block>(slant::local(d)));
 }
 
 /// A power of blocks in the norm of diag(d), d one number for each component.

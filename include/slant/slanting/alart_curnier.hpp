@@ -76,7 +76,7 @@ class alart_curnier_block {
     if (z(0) < S(0)) return matrix_type::Zero();
     tangent_type const t = z.template tail<N - 1>();
     auto const length = detail::scaled_norm<S, N - 1>(t);
-    S const bound = detail::times_power_of_two<S>(mu_ * z(0), -length.exponent);
+    S const bound = detail::times_power_of_two<S>(radius(z), -length.exponent);
     matrix_type g = matrix_type::Zero();
     g(0, 0) = S(1);
     if (length.value <= bound) {
@@ -93,8 +93,10 @@ class alart_curnier_block {
   using tangent_type = Eigen::Matrix<S, N - 1, 1>;
 
   [[nodiscard]] ball<N - 1, S> disc(vector_type const& z) const {
-    return ball<N - 1, S>(mu_ * z(0));
+    return ball<N - 1, S>(radius(z));
   }
+  /// μ z_n; 0 without friction, also where z_n has overflowed.
+  [[nodiscard]] S radius(vector_type const& z) const { return mu_ > S(0) ? S(mu_ * z(0)) : S(0); }
 
   S mu_{1};
 };

@@ -188,7 +188,7 @@ class friction_run {
     vector_type force = blocks_.force(best_), speed = blocks_.speed(best_u_);
     bool const lost = !keeps(force) || !slant::detail::is_finite(S(speed.cwiseAbs().sum()));
     if (solved()) status_ = lost ? status::breakdown : status::converged;
-    std::string const figures = "natural map " + show(best_error_.worst()) + " relative to q";
+    std::string const figures = "error " + show(best_error_.worst()) + " relative to q";
     std::string reason = figures + " is at most " + show(options_.tolerance);
     if (status_ != status::converged) {
       reason = "method " + std::string(to_string(options_.method)) + ": " +
