@@ -33,7 +33,6 @@
 #include <slant/operators/held.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -201,10 +200,7 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
 
   void note_progress(state_type& s) const {
     if (s.status != status::running || s.descent.at_work()) return;
-    auto const no_energy = [] {
-      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
-    };
-    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, no_energy)) {
+    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {
       s.status = status::stalled;
     }
   }
