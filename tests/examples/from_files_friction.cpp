@@ -15,6 +15,7 @@
 
 namespace {
 
+using examples_test::check_refusal;
 using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
@@ -120,18 +121,6 @@ TEST_CASE("from_files: contacts without solution end with a status") {
 
 TEST_CASE("from_files: contacts that cannot be used") {
   auto const c = test::single_solution_cases().front();
-  auto const check_refusal = [](problem_files const& files, std::string const& options,
-                                std::string const& expected) {
-    CAPTURE(expected);
-    auto const ran = files.solve(options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(ran.err.starts_with("from_files: "));
-    CHECK(contains(ran.err, expected));
-    CHECK(files.files_written() == 0);
-  };
   friction_files const files(c.problem);
   check_refusal(files, "--method kprgp", "--method: got kprgp, expected one of coulomb");
   check_refusal(files, "--start qpc", "--start: got qpc, expected zero");

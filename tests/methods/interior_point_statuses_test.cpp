@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "scales.hpp"
 #include "support/message.hpp"
 
 namespace interior_point_statuses_test {
@@ -103,24 +104,8 @@ TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
     r.state.x /= p.t;
     return r;
   };
-  auto const plain = solve_in(0, 0);
-  REQUIRE(plain.converged());
   constexpr int far = 332;
-  for (auto const& [stiffness, length] : {std::pair{far, 0},
-                                          {-far, 0},
-                                          {0, far},
-                                          {0, -far},
-                                          {far, -far},
-                                          {-far, far},
-                                          {far / 2, far},
-                                          {-far / 2, -far}}) {
-    CAPTURE(stiffness);
-    CAPTURE(length);
-    auto const r = solve_in(stiffness, length);
-    CHECK(r.status == plain.status);
-    CHECK(r.iterations() == plain.iterations());
-    CHECK(r.x() == plain.x());
-  }
+  test::check_scales(solve_in, far, far / 2);
 }
 
 TEST_CASE("all digits: stalled at the floor, in the interior") {
