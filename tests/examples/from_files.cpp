@@ -21,6 +21,7 @@ using examples_test::is_one_line;
 using examples_test::plane_scene;
 using examples_test::problem_files;
 using examples_test::run;
+using examples_test::solved;
 using nlohmann::json;
 
 /// One spring K = 4 pulled by f = 2 towards an obstacle at 0.25: u = 0.25, λ = 2 − 4 · 0.25 = 1.
@@ -55,11 +56,7 @@ void check_against_reference(problem_files const& files, fem::contact_scene<D> c
 TEST_CASE("from_files: a brick in space") {
   auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
   problem_files const files(scene);
-  auto const ran = files.solve();
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  REQUIRE(is_one_line(ran.out));
-  json const result = json::parse(ran.out);
+  json const result = solved(files);
   CHECK(result["status"] == "converged");
   CHECK(result["method"] == "symmetric_newton");
   CHECK(result["unknowns"] == 162);
@@ -113,9 +110,7 @@ TEST_CASE("from_files: every method by its name, from zero and after a first pha
 TEST_CASE("from_files: a body in the plane") {
   auto const scene = plane_scene();
   problem_files const files(scene);
-  auto const ran = files.solve("--method kprgp --tolerance 1e-10");
-  CHECK(ran.status == 0);
-  json const result = json::parse(ran.out);
+  json const result = solved(files, "--method kprgp --tolerance 1e-10");
   CHECK(result["tangents_per_node"] == 1);
   check_against_reference(files, scene, result);
 }
@@ -127,9 +122,7 @@ TEST_CASE("from_files: no friction") {
   files.remove("g.txt");
   scene.T.resize(0, scene.K.cols());
   scene.g.resize(0);
-  auto const ran = files.solve();
-  CHECK(ran.status == 0);
-  json const result = json::parse(ran.out);
+  json const result = solved(files);
   CHECK(result["tangents_per_node"] == 0);
   check_against_reference(files, scene, result);
 }
@@ -233,9 +226,7 @@ TEST_CASE("from_files: numbers at the end of their range give valid JSON and no 
 TEST_CASE("from_files: other units, the same digits") {
   auto const one = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
   problem_files const files(one);
-  auto const ran = files.solve();
-  REQUIRE(ran.status == 0);
-  json const result = json::parse(ran.out);
+  json const result = solved(files);
   for (double const s : {0x1p-40, 0x1p40})
     for (double const t : {0x1p-40, 0x1p40}) {
       auto other = one;

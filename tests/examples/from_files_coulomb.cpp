@@ -12,8 +12,8 @@
 namespace {
 
 using examples_test::check_refusal;
-using examples_test::is_one_line;
 using examples_test::problem_files;
+using examples_test::solved;
 using nlohmann::json;
 
 /// F.txt beside the problem, and the option that names it.
@@ -47,11 +47,7 @@ TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
   problem_files const files(scene);
   files.remove("g.txt");  // has no meaning here
   Eigen::VectorXd const F = Eigen::VectorXd::LinSpaced(scene.N.rows(), 0, 0.6);
-  auto const ran = files.solve(put_coefficients(files, F));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  REQUIRE(is_one_line(ran.out));
-  json const result = json::parse(ran.out);
+  json const result = solved(files, put_coefficients(files, F));
   CHECK(result["status"] == "converged");
   CHECK(result["method"] == "coulomb");
   CHECK(result["tangents_per_node"] == 2);

@@ -20,6 +20,7 @@ using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
 using examples_test::run;
+using examples_test::solved;
 using nlohmann::json;
 
 /// A problem in a folder, and one for results.
@@ -52,11 +53,7 @@ TEST_CASE("from_files: contacts whose forces are known") {
   for (auto const& c : test::solvable_cases()) {
     CAPTURE(c.name);
     friction_files const files(c.problem);
-    auto const ran = files.solve();
-    CHECK(ran.status == 0);
-    CHECK(ran.err == "");
-    REQUIRE(is_one_line(ran.out));
-    json const result = json::parse(ran.out);
+    json const result = solved(files);
     CHECK(result["status"] == "converged");
     CHECK(result["method"] == "coulomb");
     CHECK(result["contacts"] == c.problem.contacts());
@@ -77,9 +74,7 @@ TEST_CASE("from_files: contacts from simulations") {
     CAPTURE(name);
     auto const p = slant::read_friction_problem(test::data("friction") / name);
     friction_files const files(p);
-    auto const ran = files.solve();
-    CHECK(ran.status == 0);
-    json const result = json::parse(ran.out);
+    json const result = solved(files);
     CHECK(result["status"] == "converged");
     CHECK(result["asymmetry"] == slant::contact::asymmetry(p.W));
     check_report(files, p, result);
@@ -97,9 +92,7 @@ TEST_CASE("from_files: every method for contacts by its name") {
     CAPTURE(name);
     if (++methods == 1) CHECK(name == "coulomb");
     friction_files const files(c.problem);
-    auto const ran = files.solve("--method " + name);
-    CHECK(ran.status == 0);
-    json const result = json::parse(ran.out);
+    json const result = solved(files, "--method " + name);
     CHECK(result["method"] == name);
     check_report(files, c.problem, result);
   }

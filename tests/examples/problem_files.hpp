@@ -5,6 +5,7 @@
 
 #include <fem/steel_brick.hpp>
 #include <fem/write_folder.hpp>
+#include <nlohmann/json.hpp>
 #include <slant/io/matrix_market.hpp>
 #include <string>
 #include <string_view>
@@ -78,6 +79,16 @@ class problem_files {
        .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
                  {{.axis = 0, .upper = true}, Eigen::Vector2d(0.6, 0.5)}},
        .slip_bound = 0.3});
+}
+
+/// What from_files says of a problem that it solves with these options: one line, and no complaint.
+[[nodiscard]] inline nlohmann::json solved(problem_files const& files,
+                                           std::string const& options = "") {
+  auto const ran = files.solve(options);
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  REQUIRE(is_one_line(ran.out));
+  return nlohmann::json::parse(ran.out);
 }
 
 /// A refusal of from_files.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "second_differences.hpp"
+#include "support/allocation_guard.hpp"
 
 namespace unconstrained_start_test {
 
@@ -65,6 +66,21 @@ TEST_CASE("bad input") {
   CHECK_THROWS_AS((void)slant::unconstrained_start(qp, 0.1, -1), slant::bad_input);
   CHECK_THROWS_AS((void)slant::unconstrained_start(qp, positive(test::second_differences(4))),
                   slant::bad_input);
+}
+
+TEST_CASE("steps allocate nothing: the vectors are those of the start") {
+  index const n = 12;
+  VectorXd const b = VectorXd::LinSpaced(n, -1, 1);
+  slant::separable_qp const qp{positive(test::second_differences(n)), b,
+                               slant::half_lines(VectorXd(VectorXd::Zero(n)))};
+  auto const allocations_of = [&](index most) {
+    slant::testing::allocation_guard const guard;
+    auto const start = slant::unconstrained_start(qp, 1e-12, most);
+    auto const allocations = guard.count();
+    CHECK(start.applications == most);
+    return allocations;
+  };
+  CHECK(allocations_of(1) == allocations_of(5));
 }
 
 }  // namespace unconstrained_start_test
