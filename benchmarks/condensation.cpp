@@ -15,14 +15,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fem/steel_brick.hpp>
+#include <slant/concepts/rounded.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/tresca.hpp>
+#include <slant/factorizations/detail/large_pages.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
@@ -114,6 +117,28 @@ double application(A const& a) {
   return best;
 }
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The same in rounded precision; unknown without SuiteSparse, where nothing is condensed.
+template <class A>
+double rounded_application(A const& a) {
+  if constexpr (slant::has_rounded<A, VectorXd>) {
+    return application(a.rounded());
+  } else {
+    return unknown;
+  }
+}
+
+/// Bytes that an application reads, twice; 0 without SuiteSparse.
+template <class A>
+Eigen::Index bytes_of(A const& a) {
+  if constexpr (requires { a.bytes(); }) {
+    return a.bytes();
+  } else {
+    return 0;
+  }
+}
+
 /// Seconds to read so many bytes twice, as the two sweeps do: one stream from aligned memory in
 /// large pages into sums that do not wait for each other.
 double reading(Eigen::Index bytes) {
@@ -179,8 +204,10 @@ int main(int argc, char** argv) {
                                               condensation);
       slant::contact::dual const problem(slant::contact::friction_disc{}, factor, data);
       auto const a = problem.a();
-      double const product = application(a), rounded = application(a.rounded()),
-                   read = reading(a.bytes()), memory = reading_from_memory(a.bytes());
+      Eigen::Index const bytes = bytes_of(a);
+      double const product = application(a), rounded = rounded_application(a),
+                   read = bytes > 0 ? reading(bytes) : unknown,
+                   memory = bytes > 0 ? reading_from_memory(bytes) : unknown;
       std::printf("%d,%s,%ld,%ld,%ld,%.4f,%.4f,%.3f,%.4f,%ld,%ld,%.1e,", k,
                   std::string(fem::name_of(load)).c_str(), long(scene.K.rows()), long(a.rows()),
                   o.levels, median(linear), median(total), ratio, median(iteration), o.steps,

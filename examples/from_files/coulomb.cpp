@@ -23,13 +23,7 @@ template <class Friction>
   solution result;
   result.run = run_on_dual(contact::coulomb(family, M, {.goal = s.tolerance}), problem.zero(), s);
   result.u = problem.displacement(result.run.λ);
-  auto const end = clock::now();
-
-  auto const seconds = [](auto duration) {
-    return std::chrono::duration<double>(duration).count();
-  };
-  result.setup_seconds = seconds(result.run.started - begin);
-  result.solve_seconds = seconds(end - result.run.started);
+  result.take_times(begin);
   result.factorization = factor.name();
   auto law = p.body.contact;
   law.g = p.F.cwiseProduct(result.run.λ.head(p.F.size()).cwiseMax(0));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <string>
 
 #include "outcome.hpp"
@@ -18,6 +19,14 @@ struct solution {
   double solve_seconds;       ///< iteration and recovery of u
   double kkt_residual;        ///< relative; NaN if the run broke down
 
+  /// Sets the times of a solution that was begun and has ended now.
+  void take_times(clock::time_point begin) {
+    auto const seconds = [](auto duration) {
+      return std::chrono::duration<double>(duration).count();
+    };
+    setup_seconds = seconds(run.started - begin);
+    solve_seconds = seconds(clock::now() - run.started);
+  }
   [[nodiscard]] bool converged() const { return run.status == slant::status::converged; }
   [[nodiscard]] bool is_finite() const { return u.allFinite() && run.λ.allFinite(); }
 };

@@ -69,13 +69,7 @@ template <class Friction>
   });
   if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
   result.u = dual.displacement(result.run.λ);
-  auto const end = clock::now();
-
-  auto const seconds = [](auto duration) {
-    return std::chrono::duration<double>(duration).count();
-  };
-  result.setup_seconds = seconds(result.run.started - begin);
-  result.solve_seconds = seconds(end - result.run.started);
+  result.take_times(begin);
   result.factorization = factor.name();
   result.kkt_residual =
       slant::contact::check_optimality(p.K, p.contact, result.u, result.run.λ).residual();

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace convex_set_test {
 

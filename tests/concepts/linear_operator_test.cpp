@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace linear_operator_test {
 

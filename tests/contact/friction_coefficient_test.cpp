@@ -7,22 +7,13 @@
 
 #include <cmath>
 #include <limits>
-#include <string>
+
+#include "support/message.hpp"
 
 namespace friction_coefficient_test {
 
 using Eigen::VectorXd;
 namespace contact = slant::contact;
-
-template <class Call>
-std::string refusal(Call const& call) {
-  try {
-    call();
-  } catch (slant::bad_input const& e) {
-    return e.what();
-  }
-  return "accepted";
-}
 
 TEST_CASE("coefficients by place, by slip, by direction") {
   auto const place = contact::coefficients(VectorXd{{0.1, 0.2}});
@@ -44,26 +35,26 @@ TEST_CASE("coefficients that depend on the slip are looked at whenever they are 
   });
   CHECK(F(0, 1.0) == std::numeric_limits<double>::infinity());  // sticks
   CHECK(F(1, 0.25) == 0);
-  CHECK(refusal([&] { static_cast<void>(F(1, 0.75)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(F(1, 0.75)); }) ==
         "f[1]: got -0.5, expected a friction coefficient >= 0 for the slip 0.75");
-  CHECK(refusal([&] { static_cast<void>(F(2, 0.5)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(F(2, 0.5)); }) ==
         "f[2]: got nan, expected a friction coefficient >= 0 for the slip 0.5");
 }
 
 TEST_CASE("coefficients out of range are refused") {
-  CHECK(refusal([] {
+  CHECK(test::complaint([] {
           static_cast<void>(contact::coefficients(VectorXd{{0.1, -0.2}}));
         }) == "F[1]: got -0.2, expected a finite number >= 0");
-  CHECK(refusal([] {
+  CHECK(test::complaint([] {
           static_cast<void>(
               contact::coefficients(VectorXd{{std::numeric_limits<double>::infinity()}}));
         }) == "F[0]: got inf, expected a finite number >= 0");
-  CHECK(refusal([] {
+  CHECK(test::complaint([] {
           static_cast<void>(
               contact::orthotropic_coefficients(VectorXd{{0.1, 0.2}}, VectorXd{{0.3, NAN}}));
         }) == "F2[1]: got nan, expected a finite number >= 0");
   CHECK(
-      refusal([] {
+      test::complaint([] {
         static_cast<void>(contact::orthotropic_coefficients(VectorXd{{0.1, 0.2}}, VectorXd{{0.3}}));
       }).starts_with("F2: got 1"));
 }

@@ -25,9 +25,7 @@ solved solve_lift() {
   auto scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
   auto data = test::contact_data(scene);
   auto const reference = test::reference(scene.K, data);
-  VectorXd λ(reference.normal.size() + reference.tangential.size());
-  λ << reference.normal, reference.tangential;
-  return {std::move(scene), std::move(data), reference.u, λ};
+  return {std::move(scene), std::move(data), reference.u, reference.multipliers()};
 }
 
 TEST_CASE("the reference solution passes, with every residual at rounding level") {

@@ -3,8 +3,10 @@
 // Small contact scenes for the tests of this room.
 #pragma once
 
+#include <slant/concepts/linear_operator.hpp>
 #include <slant/contact/contact_data.hpp>
 
+#include <cmath>
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
 
@@ -33,6 +35,14 @@ inline slant::contact::data<double> one_tangent(fem::contact_scene<3> const& s) 
 inline oracle::contact_reference reference(Eigen::SparseMatrix<double> const& K,
                                            slant::contact::data<double> const& c) {
   return oracle::solve_contact({K, c.N, c.T, c.f, c.d, c.g});
+}
+
+/// √(λᵀA λ).
+template <class A>
+double energy_norm(A const& a, Eigen::VectorXd const& λ) {
+  Eigen::VectorXd image(λ.size());
+  slant::apply(a, λ, image);
+  return std::sqrt(λ.dot(image));
 }
 
 }  // namespace test

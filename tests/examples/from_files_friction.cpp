@@ -15,10 +15,12 @@
 
 namespace {
 
+using examples_test::check_refusal;
 using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
 using examples_test::run;
+using examples_test::solved;
 using nlohmann::json;
 
 /// A problem in a folder, and one for results.
@@ -51,11 +53,7 @@ TEST_CASE("from_files: contacts whose forces are known") {
   for (auto const& c : test::solvable_cases()) {
     CAPTURE(c.name);
     friction_files const files(c.problem);
-    auto const ran = files.solve();
-    CHECK(ran.status == 0);
-    CHECK(ran.err == "");
-    REQUIRE(is_one_line(ran.out));
-    json const result = json::parse(ran.out);
+    json const result = solved(files);
     CHECK(result["status"] == "converged");
     CHECK(result["method"] == "coulomb");
     CHECK(result["contacts"] == c.problem.contacts());
@@ -76,9 +74,7 @@ TEST_CASE("from_files: contacts from simulations") {
     CAPTURE(name);
     auto const p = slant::read_friction_problem(test::data("friction") / name);
     friction_files const files(p);
-    auto const ran = files.solve();
-    CHECK(ran.status == 0);
-    json const result = json::parse(ran.out);
+    json const result = solved(files);
     CHECK(result["status"] == "converged");
     CHECK(result["asymmetry"] == slant::contact::asymmetry(p.W));
     check_report(files, p, result);
@@ -96,9 +92,7 @@ TEST_CASE("from_files: every method for contacts by its name") {
     CAPTURE(name);
     if (++methods == 1) CHECK(name == "coulomb");
     friction_files const files(c.problem);
-    auto const ran = files.solve("--method " + name);
-    CHECK(ran.status == 0);
-    json const result = json::parse(ran.out);
+    json const result = solved(files, "--method " + name);
     CHECK(result["method"] == name);
     check_report(files, c.problem, result);
   }
@@ -120,18 +114,6 @@ TEST_CASE("from_files: contacts without solution end with a status") {
 
 TEST_CASE("from_files: contacts that cannot be used") {
   auto const c = test::single_solution_cases().front();
-  auto const check_refusal = [](problem_files const& files, std::string const& options,
-                                std::string const& expected) {
-    CAPTURE(expected);
-    auto const ran = files.solve(options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(ran.err.starts_with("from_files: "));
-    CHECK(contains(ran.err, expected));
-    CHECK(files.files_written() == 0);
-  };
   friction_files const files(c.problem);
   check_refusal(files, "--method kprgp", "--method: got kprgp, expected one of coulomb");
   check_refusal(files, "--start qpc", "--start: got qpc, expected zero");

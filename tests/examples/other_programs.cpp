@@ -144,12 +144,7 @@ TEST_CASE("coulomb: a sequence of load steps, and its files") {
 TEST_CASE("the programs refuse bad options in one line") {
   auto const check = [](std::string const& name, std::string const& options,
                         std::string const& expected) {
-    auto const ran = run(name, options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(contains(ran.err, expected));
+    examples_test::check_refused(run(name, options), expected);
   };
   check("brick", "--load push", "--load: got push, expected press, pull or lift");
   check("brick", "--cells 0", "--cells: got 0, expected a whole number >= 1");

@@ -5,6 +5,7 @@
 
 #include <fem/steel_brick.hpp>
 #include <fem/write_folder.hpp>
+#include <nlohmann/json.hpp>
 #include <slant/io/matrix_market.hpp>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@
 namespace examples_test {
 
 namespace fs = std::filesystem;
+
+/// Begins a sparse matrix.
+inline std::string const coordinate = "%%MatrixMarket matrix coordinate real general\n";
 
 /// A folder with a problem, and one beside it for results; both vanish with the object.
 class problem_files {
@@ -63,6 +67,40 @@ class problem_files {
 /// The brick of 3 × 1 × 1 cells under the load that opens a part of its contact.
 [[nodiscard]] inline problem_files small_brick() {
   return problem_files(fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift}));
+}
+
+/// A block of rubber in the plane, pressed down and pulled to the right.
+[[nodiscard]] inline fem::contact_scene<2> plane_scene() {
+  return fem::make_contact_scene<2>(
+      {.mesh = fem::make_box_mesh<2>({4, 2}, Eigen::Vector2d(2, 1)),
+       .material = fem::lame(10, 0.3),
+       .fixed = {.axis = 0, .upper = false},
+       .contact = {.axis = 1, .upper = false},
+       .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
+                 {{.axis = 0, .upper = true}, Eigen::Vector2d(0.6, 0.5)}},
+       .slip_bound = 0.3});
+}
+
+/// What from_files says of a problem that it solves with these options: one line, and no complaint.
+[[nodiscard]] inline nlohmann::json solved(problem_files const& files,
+                                           std::string const& options = "") {
+  auto const ran = files.solve(options);
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  REQUIRE(is_one_line(ran.out));
+  return nlohmann::json::parse(ran.out);
+}
+
+/// A refusal of from_files.
+inline void check_refusal(program_result const& ran, std::string const& expected) {
+  check_refused(ran, expected);
+  CHECK(ran.err.starts_with("from_files: "));
+}
+/// These files with these options are refused, and nothing is written.
+inline void check_refusal(problem_files const& files, std::string const& options,
+                          std::string const& expected) {
+  check_refusal(files.solve(options), expected);
+  CHECK(files.files_written() == 0);
 }
 
 }  // namespace examples_test

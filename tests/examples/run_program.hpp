@@ -3,6 +3,7 @@
 // Runs one of the example programs through the shell and keeps what it says.
 #pragma once
 
+#include <doctest/doctest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -54,6 +55,16 @@ struct program_result {
 /// Exactly one line, complete, with something on it.
 [[nodiscard]] inline bool is_one_line(std::string_view text) {
   return text.size() > 1 && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+/// Bad input: exit status 2, and one line of standard error, with these words, that is all.
+inline void check_refused(program_result const& ran, std::string const& expected) {
+  CAPTURE(expected);
+  CAPTURE(ran.err);
+  CHECK(ran.status == 2);
+  CHECK(ran.out == "");
+  CHECK(is_one_line(ran.err));
+  CHECK(contains(ran.err, expected));
 }
 
 }  // namespace examples_test

@@ -96,12 +96,7 @@ TEST_CASE("two_bodies: one scene only; not converged is not success") {
 TEST_CASE("the programs of tables refuse bad options in one line") {
   auto const check = [](std::string const& name, std::string const& options,
                         std::string const& expected) {
-    auto const ran = run(name, options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(contains(ran.err, expected));
+    examples_test::check_refused(run(name, options), expected);
   };
   check("wire_tables", "--unknowns 48", "--unknowns: got 48, expected 32, 64, 128");
   check("wire_tables", "--table 4.9", "--table: got 4.9, expected 4.1 to 4.7, or all");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <slant/factorizations/detail/tail_solve.hpp>
+
 #include <slant/factorizations/detail/tail_columns.hpp>
 #include <slant/factorizations/detail/tail_panels.hpp>
 #include <slant/factorizations/detail/tail_shape.hpp>
-#include <slant/factorizations/detail/tail_solve.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>
@@ -11,56 +12,17 @@
 #include <memory>
 #include <vector>
 
+#include "factorizations/tail_factor.hpp"
 #include "support/allocation_guard.hpp"
 
 namespace tail_solve_test {
 
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::index;
 namespace detail = slant::detail;
 
-/// Supernodes of 3, 8, 21 and 12 columns, the first two with some rows below, the third with all.
-struct factor {
-  std::shared_ptr<detail::tail_shape> shape = std::make_shared<detail::tail_shape>();
-  std::shared_ptr<std::vector<MatrixXd>> blocks = std::make_shared<std::vector<MatrixXd>>();
-  MatrixXd L;
-
-  factor() {
-    std::vector<int> rest;
-    for (int i = 32; i < 44; ++i) rest.push_back(i);
-    add(3, {4, 9, 12, 31, 40});
-    add(8, {12, 33});
-    add(21, rest);
-    add(12, {});
-    L = MatrixXd::Zero(shape->size(), shape->size());
-    auto block = blocks->begin();
-    for (auto const& s : shape->supernodes()) {
-      for (index j = 0; j < s.columns; ++j) {
-        for (index i = j; i < s.columns; ++i) L(s.first + i, s.first + j) = (*block)(i, j);
-        for (index i = 0; i < s.below; ++i) {
-          L(shape->rows(s)[i], s.first + j) = (*block)(s.columns + i, j);
-        }
-      }
-      ++block;
-    }
-  }
-  void add(index columns, std::vector<int> const& below) {
-    shape->add(columns, below);
-    // What stands above the diagonal is not part of the factor.
-    MatrixXd block = MatrixXd::Random(columns + index(below.size()), columns) / 8;
-    block.diagonal().array() += 1;
-    blocks->push_back(block);
-  }
-  [[nodiscard]] detail::tail_columns columns() const {
-    std::vector<detail::tail_columns::matrix> matrices;
-    for (auto const& block : *blocks) matrices.push_back({block.data(), block.rows()});
-    return {shape, matrices, blocks};
-  }
-};
-
 TEST_CASE("what the shape counts") {
-  factor const f;
+  test::tail_factor const f;
   CHECK(f.shape->size() == 44);
   CHECK(f.shape->panels() == 1 + 1 + 3 + 2);
   CHECK(f.shape->height() == 33);
@@ -69,14 +31,13 @@ TEST_CASE("what the shape counts") {
 }
 
 TEST_CASE("solves as by the dense factor, one or several right-hand sides, without allocations") {
-  factor const f;
+  test::tail_factor const f;
   auto const columns = f.columns();
   detail::tail_panels<double> const packed(columns);
   detail::tail_panels<float> const floats(columns);
   for (index const k : {1, 3}) {
     MatrixXd const b = MatrixXd::Random(f.shape->size(), k);
-    MatrixXd const x = f.L.transpose().triangularView<Eigen::Upper>().solve(
-        f.L.triangularView<Eigen::Lower>().solve(b));
+    MatrixXd const x = f.solved(b);
     detail::tail_vectors<double> v(*f.shape, k), w(*f.shape, k);
     detail::tail_vectors<float> single(*f.shape, k);
     v.x = w.x = b;
@@ -93,8 +54,23 @@ TEST_CASE("solves as by the dense factor, one or several right-hand sides, witho
   }
 }
 
+TEST_CASE("a tail without columns, as where nothing is in contact") {
+  auto const shape = std::make_shared<detail::tail_shape>();
+  CHECK(shape->size() == 0);
+  CHECK(shape->entries() == 0);
+  detail::tail_columns const columns(shape, {}, nullptr);
+  CHECK(columns.bytes() == 0);
+  CHECK(columns.rounded()->bytes() == 0);
+  detail::tail_vectors<double> v(*shape, 2);
+  detail::tail_vectors<float> single(*shape, 2);
+  detail::solve_in_place(columns, v);
+  detail::solve_in_place(*columns.rounded(), single);
+  CHECK(v.x.rows() == 0);
+  CHECK(single.x.cols() == 2);
+}
+
 TEST_CASE("the entries outlive those who made them; floats are made once") {
-  auto const columns = std::make_unique<factor>()->columns();
+  auto const columns = std::make_unique<test::tail_factor>()->columns();
   CHECK(columns.rounded() == columns.rounded());
   detail::tail_vectors<double> v(columns.shape(), 1);
   v.x.setOnes();

@@ -13,13 +13,14 @@
 #include <utility>
 
 #include "io_support.hpp"
+#include "support/message.hpp"
 
 namespace atomic_file_test {
 
 using io_test::get;
 using io_test::put;
-using io_test::refusal;
 using io_test::temporary_folder;
+using test::complaint;
 namespace fs = std::filesystem;
 
 /// While it lives no file of this process can grow beyond that many bytes, as on a full disk.
@@ -111,7 +112,7 @@ TEST_CASE("atomic file: targets that cannot be files") {
   temporary_folder const folder;
   std::string const root = folder.path().string();
   auto const message = [&](fs::path const& target) {
-    return refusal([&] { slant::atomic_file const file(target); });
+    return complaint([&] { slant::atomic_file const file(target); });
   };
   CHECK(message(folder.path()) ==
         root + ": got a directory, expected a file name in a writable folder");
@@ -179,7 +180,7 @@ TEST_CASE("atomic files: all or none") {
     slant::atomic_files files;
     files.add(folder / "u.txt").write("new u");
     files.add(folder / "lambda.txt").write("new lambda");
-    CHECK(refusal([&] { files.add(folder / "missing/x.txt"); }) != "accepted");
+    CHECK(complaint([&] { files.add(folder / "missing/x.txt"); }) != "nothing thrown");
   }
   CHECK(get(folder / "u.txt") == "old u");
   CHECK(folder.entries() == 1);
@@ -218,7 +219,7 @@ TEST_CASE("atomic files: one name twice") {
   temporary_folder const folder;
   slant::atomic_files files;
   files.add(folder / "u.txt");
-  CHECK(refusal([&] { files.add(folder / "./u.txt"); }) ==
+  CHECK(complaint([&] { files.add(folder / "./u.txt"); }) ==
         (folder / "./u.txt").string() +
             ": got a file that is already being written, expected different names");
 }

@@ -8,11 +8,12 @@
 #include <support/test_data.hpp>
 
 #include "io_support.hpp"
+#include "support/message.hpp"
 
 namespace friction_folder_test {
 
-using io_test::refusal;
 using io_test::temporary_folder;
+using test::complaint;
 
 std::string const coordinate = "%%MatrixMarket matrix coordinate real general\n";
 
@@ -31,7 +32,7 @@ struct one_contact {
   }
   /// The refusal, without the name of the folder.
   [[nodiscard]] std::string refused(slant::friction_folder_options const& options = {}) const {
-    std::string const message = refusal([&] { (void)read(options); });
+    std::string const message = complaint([&] { (void)read(options); });
     std::string const root = folder.path().string() + "/";
     return message.starts_with(root) ? message.substr(root.size()) : message;
   }
@@ -87,7 +88,7 @@ TEST_CASE("friction folder: refusals name the file, the value and what was expec
     CHECK(files.refused() == name + ": got no such file, expected a readable text file");
   }
   temporary_folder const empty;
-  CHECK(refusal([&] { (void)slant::read_friction_problem(empty / "none"); }) ==
+  CHECK(complaint([&] { (void)slant::read_friction_problem(empty / "none"); }) ==
         (empty / "none").string() +
             ": got no folder, expected a folder with W.mtx, q.txt and mu.txt");
 }

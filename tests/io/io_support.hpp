@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of this room share: a folder that disappears again, files in it, and the message
-// of a refusal.
+// What the tests of this room share: a folder that disappears again, and files in it.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <slant/concepts/bad_input.hpp>
 #include <string>
 #include <string_view>
 
@@ -55,17 +53,6 @@ inline void put(fs::path const& file, std::string_view text) {
 [[nodiscard]] inline std::string get(fs::path const& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// what() of the bad_input that `call` throws.
-template <class Call>
-[[nodiscard]] std::string refusal(Call const& call) {
-  try {
-    call();
-  } catch (slant::bad_input const& refused) {
-    return refused.what();
-  }
-  return "accepted";
 }
 
 }  // namespace io_test

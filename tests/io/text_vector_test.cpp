@@ -13,19 +13,20 @@
 #include <string_view>
 
 #include "io_support.hpp"
+#include "support/message.hpp"
 
 namespace text_vector_test {
 
-using io_test::refusal;
 using io_test::temporary_folder;
 using slant::parse_text_vector;
 using slant::text_vector_options;
+using test::complaint;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The refusal of a text, without the name of the file.
 std::string refused(std::string_view text, text_vector_options const& options = {}) {
-  std::string const message = refusal([&] { (void)parse_text_vector(text, "f.txt", options); });
+  std::string const message = complaint([&] { (void)parse_text_vector(text, "f.txt", options); });
   return message.starts_with("f.txt:") ? message.substr(6) : message;
 }
 
@@ -85,15 +86,15 @@ TEST_CASE("text vector: every prefix is refused when the size is known") {
   std::string_view const file = "# three\n1.25\n-31\n4.5e7\n";
   REQUIRE(parse_text_vector(file, "f.txt", {.size = 3}) == Eigen::Vector3d(1.25, -31, 4.5e7));
   for (std::size_t length = 0; length < file.size(); ++length)
-    CHECK(refused(file.substr(0, length), {.size = 3}) != "accepted");
+    CHECK(refused(file.substr(0, length), {.size = 3}) != "nothing thrown");
 }
 
 TEST_CASE("text vector: files") {
   temporary_folder const folder;
-  CHECK(refusal([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
+  CHECK(complaint([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
         (folder / "f.txt").string() + ": got no such file, expected a readable text file");
   io_test::put(folder / "f.txt", "1\nx\n");
-  CHECK(refusal([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
+  CHECK(complaint([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
         (folder / "f.txt").string() + ":2: got 'x', expected a finite number");
 }
 
@@ -131,11 +132,11 @@ TEST_CASE("text vector: what is not written, and that nothing is left of it") {
   temporary_folder const folder;
   std::string const name = (folder / "x.txt").string();
   Eigen::Vector2d const nan(1, std::numeric_limits<double>::quiet_NaN());
-  CHECK(refusal([&] {
+  CHECK(complaint([&] {
           slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true});
         }) == name + ": got nan in component 1, expected finite numbers");
   Eigen::Vector2d const inf(infinity, 1);
-  CHECK(refusal([&] { slant::write_text_vector(folder / "x.txt", inf); }) ==
+  CHECK(complaint([&] { slant::write_text_vector(folder / "x.txt", inf); }) ==
         name + ": got inf in component 0, expected finite numbers");
   CHECK(folder.entries() == 0);
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io_support.hpp"
+#include "support/message.hpp"
 
 namespace vtu_series_test {
 
@@ -26,13 +27,13 @@ TEST_CASE("a list of numbered files with their times") {
 }
 
 TEST_CASE("names and times that make no series are refused") {
-  CHECK(io_test::refusal([] { slant::vtu_series("out.vtu"); }) ==
+  CHECK(test::complaint([] { slant::vtu_series("out.vtu"); }) ==
         "list: got out.vtu, expected the name of a .pvd file");
   slant::vtu_series series("out.pvd");
-  CHECK(io_test::refusal([&] { static_cast<void>(series.next(NAN)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(series.next(NAN)); }) ==
         "time: got nan, expected a finite number");
   static_cast<void>(series.next(1));
-  CHECK(io_test::refusal([&] { static_cast<void>(series.next(1)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(series.next(1)); }) ==
         "time: got 1, expected a number greater than 1");
   CHECK(series.size() == 1);
 }

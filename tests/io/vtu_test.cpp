@@ -14,14 +14,15 @@
 #include <vector>
 
 #include "io_support.hpp"
+#include "support/message.hpp"
 
 namespace vtu_test {
 
-using io_test::refusal;
 using io_test::temporary_folder;
 using slant::vtu_cell;
 using slant::vtu_encoding;
 using slant::vtu_grid;
+using test::complaint;
 
 std::string decode_base64(std::string const& text) {
   static std::string const digits =
@@ -168,38 +169,38 @@ TEST_CASE("vtu: base64 of one, two and three bytes more than a group") {
 TEST_CASE("vtu: what does not fit is refused") {
   square const mesh;
   vtu_grid grid(mesh.points);
-  CHECK(refusal([] { vtu_grid const flat(Eigen::MatrixXd(1, 3)); }) ==
+  CHECK(complaint([] { vtu_grid const flat(Eigen::MatrixXd(1, 3)); }) ==
         "points: got 1 components, expected 2 or 3, one column per vector");
-  CHECK(refusal([] { vtu_grid const deep(Eigen::MatrixXd(4, 3)); }) ==
+  CHECK(complaint([] { vtu_grid const deep(Eigen::MatrixXd(4, 3)); }) ==
         "points: got 4 components, expected 2 or 3, one column per vector");
-  CHECK(refusal([] { vtu_grid const lost(Eigen::Vector3d(0, not_a_number, 0)); }) ==
+  CHECK(complaint([] { vtu_grid const lost(Eigen::Vector3d(0, not_a_number, 0)); }) ==
         "points: got nan at 0, expected finite numbers");
-  CHECK(refusal([&] { grid.add_cells(vtu_cell::line, mesh.triangles); }) ==
+  CHECK(complaint([&] { grid.add_cells(vtu_cell::line, mesh.triangles); }) ==
         "cells: got 3 nodes per cell, expected 2 for this shape");
-  CHECK(refusal([&] { grid.add_cells(vtu_cell::triangle, Eigen::Vector3i(0, 1, 4)); }) ==
+  CHECK(complaint([&] { grid.add_cells(vtu_cell::triangle, Eigen::Vector3i(0, 1, 4)); }) ==
         "cells: got node 4 in cell 0, expected node numbers from 0 to 3");
-  CHECK(refusal([&] { grid.add_cells(vtu_cell::triangle, Eigen::Vector3i(0, -1, 2)); }) ==
+  CHECK(complaint([&] { grid.add_cells(vtu_cell::triangle, Eigen::Vector3i(0, -1, 2)); }) ==
         "cells: got node -1 in cell 0, expected node numbers from 0 to 3");
-  CHECK(refusal([&] { grid.add_point_scalars("p", Eigen::Vector3d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_point_scalars("p", Eigen::Vector3d::Zero()); }) ==
         "p: got 3 values, expected 4");
-  CHECK(refusal([&] { grid.add_point_scalars("p", Eigen::Vector4d(1, 2, 3, not_a_number)); }) ==
+  CHECK(complaint([&] { grid.add_point_scalars("p", Eigen::Vector4d(1, 2, 3, not_a_number)); }) ==
         "p: got nan at 3, expected finite numbers");
-  CHECK(refusal([&] {
+  CHECK(complaint([&] {
           grid.add_point_scalars("p",
                                  Eigen::Vector4d(1, std::numeric_limits<double>::infinity(), 3, 4));
         }) == "p: got inf at 1, expected finite numbers");
-  CHECK(refusal([&] { grid.add_point_vectors("u", Eigen::MatrixXd::Zero(2, 5)); }) ==
+  CHECK(complaint([&] { grid.add_point_vectors("u", Eigen::MatrixXd::Zero(2, 5)); }) ==
         "u: got 5 vectors, expected 4");
-  CHECK(refusal([&] { grid.add_point_vectors("u", Eigen::MatrixXd::Zero(4, 4)); }) ==
+  CHECK(complaint([&] { grid.add_point_vectors("u", Eigen::MatrixXd::Zero(4, 4)); }) ==
         "u: got 4 components, expected 2 or 3, one column per vector");
-  CHECK(refusal([&] { grid.add_point_scalars("", Eigen::Vector4d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_point_scalars("", Eigen::Vector4d::Zero()); }) ==
         "name: got '', expected a name without control characters");
-  CHECK(refusal([&] { grid.add_point_scalars("a\nb", Eigen::Vector4d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_point_scalars("a\nb", Eigen::Vector4d::Zero()); }) ==
         "name: got 'a\\x0ab', expected a name without control characters");
   grid.add_point_scalars("p", Eigen::Vector4d::Zero());
-  CHECK(refusal([&] { grid.add_point_scalars("p", Eigen::Vector4d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_point_scalars("p", Eigen::Vector4d::Zero()); }) ==
         "name: got 'p' again, expected a new name");
-  CHECK(refusal([&] { grid.add_cell_scalars("c", Eigen::Vector2d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_cell_scalars("c", Eigen::Vector2d::Zero()); }) ==
         "c: got 2 values, expected 0");
 }
 
@@ -212,7 +213,7 @@ TEST_CASE("vtu: a refusal while writing leaves the file as it was") {
   grid.add_cells(vtu_cell::triangle, mesh.triangles);
   grid.add_cell_scalars("c", Eigen::Vector2d::Zero());
   grid.add_cells(vtu_cell::line, Eigen::Vector2i(0, 1));
-  CHECK(refusal([&] { grid.write(folder / "a.vtu"); }) ==
+  CHECK(complaint([&] { grid.write(folder / "a.vtu"); }) ==
         "c: got 2 values, expected 3, one per cell");
   CHECK(io_test::get(folder / "a.vtu") == before);
   CHECK(folder.entries() == 1);

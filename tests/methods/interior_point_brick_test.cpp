@@ -23,14 +23,8 @@ void check_brick(int k, fem::brick_load load) {
   auto const reference = test::reference(scene.K, data);
   slant::contact::dual const dual(slant::contact::friction_disc{}, slant::factorize(scene.K), data);
   auto const qp = dual.qp();
-  VectorXd exact(dual.b().size());
-  exact << reference.normal, reference.tangential;
-  auto const energy = [&](VectorXd const& λ) {
-    VectorXd image(λ.size());
-    auto w = slant::workspace(qp.a(), λ);
-    slant::apply(qp.a(), λ, image, w);
-    return std::sqrt(λ.dot(image));
-  };
+  VectorXd const exact = reference.multipliers();
+  auto const energy = [&](VectorXd const& λ) { return test::energy_norm(qp.a(), λ); };
   double const size = energy(exact);
   slant::index steps = -1, products = -1;
   auto const watch = [&](auto const& s) {

@@ -13,6 +13,9 @@
 #include <string>
 #include <utility>
 
+#include "scales.hpp"
+#include "support/message.hpp"
+
 namespace interior_point_statuses_test {
 
 using Eigen::MatrixXd;
@@ -43,18 +46,9 @@ VectorXd zero() {
   return VectorXd::Zero(12);
 }
 
-template <class F>
-std::string message_of(F&& f) {
-  try {
-    f();
-  } catch (slant::bad_input const& e) {
-    return e.what();
-  }
-  return "nothing was thrown";
-}
 template <class Problem>
 std::string refusal(Problem const& p) {
-  return message_of([&] { static_cast<void>(slant::interior_point{p.qp()}.start(zero())); });
+  return test::complaint([&] { static_cast<void>(slant::interior_point{p.qp()}.start(zero())); });
 }
 
 TEST_CASE("an empty interior: the block, and what to use instead") {
@@ -73,7 +67,7 @@ TEST_CASE("an empty interior: the block, and what to use instead") {
   CHECK(refusal(p) == "block 4" + words);
   p.above(1) = infinity;
   p.below(1) = -infinity;
-  CHECK(refusal(p) == "nothing was thrown");
+  CHECK(refusal(p) == "nothing thrown");
 }
 
 TEST_CASE("a nearly empty interior: the same solution as another method's") {
@@ -110,24 +104,8 @@ TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
     r.state.x /= p.t;
     return r;
   };
-  auto const plain = solve_in(0, 0);
-  REQUIRE(plain.converged());
   constexpr int far = 332;
-  for (auto const& [stiffness, length] : {std::pair{far, 0},
-                                          {-far, 0},
-                                          {0, far},
-                                          {0, -far},
-                                          {far, -far},
-                                          {-far, far},
-                                          {far / 2, far},
-                                          {-far / 2, -far}}) {
-    CAPTURE(stiffness);
-    CAPTURE(length);
-    auto const r = solve_in(stiffness, length);
-    CHECK(r.status == plain.status);
-    CHECK(r.iterations() == plain.iterations());
-    CHECK(r.x() == plain.x());
-  }
+  test::check_scales(solve_in, far, far / 2);
 }
 
 TEST_CASE("all digits: stalled at the floor, in the interior") {
@@ -229,14 +207,15 @@ TEST_CASE("bad input names argument, value and expectation") {
   problem const p;
   auto const qp = p.qp();
   slant::interior_point const method{qp};
-  CHECK(message_of([&] { static_cast<void>(method.start(VectorXd(VectorXd::Zero(3)))); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(method.start(VectorXd(VectorXd::Zero(3)))); }) ==
         "x0: got 3, expected the size of b, 12");
   VectorXd x0 = zero();
   x0(1) = nan;
-  CHECK(message_of([&] { static_cast<void>(method.start(x0)); }).starts_with("x0[1]: got nan"));
+  CHECK(
+      test::complaint([&] { static_cast<void>(method.start(x0)); }).starts_with("x0[1]: got nan"));
   using options = slant::interior_point_options<double>;
-  auto const complaint = [](options const& o) { return message_of([&] { o.validate(); }); };
-  CHECK(complaint({}) == "nothing was thrown");
+  auto const complaint = [](options const& o) { return test::complaint([&] { o.validate(); }); };
+  CHECK(complaint({}) == "nothing thrown");
   CHECK(complaint({.step_length = -1.0}).starts_with("step_length: got -1"));
   CHECK(complaint({.start_length = 0.0}).starts_with("start_length: got 0"));
   CHECK(complaint({.start_force = nan}).starts_with("start_force: got nan"));

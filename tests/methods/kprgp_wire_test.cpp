@@ -2,8 +2,6 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>
 
@@ -11,6 +9,8 @@
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/effort.hpp>
+
+#include "wire_set.hpp"
 
 namespace kprgp_wire_test {
 
@@ -22,9 +22,7 @@ TEST_CASE("KPRGP finds the printed numbers of active constraints of the wire up 
       CAPTURE(printed.g);
       CAPTURE(m);
       auto const wire = fem::make_wire(m);
-      auto const set = slant::cartesian(
-          slant::half_lines(Eigen::VectorXd::Constant(m, printed.l).eval()),
-          slant::discs(Eigen::VectorXd::Constant(m, printed.g).eval()), slant::free_components(m));
+      auto const set = test::wire_set(m, printed.l, printed.g);
       auto const qp = slant::separable_qp{
           slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A), wire.b, set};
       auto const report =

@@ -5,14 +5,14 @@
 
 #include <slant/methods/mssn.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>
 
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
+
+#include "wire_set.hpp"
 
 namespace mssn_wire_test {
 
@@ -27,9 +27,7 @@ TEST_CASE("the wire: the printed numbers of active constraints for n = 32 and 64
       CAPTURE(printed.g);
       CAPTURE(m);
       auto const wire = fem::make_wire(m);
-      auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
-                                        slant::discs(VectorXd::Constant(m, printed.g).eval()),
-                                        slant::free_components(m));
+      auto const set = test::wire_set(m, printed.l, printed.g);
       auto const qp = slant::separable_qp{
           slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A), wire.b, set};
       VectorXd const zero = VectorXd::Zero(4 * m);

@@ -29,14 +29,8 @@ inline void check_newton_brick(int k, fem::brick_load load, slant::index most,
   slant::contact::dual const dual(slant::contact::friction_disc{}, slant::factorize(scene.K), data);
   auto const qp = dual.qp();
   auto const A = dual.a();
-  Eigen::VectorXd exact(dual.b().size());
-  exact << reference.normal, reference.tangential;
-  auto const energy = [&](Eigen::VectorXd const& λ) {
-    Eigen::VectorXd image(λ.size());
-    auto w = slant::workspace(A, λ);
-    slant::apply(A, λ, image, w);
-    return std::sqrt(λ.dot(image));
-  };
+  Eigen::VectorXd const exact = reference.multipliers();
+  auto const energy = [&](Eigen::VectorXd const& λ) { return energy_norm(A, λ); };
   double const size = energy(exact);
   auto const check = [&](auto const& method, slant::index limit) {
     slant::index products = -1;

@@ -35,4 +35,17 @@ TEST_CASE("a norm that stays is none, unless the energy falls") {
   CHECK(gives_up(stays, [](int k) { return k < 100 ? -1.0 * k : -100.0; }).first > 100);
 }
 
+TEST_CASE("without an energy the norm alone counts") {
+  auto const ends = [](auto norm_at) {
+    slant::progress_watch<double> watch;
+    for (int k = 1; k <= 1000; ++k) {
+      if (watch.stalled(k, norm_at(k), 10)) return k;
+    }
+    return 0;
+  };
+  CHECK(ends([](int k) { return 1.0 / k; }) == 0);
+  CHECK(ends([](int) { return 1.0; }) == 12);
+  CHECK(ends([](int k) { return k < 100 ? 1.0 / k : 1.0; }) == 110);
+}
+
 }  // namespace progress_watch_test

@@ -16,19 +16,13 @@
 #include <vector>
 
 #include "factorizations/spd_examples.hpp"
+#include "second_differences.hpp"
 
 namespace rounded_products_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using slant::index;
-
-MatrixXd second_differences(index n) {
-  MatrixXd a = 2 * MatrixXd::Identity(n, n);
-  a.diagonal(1).setConstant(-1);
-  a.diagonal(-1).setConstant(-1);
-  return a;
-}
 
 /// An operator whose twin is wrong by a relative 2⁻²⁰.
 struct imprecise {
@@ -48,7 +42,7 @@ static_assert(slant::has_rounded<imprecise, VectorXd>);
 
 TEST_CASE("a method with rounded products finds the solution of the exact ones") {
   index const n = 30;
-  MatrixXd const A = second_differences(n);
+  MatrixXd const A = test::second_differences(n);
   VectorXd b(n);
   for (index i = 0; i < n; ++i) b[i] = std::sin(double(i));
   auto const set = slant::half_lines(VectorXd(VectorXd::Zero(n)));
@@ -66,7 +60,7 @@ TEST_CASE("a method with rounded products finds the solution of the exact ones")
 
 TEST_CASE("a twin that is of no use is given up") {
   index const n = 6;
-  MatrixXd const A = second_differences(n);
+  MatrixXd const A = test::second_differences(n);
   VectorXd const b = VectorXd::LinSpaced(n, -1, 2);
   struct useless : imprecise {
     [[nodiscard]] imprecise rounded() const { return {-100 * a, 0}; }

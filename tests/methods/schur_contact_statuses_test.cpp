@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "schur_contact_scenes.hpp"
+#include "support/message.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <array>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,20 +56,12 @@ TEST_CASE("numbers that leave the range are a breakdown") {
 }
 
 TEST_CASE("what does not fit is named") {
-  auto const message = [](auto f) -> std::string {
-    try {
-      f();
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "nothing thrown";
-  };
   small_problem const p{chain(3) + MatrixXd::Identity(3, 3), VectorXd{{0, 0, 1}},
                         MatrixXd{{1, 0, 0}}, VectorXd{{0}}};
   stiffness const K{p.K};
   row_set const rows(p.B.sparseView(), p.c);
   auto const started = [&](projector const& Q, options const& o, VectorXd const& u0) {
-    return message([&] {
+    return test::complaint([&] {
       auto const qp = problem(K, p.f, rows, Q);
       (void)method(qp, o).start(u0);
     });

@@ -5,8 +5,6 @@
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/newton/sparse_direct_solver.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
 #include <slant/slanting/natural_residual.hpp>
 
 #include <doctest/doctest.h>
@@ -15,6 +13,8 @@
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/effort.hpp>
+
+#include "wire_set.hpp"
 
 namespace semismooth_newton_wire_test {
 
@@ -27,9 +27,7 @@ TEST_CASE("all printed numbers of active constraints up to n = 256, in at most 3
       CAPTURE(m);
       auto const wire = fem::make_wire(m);
       auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A);
-      auto const set = slant::cartesian(
-          slant::half_lines(Eigen::VectorXd::Constant(m, printed.l).eval()),
-          slant::discs(Eigen::VectorXd::Constant(m, printed.g).eval()), slant::free_components(m));
+      auto const set = test::wire_set(m, printed.l, printed.g);
       auto const F = slant::natural_residual(A, wire.b, set, 5 * wire.h());
       auto const r = slant::solve(slant::semismooth_newton{F, slant::sparse_direct_solver{}},
                                   Eigen::VectorXd::Zero(4 * m).eval(),

@@ -4,8 +4,6 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>
 
@@ -13,6 +11,8 @@
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/effort.hpp>
+
+#include "wire_set.hpp"
 
 namespace symmetric_newton_wire_test {
 
@@ -25,9 +25,7 @@ slant::index check_cell(fem::wire_counts const& printed, std::size_t entry) {
   CAPTURE(printed.g);
   CAPTURE(m);
   auto const wire = fem::make_wire(m);
-  auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
-                                    slant::discs(VectorXd::Constant(m, printed.g).eval()),
-                                    slant::free_components(m));
+  auto const set = test::wire_set(m, printed.l, printed.g);
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A);
   slant::separable_qp const qp{A, wire.b, set};
   auto const r = slant::solve(

@@ -12,6 +12,7 @@
 #include <Eigen/LU>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace congruence_test {
 

@@ -15,6 +15,7 @@
 
 #include "operators/dense_oracle.hpp"
 #include "support/allocation_guard.hpp"
+#include "support/message.hpp"
 
 namespace conjugate_projector_test {
 

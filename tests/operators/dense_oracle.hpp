@@ -10,7 +10,6 @@
 
 #include <limits>
 #include <random>
-#include <string>
 
 namespace test {
 
@@ -78,17 +77,6 @@ bool matches(A const& a, M const& expected, double roundings = 100) {
   S const size = wanted.cwiseAbs().maxCoeff();
   return difference.cwiseAbs().maxCoeff() <=
          S(roundings) * std::numeric_limits<S>::epsilon() * size;
-}
-
-/// The message of the exception of type E that f throws, or "nothing thrown".
-template <class E, class F>
-std::string message(F f) {
-  try {
-    f();
-  } catch (E const& e) {
-    return e.what();
-  }
-  return "nothing thrown";
 }
 
 }  // namespace test

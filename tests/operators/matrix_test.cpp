@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace matrix_test {
 

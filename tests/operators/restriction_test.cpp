@@ -12,6 +12,7 @@
 
 #include "operators/dense_oracle.hpp"
 #include "support/allocation_guard.hpp"
+#include "support/message.hpp"
 
 namespace restriction_test {
 

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace scaled_test {
 

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace schur_complement_test {
 

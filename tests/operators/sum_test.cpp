@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace sum_test {
 

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
 
 namespace zero_test {
 

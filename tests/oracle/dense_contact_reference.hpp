@@ -22,6 +22,13 @@ struct contact_reference {
   certificate proof;              ///< optimality of λ in the dual problem
   double energy_error = 0;        ///< proven bound of ‖u − u*‖_K / ‖u‖_K
   contact_violations violations;  ///< of the conditions on K, N, T
+
+  /// (λ_ν, λ_τ).
+  [[nodiscard]] Eigen::VectorXd multipliers() const {
+    Eigen::VectorXd λ(normal.size() + tangential.size());
+    λ << normal, tangential;
+    return λ;
+  }
 };
 
 /// Relative error in the energy norm, ‖u − u_ref‖_K / ‖u_ref‖_K.

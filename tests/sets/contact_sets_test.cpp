@@ -3,10 +3,10 @@
 
 #include "counting_disc.hpp"
 #include "oracle/precise.hpp"
+#include "support/message.hpp"
 
 #include <doctest/doctest.h>
 
-#include <string>
 #include <vector>
 
 namespace contact_sets_test {
@@ -36,19 +36,11 @@ TEST_CASE("contact_sets: discs in both layouts") {
 
 TEST_CASE("contact_sets: bad data is named") {
   vec<> const g = Eigen::Vector2d(1, -2);
-  auto const complaint = [](auto&& f) -> std::string {
-    try {
-      f();
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "no complaint";
-  };
-  CHECK(complaint([&] { static_cast<void>(slant::discs(g)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(slant::discs(g)); }) ==
         "radius[1]: got -2, expected a number >= 0");
-  CHECK(complaint([&] { static_cast<void>(slant::intervals(g)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(slant::intervals(g)); }) ==
         "radius[1]: got -2, expected a number >= 0");
-  CHECK(complaint([&] { static_cast<void>(slant::intervals(g, vec<>(-g))); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(slant::intervals(g, vec<>(-g))); }) ==
         "l[0]: got 1, expected a number <= u = -1");
 }
 

@@ -3,6 +3,7 @@
 
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
+#include "oracle/step_errors.hpp"
 
 #include <slant/testing/set_laws.hpp>
 
@@ -168,17 +169,7 @@ TEST_CASE("dual cone: steps agree with bisection in 50 digits at all scales") {
     auto const member = [&](wide const& z) {
       return z(0) >= 0 && M * M * (z(1) * z(1) + z(2) * z(2)) <= z(0) * z(0);
     };
-    wide const wide_x = oracle::widen<float_50>(x),
-               wide_d = oracle::widen<float_50>(d) * float_50(n);
-    if (!member(wide_x)) continue;
-    double const α = dual3(μ).step_to_boundary(x, d);
-    if (member(oracle::widen<float_50>(d))) {
-      CHECK(α == inf);
-      continue;
-    }
-    float_50 const exact =
-        naive::exit_step<float_50>(member, wide_x, wide_d, float_50(1e40)) * float_50(n);
-    worst = std::max(worst, oracle::ulp_distance<double>(α, exact));
+    worst = std::max(worst, oracle::step_error(dual3(μ), member, x, d, n));
   }
   CHECK(worst <= 4);
 }

@@ -5,6 +5,7 @@
 #include "oracle/naive_projections.hpp"
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"
+#include "oracle/step_errors.hpp"
 
 #include <slant/sets/in_metric.hpp>
 #include <slant/testing/set_laws.hpp>
@@ -251,17 +252,7 @@ TEST_CASE("elliptic cone: state, membership, steps") {
       float_50 const a = z(1) / float_50(μ1), b = z(2) / float_50(μ2);
       return z(0) >= 0 && a * a + b * b <= z(0) * z(0);
     };
-    wide const wide_x = oracle::widen<float_50>(x),
-               wide_d = oracle::widen<float_50>(d) * float_50(n);
-    if (!member(wide_x)) continue;
-    double const α = cone(μ1, μ2).step_to_boundary(x, d);
-    if (member(oracle::widen<float_50>(d))) {
-      CHECK(α == inf);
-      continue;
-    }
-    float_50 const exact =
-        naive::exit_step<float_50>(member, wide_x, wide_d, float_50(1e40)) * float_50(n);
-    worst = std::max(worst, oracle::ulp_distance<double>(α, exact));
+    worst = std::max(worst, oracle::step_error(cone(μ1, μ2), member, x, d, n));
   }
   CHECK(worst <= 4);
 }

@@ -7,27 +7,17 @@
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"
+#include "support/message.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace power_parameters_test {
 
 using namespace products;
 using slant::power;
-
-template <class F>
-std::string complaint(F&& f) {
-  try {
-    f();
-  } catch (slant::bad_input const& e) {
-    return e.what();
-  }
-  return "no complaint";
-}
 
 TEST_CASE("power: copies of one block, and parameters that are lists or one number for all") {
   auto const copies = power(slant::half_line<>{2.0}, 3);
@@ -59,22 +49,22 @@ TEST_CASE("power: bad parameters are named with their block, and change nothing"
   auto set = power(slant::ball<2>{}, g);
   g[0] = 7;
   g[3] = -1;
-  CHECK(complaint([&] { set.update(g); }) == "radius[3]: got -1, expected a number >= 0");
+  CHECK(test::complaint([&] { set.update(g); }) == "radius[3]: got -1, expected a number >= 0");
   CHECK(set.block(0).radius() == 1.0);
-  CHECK(complaint([&] { static_cast<void>(power(slant::ball<2>{}, g)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(power(slant::ball<2>{}, g)); }) ==
         "radius[3]: got -1, expected a number >= 0");
   g[3] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(complaint([&] { static_cast<void>(power(slant::ball<2>{}, g)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(power(slant::ball<2>{}, g)); }) ==
         "radius[3]: got nan, expected a number >= 0");
   vec<> const l = vec<>::Constant(3, 2.0);
-  CHECK(complaint([&] {
+  CHECK(test::complaint([&] {
           static_cast<void>(power(slant::interval<>{}, l, vec<>(-l)));
         }).starts_with("l[0]: got 2, expected a number <= u"));
-  CHECK(complaint([&] { static_cast<void>(power(slant::interval<>{}, l, g)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(power(slant::interval<>{}, l, g)); }) ==
         "length of parameter list 2: got 5, expected 3, the length of the list before it");
-  CHECK(complaint([&] { set.update(l); }) ==
+  CHECK(test::complaint([&] { set.update(l); }) ==
         "number of parameters: got 3, expected 5, the number of blocks");
-  CHECK(complaint([&] { static_cast<void>(power(slant::half_line<>{}, -1)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(power(slant::half_line<>{}, -1)); }) ==
         "number of blocks: got -1, expected a number >= 0");
 }
 

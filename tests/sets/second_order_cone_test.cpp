@@ -3,6 +3,7 @@
 
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
+#include "oracle/step_errors.hpp"
 
 #include <doctest/doctest.h>
 
@@ -167,17 +168,7 @@ TEST_CASE("cone: steps agree with bisection in 50 digits at all scales") {
     auto const member = [&](wide const& z) {
       return z(0) >= 0 && z(1) * z(1) + z(2) * z(2) <= M * M * z(0) * z(0);
     };
-    real const unit(n);
-    wide const wide_x = oracle::widen<real>(x), wide_d = oracle::widen<real>(d) * unit;
-    if (!member(wide_x)) continue;
-    cone const set(μ);
-    double const α = set.step_to_boundary(x, d);
-    if (member(oracle::widen<real>(d))) {
-      CHECK(α == inf);
-      continue;
-    }
-    real const exact = naive::exit_step<real>(member, wide_x, wide_d, real(1e40)) * unit;
-    worst = std::max(worst, oracle::ulp_distance<double>(α, exact));
+    worst = std::max(worst, oracle::step_error(cone(μ), member, x, d, n));
   }
   CHECK(worst <= 4);
 }

@@ -8,12 +8,12 @@
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"
+#include "support/message.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace shifted_test {
 
@@ -140,19 +140,11 @@ TEST_CASE("shifted: vectors that are no Eigen vectors") {
 }
 
 TEST_CASE("shifted: bad centres are named") {
-  auto const complaint = [](auto&& f) -> std::string {
-    try {
-      f();
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "no complaint";
-  };
   vec<> c = vec<>::Zero(3);
-  CHECK(complaint([&] { static_cast<void>(shifted(slant::half_lines(2), c)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(shifted(slant::half_lines(2), c)); }) ==
         "size of the shift: got 3, expected the dimension of the set, 2");
   c[1] = std::numeric_limits<double>::infinity();
-  CHECK(complaint([&] { static_cast<void>(shifted(slant::half_lines(3), c)); }) ==
+  CHECK(test::complaint([&] { static_cast<void>(shifted(slant::half_lines(3), c)); }) ==
         "c[1]: got inf, expected a finite number");
 }
 

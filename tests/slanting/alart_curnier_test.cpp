@@ -7,8 +7,6 @@
 #include <slant/slanting/alart_curnier.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -20,7 +18,6 @@ namespace alart_curnier_test {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using slanting_support::dense;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
 using block = slant::alart_curnier_block<3>;
@@ -97,18 +94,7 @@ TEST_CASE(
     CHECK((G.col(j) - d).norm() <= 1e-7 * G.norm());
   }
   slant::testing::check_slanting_laws(F, r, VectorXd(VectorXd::Zero(n)));
-
-  VectorXd v(n), x(n);
-  auto w = slant::workspace(F, r);
-  auto g = F.slant(VectorXd::Zero(n).eval());
-  auto gw = slant::workspace(g, r);
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(F, r, v, w);
-  slant::update_slant_after_value(F, r, g, w);
-  slant::apply(g, r, x, gw);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(dense(g, r) == G);
+  slanting_support::check_renewal(F, r);
 }
 
 TEST_CASE("Alart–Curnier: its zeros are those of the natural map with de Saxcé's velocities") {

@@ -9,8 +9,6 @@
 #include <slant/testing/archetypes/slanting_function.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -73,18 +71,7 @@ TEST_CASE("value and renewal allocate nothing") {
       slant::compose(slant::positive_part(30), slant::affine(m, random_vector(30, 2)));
   auto const f = slant::compose(slant::positive_part(30), slant::compose(slant::linear(m), inner));
   VectorXd const y = random_vector(30, 3);
-  VectorXd v(30);
-  VectorXd x(30);
-  auto w = slant::workspace(f, y);
-  auto g = f.slant(VectorXd::Zero(30).eval());
-  auto gw = slant::workspace(g, y);
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(f, y, v, w);
-  slant::update_slant(f, y, g, w);
-  slant::update_slant_after_value(f, y, g, w);
-  slant::apply(g, y, x, gw);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  slanting_support::check_renewal(f, y);
 }
 
 TEST_CASE("parts of which nothing is known but the concept") {

@@ -15,8 +15,6 @@
 #include <slant/slanting/projection.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -27,7 +25,6 @@ namespace de_saxce_test {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using oracle::float_50;
-using slanting_support::dense;
 using slanting_support::dense_slant;
 using slanting_support::random_matrix;
 using slanting_support::random_vector;
@@ -130,17 +127,7 @@ TEST_CASE("the natural map: value and renewal allocate nothing") {
                      (slant::identity_map(n) -
                       slant::positive(0.1) * (slant::de_saxce<3>(mu) * slant::affine(W, q)));
   VectorXd const r = random_vector(n, 5);
-  VectorXd v(n), x(n);
-  auto w = slant::workspace(F, r);
-  auto g = F.slant(VectorXd::Zero(n).eval());
-  auto gw = slant::workspace(g, r);
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(F, r, v, w);
-  slant::update_slant_after_value(F, r, g, w);
-  slant::apply(g, r, x, gw);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(dense(g, r) == dense_slant(F, r));
+  slanting_support::check_renewal(F, r);
 }
 
 TEST_CASE("de Saxcé: orthotropic friction") {

@@ -11,8 +11,6 @@
 #include <slant/slanting/identity.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -25,7 +23,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using oracle::float_50;
-using slanting_support::dense;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
 using kernel = slant::detail::friction_fischer_burmeister<3, double>;
@@ -177,18 +174,7 @@ TEST_CASE(
   MatrixXd columns(n, n);
   F.slant(r).columns(0, columns);
   CHECK((columns - G).norm() <= 1e-14 * G.norm());
-
-  VectorXd v(n), x(n);
-  auto w = slant::workspace(F, r);
-  auto g = F.slant(VectorXd::Zero(n).eval());
-  auto gw = slant::workspace(g, r);
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(F, r, v, w);
-  slant::update_slant_after_value(F, r, g, w);
-  slant::apply(g, r, x, gw);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(dense(g, r) == G);
+  slanting_support::check_renewal(F, r);
 }
 
 TEST_CASE("Fischer–Burmeister of cones: orthotropic friction, one direction perhaps without any") {

@@ -7,8 +7,6 @@
 #include <slant/testing/archetypes/slanting_function.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -19,7 +17,6 @@
 namespace max_test {
 
 using Eigen::VectorXd;
-using slanting_support::dense;
 using slanting_support::dense_slant;
 
 TEST_CASE("max(0, y): slope 1 at the kink, a projector") {
@@ -73,18 +70,7 @@ TEST_CASE("NaN in, NaN out") {
 TEST_CASE("value and renewal allocate nothing") {
   auto const f = slant::max(slant::positive_part(20), slant::identity_map(20));
   VectorXd const y = slanting_support::random_vector(20, 1);
-  VectorXd v(20);
-  auto w = slant::workspace(f, y);
-  auto g = f.slant(VectorXd::Zero(20).eval());
-  auto gw = slant::workspace(g, y);
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(f, y, v, w);
-  slant::update_slant(f, y, g, w);
-  slant::update_slant_after_value(f, y, g, w);
-  slant::apply(g, y, v, gw);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(dense(g, y) == dense_slant(f, y));
+  slanting_support::check_renewal(f, y);
 }
 
 TEST_CASE("parts of which nothing is known but the concept") {

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of slanting functions share: F°(y) as a dense matrix, and reproducible data.
+// What the tests of slanting functions share: F°(y) as a dense matrix, a check of what may not
+// allocate, and reproducible data.
 #pragma once
 
 #include <slant/concepts/slanting_function.hpp>
 
+#include <doctest/doctest.h>
 #include <Eigen/Core>
 #include <cmath>
 #include <random>
 #include <utility>
+
+#include "support/allocation_guard.hpp"
 
 namespace slanting_support {
 
@@ -32,6 +36,23 @@ template <class G, class V>
 template <class F, class V>
 [[nodiscard]] auto dense_slant(F const& f, V const& y) {
   return dense(f.slant(y), y);
+}
+
+/// The value, F°(y) renewed and its application allocate nothing; renewed it is as made anew.
+template <class F>
+void check_renewal(F const& f, Eigen::VectorXd const& y) {
+  Eigen::VectorXd v(f.rows()), x(f.rows());
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(Eigen::VectorXd::Zero(f.cols()).eval());
+  auto gw = slant::workspace(g, y);
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, y, v, w);
+  slant::update_slant(f, y, g, w);
+  slant::update_slant_after_value(f, y, g, w);
+  slant::apply(g, y, x, gw);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(dense(g, y) == dense_slant(f, y));
 }
 
 /// n numbers in [−1, 1].

@@ -2,14 +2,13 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>
 
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
+#include <methods/wire_set.hpp>
 #include <support/effort.hpp>
 
 namespace interior_point_wire_test {
@@ -25,9 +24,7 @@ TEST_CASE("cells of the wire's tables from zero: the printed numbers of active c
       CAPTURE(printed.g);
       CAPTURE(m);
       auto const wire = fem::make_wire(m);
-      auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
-                                        slant::discs(VectorXd::Constant(m, printed.g).eval()),
-                                        slant::free_components(m));
+      auto const set = test::wire_set(m, printed.l, printed.g);
       auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A);
       slant::separable_qp const qp{A, wire.b, set};
       auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(4 * m)),

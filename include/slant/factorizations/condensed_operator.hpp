@@ -9,6 +9,7 @@
 // concepts/slant/concepts/rounded.hpp. B_t and x are of doubles either way, of any scale.
 #pragma once
 
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/factorizations/detail/tail_columns.hpp>
@@ -37,10 +38,13 @@ class condensed_operator {
  public:
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
 
-  /// b: n × (size of the factor).
+  /// b: n × (size of the factor); throws bad_input if it has another number of columns.
   condensed_operator(std::shared_ptr<sparse_type const> b,
                      std::shared_ptr<factor_type const> factor, double unit)
-      : b_(std::move(b)), factor_(std::move(factor)), unit_(unit) {}
+      : b_(std::move(b)), factor_(std::move(factor)), unit_(unit) {
+    slant::detail::check_size("columns of B", b_->cols(), factor_->shape().size(),
+                              "the size of the factor,");
+  }
 
   [[nodiscard]] index rows() const { return b_->rows(); }
   [[nodiscard]] index cols() const { return b_->rows(); }

@@ -158,10 +158,7 @@ class constrained_newton_core {
 
   void note_progress(state_type& s) const {
     if (s.status != status::running || s.fallback_at_work) return;
-    auto const no_energy = [] {
-      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
-    };
-    if (s.progress.stalled(s.iteration, s.merit, options_.patience, no_energy)) {
+    if (s.progress.stalled(s.iteration, s.merit, options_.patience)) {
       s.status = status::stalled;
     }
   }

@@ -237,8 +237,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
     if (s.status != status::running) return;
-    auto const no_energy = [] { return std::pair(scalar(infinity), scalar(0)); };
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience)) {
       s.status = status::stalled;
     }
   }

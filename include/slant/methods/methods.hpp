@@ -70,6 +70,7 @@
 #include <slant/methods/successive_options.hpp>
 #include <slant/methods/successive_state.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/symmetric_newton_core.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
 #include <slant/methods/unconstrained_start.hpp>

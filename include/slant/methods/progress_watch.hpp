@@ -8,6 +8,7 @@
 #include <slant/concepts/vector.hpp>
 
 #include <limits>
+#include <utility>
 
 namespace slant {
 
@@ -29,6 +30,11 @@ class progress_watch {
     smallest_energy_ = q;
     since_ = iteration;
     return false;
+  }
+  /// The same where ‖r̃‖, or what stands for it, alone is looked at.
+  [[nodiscard]] bool stalled(index iteration, S const& norm_now, index patience) {
+    return stalled(iteration, norm_now, patience,
+                   [] { return std::pair(std::numeric_limits<S>::infinity(), S(0)); });
   }
 
  private:

@@ -11,7 +11,6 @@
 #include <slant/operators/held.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -92,10 +91,7 @@ class smalse_core {
   /// else: where the two meet at a small angle, progress is as slow as if they did not.
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
-    auto const no_energy = [] {
-      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
-    };
-    if (!s.progress.stalled(s.iteration, error(s), options_.patience, no_energy)) return;
+    if (!s.progress.stalled(s.iteration, error(s), options_.patience)) return;
     s.status = status::stalled;
     s.infeasible = is_apart(qp_.get().set(), constraints_.get(), s.x);
   }

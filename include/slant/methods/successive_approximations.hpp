@@ -39,7 +39,6 @@
 #include <slant/methods/successive_state.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -234,10 +233,7 @@ class successive_approximations {
       if (!s.accelerated && s.iteration > 1) s.relaxation /= scalar(2);
       s.mixing.forget();
     }
-    auto const no_energy = [] {
-      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
-    };
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, no_energy)) {
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience)) {
       s.status = status::stalled;
     }
   }

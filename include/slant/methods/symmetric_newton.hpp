@@ -27,16 +27,12 @@
 // and the values of ‖F‖ tend to zero whatever the start and ρ are.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
-#include <slant/methods/descent_takeover.hpp>
-#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/methods/symmetric_newton_core.hpp>
 #include <slant/methods/symmetric_newton_problem.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/operators/held.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -50,34 +46,29 @@ namespace slant {
 template <class QP, class M>
   requires symmetric_newton_problem<std::remove_cvref_t<QP>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class symmetric_newton<QP, M> {
+class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
+  using core = detail::symmetric_newton_core<QP, M>;
+
  public:
-  using problem = std::remove_cvref_t<QP>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = symmetric_newton_options<scalar>;
-  using state_type = symmetric_newton_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+  using typename core::options;
+  using typename core::preconditioner;
+  using typename core::problem;
+  using typename core::scalar;
+  using typename core::state_type;
+  using typename core::vector_type;
 
   explicit symmetric_newton(held<QP> qp)
-    requires(!preconditioned)
+    requires(!core::preconditioned)
       : symmetric_newton(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
   symmetric_newton(held<QP> qp, options o)
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
+    requires(!core::preconditioned)
+      : core(std::move(qp), std::move(o)) {}
   symmetric_newton(held<QP> qp, held<M> m)
       : symmetric_newton(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
   symmetric_newton(held<QP> qp, held<M> m, options o)
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+      : core(std::move(qp), std::move(m), std::move(o)) {}
 
   /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// ρ is not a finite number.
@@ -85,7 +76,7 @@ class symmetric_newton<QP, M> {
     auto const& qp = qp_.get();
     detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp, m_.get(), x0);
-    set_sizes(s);
+    this->set_sizes(s);
     begin_newton(s, s.begin(qp, x0));
     return s;
   }
@@ -96,7 +87,7 @@ class symmetric_newton<QP, M> {
     if (s.descent.at_work()) {
       descend(s);
     } else {
-      project(s);
+      this->project(s);
       if (s.status == status::running) newton_step(s);
     }
     ++s.iteration;
@@ -132,13 +123,11 @@ class symmetric_newton<QP, M> {
   }
 
  private:
-  /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
-  void project(state_type& s) const {
-    if (s.at_projection) return;
-    std::swap(s.x, s.projected);
-    s.at_projection = true;
-    measure(s);
-  }
+  using core::m_;
+  using core::measure;
+  using core::options_;
+  using core::qp_;
+  using core::restart;
 
   void newton_step(state_type& s) const {
     auto const& qp = qp_.get();
@@ -157,31 +146,14 @@ class symmetric_newton<QP, M> {
     slant::local(s.segment.target_y) = slant::local(s.x) + s.unit * slant::local(s.inner.t);
     slant::local(s.inner.image) += slant::local(s.r);
     slant::local(s.segment.target_z) =
-        slant::local(s.segment.target_y) - ρ(s) * slant::local(s.inner.image);
-    if (shorten(s)) {
+        slant::local(s.segment.target_y) - core::ρ(s) * slant::local(s.inner.image);
+    if (this->shorten(s)) {
       accept(s);
     } else if (s.products.at_work()) {
       s.products.give_up();  // the next step is computed anew
     } else {
       begin_descent(s);
     }
-  }
-
-  /// The longest β = 2⁻ʲ that lowers ‖F‖ enough; false if there is none. Spends no product.
-  bool shorten(state_type& s) const {
-    scalar β(1);
-    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
-      scalar const size =
-          s.segment.residual_at(qp_.get().set(), β, s.projected, s.trial) / s.step_length;
-      scalar const enough = (scalar(1) - options_.sufficient * β) * s.residual_norm;
-      if (!(enough < s.residual_norm)) return false;  // β is below the precision
-      if (size <= enough) {
-        s.step_fraction = β;
-        s.residual_norm = size;
-        return true;
-      }
-    }
-    return false;
   }
 
   void accept(state_type& s) const {
@@ -193,27 +165,12 @@ class symmetric_newton<QP, M> {
     s.last_step = β == scalar(1) ? symmetric_newton_step::full : symmetric_newton_step::damped;
   }
 
-  /// r and r̃ of x; one product.
-  void measure(state_type& s) const {
-    s.gradient(qp_.get());
-    s.reduce(qp_.get());
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
-  }
-
   /// Newton's iterate and its forcing terms from x, r and r̃.
   void begin_newton(state_type& s, bool solved) const {
     restart(s);
     s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
     s.forcing.first_error = s.gradient_scale;
     if (solved || s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-  }
-
-  void restart(state_type& s) const {
-    slant::local(s.segment.y) = slant::local(s.x);
-    slant::local(s.segment.z) = slant::local(s.x) - ρ(s) * slant::local(s.r);
-    s.residual_norm = s.reduced_gradient_norm;
-    s.at_projection = false;
   }
 
   /// Where no length is accepted: the other method takes over, unless there are no digits left.
@@ -241,40 +198,12 @@ class symmetric_newton<QP, M> {
     s.progress = {};
   }
 
-  /// ρ per unit of the gradient: z = y − ρ r.
-  static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
-
   void note_progress(state_type& s) const {
     if (s.status != status::running || s.descent.at_work()) return;
-    auto const no_energy = [] {
-      return std::pair(std::numeric_limits<scalar>::infinity(), scalar(0));
-    };
-    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, no_energy)) {
+    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {
       s.status = status::stalled;
     }
   }
-
-  /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_sizes(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-    } else {
-      auto const step = mean_step(qp_.get().a(), s.x, options_.step_factor, options_.mean_diagonal);
-      s.step_length = step.length;
-      s.work.setup_applications += step.applications;
-    }
-    // What knows the inverse on each face is not weighed against the curvature of its boundary.
-    if constexpr (!preconditioned ||
-                  preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
-      s.preconditioner_size = s.step_length / options_.step_factor;
-    } else {
-      s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
-    }
-  }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 }  // namespace slant

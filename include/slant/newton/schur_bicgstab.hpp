@@ -22,13 +22,6 @@
 
 namespace slant {
 
-/// What schur_bicgstab keeps: Krylov is the state of BiCGSTAB.
-template <class Common, class Krylov>
-struct schur_bicgstab_workspace {
-  Common common;
-  Krylov krylov;
-};
-
 /// BiCGSTAB on the Schur complement; for F°(y) of a kkt_function whose A is a matrix, sparse or
 /// dense. operator_applications are those of K⁻¹. Factorisations allocate.
 struct schur_bicgstab {
@@ -42,8 +35,8 @@ struct schur_bicgstab {
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     auto common = detail::make_schur_workspace(g, f);
     auto krylov = inner.prepare(schur(g, common), common.reduced);
-    return schur_bicgstab_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                        std::move(krylov)};
+    return detail::schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
+                                                                              std::move(krylov)};
   }
 
   template <class G, class V, class P>

@@ -25,13 +25,6 @@
 
 namespace slant {
 
-/// What schur_cg keeps: Krylov is the state of CG.
-template <class Common, class Krylov>
-struct schur_cg_workspace {
-  Common common;
-  Krylov krylov;
-};
-
 /// CG on the symmetrised Schur complement; for F°(y) of a kkt_function whose A is a matrix, sparse
 /// or dense. operator_applications are those of K⁻¹. Factorisations allocate.
 struct schur_cg {
@@ -45,8 +38,8 @@ struct schur_cg {
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     auto common = detail::make_schur_workspace(g, f);
     auto krylov = inner.prepare(schur(g, common), common.reduced);
-    return schur_cg_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                  std::move(krylov)};
+    return detail::schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
+                                                                              std::move(krylov)};
   }
 
   template <class G, class V, class P>

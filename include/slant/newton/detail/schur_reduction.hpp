@@ -63,6 +63,13 @@ template <class G, class V>
   return w;
 }
 
+/// With what the inner iteration keeps.
+template <class Common, class Krylov>
+struct schur_krylov_workspace {
+  Common common;
+  Krylov krylov;
+};
+
 /// diag(v), referring to v.
 template <class V>
 [[nodiscard]] auto diagonal_view(V const& v) {

@@ -9,7 +9,7 @@
 #include <slant/sets/block_diagonal_slant.hpp>
 #include <slant/sets/detail/block_list.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
-#include <slant/slanting/detail/function_pair.hpp>
+#include <slant/slanting/detail/evaluated_pair.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -26,20 +26,11 @@ struct block_weighted_rule {
   }
 };
 
-/// `f` and `g` hold F(y) and G(y).
-template <class First, class Second, class Vector>
-struct blockwise_pair_workspace {
-  First first;
-  Second second;
-  Vector f;
-  Vector g;
-};
-
 /// κ has `dimension` N, `scalar`, value(a, b) → N numbers, slants(a, b) → {∂κ/∂a, ∂κ/∂b} and
 /// with(parameters…).
 template <class Kernel, class F, class G>
-class blockwise_pair : public function_pair<F, G> {
-  using pair = function_pair<F, G>;
+class blockwise_pair : public evaluated_pair<F, G> {
+  using pair = evaluated_pair<F, G>;
   static constexpr int n = Kernel::dimension;
   using scalar = typename Kernel::scalar;
   using blocks_type = block_diagonal_slant<scalar, n, consecutive, false, law_set{}>;
@@ -62,18 +53,10 @@ class blockwise_pair : public function_pair<F, G> {
     kernels_.update(params...);
   }
 
-  template <class Y>
-  [[nodiscard]] auto workspace(Y const& y) const {
-    using first = decltype(slant::workspace(left(), y));
-    using second = decltype(slant::workspace(right(), y));
-    return blockwise_pair_workspace<first, second, plain_t<Y>>{
-        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
-        slant::like(y, rows())};
-  }
   template <class Y, class V, class W>
     requires pair::template
   usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
-    evaluate_parts(y, w);
+    this->evaluate_parts(y, w);
     for_each(w, [&](auto const& kernel, index i, auto const& a, auto const& b) {
       place_of(i).put(slant::local(v), kernel.value(a, b));
     });
@@ -81,8 +64,8 @@ class blockwise_pair : public function_pair<F, G> {
   template <class Y>
     requires pair::template
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
-    auto w = workspace(y);
-    evaluate_parts(y, w);
+    auto w = this->workspace(y);
+    this->evaluate_parts(y, w);
     assembled_operator s(block_weighted_rule{}, blocks_type(kernels_.size()),
                          blocks_type(kernels_.size()), left().slant(y), right().slant(y));
     set_slants(s, w);
@@ -90,14 +73,13 @@ class blockwise_pair : public function_pair<F, G> {
   }
   template <class Y, class S, class W>
   void slant(Y const& y, S& s, W& w) const {
-    evaluate_parts(y, w);
+    this->evaluate_parts(y, w);
     slant_after_value(y, s, w);
   }
   template <class Y, class S, class W>
   void slant_after_value(Y const& y, S& s, W& w) const {
     set_slants(s, w);
-    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
-    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
+    this->update_parts(y, s, w);
   }
 
  private:
@@ -110,11 +92,6 @@ class blockwise_pair : public function_pair<F, G> {
     for (index i = 0; i < kernels_.size(); ++i) {
       f(kernels_[i], i, place_of(i).value(w.f), place_of(i).value(w.g));
     }
-  }
-  template <class Y, class W>
-  void evaluate_parts(Y const& y, W& w) const {
-    slant::evaluate(left(), y, w.f, w.first);
-    slant::evaluate(right(), y, w.g, w.second);
   }
   template <class S, class W>
   void set_slants(S& s, W const& w) const {

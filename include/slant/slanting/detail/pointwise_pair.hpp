@@ -9,7 +9,7 @@
 #pragma once
 
 #include <slant/slanting/detail/assembled_operator.hpp>
-#include <slant/slanting/detail/function_pair.hpp>
+#include <slant/slanting/detail/evaluated_pair.hpp>
 #include <slant/slanting/detail/weighted_sum_operator.hpp>
 
 #include <type_traits>
@@ -26,20 +26,11 @@ struct weighted_sum_rule {
   }
 };
 
-/// `f` and `g` hold F(y) and G(y).
-template <class First, class Second, class Vector>
-struct pointwise_pair_workspace {
-  First first;
-  Second second;
-  Vector f;
-  Vector g;
-};
-
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
 /// the slopes are always (1, 0) or (0, 1), or NaN.
 template <class Kernel, class F, class G>
-class pointwise_pair : public function_pair<F, G> {
-  using pair = function_pair<F, G>;
+class pointwise_pair : public evaluated_pair<F, G> {
+  using pair = evaluated_pair<F, G>;
 
  public:
   using pair::left;
@@ -47,26 +38,18 @@ class pointwise_pair : public function_pair<F, G> {
   using pair::right;
   using pair::rows;
 
-  template <class Y>
-  [[nodiscard]] auto workspace(Y const& y) const {
-    using first = decltype(slant::workspace(left(), y));
-    using second = decltype(slant::workspace(right(), y));
-    return pointwise_pair_workspace<first, second, plain_t<Y>>{
-        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
-        slant::like(y, rows())};
-  }
   template <class Y, class V, class W>
     requires pair::template
   usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
-    evaluate_parts(y, w);
+    this->evaluate_parts(y, w);
     slant::local(v) = slant::local(w.f).binaryExpr(
         slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
   }
   template <class Y>
     requires pair::template
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
-    auto w = workspace(y);
-    evaluate_parts(y, w);
+    auto w = this->workspace(y);
+    this->evaluate_parts(y, w);
     assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()),
                          slant::like(y, rows()), left().slant(y), right().slant(y));
     set_slopes(s, w);
@@ -74,22 +57,16 @@ class pointwise_pair : public function_pair<F, G> {
   }
   template <class Y, class S, class W>
   void slant(Y const& y, S& s, W& w) const {
-    evaluate_parts(y, w);
+    this->evaluate_parts(y, w);
     slant_after_value(y, s, w);
   }
   template <class Y, class S, class W>
   void slant_after_value(Y const& y, S& s, W& w) const {
     set_slopes(s, w);
-    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
-    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
+    this->update_parts(y, s, w);
   }
 
  private:
-  template <class Y, class W>
-  void evaluate_parts(Y const& y, W& w) const {
-    slant::evaluate(left(), y, w.f, w.first);
-    slant::evaluate(right(), y, w.g, w.second);
-  }
   template <class S, class W>
   void set_slopes(S& s, W const& w) const {
     auto& p = slant::local(s.template part<0>());

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <slant/factorizations/condensed_operator.hpp>
+
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/rounded.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "factorizations/tail_factor.hpp"
+#include "support/allocation_guard.hpp"
+#include "support/message.hpp"
+
+namespace condensed_operator_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slant::index;
+using sparse = Eigen::SparseMatrix<double>;
+using exact = slant::condensed_operator<double>;
+using rounded = slant::condensed_operator<float>;
+
+static_assert(slant::psd_operator<exact, VectorXd>);
+static_assert(slant::psd_operator<rounded, VectorXd>);
+static_assert(slant::has_rounded<exact, VectorXd>);
+static_assert(!slant::has_rounded<rounded, VectorXd>);
+
+std::shared_ptr<sparse const> shared(sparse const& b) {
+  return std::make_shared<sparse const>(b);
+}
+
+/// 20 rows, more than formed() takes at a time, each with two entries or three.
+struct scene {
+  test::tail_factor factor;
+  sparse B{20, 44};
+  std::shared_ptr<slant::detail::tail_columns const> columns;
+  double unit = 0.25;
+
+  scene() {
+    for (int i = 0; i < 20; ++i) {
+      B.insert(i, 2 * i) = 1.0 + 0.1 * i;
+      B.insert(i, 43 - i) = -0.5;
+      if (i % 3 == 0) B.insert(i, 2 * i + 1) = 2;
+    }
+    columns = std::shared_ptr<slant::detail::tail_columns const>(
+        new slant::detail::tail_columns(factor.columns()));
+  }
+  [[nodiscard]] exact condensed() const { return {shared(B), columns, unit}; }
+  /// u B (L Lᵀ)⁻¹Bᵀ.
+  [[nodiscard]] MatrixXd dense() const {
+    return unit * MatrixXd(B) * factor.solved(MatrixXd(B.transpose()));
+  }
+};
+
+TEST_CASE("u B L⁻ᵀL⁻¹Bᵀ as by dense matrices, for one or several right-hand sides") {
+  scene const s;
+  auto const a = s.condensed();
+  MatrixXd const A = s.dense();
+  CHECK(a.rows() == 20);
+  CHECK(a.cols() == 20);
+  CHECK(a.bytes() == 8 * s.factor.shape->entries());
+  for (index const k : {1, 2, 7}) {
+    MatrixXd const X = MatrixXd::Random(20, k);
+    MatrixXd Y = MatrixXd::Constant(20, k, std::numeric_limits<double>::quiet_NaN());
+    auto w = slant::workspace(a, X);
+    slant::testing::allocation_guard guard;
+    slant::apply(a, X, Y, w);
+    auto const allocations = guard.count();
+    CHECK(allocations == 0);
+    CHECK((Y - A * X).norm() < 1e-14 * Y.norm());
+  }
+}
+
+TEST_CASE("its laws, and those of its rounded twin") {
+  auto const a = scene().condensed();
+  slant::testing::check_operator_laws(a);
+  slant::testing::check_operator_laws(a.rounded(), {.roundings = 1e10});
+}
+
+TEST_CASE("entries of A: as by dense matrices, symmetric to the last bit") {
+  scene const s;
+  MatrixXd const A = s.condensed().formed();
+  CHECK((A - s.dense()).norm() < 1e-14 * A.norm());
+  CHECK(A == A.transpose());
+}
+
+TEST_CASE("a workspace fits other numbers of right-hand sides") {
+  auto const a = scene().condensed();
+  auto w = slant::workspace(a, VectorXd(VectorXd::Zero(20)));
+  MatrixXd const X = MatrixXd::Random(20, 3);
+  MatrixXd Y(20, 3), Z(20, 3);
+  slant::apply(a, X, Y);
+  slant::apply(a, X, Z, w);
+  CHECK(Y == Z);
+}
+
+TEST_CASE("the rounded twin: floats, made once, for right-hand sides of any scale") {
+  scene const s;
+  auto const a = s.condensed();
+  auto const twin = a.rounded();
+  CHECK(twin.bytes() < a.bytes());
+  {
+    slant::testing::allocation_guard guard;
+    (void)a.rounded();
+    auto const allocations = guard.count();
+    CHECK(allocations == 0);
+  }
+  VectorXd const direction = VectorXd::Random(20);
+  VectorXd x = direction, y(20), z(20);
+  auto w = slant::workspace(twin, x);
+  for (double const scale : {1.0, 1e-150, 1e150, 1e-300, 1e300}) {
+    x = scale * direction;
+    slant::apply(a, x, y);
+    slant::testing::allocation_guard guard;
+    slant::apply(twin, x, z, w);
+    auto const allocations = guard.count();
+    CHECK(allocations == 0);
+    double const size = y.cwiseAbs().maxCoeff();
+    CHECK((y - z).cwiseAbs().maxCoeff() < 1e-5 * size);
+    CHECK((y - z).cwiseAbs().maxCoeff() > 1e-12 * size);
+  }
+  // Each column in its own units: the small one is as good as alone.
+  MatrixXd pair(20, 2), images(20, 2);
+  pair << 1e-200 * direction, 1e200 * direction;
+  slant::apply(twin, pair, images);
+  slant::apply(twin, direction, z);
+  CHECK((images.col(0) * 1e200 - z).norm() < 1e-6 * z.norm());
+  CHECK((images.col(1) * 1e-200 - z).norm() < 1e-6 * z.norm());
+  x.setZero();
+  slant::apply(twin, x, z, w);
+  CHECK(z.isZero(0));
+}
+
+TEST_CASE("the unit of K is a factor, and changes no digit") {
+  scene s;
+  VectorXd const x = VectorXd::Random(20);
+  VectorXd y(20), z(20);
+  slant::apply(s.condensed(), x, y);
+  for (int const e : {-500, 500}) {
+    s.unit = std::ldexp(0.25, e);
+    slant::apply(s.condensed(), x, z);
+    CHECK(z * std::ldexp(1.0, -e) == y);
+  }
+}
+
+TEST_CASE("an operator outlives what it was made of") {
+  std::optional<scene> s(std::in_place);
+  VectorXd const x = VectorXd::Random(20);
+  VectorXd const expected = s->dense() * x;
+  auto const a = s->condensed();
+  s.reset();
+  VectorXd y(20);
+  slant::apply(a, x, y);
+  CHECK((y - expected).norm() < 1e-14 * y.norm());
+}
+
+TEST_CASE("nothing in contact, and no rows") {
+  auto const shape = std::make_shared<slant::detail::tail_shape>();
+  std::shared_ptr<slant::detail::tail_columns const> const nothing(new slant::detail::tail_columns(
+      shape, std::vector<slant::detail::tail_columns::matrix>{}, nullptr));
+  exact const none(shared(sparse(2, 0)), nothing, 1.0);
+  VectorXd y = VectorXd::Ones(2);
+  slant::apply(none, VectorXd(VectorXd::Ones(2)), y);
+  CHECK(y.isZero(0));
+  y.setOnes();
+  slant::apply(none.rounded(), VectorXd(VectorXd::Ones(2)), y);
+  CHECK(y.isZero(0));
+  CHECK(none.formed() == MatrixXd::Zero(2, 2));
+
+  scene const s;
+  exact const empty(shared(sparse(0, 44)), s.columns, s.unit);
+  VectorXd zero(0);
+  slant::apply(empty, VectorXd(zero), zero);
+  CHECK(empty.formed().size() == 0);
+}
+
+TEST_CASE("sizes that do not fit are refused") {
+  scene const s;
+  auto const a = s.condensed();
+  VectorXd y(20);
+  CHECK(test::complaint([&] {
+          slant::apply(a, VectorXd(VectorXd::Ones(19)), y);
+        }).starts_with("x: got 19"));
+  VectorXd few(3);
+  CHECK(test::complaint([&] {
+          slant::apply(a, VectorXd(VectorXd::Ones(20)), few);
+        }).starts_with("y: got 3"));
+  CHECK(test::complaint([&] {
+          (void)exact(shared(sparse(2, 43)), s.columns, 1.0);
+        }).starts_with("columns of B: got 43"));
+}
+
+}  // namespace condensed_operator_test
