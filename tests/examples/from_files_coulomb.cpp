@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <oracle/dense_contact_reference.hpp>
 #include <string>
+#include <utility>
 
 #include "problem_files.hpp"
 
@@ -41,6 +42,17 @@ fem::contact_scene<3> brick() {
   return fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
 }
 
+fem::contact_scene<2> plate() {
+  return fem::make_contact_scene<2>(
+      {.mesh = fem::make_box_mesh<2>({4, 2}, Eigen::Vector2d(2, 1)),
+       .material = fem::lame(10, 0.3),
+       .fixed = {.axis = 0, .upper = false},
+       .contact = {.axis = 1, .upper = false},
+       .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
+                 {{.axis = 0, .upper = true}, Eigen::Vector2d(0.6, 0.5)}},
+       .slip_bound = 0.3});
+}
+
 }  // namespace
 
 TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
@@ -55,25 +67,46 @@ TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
   json const result = json::parse(ran.out);
   CHECK(result["status"] == "converged");
   CHECK(result["method"] == "coulomb");
+  CHECK(result["solved_by"] == "newton");
   CHECK(result["tangents_per_node"] == 2);
   CHECK(result["kkt_residual"].get<double>() < 1e-6);
   CHECK(files.files_written() == 2);
   check_fixed_point(files, scene, F);
 }
 
-TEST_CASE("from_files: Coulomb friction in the plane") {
-  auto const scene = fem::make_contact_scene<2>(
-      {.mesh = fem::make_box_mesh<2>({4, 2}, Eigen::Vector2d(2, 1)),
-       .material = fem::lame(10, 0.3),
-       .fixed = {.axis = 0, .upper = false},
-       .contact = {.axis = 1, .upper = false},
-       .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
-                 {{.axis = 0, .upper = true}, Eigen::Vector2d(0.6, 0.5)}},
-       .slip_bound = 0.3});
+TEST_CASE("from_files: Coulomb friction in the plane, by every method") {
+  auto const scene = plate();
   problem_files const files(scene);
   Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.4);
-  CHECK(files.solve(put_coefficients(files, F) + " --tolerance 1e-10").status == 0);
-  check_fixed_point(files, scene, F);
+  std::string const option = put_coefficients(files, F) + " --tolerance 1e-10";
+  using pair = std::pair<std::string, std::string>;
+  for (auto const& [method, solved_by] : {pair{"coulomb", "newton"}, pair{"newton", "newton"},
+                                          pair{"radii", "radii"}, pair{"cones", "cones"}}) {
+    CAPTURE(method);
+    auto const ran = files.solve(option + " --method " + method);
+    CHECK(ran.status == 0);
+    json const result = json::parse(ran.out);
+    CHECK(result["method"] == method);
+    CHECK(result["solved_by"] == solved_by);
+    CHECK(result["tangents_per_node"] == 1);
+    check_fixed_point(files, scene, F);
+  }
+}
+
+TEST_CASE("from_files: Coulomb friction, too few steps and all digits") {
+  auto const scene = plate();
+  problem_files const files(scene);
+  Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.4);
+  std::string const option = put_coefficients(files, F);
+  for (std::string const method : {"coulomb", "newton", "radii", "cones"}) {
+    CAPTURE(method);
+    auto const early = files.solve(option + " --max-iterations 1 --method " + method);
+    CHECK(early.status == 1);
+    CHECK(json::parse(early.out)["status"] == "iteration_limit");
+    CHECK(json::parse(early.out)["iterations"] == 1);
+    (void)files.solve(option + " --tolerance 0 --method " + method);
+    check_fixed_point(files, scene, F);
+  }
 }
 
 TEST_CASE("from_files: coefficients that cannot be used") {
@@ -96,8 +129,17 @@ TEST_CASE("from_files: coefficients that cannot be used") {
           "F.txt: got -0.25 at node 3, expected numbers >= 0");
   refused(files, put_coefficients(files, F.head(5)),
           "F.txt:6: got the end of the file after 5 numbers, expected 18 numbers");
+  refused(files, put_coefficients(files, Eigen::VectorXd::Constant(20, 0.3)),
+          "F.txt:19: got number 19, expected 18 numbers");
   std::string const option = put_coefficients(files, F);
-  refused(files, option + " --method kprgp", "--method: got kprgp, expected coulomb");
+  for (std::string const bad : {"nan", "inf"}) {
+    files.put("F.txt", bad + "\n");
+    refused(files, option, "F.txt:1: got '" + bad + "', expected a finite number");
+  }
+  slant::write_text_vector(files.input() / "F.txt", F);
+  refused(files, option + " --method kprgp",
+          "--method: got kprgp, expected one of coulomb, newton, radii, cones, as --coulomb");
+  refused(files, option + " --max-iterations 0", "--max-iterations: got 0, expected at least 1");
   refused(files, option + " --start qpc", "--start: got qpc, expected zero");
   files.remove("T.mtx");
   refused(files, option, "T.mtx: got no such file");
