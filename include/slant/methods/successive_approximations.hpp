@@ -189,9 +189,11 @@ class successive_approximations {
   void solve_inner(state_type& s, bool anew) const {
     scalar const η = s.forcing.next(options_.forcing);
     auto& in = s.inner;
-    // Where p stays as it is there is nothing to save for later.
+    // Where p stays as it is there is nothing to save for later. Not so in the first step: there p
+    // is the guess of a start that may be far off, even where the family guesses P(x) itself.
+    bool const settled = !anew && s.solved_once;
     auto const whole = scalar(options_.forcing.goal / 2) * in.gradient_scale;
-    scalar const target = anew || whole == scalar(0) ? η * s.reduced_gradient_norm : whole;
+    scalar const target = settled && whole > scalar(0) ? whole : η * s.reduced_gradient_norm;
     if (anew) restart(s);
     work const before = anew ? work{} : in.work;
     scalar const most(0.999);
