@@ -11,6 +11,7 @@
 #include <slant/contact/preconditioner.hpp>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "scene.hpp"
 
