@@ -13,23 +13,38 @@
 
 namespace fem {
 
+/// The mesh of the plate whose lower edge is at this height.
+[[nodiscard]] inline box_mesh<2> make_plate_mesh(int k, double height) {
+  return make_box_mesh<2>({3 * k, k}, {3, 1}, {0, height});
+}
+
+/// The tractions on the upper plate.
+struct plate_loads {
+  side_traction<2> from_above;
+  side_traction<2> at_end;
+};
+[[nodiscard]] inline plate_loads loads_on_plates() {
+  Eigen::Matrix2d along_top;
+  along_top << 0, 0, -1e7, 0;
+  Eigen::Matrix2d along_end;
+  along_end << 0, 0, 0, -2e7;
+  return {.from_above = {{1, true}, {0, -6e7}, along_top},
+          .at_end = {{0, true}, {2e7, 6e7}, along_end}};  // 4(2 − s) + 2(s − 1) = 6 − 2s
+}
+
 /// The discretised plates of 3k × k cells each: 12 k (k + 1) unknowns and 3k pairs of contact nodes
 /// with two multipliers each; k = 60, …, 130 gives the n_u/m of [K Table 5].
 [[nodiscard]] inline contact_scene<2> make_two_plates(int k) {
   require(k >= 1 && k <= 4000, "k", k, "between 1 and 4000 cells along the short edges");
   auto const plate = [&](double height) {
-    return loaded_box<2>{.mesh = make_box_mesh<2>({3 * k, k}, {3, 1}, {0, height}),
+    return loaded_box<2>{.mesh = make_plate_mesh(k, height),
                          .material = lame_plane_stress(21.19e10, 0.277),
                          .fixed = {0, false}};
   };
   boxes_in_contact<2> pair{
       .first = plate(1), .second = plate(0), .contact = {1, false}, .slip_bound = 1.7e7};
-  Eigen::Matrix2d along_top;
-  along_top << 0, 0, -1e7, 0;
-  Eigen::Matrix2d along_end;
-  along_end << 0, 0, 0, -2e7;
-  pair.first.loads.push_back({{1, true}, {0, -6e7}, along_top});
-  pair.first.loads.push_back({{0, true}, {2e7, 6e7}, along_end});  // 4(2 − s) + 2(s − 1) = 6 − 2s
+  auto const loads = loads_on_plates();
+  pair.first.loads = {loads.from_above, loads.at_end};
   return make_two_body_scene(pair);
 }
 

@@ -49,10 +49,7 @@ bool holds_friction_problem(std::filesystem::path const& folder) {
 }
 
 void list_friction_methods() {
-  for (auto const& method : friction_methods) {
-    std::printf("%-20s %s%s\n", method.name.data(), method.sentence.data(),
-                method.name == friction_methods.front().name ? " (recommended)" : "");
-  }
+  print_methods(friction_methods);
 }
 
 int solve_friction_folder(arguments const& a) {
@@ -61,7 +58,7 @@ int solve_friction_folder(arguments const& a) {
                            "nothing, since DIR holds W.mtx, whose coefficients are in mu.txt");
   if (a.start != "zero")
     throw slant::bad_input("--start", a.start, "zero, since DIR holds W.mtx: contacts alone");
-  auto const& method = friction_method_of(a.method);
+  auto const& method = method_named(friction_methods, a.method);
   auto const problem = slant::read_friction_problem(
       a.folder, {.asymmetry = a.symmetric ? contact::asymmetric_data::refused
                                           : contact::asymmetric_data::used_as_given});

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The methods for contacts in local coordinates that can be asked for by name. The first one is
-// recommended, and taken unless another is asked for.
+// The methods for contacts in local coordinates that can be asked for by name.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/solve_friction.hpp>
-#include <string>
 #include <string_view>
+
+#include "method_list.hpp"
 
 namespace from_files {
 
@@ -50,17 +49,5 @@ inline constexpr std::array friction_methods{
     friction_method{"proximal_newton", "The proximal point method around it.",
                     slant::contact::friction_method::proximal_newton},
 };
-
-/// The method of that name; the recommended one for an empty name. Throws slant::bad_input that
-/// lists the known names.
-[[nodiscard]] inline friction_method const& friction_method_of(std::string_view name) {
-  if (name.empty()) return friction_methods.front();
-  std::string known;
-  for (auto const& method : friction_methods) {
-    if (method.name == name) return method;
-    known.append(known.empty() ? "" : ", ").append(method.name);
-  }
-  throw slant::bad_input("--method", name, "one of " + known);
-}
 
 }  // namespace from_files

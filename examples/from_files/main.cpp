@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <support/command_line.hpp>
+#include <utility>
 
 #include "arguments.hpp"
 #include "coulomb.hpp"
@@ -29,6 +30,8 @@ int list_methods() {
     std::printf("%-20s %s%s\n", method.name.data(), method.sentence.data(),
                 method.name == from_files::recommended_method ? " (recommended)" : "");
   });
+  std::printf("\nBodies with Coulomb friction (--coulomb):\n");
+  from_files::print_methods(from_files::coulomb_methods);
   std::printf("\nContacts in local coordinates:\n");
   from_files::list_friction_methods();
   return examples::succeeded;
@@ -40,23 +43,22 @@ int deliver_solution(arguments const& a, from_files::problem const& p, std::stri
                      std::optional<from_files::result_files>& files) {
   if (!s.is_finite()) files.reset();
   if (files) files->write(s.u, s.run.λ);
-  return from_files::deliver(
-      a,
-      {{"status", slant::to_string(s.run.status)},
-       {"reason", s.run.reason},
-       {"method", method},
-       {"iterations", s.run.iterations},
-       {"operator_applications", s.run.work.operator_applications + s.run.work.setup_applications},
-       {"setup_applications", s.run.work.setup_applications},
-       {"setup_seconds", s.setup_seconds},
-       {"solve_seconds", s.solve_seconds},
-       {"kkt_residual", s.kkt_residual},
-       {"tolerance", a.tolerance},
-       {"unknowns", p.K.rows()},
-       {"contact_nodes", p.contact.nodes()},
-       {"tangents_per_node", p.contact.tangents()},
-       {"factorization", s.factorization}},
-      s.converged() && s.is_finite(), files);
+  nlohmann::ordered_json json{
+      {"status", slant::to_string(s.run.status)}, {"reason", s.run.reason}, {"method", method}};
+  if (!s.solved_by.empty()) json["solved_by"] = s.solved_by;
+  json.update(nlohmann::ordered_json{
+      {"iterations", s.run.iterations},
+      {"operator_applications", s.run.work.operator_applications + s.run.work.setup_applications},
+      {"setup_applications", s.run.work.setup_applications},
+      {"setup_seconds", s.setup_seconds},
+      {"solve_seconds", s.solve_seconds},
+      {"kkt_residual", s.kkt_residual},
+      {"tolerance", a.tolerance},
+      {"unknowns", p.K.rows()},
+      {"contact_nodes", p.contact.nodes()},
+      {"tangents_per_node", p.contact.tangents()},
+      {"factorization", s.factorization}});
+  return from_files::deliver(a, std::move(json), s.converged() && s.is_finite(), files);
 }
 
 from_files::settings settings_of(arguments const& a) {
@@ -76,13 +78,16 @@ int solve_tresca(arguments const& a) {
 }
 
 int solve_coulomb(arguments const& a) {
-  if (!a.method.empty() && a.method != "coulomb")
-    throw slant::bad_input("--method", a.method, "coulomb, as --coulomb is given");
+  auto const& method =
+      from_files::method_named(from_files::coulomb_methods, a.method, ", as --coulomb is given");
   if (a.start != "zero") throw slant::bad_input("--start", a.start, "zero, as --coulomb is given");
+  if (a.max_iterations && *a.max_iterations < 1)
+    throw slant::bad_input("--max-iterations", "0", "at least 1, as --coulomb is given");
   auto const problem = from_files::read_coulomb_folder(a.folder, a.coefficients);
   auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
-  auto const solution = from_files::solve_coulomb(problem, settings_of(a));
-  return deliver_solution(a, problem.body, "coulomb", solution, files);
+  auto const solution = from_files::solve_coulomb(
+      problem, method.kind, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
+  return deliver_solution(a, problem.body, std::string(method.name), solution, files);
 }
 
 int solve_folder(arguments const& a) {

@@ -14,6 +14,7 @@ namespace from_files {
 struct solution {
   outcome run;
   Eigen::VectorXd u;
+  std::string solved_by{};    ///< what found it, where several methods have a turn; else empty
   std::string factorization;  ///< what factored K
   double setup_seconds;       ///< factorisation, right-hand side, what the method prepares
   double solve_seconds;       ///< iteration and recovery of u

@@ -6,6 +6,7 @@
 #include <fem/contact_vtu.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
+#include <fem/two_plates.hpp>
 #include <io/io_support.hpp>
 #include <pugixml.hpp>
 #include <sstream>
@@ -27,18 +28,21 @@ Eigen::MatrixXd point_data(pugi::xml_document const& file, char const* name) {
 }
 
 /// Writes made-up numbers for a scene and reads them back.
-void check_points(fem::contact_scene<3> const& scene) {
+template <int D>
+void check_points(fem::contact_scene<D> const& scene) {
   Eigen::Index const m = scene.contact_count();
   Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(scene.unknowns.count, -1, 1);
-  Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(3 * m, 0, 1);
-  auto const field = fem::make_contact_field(scene, u, λ.head(m), λ.tail(2 * m));
+  Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(D * m, 0, 1);
+  auto const field = fem::make_contact_field(scene, u, λ.head(m), λ.tail((D - 1) * m));
 
   io_test::temporary_folder const folder;
   fem::write_contact_vtu(folder / "a.vtu", scene, field, u, slant::vtu_encoding::ascii);
   pugi::xml_document file;
   REQUIRE(file.load_file((folder / "a.vtu").c_str()));
 
-  CHECK(point_data(file, "displacement").isApprox(scene.displacement(u), 1e-14));
+  Eigen::MatrixXd const displacement = point_data(file, "displacement");
+  REQUIRE(displacement.rows() == 3);
+  CHECK(displacement.topRows(D).isApprox(scene.displacement(u), 1e-14));
   Eigen::MatrixXd pressure = point_data(file, "contact_pressure");
   Eigen::MatrixXd friction = point_data(file, "friction");
   Eigen::MatrixXd state = point_data(file, "contact_state");
@@ -46,9 +50,10 @@ void check_points(fem::contact_scene<3> const& scene) {
   auto const check = [&](int node, std::size_t at, double sign) {
     auto const i = static_cast<Eigen::Index>(at);
     CHECK(pressure(0, node) == doctest::Approx(field.normal[i]));
-    CHECK(friction.col(node).head(2).isApprox(sign * field.friction.col(i), 1e-14));
+    CHECK(friction.col(node).head(D - 1).isApprox(sign * field.friction.col(i), 1e-14));
     CHECK(state(0, node) == static_cast<int>(field.state[at]));
-    pressure(0, node) = friction(0, node) = friction(1, node) = 0;
+    pressure(0, node) = 0;
+    friction.col(node).head(D - 1).setZero();
     state(0, node) = fem::no_contact_node;
   };
   for (std::size_t at = 0; at < scene.contact_nodes.size(); ++at) {
@@ -68,4 +73,5 @@ TEST_CASE("a contact solution arrives at its points, of one body and of two") {
   auto const bricks = fem::make_two_bricks(3);
   CHECK(bricks.opposite_nodes.size() == 9);
   check_points(bricks);
+  check_points(fem::make_two_plates(2));
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <oracle/dense_contact_reference.hpp>
 #include <string>
+#include <utility>
 
 #include "problem_files.hpp"
 
@@ -50,18 +51,46 @@ TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
   json const result = solved(files, put_coefficients(files, F));
   CHECK(result["status"] == "converged");
   CHECK(result["method"] == "coulomb");
+  CHECK(result["solved_by"] == "newton");
   CHECK(result["tangents_per_node"] == 2);
   CHECK(result["kkt_residual"].get<double>() < 1e-6);
   CHECK(files.files_written() == 2);
   check_fixed_point(files, scene, F);
 }
 
-TEST_CASE("from_files: Coulomb friction in the plane") {
+TEST_CASE("from_files: Coulomb friction in the plane, by every method") {
   auto const scene = examples_test::plane_scene();
   problem_files const files(scene);
   Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.4);
-  CHECK(files.solve(put_coefficients(files, F) + " --tolerance 1e-10").status == 0);
-  check_fixed_point(files, scene, F);
+  std::string const option = put_coefficients(files, F) + " --tolerance 1e-10";
+  using pair = std::pair<std::string, std::string>;
+  for (auto const& [method, solved_by] : {pair{"coulomb", "newton"}, pair{"newton", "newton"},
+                                          pair{"radii", "radii"}, pair{"cones", "cones"}}) {
+    CAPTURE(method);
+    auto const ran = files.solve(option + " --method " + method);
+    CHECK(ran.status == 0);
+    json const result = json::parse(ran.out);
+    CHECK(result["method"] == method);
+    CHECK(result["solved_by"] == solved_by);
+    CHECK(result["tangents_per_node"] == 1);
+    check_fixed_point(files, scene, F);
+  }
+}
+
+TEST_CASE("from_files: Coulomb friction, too few steps and all digits") {
+  auto const scene = examples_test::plane_scene();
+  problem_files const files(scene);
+  Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.4);
+  std::string const option = put_coefficients(files, F);
+  for (std::string const method : {"coulomb", "newton", "radii", "cones"}) {
+    CAPTURE(method);
+    auto const early = files.solve(option + " --max-iterations 1 --method " + method);
+    CHECK(early.status == 1);
+    CHECK(json::parse(early.out)["status"] == "iteration_limit");
+    CHECK(json::parse(early.out)["iterations"] == 1);
+    (void)files.solve(option + " --tolerance 0 --method " + method);
+    check_fixed_point(files, scene, F);
+  }
 }
 
 TEST_CASE("from_files: coefficients that cannot be used") {
@@ -74,8 +103,18 @@ TEST_CASE("from_files: coefficients that cannot be used") {
                 "F.txt: got -0.25 at node 3, expected numbers >= 0");
   check_refusal(files, put_coefficients(files, F.head(5)),
                 "F.txt:6: got the end of the file after 5 numbers, expected 18 numbers");
+  check_refusal(files, put_coefficients(files, Eigen::VectorXd::Constant(20, 0.3)),
+                "F.txt:19: got number 19, expected 18 numbers");
   std::string const option = put_coefficients(files, F);
-  check_refusal(files, option + " --method kprgp", "--method: got kprgp, expected coulomb");
+  for (std::string const bad : {"nan", "inf"}) {
+    files.put("F.txt", bad + "\n");
+    check_refusal(files, option, "F.txt:1: got '" + bad + "', expected a finite number");
+  }
+  slant::write_text_vector(files.input() / "F.txt", F);
+  check_refusal(files, option + " --method kprgp",
+                "--method: got kprgp, expected one of coulomb, newton, radii, cones, as --coulomb");
+  check_refusal(files, option + " --max-iterations 0",
+                "--max-iterations: got 0, expected at least 1");
   check_refusal(files, option + " --start qpc", "--start: got qpc, expected zero");
   files.remove("T.mtx");
   check_refusal(files, option, "T.mtx: got no such file");

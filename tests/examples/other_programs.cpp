@@ -111,36 +111,6 @@ TEST_CASE("stacked_bricks: a stack that stands, and loads without equilibrium") 
   }
 }
 
-TEST_CASE("coulomb: a sequence of load steps, and its files") {
-  io_test::temporary_folder const folder;
-  auto const ran =
-      run("coulomb", "--cells 2 --steps 2 --friction 0.3 --friction-across 0.5 --output " +
-                         word(folder.path().string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  for (auto const* expected : {"in 6 load steps", "0.5 along y (orthotropic)", "144 tetrahedra",
-                               "converged", "K was factored once"})
-    CHECK(contains(ran.out, expected));
-  // What the drag has left behind after it has gone: the path counts, that is what friction is.
-  std::string const left = "left behind    by the drag: slip of ";
-  REQUIRE(contains(ran.out, left));
-  CHECK(std::stod(ran.out.substr(ran.out.find(left) + left.size())) > 0);
-  auto const list = io_test::get(folder / "coulomb.pvd");
-  CHECK(contains(list, "timestep=\"0.5\""));
-  CHECK(contains(list, "coulomb_005.vtu"));
-  CHECK(contains(io_test::get(folder / "coulomb_005.vtu"), "contact_state"));
-  CHECK(contains(ran.out, "wrote " + (folder / "slip.png").string()) == has_gnuplot());
-
-  auto const refused = run("coulomb", "--cells 2 --method newton --friction-across 0.5");
-  CHECK(refused.status == 2);
-  CHECK(
-      contains(refused.err, "--method: got newton, expected radii, as --friction-across is given"));
-
-  auto const bricks = run("coulomb", "--model bricks --cells 3 --steps 1 --friction 1");
-  CHECK(bricks.status == 0);
-  CHECK(contains(bricks.out, "Two bricks"));
-}
-
 TEST_CASE("the programs refuse bad options in one line") {
   auto const check = [](std::string const& name, std::string const& options,
                         std::string const& expected) {
@@ -149,8 +119,6 @@ TEST_CASE("the programs refuse bad options in one line") {
   check("brick", "--load push", "--load: got push, expected press, pull or lift");
   check("brick", "--cells 0", "--cells: got 0, expected a whole number >= 1");
   check("brick", "--cells 1 --output /dev/null", "--output: got /dev/null");
-  check("coulomb", "--friction -1", "--friction: got -1, expected a finite number >= 0");
-  check("coulomb", "--model wire", "--model: got wire, expected brick or bricks");
   check("wire", "--unknowns 30", "--unknowns: got 30, expected a multiple of 4");
   check("wire", "--radius -1", "--radius: got -1, expected a number >= 0");
   check("wire", "--lower nan", "--lower: got nan");

@@ -141,6 +141,30 @@ TEST_CASE("parameters that do not depend on x: one problem, and no product more 
   CHECK(r.state.work.operator_applications == one.state.work.operator_applications);
 }
 
+TEST_CASE("a first guess that was P of the start, but does not stay, is not solved to the end") {
+  moving_obstacle family(0.5);
+  double const goal = 1e-10;
+  slant::successive_options<double> o;
+  o.forcing.goal = goal;
+  auto const kprgp = [&](double) { return slant::kprgp{family.qp()}; };
+  slant::successive_approximations const method(family, kprgp, o);
+  auto s = method.start(VectorXd::Zero(n));
+  method.step(s);
+  CHECK(s.status == slant::status::running);
+  CHECK(s.inner.reduced_gradient_norm <= o.forcing.η_first * s.reduced_gradient_norm);
+  VectorXd l(n);
+  moving_obstacle guessed(0.5);  // the problem of that guess
+  guessed.guess(VectorXd::Zero(n), l);
+  guessed.assign(l);
+  auto const one =
+      slant::solve(slant::kprgp{guessed.qp()}, VectorXd(VectorXd::Zero(n)), stop(goal));
+  REQUIRE(one.converged());
+  CHECK(2 * s.inner_iterations <= one.iterations());
+  // The family is left with P(x).
+  family.parameters(s.x, s.x, l);
+  CHECK(l == s.image);
+}
+
 TEST_CASE("products are counted, and iterations do not allocate") {
   moving_obstacle family(0.5);
   slant::successive_approximations const method(family, newton(family));

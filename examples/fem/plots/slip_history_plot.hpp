@@ -93,7 +93,8 @@ template <int D>
       << "set border 15 lc rgb '#888888' front\nset tics out nomirror tc rgb '#555555'\n"
       << "set lmargin 12\nset rmargin 16\nset key outside right noenhanced tc rgb '#222222'\n"
       << "set xrange [0:" << before << "]\nset style fill solid 1.0 noborder\n"
-      << "set title 'States along the middle line' noenhanced\nset ylabel 'x' tc rgb '#555555'\n"
+      << "set title 'States along the " << (D == 2 ? "contact" : "middle line")
+      << "' noenhanced\nset ylabel 'x' tc rgb '#555555'\n"
       << "set yrange [" << field.side.lower[0] << ':' << field.side.upper[0]
       << "]\nset object 1 rectangle from graph 0,0 to graph 1,1 behind fs solid noborder "
          "fc rgb '#BDBDBD'\n";

@@ -15,12 +15,10 @@
 //     look        P(x), R
 //     mix         p ← Anderson's combination of the last p and Ψ(p); where R has grown: p ← P(x)
 //
-// The convergence is linear, of rate κ say; inner problems solved by a factor η ~ κ each ask
-// conjugate gradients for the same digits in portions that one problem would ask for at once, but
-// also to begin anew each time. Measured for Coulomb friction: benchmarks/coulomb.cpp.
-//
-// Where even plain steps let R grow the relaxation ω is halved. What Ψ is not a contraction for may
-// still have a solution that is not found: the status is `stalled` then.
+// The convergence is linear, of rate κ say: inner problems solved by a factor η ~ κ ask conjugate
+// gradients for the digits of one problem in portions, each of which begins anew; measured for
+// Coulomb friction in benchmarks/coulomb.cpp. Where even plain steps let R grow the relaxation ω is
+// halved. What Ψ is not a contraction for may have a solution that is not found: status `stalled`.
 //
 // A family of problems has
 //
@@ -28,8 +26,7 @@
 //     parameter_count()         entries of p
 //     guess(x, p)               p ← a first guess for a start at x
 //     parameters(x, r, p)       p ← P(x); r is the gradient at x of qp()
-//     assign(p)                 makes p the present one; entries may be out of range: they are
-//                               brought back into it, in p too
+//     assign(p)                 makes p the present one; brings its entries into their range first
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -61,8 +58,7 @@ concept parametric_program = requires(F& family, F const& c, V const& x, V& p) {
 ///     slant::successive_approximations method(family, [&](double goal) {
 ///       return slant::symmetric_newton{qp, M, {.forcing = {…, .goal = goal}}};
 ///     });
-///     auto r = slant::solve(method, x0, slant::reduced_gradient_below(1e-8) ||
-///     slant::at_most(50));
+///     auto r = slant::solve(method, x0, slant::reduced_gradient_below(1e-8));
 ///
 /// Refers to the family, in which each step leaves P(x) of its state.
 template <parametric_program Family, class Make>
@@ -75,10 +71,8 @@ class successive_approximations {
   using options = successive_options<scalar>;
   using state_type = successive_state<inner_state, vector_type>;
 
-  successive_approximations(Family& family, Make make)
-      : successive_approximations(family, std::move(make), options{}) {}
   /// Throws bad_input for options out of range.
-  successive_approximations(Family& family, Make make, options o)
+  successive_approximations(Family& family, Make make, options o = {})
       : family_(&family), make_(std::move(make)), options_(std::move(o)) {
     options_.validate();
   }
@@ -188,13 +182,14 @@ class successive_approximations {
   void solve_inner(state_type& s, bool anew) const {
     scalar const η = s.forcing.next(options_.forcing);
     auto& in = s.inner;
-    // Where p stays as it is there is nothing to save for later.
+    // Where p stays as it is there is nothing to save for later. A guess that was P(x) of the start
+    // may not stay: seen on the way, for nothing.
+    bool const guessed = !anew && !s.solved_once;
     auto const whole = scalar(options_.forcing.goal / 2) * in.gradient_scale;
     scalar const target = anew || whole == scalar(0) ? η * s.reduced_gradient_norm : whole;
     if (anew) restart(s);
     work const before = anew ? work{} : in.work;
-    scalar const most(0.999);
-    scalar const goal = std::min<scalar>(most, target / in.gradient_scale);
+    scalar const goal = std::min<scalar>(scalar(0.999), target / in.gradient_scale);
     auto const method = make_(goal > scalar(0) ? goal : scalar(0));
     index const first = in.iteration;
     auto const done = [&] { return in.reduced_gradient_norm <= target; };
@@ -203,6 +198,11 @@ class successive_approximations {
       if constexpr (has_refresh<inner_method const, inner_state>) {
         if (done()) method.refresh(in);
       }
+      if (!guessed || in.status != status::running) continue;
+      look(s);
+      family_->assign(s.parameters);
+      if (s.status != status::running || in.reduced_gradient_norm <= η * s.reduced_gradient_norm)
+        break;
     }
     s.inner_iterations = in.iteration - first;
     s.inner_status = in.status;
