@@ -67,7 +67,7 @@ TEST_CASE("interior point: every state of one contact, in any units") {
         // Never on the boundary: strictly positive, and within the cone.
         for (slant::index i = 0; i < p.contacts(); ++i) {
           CHECK(s.inside[i * p.dimension()] > 0);
-          CHECK(s.inside.segment(i * p.dimension() + 1, p.dimension() - 1).norm() <=
+          CHECK(s.inside.segment(i * p.dimension() + 1, p.dimension() - 1).stableNorm() <=
                 p.mu[i] * s.inside[i * p.dimension()] * (1 + 1e-14));
         }
       }
@@ -114,7 +114,7 @@ TEST_CASE("interior point: contacts with and without friction, friction of any s
   auto const s = run(p, 1e-11);
   CHECK(s.error.at_most(1e-11));
   for (slant::index i = 0; i < 10; i += 2) CHECK(s.r.segment<2>(3 * i + 1).isZero(0));
-  for (double const mu : {1e-200, 1e-9, 1e4, 1e9}) {
+  for (double const mu : {1e-200, 1e-9, 10., 1e4}) {
     CAPTURE(mu);
     auto const one = test::make_friction_problem(
         Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));

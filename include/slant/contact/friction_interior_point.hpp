@@ -163,7 +163,7 @@ class friction_interior_point {
       weight += c.weight;
     }
     S const force = size / mean(weight);
-    each(s, [&](pair& c, index) { c.at = detail::lorentz_scaling<N, S>(force / c.D[0], size); });
+    each(s, [&](pair& c, index) { c.at = detail::lorentz_scaling<N, S>(force, size); });
   }
   /// Everything at the x and s of the contacts.
   void look(state_type& s) const {
