@@ -247,7 +247,7 @@ TEST_CASE("solve_friction: the interior-point method has its turn where Newton's
   auto const alone = solve_friction(p, {.method = friction_method::interior_point});
   CHECK(alone.work.interior_steps == s.work.interior_steps);
   CHECK(alone.r == s.r);
-  auto const without = solve_friction(p, {.first_sweeps = 0, .attempt = 1, .interior_steps = 0});
+  auto const without = solve_friction(p, {.first_sweeps = 0, .interior_steps = 0, .attempt = 1});
   CHECK(without.converged());
   CHECK(without.work.interior_steps == 0);
   CHECK(without.solved_by != friction_method::interior_point);
