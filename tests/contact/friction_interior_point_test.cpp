@@ -21,7 +21,7 @@ template <int N>
 using blocks = slant::contact::friction_blocks<N, double>;
 template <int N>
 using method = slant::contact::friction_interior_point<N, double>;
-using options = slant::contact::interior_point_options<double>;
+using options = slant::contact::friction_interior_options<double>;
 static_assert(slant::iterative_method<method<3>, Eigen::VectorXd>);
 
 struct outcome {

@@ -46,7 +46,7 @@ namespace slant::contact {
 /// Options of friction_interior_point. No setting is of a problem: q and W are of the size of 1 in
 /// the units of friction_blocks.
 template <class S>
-struct interior_point_options {
+struct friction_interior_options {
   S small = S(1e-10);     ///< ‖p‖/‖q‖ that needs no aim
   S fraction = S(0.99);   ///< of the way to the boundary
   S balance = S(0.2);     ///< of the work of x on p, at least, is aimed at
@@ -75,7 +75,7 @@ struct interior_point_options {
 
 /// State of friction_interior_point.
 template <int N, class S>
-struct interior_point_state {
+struct friction_interior_state {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   vector_type x{};            ///< forces, inside of their cones, in the units of the blocks
   vector_type u{};            ///< W x + q
@@ -103,10 +103,10 @@ template <int N, scalar S = double>
 class friction_interior_point {
  public:
   using vector_type = typename friction_blocks<N, S>::vector_type;
-  using state_type = interior_point_state<N, S>;
+  using state_type = friction_interior_state<N, S>;
 
   explicit friction_interior_point(friction_blocks<N, S> const& blocks,
-                                   interior_point_options<S> options = {})
+                                   friction_interior_options<S> options = {})
       : blocks_(&blocks), options_(options) {
     options_.validate();
   }
@@ -150,9 +150,8 @@ class friction_interior_point {
   static void each(state_type& s, F const& f) {
     for (std::size_t i = 0; i < s.contacts.size(); ++i) f(s.contacts[i], N * index(i));
   }
-  [[nodiscard]] S mean(S const& sum) const { return sum / S(std::max<index>(1, count())); }
   [[nodiscard]] index count() const { return blocks_->contacts(); }
-
+  [[nodiscard]] S mean(S const& sum) const { return sum / S(std::max<index>(1, count())); }
   void place(state_type& s) const {
     s.contacts.reserve(std::size_t(count()));
     S size = std::numeric_limits<S>::epsilon(), weight(0);
@@ -245,7 +244,7 @@ class friction_interior_point {
   }
 
   friction_blocks<N, S> const* blocks_;
-  interior_point_options<S> options_;
+  friction_interior_options<S> options_;
 };
 
 }  // namespace slant::contact

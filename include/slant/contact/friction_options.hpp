@@ -65,7 +65,7 @@ struct friction_options {
   index rescues = 2;           ///< of a proximal step, by sweeps, before α grows
   index patience = 3;          ///< turns of `automatic` that hardly lessen the error, till stalled
   gauss_seidel_options<S> gauss_seidel{};
-  interior_point_options<S> interior_point{};  ///< `small` at most tolerance/100
+  friction_interior_options<S> interior_point{};  ///< `small` at most tolerance/100
   proximal_point_options<S> proximal{};
 
   /// Throws bad_input naming the option, its value and what was expected.
