@@ -168,7 +168,8 @@ class friction_run {
   /// The interior-point method until the problem is solved or it gets no further.
   bool attempt_interior_point() {
     auto o = options_.interior_point;
-    o.small = std::min(o.small, S(S(0.01) * options_.tolerance));
+    S const small = std::max(S(S(0.01) * options_.tolerance), std::numeric_limits<S>::min());
+    o.small = std::min(o.small, small);
     friction_interior_point<N, S> const interior(blocks_, o);
     auto s = interior.start(best_);
     while (s.status == status::running && s.iteration < options_.interior_steps &&
