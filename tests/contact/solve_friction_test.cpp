@@ -61,11 +61,13 @@ TEST_CASE("solve_friction: contacts four times over, W with a quarter of full ra
   auto const p = test::repeated(test::random_friction(12, 3, 0.5, 9), 4);
   auto const single = solve_friction(test::random_friction(12, 3, 0.5, 9), {.tolerance = 1e-12});
   for (auto const method : all_methods) {
-    auto const s = solve_friction(p, {.method = method, .tolerance = 1e-11});
+    // Contacts between two states have an error of the square root of what rounding leaves of xᵀs.
+    double const tolerance = method == friction_method::interior_point ? 1e-8 : 1e-11;
+    auto const s = solve_friction(p, {.method = method, .tolerance = tolerance});
     CHECK(s.converged());
-    CHECK(verify(p, s.r).relative_natural_map <= 2e-11);
+    CHECK(verify(p, s.r).relative_natural_map <= 2 * tolerance);
     // Velocities are unique here, forces are not.
-    CHECK((s.u.head(36) - single.u).norm() <= 1e-9 * single.u.norm());
+    CHECK((s.u.head(36) - single.u).norm() <= 100 * tolerance * single.u.norm());
   }
 }
 

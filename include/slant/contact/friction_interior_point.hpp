@@ -53,7 +53,6 @@ struct friction_interior_options {
   S largest_aim = S(10);  ///< σ at most
   S proximal = S(1e-3);   ///< first α; then × 3 after a short step, × ½ after a long one
   index patience = 100;   ///< steps without a clearly smaller error that mean stalled
-
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
     using slant::detail::show;
@@ -98,7 +97,8 @@ struct friction_interior_state {
 };
 
 /// The method at the top of this file; it ends by itself only if it gets no further (stalled) or
-/// finds no direction (breakdown), as it does without a solution. Refers to the blocks.
+/// finds no direction (breakdown), as it does without a solution. γ falls to about ε, and the error
+/// to √ε only if neither x nor s is inside at a contact. Refers to the blocks.
 template <int N, scalar S = double>
 class friction_interior_point {
  public:
