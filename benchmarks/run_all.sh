@@ -31,7 +31,7 @@
 #   multilevel_large    the same with 313632 unknowns, K never factored
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #   friction            Coulomb friction problems of the folder $SLANT_FRICTION, each by each method
-#   friction_interior   the same by an interior-point method, beside the default of the library
+#   friction_variants   the same with other coefficients and velocities: default, interior point
 #   precision           time against error of all methods, and of other libraries that are found
 #   growth              time and memory against the size of the brick (both: precision.sh)
 #
@@ -49,7 +49,7 @@ programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  load_steps coulomb coulomb_models multilevel multilevel_large friction friction_interior
+  load_steps coulomb coulomb_models multilevel multilevel_large friction friction_variants
   precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
@@ -112,15 +112,16 @@ run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
 run_coulomb() { "$(program coulomb)" brick >"$output/coulomb.csv"; }
 run_coulomb_models() { "$(program coulomb)" models >"$output/coulomb_models.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
-# friction_problems PROGRAM NAME: NAME.csv of the folder $SLANT_FRICTION, and the page.
+# friction_problems NAME ARGUMENT…: NAME.csv of the folder $SLANT_FRICTION, and the page.
 friction_problems() {
   if [[ -z ${SLANT_FRICTION:-} ]]; then
     printf 'nothing to do: SLANT_FRICTION names no folder of problems (W.mtx, q.txt, mu.txt each)\n'
     return 0
   fi
-  local status=0
-  OMP_THREAD_LIMIT=1 "$(program "$1")" "$SLANT_FRICTION" >"$output/$2.csv" || status=$?
-  [[ -s $output/$2.csv ]] || return "$status"
+  local name=$1 status=0
+  shift
+  OMP_THREAD_LIMIT=1 "$(program friction)" "$SLANT_FRICTION" "$@" >"$output/$name.csv" || status=$?
+  [[ -s $output/$name.csv ]] || return "$status"
   [[ -s $output/friction.csv ]] || return "$status"
   describe_machine >"$output/machine.md"
   python3 "$here/friction.py" "$output" || return 1
@@ -128,8 +129,10 @@ friction_problems() {
   if [[ ${SLANT_PUBLISH:-0} == 1 ]]; then cp "$output/friction.md" "$here/"; fi
   return "$status"
 }
-run_friction() { friction_problems friction friction; }
-run_friction_interior() { friction_problems friction_interior_point friction_interior; }
+run_friction() { friction_problems friction; }
+run_friction_variants() {
+  friction_problems friction_variants coulomb interior_point --variants yes --rank 0
+}
 run_precision() { "$here/precision.sh" precision "$programs" "$output"; }
 run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
 run_multilevel() { "$(program multilevel)" 8 12 16 >"$output/multilevel.csv"; }
@@ -263,7 +266,6 @@ write_summary() {
   section multilevel "Multigrid: bricks without friction, processor seconds, tolerance 1e-8"
   section multilevel_large "Multigrid: the same, where K is not factored"
   section friction "Coulomb friction problems of other people's simulations, natural map over |q| at most 1e-8"
-  section friction_interior "The same by an interior-point method" awk -F, 'NR == 1 || $4 == "given"'
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }
 

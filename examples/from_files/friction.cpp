@@ -82,6 +82,7 @@ int solve_friction_folder(arguments const& a) {
                   {"products", run.work.products},
                   {"newton_steps", run.work.newton_steps},
                   {"proximal_steps", run.work.proximal_steps},
+                  {"interior_steps", run.work.interior_steps},
                   {"factorizations", run.work.factorizations},
                   {"seconds", seconds},
                   {"check", figures(check)},

@@ -35,6 +35,8 @@ TEST_CASE("friction options: the defaults are valid, each bad one is named") {
   CHECK(names(complaint([](auto& o) { o.further_sweeps = -1; }), "further_sweeps"));
   CHECK(names(complaint([](auto& o) { o.sweeps = -1; }), "sweeps"));
   CHECK(names(complaint([](auto& o) { o.newton_steps = -1; }), "newton_steps"));
+  CHECK(names(complaint([](auto& o) { o.interior_steps = -1; }), "interior_steps"));
+  CHECK(names(complaint([](auto& o) { o.interior_point.fraction = 1; }), "fraction"));
   CHECK(names(complaint([](auto& o) { o.attempt = 0; }), "attempt"));
   CHECK(names(complaint([](auto& o) { o.halvings = -1; }), "halvings"));
   CHECK(names(complaint([](auto& o) { o.patience = 0; }), "patience"));
@@ -49,6 +51,7 @@ TEST_CASE("friction options: methods have names") {
   CHECK(to_string(friction_method::gauss_seidel) == "gauss_seidel");
   CHECK(to_string(friction_method::newton) == "newton");
   CHECK(to_string(friction_method::proximal_newton) == "proximal_newton");
+  CHECK(to_string(friction_method::interior_point) == "interior_point");
 }
 
 }  // namespace friction_options_test

@@ -16,6 +16,7 @@
 #include <slant/contact/friction_blocks.hpp>
 #include <slant/contact/friction_coefficient.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
+#include <slant/contact/friction_interior_point.hpp>
 #include <slant/contact/friction_newton.hpp>
 #include <slant/contact/friction_options.hpp>
 #include <slant/contact/friction_problem.hpp>

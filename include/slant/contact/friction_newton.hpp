@@ -9,16 +9,15 @@
 // proximal point method with the centre r, and its fixed points are those of δ = 0.
 //
 // Open contacts have dr = −F and leave the system: what is factored has the size of the contacts
-// that are closed. A sparse system is factored by a sparse LU, which allocates, as does the
-// assembly; one that is small or full by a dense LU.
+// that are closed, full or sparse (detail/block_lu.hpp).
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/contact/detail/block_lu.hpp>
 #include <slant/contact/detail/friction_map.hpp>
 #include <slant/contact/friction_blocks.hpp>
-#include <slant/newton/detail/sparse_lu.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cstddef>
@@ -154,7 +153,7 @@ class friction_newton {
     index const n = N * index(closed_.size());
     if (n == 0) return true;
     right_.resize(n);
-    index entries = 0;
+    index entries = index(closed_.size());  // blocks; the diagonal first
     for (index k = 0; k < index(closed_.size()); ++k) {
       index const i = closed_[std::size_t(k)];
       part_type known = part_type::Zero();
@@ -170,9 +169,10 @@ class friction_newton {
     }
     ++work_.factorizations;
     work_.unknowns += n;
-    bool const full = n <= 48 || N * N * entries * 8 > n * n;
-    bool const good = full ? dense_solution(n, δ) : sparse_solution(n, entries, δ);
-    if (!good || !slant::detail::is_finite(S(solution_.norm()))) return false;
+    bool const good =
+        lu_.factor(index(closed_.size()), entries, [&](auto put) { assemble(δ, put); });
+    work_.sparse += lu_.is_sparse() ? 1 : 0;
+    if (!good || !lu_.solve(right_, solution_)) return false;
     for (index k = 0; k < index(closed_.size()); ++k) {
       direction_.template segment<N>(N * closed_[std::size_t(k)]) =
           solution_.template segment<N>(N * k);
@@ -194,37 +194,6 @@ class friction_newton {
       });
     }
   }
-  bool dense_solution(index n, S const& δ) {
-    dense_.setZero(n, n);
-    assemble(δ, [&](index k, index l, block_type const& b) {
-      dense_.template block<N, N>(N * k, N * l) = b;
-    });
-    dense_lu_.compute(dense_);
-    for (index i = 0; i < n; ++i) {
-      S const pivot = dense_lu_.matrixLU()(i, i);
-      if (pivot == S(0) || !slant::detail::is_finite(pivot)) return false;
-    }
-    solution_ = dense_lu_.solve(right_);
-    return true;
-  }
-  bool sparse_solution(index n, index entries, S const& δ) {
-    ++work_.sparse;
-    triplets_.clear();
-    triplets_.reserve(std::size_t(N * N * (entries + index(closed_.size()))));
-    assemble(δ, [&](index k, index l, block_type const& b) {
-      for (int c = 0; c < N; ++c) {
-        for (int r = 0; r < N; ++r) {
-          if (b(r, c) != S(0)) triplets_.emplace_back(int(N * k + r), int(N * l + c), b(r, c));
-        }
-      }
-    });
-    sparse_.resize(n, n);
-    sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
-    solution_.resize(n);
-    if (!sparse_lu_.factor(sparse_)) return false;
-    sparse_lu_.solve(right_, solution_);
-    return true;
-  }
 
   blocks_type const* blocks_;
   friction_equations which_;
@@ -235,11 +204,7 @@ class friction_newton {
   std::vector<detail::friction_map<N, S>> maps_;
   vector_type F_, u_, direction_, image_, trial_, trial_u_, right_, solution_;
   S F_norm_{}, length_{1};
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> dense_;
-  Eigen::PartialPivLU<Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>> dense_lu_;
-  std::vector<Eigen::Triplet<S>> triplets_;
-  Eigen::SparseMatrix<S> sparse_;
-  slant::detail::sparse_lu<S> sparse_lu_;
+  detail::block_lu<N, S> lu_;
   friction_newton_work work_;
 };
 

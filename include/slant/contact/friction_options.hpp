@@ -9,6 +9,7 @@
 #include <slant/contact/detail/friction_map.hpp>
 #include <slant/contact/friction_blocks.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
+#include <slant/contact/friction_interior_point.hpp>
 #include <slant/methods/proximal_point.hpp>
 
 #include <limits>
@@ -19,10 +20,11 @@ namespace slant::contact {
 
 /// Which method solve_friction uses.
 enum class friction_method : unsigned char {
-  automatic,       ///< the other three in turn, until one of them has solved the problem
-  gauss_seidel,    ///< friction_gauss_seidel
-  newton,          ///< friction_newton with damping, after a few sweeps
-  proximal_newton  ///< proximal_point around friction_newton, after a few sweeps
+  automatic,        ///< the others in turn, until one of them has solved the problem
+  gauss_seidel,     ///< friction_gauss_seidel
+  newton,           ///< friction_newton with damping, after a few sweeps
+  proximal_newton,  ///< proximal_point around friction_newton, after a few sweeps
+  interior_point    ///< friction_interior_point
 };
 
 /// The method in words.
@@ -36,6 +38,8 @@ enum class friction_method : unsigned char {
       return "newton";
     case friction_method::proximal_newton:
       return "proximal_newton";
+    case friction_method::interior_point:
+      return "interior_point";
   }
   return "unknown";
 }
@@ -52,7 +56,8 @@ struct friction_options {
   index first_sweeps = 100;    ///< before the first Newton step
   index further_sweeps = 400;  ///< between Newton steps, four times as many each time
   index sweeps = 300000;       ///< of Gauss–Seidel at most, in all
-  index newton_steps = 3000;   ///< at most, in all
+  index newton_steps = 3000;   ///< at most, in all, those of the interior-point method included
+  index interior_steps = 300;  ///< of that method at most
   index attempt = 40;          ///< Newton steps in one attempt of `newton`
   S damping = S(1e-6);         ///< first δ of friction_newton in `newton`
   index halvings = 8;          ///< of a Newton step at most
@@ -60,6 +65,7 @@ struct friction_options {
   index rescues = 2;           ///< of a proximal step, by sweeps, before α grows
   index patience = 3;          ///< turns of `automatic` that hardly lessen the error, till stalled
   gauss_seidel_options<S> gauss_seidel{};
+  friction_interior_options<S> interior_point{};  ///< `small` at most tolerance/100
   proximal_point_options<S> proximal{};
 
   /// Throws bad_input naming the option, its value and what was expected.
@@ -75,12 +81,14 @@ struct friction_options {
     at_least_zero("further_sweeps", further_sweeps);
     at_least_zero("sweeps", sweeps);
     at_least_zero("newton_steps", newton_steps);
+    at_least_zero("interior_steps", interior_steps);
     at_least_zero("halvings", halvings);
     at_least_zero("rescues", rescues);
     if (attempt < 1) throw bad_input("attempt", show(attempt), "at least 1");
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
     if (inner_steps < 1) throw bad_input("inner_steps", show(inner_steps), "at least 1");
     gauss_seidel.validate();
+    interior_point.validate();
     proximal.validate();
   }
 
@@ -92,13 +100,14 @@ struct friction_options {
 
 /// Work of solve_friction.
 struct friction_work {
-  index sweeps = 0;                 ///< passes of Gauss–Seidel over the contacts
-  index block_products = 0;         ///< N × N blocks of W multiplied in them
-  index products = 0;               ///< products by W besides
-  index newton_steps = 0;           ///< directions of Newton's method
-  index proximal_steps = 0;         ///< steps of the proximal point method
-  index factorizations = 0;         ///< matrices factored
-  index factored_rows = 0;          ///< rows of all of them together
+  index sweeps = 0;          ///< passes of Gauss–Seidel over the contacts
+  index block_products = 0;  ///< N × N blocks of W multiplied in them
+  index products = 0;        ///< products by W besides
+  index newton_steps = 0;    ///< directions of Newton's method, those of interior_steps included
+  index interior_steps = 0;  ///< steps of the interior-point method
+  index proximal_steps = 0;  ///< steps of the proximal point method
+  index factorizations = 0;  ///< matrices factored
+  index factored_rows = 0;   ///< rows of all of them together
   index sparse_factorizations = 0;  ///< how many of them were sparse
 
   friend bool operator==(friction_work const&, friction_work const&) = default;

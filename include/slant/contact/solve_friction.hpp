@@ -7,8 +7,9 @@
 //
 // Block Gauss–Seidel with exact contacts comes first, and is all that most problems need. Where it
 // crawls, as it does where forces are redundant or the contacts far apart, semismooth Newton on the
-// natural map starts from where it is; where that finds no descent, the proximal point method
-// follows the path of forces to where there is some. If that ends too, the sweeps go on from where
+// natural map starts from where it is; where that finds no descent, an interior-point method comes
+// once from inside of the cones. If it does not solve the problem either, the proximal point method
+// follows the path of forces to where Newton's finds descent, and then the sweeps go on from where
 // they were, ever longer. So each problem is solved by the method that suits it, without
 // settings, and a problem without solution ends when turns no longer lessen the error, or at the
 // limits of the options.

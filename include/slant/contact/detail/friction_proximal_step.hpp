@@ -62,7 +62,7 @@ class friction_proximal_step {
 
  private:
   [[nodiscard]] bool no_steps_left() const {
-    return newton_->work().steps >= options_->newton_steps;
+    return newton_->work().steps + work_->interior_steps >= options_->newton_steps;
   }
   S error_at(vector_type const& x) {
     blocks_->velocity(x, u_);

@@ -5,6 +5,7 @@
 
 #include <slant/contact/detail/friction_proximal_step.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
+#include <slant/contact/friction_interior_point.hpp>
 #include <slant/contact/friction_newton.hpp>
 #include <slant/contact/friction_options.hpp>
 #include <slant/methods/proximal_point.hpp>
@@ -72,6 +73,10 @@ class friction_run {
       if (!sweep(sweeping, options_.sweeps)) end_with(sweeping.status, no_sweeps_left());
       return;
     }
+    if (options_.method == method::interior_point) {
+      if (!attempt_interior_point()) end_with(interior_status_, no_steps_left());
+      return;
+    }
     if (sweep(sweeping, options_.first_sweeps)) return;
     if (options_.method == method::newton) {
       if (!attempt_newton(options_.newton_steps)) end_with(status::stalled, no_steps_left());
@@ -86,10 +91,13 @@ class friction_run {
   void take_turns(gauss_seidel_state<S>& sweeping) {
     index path_steps = options_.attempt, sweeps = options_.further_sweeps;
     index idle = 0;
+    bool first = true;  // from wherever it begins, the interior-point method takes the same steps
     while (!out_of_work() && idle < options_.patience) {
-      index const before = work_.sweeps + newton_.work().steps;
+      index const before = work_.sweeps + steps_done();
       S const error_before = best_error_.worst();
       if (attempt_newton(options_.attempt)) return;
+      if (first && attempt_interior_point()) return;
+      first = false;
       auto path = proximal_.start(best_);
       if (follow(path, path_steps)) return;
       // What Newton's method has found is a better start, unless the sweeps are about as far: where
@@ -97,7 +105,7 @@ class friction_run {
       bool const lost = sweeping.status != status::running;
       if (lost || best_error_.worst() < S(0.1) * sweeping.best_error.worst()) restart(sweeping);
       if (sweep(sweeping, sweeps)) return;
-      if (work_.sweeps + newton_.work().steps == before) break;
+      if (work_.sweeps + steps_done() == before) break;
       idle = best_error_.worst() <= S(0.9) * error_before ? 0 : idle + 1;
       path_steps = path_steps < options_.newton_steps / 2 ? 2 * path_steps : options_.newton_steps;
       sweeps = sweeps < options_.sweeps / 4 ? 4 * sweeps : options_.sweeps;
@@ -106,7 +114,8 @@ class friction_run {
   }
 
   [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
-  [[nodiscard]] bool no_steps_left() const { return newton_.work().steps >= options_.newton_steps; }
+  [[nodiscard]] index steps_done() const { return newton_.work().steps + work_.interior_steps; }
+  [[nodiscard]] bool no_steps_left() const { return steps_done() >= options_.newton_steps; }
   [[nodiscard]] bool out_of_work() const { return no_sweeps_left() && no_steps_left(); }
   /// Without a solution: at a limit, or because a method has nothing left to do.
   void end_with(status how, bool limit) {
@@ -143,7 +152,7 @@ class friction_run {
     newton_.begin(x);
     S δ = options_.damping;
     index failures = 0;
-    for (index k = 0; k < steps && newton_.work().steps < options_.newton_steps; ++k) {
+    for (index k = 0; k < steps && !no_steps_left(); ++k) {
       if (newton_.advance(x, δ, options_.halvings)) {
         if (newton_.length() == S(1)) δ = std::max(least, S(δ * S(0.1)));
         if (newton_.length() < S(0.1)) δ *= S(10);
@@ -156,10 +165,29 @@ class friction_run {
     return false;
   }
 
+  /// The interior-point method until the problem is solved or it gets no further.
+  bool attempt_interior_point() {
+    auto o = options_.interior_point;
+    S const small = std::max(S(S(0.01) * options_.tolerance), std::numeric_limits<S>::min());
+    o.small = std::min(o.small, small);
+    friction_interior_point<N, S> const interior(blocks_, o);
+    auto s = interior.start(best_);
+    while (s.status == status::running && s.iteration < options_.interior_steps &&
+           !no_steps_left() && !s.best_error.at_most(options_.tolerance)) {
+      interior.step(s);
+      ++work_.interior_steps;
+    }
+    work_.products += s.evaluations;
+    work_.factorizations += s.factorizations;
+    work_.factored_rows += s.factored_rows;
+    work_.sparse_factorizations += s.sparse;
+    interior_status_ = s.iteration < options_.interior_steps ? s.status : status::iteration_limit;
+    return consider(s.best, method::interior_point);
+  }
+
   /// The proximal point method for about so many Newton steps.
   bool follow(path_type& s, index steps) {
-    index const done = newton_.work().steps;
-    index const end = done + std::min(steps, options_.newton_steps - done);
+    index const end = newton_.work().steps + std::min(steps, options_.newton_steps - steps_done());
     while (newton_.work().steps < end && s.status == status::running) {
       index const before = newton_.work().steps;
       proximal_.step(s);
@@ -181,10 +209,10 @@ class friction_run {
     using slant::detail::show;
     auto const& n = newton_.work();
     work_.products += n.evaluations;
-    work_.newton_steps = n.steps;
-    work_.factorizations = n.factorizations;
-    work_.factored_rows = n.unknowns;
-    work_.sparse_factorizations = n.sparse;
+    work_.newton_steps = steps_done();
+    work_.factorizations += n.factorizations;
+    work_.factored_rows += n.unknowns;
+    work_.sparse_factorizations += n.sparse;
     vector_type force = blocks_.force(best_), speed = blocks_.speed(best_u_);
     bool const lost = !keeps(force) || !slant::detail::is_finite(S(speed.cwiseAbs().sum()));
     if (solved()) status_ = lost ? status::breakdown : status::converged;
@@ -214,7 +242,7 @@ class friction_run {
   vector_type best_, best_u_, u_;
   friction_error<S> best_error_{};
   method solved_by_ = method::automatic;
-  status status_ = status::running;
+  status status_ = status::running, interior_status_ = status::running;
 };
 
 }  // namespace slant::contact::detail
