@@ -72,10 +72,6 @@ class block_lu {
     });
     matrix_.resize(n, n);
     matrix_.setFromTriplets(triplets_.begin(), triplets_.end());
-    // Eigen's sparse LU may not come back from a matrix with empty columns.
-    for (index j = 0; j < n; ++j) {
-      if (matrix_.outerIndexPtr()[j] == matrix_.outerIndexPtr()[j + 1]) return false;
-    }
     return sparse_lu_.factor(matrix_);
   }
 

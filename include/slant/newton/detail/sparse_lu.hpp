@@ -30,9 +30,12 @@ class sparse_lu {
   [[nodiscard]] bool factor(matrix_type const& m) {
     if (m.rows() == 0) return true;
     for (index k = 0; k < index(m.outerSize()); ++k) {
+      bool empty = true;
       for (typename matrix_type::InnerIterator entry(m, k); entry; ++entry) {
         if (!is_finite(S(entry.value()))) return false;
+        empty = false;
       }
+      if (empty) return false;  // Eigen may not come back from such a matrix
     }
     factors_->compute(m);
     return factors_->info() == Eigen::Success;
