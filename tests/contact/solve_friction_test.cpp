@@ -38,7 +38,7 @@ TEST_CASE("solve_friction: every state of one contact, several solutions, redund
 
 TEST_CASE("solve_friction: all methods agree with Gauss–Seidel to 1e-12 where W is definite") {
   for (slant::index const dimension : {2, 3}) {
-    for (unsigned const seed : {1U, 2U, 3U, 4U}) {
+    for (unsigned const seed : {1U, 2U}) {
       auto const p = test::random_friction(30, dimension, 0.3, seed);
       auto const reference =
           solve_friction(p, {.method = friction_method::gauss_seidel, .tolerance = 1e-13});
@@ -149,7 +149,7 @@ TEST_CASE("solve_friction: forces without bound are no solution, and the search 
       for (double const start : {0., 1e17}) {
         VectorXd r = VectorXd::Zero(p.q.size());
         for (slant::index i = 0; i < p.contacts(); ++i) r[i * p.dimension()] = start;
-        auto const s = solve_friction(p, {.method = method}, r);
+        auto const s = solve_friction(p, {.method = method, .sweeps = 20000}, r);
         CHECK(!s.converged());
         CHECK(s.status != slant::status::running);
         CHECK(s.r.allFinite());
