@@ -6,6 +6,8 @@
 
 #include "support/friction_cases.hpp"
 
+#include <slant/contact/friction_options.hpp>
+
 #include <Eigen/Core>
 #include <cmath>
 #include <random>
@@ -58,5 +60,10 @@ namespace test {
   W.setFromTriplets(entries.begin(), entries.end());
   return {.W = W, .q = q, .mu = Eigen::VectorXd::Constant(contacts, 0.3)};
 }
+
+inline constexpr slant::contact::friction_method all_methods[] = {
+    slant::contact::friction_method::automatic, slant::contact::friction_method::gauss_seidel,
+    slant::contact::friction_method::newton, slant::contact::friction_method::proximal_newton,
+    slant::contact::friction_method::interior_point};
 
 }  // namespace test
