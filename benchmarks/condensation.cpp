@@ -129,7 +129,7 @@ double rounded_application(A const& a) {
   }
 }
 
-/// Bytes that an application reads, twice; 0 without SuiteSparse.
+/// Bytes that an application reads; 0 without SuiteSparse.
 template <class A>
 Eigen::Index bytes_of(A const& a) {
   if constexpr (requires { a.bytes(); }) {
@@ -139,9 +139,10 @@ Eigen::Index bytes_of(A const& a) {
   }
 }
 
-/// Seconds to read so many bytes twice, as the two sweeps do: one stream from aligned memory in
-/// large pages into sums that do not wait for each other.
-double reading(Eigen::Index bytes) {
+/// Seconds to read so many bytes in so many passes over the same ones, as an application does: one
+/// stream from aligned memory in large pages into sums that do not wait for each other.
+double reading(Eigen::Index bytes, int passes) {
+  bytes /= passes;
   using sums = Eigen::Array<double, 16, 1>;
   Eigen::ArrayXd numbers(bytes / 8 / sums::RowsAtCompileTime * sums::RowsAtCompileTime);
   slant::detail::prefer_large_pages(numbers.data(), numbers.size());
@@ -150,7 +151,7 @@ double reading(Eigen::Index bytes) {
   sums sum = sums::Zero();
   for (int i = 0; i < 10; ++i) {
     double const begin = now();
-    for (int sweep = 0; sweep < 2; ++sweep) {
+    for (int pass = 0; pass < passes; ++pass) {
       for (Eigen::Index j = 0; j < numbers.size(); j += sums::RowsAtCompileTime) {
         sum += Eigen::Map<sums const, Eigen::Aligned16>(numbers.data() + j);
       }
@@ -163,7 +164,7 @@ double reading(Eigen::Index bytes) {
 /// The same if nothing is in the cache: by the speed of the memory, measured once.
 double reading_from_memory(Eigen::Index bytes) {
   constexpr Eigen::Index many = Eigen::Index(1) << 29;
-  static double const per_byte = reading(many) / double(many);
+  static double const per_byte = reading(many, 1) / double(many);
   return per_byte * double(bytes);
 }
 
@@ -206,7 +207,8 @@ int main(int argc, char** argv) {
       auto const a = problem.a();
       Eigen::Index const bytes = bytes_of(a);
       double const product = application(a), rounded = rounded_application(a),
-                   read = bytes > 0 ? reading(bytes) : unknown,
+                   read =
+                       bytes > 0 ? reading(bytes, factor.report().chosen.inverse ? 1 : 2) : unknown,
                    memory = bytes > 0 ? reading_from_memory(bytes) : unknown;
       std::printf("%d,%s,%ld,%ld,%ld,%.4f,%.4f,%.3f,%.4f,%ld,%ld,%.1e,", k,
                   std::string(fem::name_of(load)).c_str(), long(scene.K.rows()), long(a.rows()),

@@ -23,6 +23,7 @@ TEST_CASE("options out of range are named") {
   CHECK(complaint({.levels = -1}).find("levels") != std::string::npos);
   CHECK(complaint({.applications = -1}).find("applications") != std::string::npos);
   CHECK(complaint({.flops_per_second = 0}).find("flops_per_second") != std::string::npos);
+  CHECK(complaint({.forming_per_second = -1}).find("forming_per_second") != std::string::npos);
   CHECK(complaint({.bytes_per_second = std::numeric_limits<double>::quiet_NaN()})
             .find("bytes_per_second") != std::string::npos);
   CHECK(complaint({.cached_per_second = -1}).find("cached_per_second") != std::string::npos);
@@ -53,6 +54,20 @@ TEST_CASE("the fastest plan that fits the memory; the smallest if none does") {
   CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[2]);
   o.cache = 1e6;  // so little that it does not matter
   CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[1]);
+}
+
+TEST_CASE("the price of a plan with the inverse, by hand") {
+  slant::condensation_options o;
+  o.applications = 10;
+  o.flops_per_second = o.forming_per_second = o.bytes_per_second = o.cached_per_second = 1;
+  slant::condensation_plan const swept{
+      .flops = 5000, .stored = 320, .contact = 6, .tail_entries = 30};
+  auto const plan = swept.with_inverse(o);
+  CHECK(plan.inverse);
+  CHECK(plan.applied() == 18);
+  CHECK(plan.bytes() == 8 * 320 + 12 * 18);
+  CHECK(plan.forming_flops() == doctest::Approx(4.0 / 3 * 30 * 6));
+  CHECK(plan.seconds == doctest::Approx(5000 + 240 + 10 * 8 * 18));
 }
 
 }  // namespace condensation_options_test

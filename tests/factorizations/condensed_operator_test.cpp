@@ -3,6 +3,8 @@
 
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/rounded.hpp>
+#include <slant/factorizations/detail/packed_symmetric.hpp>
+#include <slant/factorizations/detail/tail_inverse.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>
@@ -12,7 +14,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "factorizations/tail_factor.hpp"
@@ -33,6 +37,10 @@ static_assert(slant::psd_operator<rounded, VectorXd>);
 static_assert(slant::has_rounded<exact, VectorXd>);
 static_assert(!slant::has_rounded<rounded, VectorXd>);
 
+// How A is applied.
+using by_sweeps = std::false_type;
+using by_inverse = std::true_type;
+
 std::shared_ptr<sparse const> shared(sparse const& b) {
   return std::make_shared<sparse const>(b);
 }
@@ -42,9 +50,10 @@ struct scene {
   test::tail_factor factor;
   sparse B{20, 44};
   std::shared_ptr<slant::detail::tail_columns const> columns;
+  std::shared_ptr<slant::detail::packed_symmetric<double> const> inverse;  // may be missing
   double unit = 0.25;
 
-  scene() {
+  explicit scene(bool formed) {
     for (int i = 0; i < 20; ++i) {
       B.insert(i, 2 * i) = 1.0 + 0.1 * i;
       B.insert(i, 43 - i) = -0.5;
@@ -52,21 +61,29 @@ struct scene {
     }
     columns = std::shared_ptr<slant::detail::tail_columns const>(
         new slant::detail::tail_columns(factor.columns()));
+    if (!formed) return;
+    std::vector<int> all(44);
+    std::iota(all.begin(), all.end(), 0);
+    inverse = slant::detail::tail_inverse(*columns, all);
   }
-  [[nodiscard]] exact condensed() const { return {shared(B), columns, unit}; }
+  [[nodiscard]] exact condensed() const {
+    if (inverse) return {shared(B), inverse, unit};
+    return {shared(B), columns, unit};
+  }
   /// u B (L Lᵀ)⁻¹Bᵀ.
   [[nodiscard]] MatrixXd dense() const {
     return unit * MatrixXd(B) * factor.solved(MatrixXd(B.transpose()));
   }
 };
 
-TEST_CASE("u B L⁻ᵀL⁻¹Bᵀ as by dense matrices, for one or several right-hand sides") {
-  scene const s;
+TEST_CASE_TEMPLATE("u B L⁻ᵀL⁻¹Bᵀ as by dense matrices, for one or several right-hand sides", Way,
+                   by_sweeps, by_inverse) {
+  scene const s(Way::value);
   auto const a = s.condensed();
   MatrixXd const A = s.dense();
   CHECK(a.rows() == 20);
   CHECK(a.cols() == 20);
-  CHECK(a.bytes() == 8 * s.factor.shape->entries());
+  CHECK(a.bytes() == (s.inverse ? s.inverse->bytes() : 2 * 8 * s.factor.shape->entries()));
   for (index const k : {1, 2, 7}) {
     MatrixXd const X = MatrixXd::Random(20, k);
     MatrixXd Y = MatrixXd::Constant(20, k, std::numeric_limits<double>::quiet_NaN());
@@ -79,21 +96,23 @@ TEST_CASE("u B L⁻ᵀL⁻¹Bᵀ as by dense matrices, for one or several right-
   }
 }
 
-TEST_CASE("its laws, and those of its rounded twin") {
-  auto const a = scene().condensed();
+TEST_CASE_TEMPLATE("its laws, and those of its rounded twin", Way, by_sweeps, by_inverse) {
+  auto const a = scene(Way::value).condensed();
   slant::testing::check_operator_laws(a);
   slant::testing::check_operator_laws(a.rounded(), {.roundings = 1e10});
 }
 
-TEST_CASE("entries of A: as by dense matrices, symmetric to the last bit") {
-  scene const s;
+TEST_CASE_TEMPLATE("entries of A: as by dense matrices, symmetric to the last bit", Way, by_sweeps,
+                   by_inverse) {
+  scene const s(Way::value);
   MatrixXd const A = s.condensed().formed();
   CHECK((A - s.dense()).norm() < 1e-14 * A.norm());
   CHECK(A == A.transpose());
 }
 
-TEST_CASE("a workspace fits other numbers of right-hand sides") {
-  auto const a = scene().condensed();
+TEST_CASE_TEMPLATE("a workspace fits other numbers of right-hand sides", Way, by_sweeps,
+                   by_inverse) {
+  auto const a = scene(Way::value).condensed();
   auto w = slant::workspace(a, VectorXd(VectorXd::Zero(20)));
   MatrixXd const X = MatrixXd::Random(20, 3);
   MatrixXd Y(20, 3), Z(20, 3);
@@ -102,8 +121,9 @@ TEST_CASE("a workspace fits other numbers of right-hand sides") {
   CHECK(Y == Z);
 }
 
-TEST_CASE("the rounded twin: floats, made once, for right-hand sides of any scale") {
-  scene const s;
+TEST_CASE_TEMPLATE("the rounded twin: floats, made once, for right-hand sides of any scale", Way,
+                   by_sweeps, by_inverse) {
+  scene const s(Way::value);
   auto const a = s.condensed();
   auto const twin = a.rounded();
   CHECK(twin.bytes() < a.bytes());
@@ -139,8 +159,8 @@ TEST_CASE("the rounded twin: floats, made once, for right-hand sides of any scal
   CHECK(z.isZero(0));
 }
 
-TEST_CASE("the unit of K is a factor, and changes no digit") {
-  scene s;
+TEST_CASE_TEMPLATE("the unit of K is a factor, and changes no digit", Way, by_sweeps, by_inverse) {
+  scene s(Way::value);
   VectorXd const x = VectorXd::Random(20);
   VectorXd y(20), z(20);
   slant::apply(s.condensed(), x, y);
@@ -151,8 +171,8 @@ TEST_CASE("the unit of K is a factor, and changes no digit") {
   }
 }
 
-TEST_CASE("an operator outlives what it was made of") {
-  std::optional<scene> s(std::in_place);
+TEST_CASE_TEMPLATE("an operator outlives what it was made of", Way, by_sweeps, by_inverse) {
+  std::optional<scene> s(std::in_place, Way::value);
   VectorXd const x = VectorXd::Random(20);
   VectorXd const expected = s->dense() * x;
   auto const a = s->condensed();
@@ -175,15 +195,15 @@ TEST_CASE("nothing in contact, and no rows") {
   CHECK(y.isZero(0));
   CHECK(none.formed() == MatrixXd::Zero(2, 2));
 
-  scene const s;
+  scene const s(false);
   exact const empty(shared(sparse(0, 44)), s.columns, s.unit);
   VectorXd zero(0);
   slant::apply(empty, VectorXd(zero), zero);
   CHECK(empty.formed().size() == 0);
 }
 
-TEST_CASE("sizes that do not fit are refused") {
-  scene const s;
+TEST_CASE_TEMPLATE("sizes that do not fit are refused", Way, by_sweeps, by_inverse) {
+  scene const s(Way::value);
   auto const a = s.condensed();
   VectorXd y(20);
   CHECK(test::complaint([&] {
@@ -195,6 +215,10 @@ TEST_CASE("sizes that do not fit are refused") {
         }).starts_with("y: got 3"));
   CHECK(test::complaint([&] {
           (void)exact(shared(sparse(2, 43)), s.columns, 1.0);
+        }).starts_with("columns of B: got 43"));
+  if (!s.inverse) return;
+  CHECK(test::complaint([&] {
+          (void)exact(shared(sparse(2, 43)), s.inverse, 1.0);
         }).starts_with("columns of B: got 43"));
 }
 

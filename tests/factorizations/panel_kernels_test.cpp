@@ -31,8 +31,9 @@ struct example {
   }
 };
 
-TEST_CASE_TEMPLATE("both loops, with short and with long vectors, any number of rows", T, float,
-                   double) {
+TEST_CASE_TEMPLATE(
+    "both loops, and both in one, with short and with long vectors, any number of rows", T, float,
+    double) {
   T const ε = std::numeric_limits<T>::epsilon();
   for (bool const longer : {false, true}) {
     if (longer && !slant::detail::has_long_vectors()) continue;
@@ -52,6 +53,15 @@ TEST_CASE_TEMPLATE("both loops, with short and with long vectors, any number of 
       for (index j = 0; j < 8; ++j) {
         CHECK(std::abs(products[j] - e.R.col(j).dot(e.y)) <= T(rows + 1) * 2 * ε);
       }
+      Eigen::Matrix<T, Eigen::Dynamic, 1> z(rows + 2);
+      z << T(7), e.y, T(9);
+      Eigen::Matrix<T, 8, 1> again;
+      slant::detail::subtract_panel_and_products(longer, e.columns(), e.p.data(), e.y.data(),
+                                                 z.data() + 1, rows, again.data());
+      CHECK((z - y).cwiseAbs().maxCoeff() <= 16 * ε);
+      CHECK((again - products).cwiseAbs().maxCoeff() <= T(rows + 1) * 2 * ε);
+      CHECK(z[0] == T(7));
+      CHECK(z[rows + 1] == T(9));
     }
   }
 }

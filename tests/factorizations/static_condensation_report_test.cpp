@@ -23,33 +23,81 @@ TEST_CASE("the report says what was compared, what was done, and why") {
   CHECK(report.factorization == "cholmod");
   CHECK(report.unknowns == 512);
   CHECK(report.contact == index(s.contact.size()));
-  REQUIRE(report.plans.size() >= 2);
+  REQUIRE(report.plans.size() >= 4);
   CHECK(report.plans[0].levels == 0);
   CHECK(report.plans[0].tail == doctest::Approx(double(s.contact.size())));
-  for (std::size_t i = 1; i < report.plans.size(); ++i) {
+  std::size_t const swept = report.plans.size() / 2;
+  for (std::size_t i = 0; i < swept; ++i) {  // the same with the inverse
+    CHECK(!report.plans[i].inverse);
+    CHECK(report.plans[swept + i].inverse);
+    CHECK(report.plans[swept + i].levels == report.plans[i].levels);
+    CHECK(report.plans[swept + i].forming_flops() > 0);
+    CHECK(report.plans[swept + i].contact == double(s.contact.size()));
+  }
+  for (std::size_t i = 1; i < swept; ++i) {
     CHECK(report.plans[i].flops <= report.plans[i - 1].flops);
     CHECK(report.plans[i].tail_entries >= report.plans[i - 1].tail_entries);
   }
   for (auto const& plan : report.plans) CHECK(report.chosen.seconds <= plan.seconds);
   CHECK(test::contains(report.reason, "least time predicted"));
 
-  slant::static_condensation const forced(s.K, s.contact, {.levels = 3});
+  slant::static_condensation const forced(s.K, s.contact, {.levels = 3, .inverse = true});
   CHECK(forced.report().plans.size() == 1);
   CHECK(forced.report().chosen.levels == 3);
+  CHECK(forced.report().chosen.inverse);
   CHECK(forced.report().reason == "as asked for");
+}
+
+TEST_CASE("the inverse is formed where there will be many applications") {
+  scene const s(8);
+  slant::condensation_options options;
+  options.most_memory = 10;
+  options.applications = 0;
+  slant::static_condensation const idle(s.K, s.contact, options);
+  CHECK(!idle.report().chosen.inverse);
+  options.applications = 100000;
+  slant::static_condensation const factor(s.K, s.contact, options);
+  CHECK(factor.report().chosen.inverse);
+  CHECK(test::contains(factor.report().reason, "inverse"));
+  options.inverse = false;
+  slant::static_condensation const swept(s.K, s.contact, options);
+  CHECK(!swept.report().chosen.inverse);
+  CHECK(factor.restricted(s.B).bytes() < swept.restricted(s.B).bytes());
+}
+
+TEST_CASE("an inverse that floats would make indefinite is left, and the report says so") {
+  scene s(5);
+  // The bottom of the cube hangs by weak springs.
+  for (index j = 0; j < s.K.outerSize(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator e(s.K, j); e; ++e) {
+      bool const bottom = e.row() < 25 && e.col() < 25;
+      if (bottom)
+        e.valueRef() *= 1e-7;
+      else if (e.row() < 25 || e.col() < 25)
+        e.valueRef() *= 1e-9;
+    }
+  }
+  slant::static_condensation const factor(s.K, s.contact, {.inverse = true});
+  CHECK(!factor.report().chosen.inverse);
+  CHECK(test::contains(factor.report().reason, "condition"));
+  Eigen::MatrixXd const A = s.dual();
+  Eigen::VectorXd const x = Eigen::VectorXd::Random(A.rows());
+  Eigen::VectorXd y(x.size());
+  slant::apply(factor.restricted(s.B).rounded(), x, y);
+  CHECK((y - A * x).norm() < 1e-4 * y.norm());
 }
 
 TEST_CASE("what is reported is what was done, whatever the memory") {
   scene const s(6);
   auto const bytes = [&](slant::condensation_options const& o) {
     slant::static_condensation const factor(s.K, s.contact, o);
-    return std::pair(factor.report().chosen.levels, factor.restricted(s.B).bytes());
+    return std::pair(factor.report().chosen, factor.restricted(s.B).bytes());
   };
   for (index const applications : {0, 20}) {
     for (double most = 1; most < 3; most += 0.1) {
-      auto const [levels, size] =
+      auto const [plan, size] =
           bytes({.applications = applications, .cache = 1, .most_memory = most});
-      CHECK(bytes({.levels = levels}).second == size);
+      CHECK(bytes({.levels = plan.levels, .inverse = plan.inverse}).second == size);
     }
   }
   CHECK(bytes({.levels = index(1) << 40}).second == bytes({.levels = 1000}).second);

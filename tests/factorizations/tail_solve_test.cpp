@@ -35,7 +35,7 @@ TEST_CASE("solves as by the dense factor, one or several right-hand sides, witho
   auto const columns = f.columns();
   detail::tail_panels<double> const packed(columns);
   detail::tail_panels<float> const floats(columns);
-  for (index const k : {1, 3}) {
+  for (index const k : {1, 3, 4, 6}) {
     MatrixXd const b = MatrixXd::Random(f.shape->size(), k);
     MatrixXd const x = f.solved(b);
     detail::tail_vectors<double> v(*f.shape, k), w(*f.shape, k);
@@ -51,6 +51,21 @@ TEST_CASE("solves as by the dense factor, one or several right-hand sides, witho
     CHECK((v.x - x).norm() < 1e-13 * x.norm());
     CHECK((w.x - x).norm() < 1e-13 * x.norm());
     CHECK((single.x.cast<double>() - x).norm() < 1e-5 * x.norm());
+  }
+}
+
+TEST_CASE("where right-hand sides begin with zeros, the rest of the solution is computed alone") {
+  test::tail_factor const f;
+  auto const columns = f.columns();
+  for (index first = 0; first < f.shape->size(); ++first) {
+    MatrixXd b = MatrixXd::Random(f.shape->size(), 5);
+    b.topRows(first).setZero();
+    MatrixXd const x = f.solved(b);
+    detail::tail_vectors<double> v(*f.shape, 5);
+    v.x = b;
+    detail::solve_in_place(columns, v, first);
+    index const rest = f.shape->size() - first;
+    CHECK((v.x - x).bottomRows(rest).norm() < 1e-13 * x.norm());
   }
 }
 

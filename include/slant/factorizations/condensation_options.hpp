@@ -10,7 +10,11 @@
 //
 //     flops / flops_per_second + applications · 2 · bytes / bytes_per_second
 //
-// is taken.
+// is taken. Where there will be many applications it pays to form the inverse S⁻¹ of the Schur
+// complement on the contact unknowns (factorizations/detail/tail_inverse.hpp), of which each reads
+// half once:
+//
+//     … + forming flops / forming_per_second + applications · bytes(S⁻¹)/2 / bytes_per_second
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
@@ -31,12 +35,16 @@ struct condensation_options {
   /// 0: all contact unknowns last; l: behind their own subdomain of those that the l topmost
   /// separators leave; none: what the cost model finds best.
   std::optional<index> levels{};
+  /// Whether S⁻¹ is formed; none: where the cost model finds it better. Not where S is so
+  /// ill-conditioned that S⁻¹ in floats might be indefinite; the report says so.
+  std::optional<bool> inverse{};
   /// Expected; one in rounded precision counts as half. Methods for contact need 60 to 150.
   index applications = 150;
-  double flops_per_second = 4.5e10;   ///< of a large factorisation
-  double bytes_per_second = 2.4e10;   ///< read from memory by a sweep
-  double cached_per_second = 5.0e10;  ///< the same if all fits the cache
-  double cache = 1.6e7;               ///< bytes of the cache
+  double flops_per_second = 4.5e10;    ///< of a large factorisation
+  double forming_per_second = 2.5e10;  ///< the same where S⁻¹ is formed
+  double bytes_per_second = 2.4e10;    ///< read from memory by a sweep
+  double cached_per_second = 5.0e10;   ///< the same if all fits the cache
+  double cache = 1.6e7;                ///< bytes of the cache
   double most_memory = 1.5;  ///< ≥ 1; so many times the bytes of a factor alone, or the cache
 
   /// Throws bad_input naming the option, its value and what was expected.
@@ -51,6 +59,7 @@ struct condensation_options {
       throw bad_input("applications", detail::show(applications), "a number >= 0");
     }
     positive("flops_per_second", flops_per_second);
+    positive("forming_per_second", forming_per_second);
     positive("bytes_per_second", bytes_per_second);
     positive("cached_per_second", cached_per_second);
     positive("cache", cache);
@@ -62,20 +71,39 @@ struct condensation_options {
 /// One way to condense, by symbolic analysis.
 struct condensation_plan {
   index levels = 0;         ///< of condensation_options
+  bool inverse = false;     ///< S⁻¹ is formed
   double flops = 0;         ///< operations of the factorisation
   double entries = 0;       ///< of the whole factor
   double stored = 0;        ///< numbers kept for them: with upper halves of dense blocks
-  double tail = 0;          ///< unknowns that an application touches
+  double contact = 0;       ///< contact unknowns
+  double tail = 0;          ///< unknowns that an application touches, if not by S⁻¹
   double tail_entries = 0;  ///< entries of the factor that an application reads, twice
-  double seconds = 0;       ///< predicted, for the factorisation and all applications
+  double seconds = 0;       ///< predicted, for all there is to do
 
-  /// Bytes of the factor and of the copy of its tail in floats that applications read.
-  [[nodiscard]] double bytes() const { return 8 * stored + 4 * tail_entries; }
+  /// Entries that applications read: of the tail, or half of S⁻¹.
+  [[nodiscard]] double applied() const { return inverse ? contact * contact / 2 : tail_entries; }
+  /// Bytes of the factor, of S⁻¹, and of the floats that applications read.
+  [[nodiscard]] double bytes() const {
+    return 8 * stored + 4 * applied() + (inverse ? 8 * applied() : 0);
+  }
+  /// Operations to form S⁻¹: from each unknown on, both sweeps.
+  [[nodiscard]] double forming_flops() const {
+    return inverse ? 4.0 / 3 * tail_entries * contact : 0;
+  }
 
   void predict(condensation_options const& o) {
-    double const read = 8 * tail_entries;
-    double const speed = read < o.cache ? o.cached_per_second : o.bytes_per_second;
-    seconds = flops / o.flops_per_second + static_cast<double>(o.applications) * 2 * read / speed;
+    double const held = 8 * applied();
+    double const speed = held < o.cache ? o.cached_per_second : o.bytes_per_second;
+    double const read = inverse ? held : 2 * held;
+    seconds = flops / o.flops_per_second + forming_flops() / o.forming_per_second +
+              static_cast<double>(o.applications) * read / speed;
+  }
+  /// The same with S⁻¹.
+  [[nodiscard]] condensation_plan with_inverse(condensation_options const& o) const {
+    condensation_plan result = *this;
+    result.inverse = true;
+    result.predict(o);
+    return result;
   }
 };
 

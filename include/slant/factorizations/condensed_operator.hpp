@@ -4,14 +4,16 @@
 //
 //     y = u B_t L_tt⁻ᵀ L_tt⁻¹ B_tᵀ x,      u: the power of two by which K was scaled,
 //
-// with L_tt in the precision T of its entries. Rounded to float it is read in half the time, and
-// good for the inner iterations of methods that compute their residuals with the exact one; see
-// concepts/slant/concepts/rounded.hpp. B_t and x are of doubles either way, of any scale.
+// by two sweeps with L_tt, or by one product with S = (L_tt L_ttᵀ)⁻¹ on the contact unknowns where
+// that was formed. Their entries have the precision T: rounded to float they are read in half the
+// time, and good for the inner iterations of methods that compute their residuals with the exact
+// ones; see concepts/slant/concepts/rounded.hpp. B_t and x are of doubles either way, of any scale.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/factorizations/detail/packed_symmetric.hpp>
 #include <slant/factorizations/detail/tail_columns.hpp>
 #include <slant/factorizations/detail/tail_panels.hpp>
 #include <slant/factorizations/detail/tail_solve.hpp>
@@ -28,12 +30,13 @@
 namespace slant {
 
 /// The operator at the top of this file; made by static_condensation::restricted. Copies share the
-/// factor.
+/// entries.
 template <class T>
 class condensed_operator {
   using sparse_type = Eigen::SparseMatrix<double>;
   using factor_type =
       std::conditional_t<std::is_same_v<T, double>, detail::tail_columns, detail::tail_panels<T>>;
+  using inverse_type = detail::packed_symmetric<T>;
 
  public:
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
@@ -45,13 +48,19 @@ class condensed_operator {
     slant::detail::check_size("columns of B", b_->cols(), factor_->shape().size(),
                               "the size of the factor,");
   }
+  /// b: n × (size of S); throws bad_input if it has another number of columns.
+  condensed_operator(std::shared_ptr<sparse_type const> b,
+                     std::shared_ptr<inverse_type const> inverse, double unit)
+      : b_(std::move(b)), inverse_(std::move(inverse)), unit_(unit) {
+    slant::detail::check_size("columns of B", b_->cols(), inverse_->size(), "the size of S,");
+  }
 
   [[nodiscard]] index rows() const { return b_->rows(); }
   [[nodiscard]] index cols() const { return b_->rows(); }
-  /// Bytes that an application reads, twice.
-  [[nodiscard]] index bytes() const { return factor_->bytes(); }
+  /// Bytes that an application reads; what it reads twice counts twice.
+  [[nodiscard]] index bytes() const { return inverse_ ? inverse_->bytes() : 2 * factor_->bytes(); }
 
-  /// Bᵀx in both precisions, and the buffer of the sweeps.
+  /// Bᵀx in both precisions, and the buffer of the sweeps or the products.
   struct workspace_type {
     Eigen::MatrixXd forces;
     detail::tail_vectors<T> tail;
@@ -60,8 +69,8 @@ class condensed_operator {
     requires std::same_as<scalar_t<X>, double>
   [[nodiscard]] workspace_type workspace(X const& x) const {
     index const columns = slant::local(x).cols();
-    return {Eigen::MatrixXd(factor_->shape().size(), columns),
-            detail::tail_vectors<T>(factor_->shape(), columns)};
+    index const buffer = inverse_ ? inverse_->size() : factor_->shape().height();
+    return {Eigen::MatrixXd(b_->cols(), columns), {b_->cols(), buffer, columns}};
   }
   /// y = B K⁻¹Bᵀx for one or several right-hand sides.
   template <class X, class Y>
@@ -73,7 +82,7 @@ class condensed_operator {
     w.forces.noalias() = b_->transpose() * slant::local(x);
     if constexpr (std::is_same_v<T, double>) {
       w.tail.x.swap(w.forces);
-      slant::detail::solve_in_place(*factor_, w.tail);
+      solve_in_place(w.tail);
       w.tail.x.swap(w.forces);
     } else {
       solve_rounded(w);
@@ -99,14 +108,28 @@ class condensed_operator {
     return (a + a.transpose()) / 2;
   }
 
-  /// The same with a factor of floats, which is made on first use and shared.
+  /// The same with entries of floats, which are made on first use and shared.
   [[nodiscard]] condensed_operator<float> rounded() const
     requires std::same_as<T, double>
   {
+    if (inverse_) return {b_, inverse_->rounded(), unit_};
     return {b_, factor_->rounded(), unit_};
   }
 
  private:
+  /// v.x ← S v.x.
+  void solve_in_place(detail::tail_vectors<T>& v) const {
+    if (!inverse_) {
+      slant::detail::solve_in_place(*factor_, v);
+      return;
+    }
+    index const n = inverse_->size();
+    for (index j = 0; j < v.x.cols(); ++j) {
+      inverse_->multiply(v.x.data() + j * n, v.buffer.data() + j * n);
+    }
+    v.x.swap(v.buffer);
+  }
+
   /// Each right-hand side in units in which floats hold it.
   void solve_rounded(workspace_type& w) const {
     for (index j = 0; j < w.forces.cols(); ++j) {
@@ -114,7 +137,7 @@ class condensed_operator {
       w.tail.x.col(j) = (w.forces.col(j) * scale).template cast<T>();
       w.forces.col(j).setConstant(1 / scale);
     }
-    slant::detail::solve_in_place(*factor_, w.tail);
+    solve_in_place(w.tail);
     w.forces.array() *= w.tail.x.template cast<double>().array();
   }
   template <class V>
@@ -126,7 +149,8 @@ class condensed_operator {
   }
 
   std::shared_ptr<sparse_type const> b_;
-  std::shared_ptr<factor_type const> factor_;
+  std::shared_ptr<factor_type const> factor_;    // one of the two
+  std::shared_ptr<inverse_type const> inverse_;  // is there
   double unit_;
 };
 

@@ -10,8 +10,10 @@
 #include <slant/factorizations/condensation_options.hpp>
 #include <slant/factorizations/condensed_operator.hpp>
 #include <slant/factorizations/detail/cholmod_ordering.hpp>
+#include <slant/factorizations/detail/packed_symmetric.hpp>
 #include <slant/factorizations/detail/quotient_graph.hpp>
 #include <slant/factorizations/detail/tail_columns.hpp>
+#include <slant/factorizations/detail/tail_inverse.hpp>
 #include <slant/factorizations/detail/tail_shape.hpp>
 
 #include <Eigen/SparseCore>
@@ -36,13 +38,15 @@ class cholmod_condensation {
                        condensation_options const& options)
       : marked_(std::move(marked)),
         factor_(matrix, best_order(matrix, marked_, options, report_)),
-        tail_(reached_part()) {}
+        tail_(reached_part()),
+        inverse_(formed_part()) {}
 
   template <class M>
   [[nodiscard]] cholmod_condensation refactorized(M const& matrix) const {
     cholmod_condensation result = *this;
     result.factor_ = factor_.refactorized(matrix);
     result.tail_ = result.reached_part();
+    result.inverse_ = result.formed_part();
     return result;
   }
 
@@ -65,20 +69,36 @@ class cholmod_condensation {
 
   /// B touches marked unknowns only.
   [[nodiscard]] auto restricted(sparse_type const& b) const {
+    if (inverse_) {
+      std::vector<int> const contact = contact_unknowns();
+      std::vector<int> number(place_.size(), -1);
+      for (std::size_t i = 0; i < contact.size(); ++i) {
+        number[static_cast<std::size_t>(contact[i])] = static_cast<int>(i);
+      }
+      return condensed_operator<double>(moved(b, number, inverse_->size()), inverse_,
+                                        factor_.unit());
+    }
+    return condensed_operator<double>(moved(b, place_, tail_->shape().size()), tail_,
+                                      factor_.unit());
+  }
+
+ private:
+  /// B with column j at number[j].
+  static std::shared_ptr<sparse_type const> moved(sparse_type const& b,
+                                                  std::vector<int> const& number, index columns) {
     std::vector<Eigen::Triplet<double>> entries;
     for (index j = 0; j < b.cols(); ++j) {
       for (sparse_type::InnerIterator e(b, j); e; ++e) {
         if (e.value() == 0) continue;
-        entries.emplace_back(static_cast<int>(e.row()), place_[static_cast<std::size_t>(j)],
+        entries.emplace_back(static_cast<int>(e.row()), number[static_cast<std::size_t>(j)],
                              e.value());
       }
     }
-    auto b_tail = std::make_shared<sparse_type>(b.rows(), tail_->shape().size());
-    b_tail->setFromTriplets(entries.begin(), entries.end());
-    return condensed_operator<double>(std::move(b_tail), tail_, factor_.unit());
+    auto result = std::make_shared<sparse_type>(b.rows(), columns);
+    result->setFromTriplets(entries.begin(), entries.end());
+    return result;
   }
 
- private:
   template <class M>
   static std::vector<int> best_order(M const& matrix, std::vector<char> const& marked,
                                      condensation_options const& options,
@@ -109,15 +129,21 @@ class cholmod_condensation {
       if (plans.size() > 1 && plans.back().seconds >= plans[plans.size() - 2].seconds) ++rises;
       if (options.levels || separators.subtrees(levels).empty()) break;
     }
+    std::vector<condensation_plan> const swept = plans;
+    if (options.inverse == true) plans.clear();
+    if (options.inverse != false) {
+      for (auto const& plan : swept) plans.push_back(plan.with_inverse(options));
+    }
     report.chosen = cheapest(plans, report.alone, options);
-    report.reason = options.levels ? "as asked for" : reason(report);
+    report.reason = options.levels && options.inverse ? "as asked for" : reason(report);
     return quotient.expanded(order_of(report.chosen.levels));
   }
 
   static std::string reason(condensation_report const& report) {
     return "least time predicted among " + show(static_cast<index>(report.plans.size())) +
-           " orderings, that with contact unknowns behind the subdomains of level " +
-           show(report.chosen.levels);
+           " ways, that with contact unknowns behind the subdomains of level " +
+           show(report.chosen.levels) +
+           (report.chosen.inverse ? ", and the inverse on them formed" : "");
   }
 
   /// Numbers the columns that marked unknowns reach.
@@ -162,11 +188,39 @@ class cholmod_condensation {
     return std::make_shared<tail_columns>(std::move(shape), parts, factor_.handle());
   }
 
+  /// The contact unknowns in the order of the tail.
+  [[nodiscard]] std::vector<int> contact_unknowns() const {
+    std::vector<int> result;
+    for (std::size_t j = 0; j < marked_.size(); ++j) {
+      if (marked_[j] != 0) result.push_back(static_cast<int>(j));
+    }
+    std::ranges::sort(result, {}, [this](int j) { return place_[static_cast<std::size_t>(j)]; });
+    return result;
+  }
+
+  /// S⁻¹ if the plan has it. Entries of S⁻¹ in floats, unlike those of a factor, are no longer
+  /// those of a definite matrix where S is too ill-conditioned: its condition is about the largest
+  /// entry of S⁻¹, as that of K is about 1.
+  [[nodiscard]] std::shared_ptr<packed_symmetric<double> const> formed_part() {
+    if (!report_.chosen.inverse) return nullptr;
+    std::vector<int> numbers = contact_unknowns();
+    for (int& j : numbers) j = place_[static_cast<std::size_t>(j)];
+    auto result = tail_inverse(*tail_, numbers);
+    double largest = 0;
+    for (index i = 0; i < result->size(); ++i) largest = std::max(largest, (*result)(i, i));
+    if (largest <= most_condition) return result;
+    report_.chosen.inverse = false;
+    report_.reason += "; formed and left, because its condition is too large";
+    return nullptr;
+  }
+  static constexpr double most_condition = 1e4;
+
   std::vector<char> marked_;
   condensation_report report_;
   cholmod factor_;
   std::vector<int> place_;  // unknown → number in the tail, or −1
   std::shared_ptr<tail_columns const> tail_;
+  std::shared_ptr<packed_symmetric<double> const> inverse_;  // on contact unknowns; may be missing
 };
 
 }  // namespace slant::detail

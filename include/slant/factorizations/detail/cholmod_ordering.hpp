@@ -61,7 +61,10 @@ class cholmod_ordering {
       p.flops += weight * (rows - (weight - 1) / 2) * (rows - (weight - 1) / 2);
       p.entries += entries;
       p.stored += entries;
-      if (marked[static_cast<std::size_t>(order_[j])] != 0) reached[j] = 1;
+      if (marked[static_cast<std::size_t>(order_[j])] != 0) {
+        reached[j] = 1;
+        p.contact += weight;
+      }
       if (reached[j] == 0) continue;
       p.tail += weight;
       p.tail_entries += entries;

@@ -3,7 +3,10 @@
 // The two loops in which sweeps with a factor spend their time: eight columns R, side by side, and
 // rows y beside them,
 //
-//     y ← y − R p        forward,          Rᵀy        backward.
+//     y ← y − R p        forward,          Rᵀy        backward,
+//
+// and both in one, for products with symmetric matrices. For four right-hand sides at a time:
+// panel_kernels_of_four.hpp.
 //
 // Each is written once with the vectors of the compiler, 16 or 32 bytes long, and compiled for
 // both; which one runs is asked of the processor. Compilers that are told nothing of it would use
@@ -75,6 +78,34 @@ struct panel_loops {
       ((result[J] += y[i] * column[J][place + i]), ...);
     }
   }
+
+  /// Both at once, of rows x and y: y ← y − R p, result ← Rᵀx.
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void both(panel_columns<T> const& r, T const* p, T const* x,
+                                                 T* y, index rows, T* result,
+                                                 std::index_sequence<J...>) {
+    vector const factor[] = {(p[J] - vector{})...};
+    vector sum[] = {(static_cast<void>(J), vector{})...};
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, x += lanes, y += lanes) {
+        vector const w = *reinterpret_cast<vector const*>(x);
+        vector const entries[] = {*reinterpret_cast<vector const*>(column[J] + place + i)...};
+        vector v = *reinterpret_cast<vector const*>(y);
+        ((sum[J] += w * entries[J]), ...);
+        ((v -= factor[J] * entries[J]), ...);
+        *reinterpret_cast<vector*>(y) = v;
+      }
+      place += r.step;
+    }
+    ((result[J] = 0), ...);
+    for (index i = 0; i < lanes; ++i) ((result[J] += sum[J][i]), ...);
+    for (index i = 0; i < rows; ++i) {
+      ((result[J] += x[i] * column[J][place + i]), ...);
+      ((y[i] -= p[J] * column[J][place + i]), ...);
+    }
+  }
 };
 
 using panel_sequence = std::make_index_sequence<static_cast<std::size_t>(panel_width)>;
@@ -97,7 +128,11 @@ template <class T>
                                                T* result) {
   panel_loops<T, 32>::products(r, y, rows, result, panel_sequence{});
 }
-
+template <class T>
+[[gnu::target("avx2,fma")]] void both_long(panel_columns<T> const& r, T const* p, T const* x, T* y,
+                                           index rows, T* result) {
+  panel_loops<T, 32>::both(r, p, x, y, rows, result, panel_sequence{});
+}
 #else
 
 [[nodiscard]] inline bool has_long_vectors() {
@@ -108,7 +143,8 @@ template <class T>
 void subtract_long(panel_columns<T> const&, T const*, T*, index) {}
 template <class T>
 void products_long(panel_columns<T> const&, T const*, index, T*) {}
-
+template <class T>
+void both_long(panel_columns<T> const&, T const*, T const*, T*, index, T*) {}
 #endif
 
 /// y ← y − R p; p: panel_width numbers, y: so many rows.
@@ -129,6 +165,17 @@ void panel_products(bool long_vectors, panel_columns<T> const& r, T const* y, in
     products_long(r, y, rows, result);
   } else {
     panel_loops<T, 16>::products(r, y, rows, result, panel_sequence{});
+  }
+}
+
+/// y ← y − R p and result ← Rᵀx; p, result: panel_width numbers, x, y: so many rows.
+template <class T>
+void subtract_panel_and_products(bool long_vectors, panel_columns<T> const& r, T const* p,
+                                 T const* x, T* y, index rows, T* result) {
+  if (long_vectors) {
+    both_long(r, p, x, y, rows, result);
+  } else {
+    panel_loops<T, 16>::both(r, p, x, y, rows, result, panel_sequence{});
   }
 }
 

@@ -8,12 +8,12 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/factorizations/detail/large_pages.hpp>
 #include <slant/factorizations/detail/panel_kernels.hpp>
+#include <slant/factorizations/detail/rounded_entry.hpp>
 #include <slant/factorizations/detail/tail_solve.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -23,8 +23,7 @@ namespace slant::detail {
 template <class T>
 class tail_panels {
  public:
-  /// From entries elsewhere, in another precision. What is smaller than any entry that matters
-  /// becomes zero, because processors are slow with numbers below the smallest normal one.
+  /// From entries elsewhere, in another precision (rounded_entry.hpp).
   template <class Storage>
   explicit tail_panels(Storage const& from) : shape_(from.shared_shape()) {
     index size = 0;
@@ -42,14 +41,14 @@ class tail_panels {
         index const width = std::min(panel_width, s.columns - c);
         auto const panel = from.panel(s, c);
         place = std::transform(panel.inverse, panel.inverse + square, place,
-                               [](auto const& v) { return rounded(v); });
+                               [](auto const& v) { return rounded_entry<T>(v); });
         for (index row = 0; row < tiles(s, c) * tile; row += tile) {
           index const rows = std::min(tile, s.height() - c - width - row);
           for (index j = 0; j < panel_width; ++j, place += tile) {
             auto const* const entries = panel.below.column[static_cast<std::size_t>(j)] + row;
             index const count = j < width ? rows : 0;
             std::transform(entries, entries + count, place,
-                           [](auto const& v) { return rounded(v); });
+                           [](auto const& v) { return rounded_entry<T>(v); });
             std::fill(place + count, place + tile, T(0));
           }
         }
@@ -81,14 +80,6 @@ class tail_panels {
   /// Tiles below the panel that begins at column c of s.
   static index tiles(tail_shape::supernode const& s, index c) {
     return (s.height() - std::min(c + panel_width, s.columns) + tile - 1) / tile;
-  }
-
-  template <class U>
-  static T rounded(U const& value) {
-    U const least = U(std::numeric_limits<T>::min()) / U(std::numeric_limits<T>::epsilon());
-    U const most = U(std::numeric_limits<T>::max());
-    U const v = std::clamp(value, -most, most);
-    return v < least && -v < least ? T(0) : static_cast<T>(v);
   }
 
   std::shared_ptr<tail_shape const> shape_;

@@ -17,6 +17,7 @@
 
 #include <slant/concepts/scalar.hpp>
 #include <slant/factorizations/detail/panel_kernels.hpp>
+#include <slant/factorizations/detail/panel_kernels_of_four.hpp>
 #include <slant/factorizations/detail/tail_shape.hpp>
 
 #include <Eigen/Core>
@@ -31,8 +32,10 @@ struct tail_vectors {
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> x;       ///< shape.size() rows
   Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> buffer;  ///< shape.height() rows
 
+  tail_vectors(index size, index height, index right_hand_sides)
+      : x(size, right_hand_sides), buffer(height, right_hand_sides) {}
   tail_vectors(tail_shape const& shape, index right_hand_sides)
-      : x(shape.size(), right_hand_sides), buffer(shape.height(), right_hand_sides) {}
+      : tail_vectors(shape.size(), shape.height(), right_hand_sides) {}
 };
 
 template <class T>
@@ -50,17 +53,23 @@ class tail_sweeps {
  public:
   explicit tail_sweeps(Storage const& storage) : storage_(storage), shape_(storage.shape()) {}
 
-  /// v.x ← (L_tt L_ttᵀ)⁻¹ v.x.
-  void solve_in_place(tail_vectors<T>& v) const {
+  /// v.x ← (L_tt L_ttᵀ)⁻¹ v.x, where only zeros stand before `first`: there nothing is computed.
+  void solve_in_place(tail_vectors<T>& v, index first) const {
     auto const& all = shape_.supernodes();
-    for (auto s = all.begin(); s != all.end(); ++s) {
+    auto const begin = std::partition_point(
+        all.begin(), all.end(), [&](auto const& s) { return s.first + s.columns <= first; });
+    auto const skipped = [&](auto const& s) {  // panels
+      return std::max(index(0), first - s->first) / panel_width;
+    };
+    for (auto s = begin; s != all.end(); ++s) {
       gather(*s, v);
-      for (index c = 0; c < s->columns; c += panel_width) forward(*s, c, v);
+      for (index p = skipped(s); p < s->panel_count(); ++p) forward(*s, p * panel_width, v);
       scatter(*s, s->height(), v);
     }
-    for (auto s = all.rbegin(); s != all.rend(); ++s) {
+    for (auto s = all.end(); s != begin;) {
+      --s;
       gather(*s, v);
-      for (index p = s->panel_count() - 1; p >= 0; --p) backward(*s, p * panel_width, v);
+      for (index p = s->panel_count(); p-- > skipped(s);) backward(*s, p * panel_width, v);
       scatter(*s, s->columns, v);
     }
   }
@@ -90,30 +99,63 @@ class tail_sweeps {
   void forward(supernode const& s, index c, tail_vectors<T>& v) const {
     tail_panel<T> const panel = storage_.panel(s, c);
     index const width = std::min(panel_width, s.columns - c);
-    for (index k = 0; k < v.x.cols(); ++k) {
-      T* const y = v.buffer.data() + k * v.buffer.rows() + c;
-      column p = column::Zero();
-      for (index j = 0; j < width; ++j) {
-        p += y[j] * Eigen::Map<column const>(panel.inverse + j * panel_width);
+    index const below = s.height() - c - width;
+    index const stride = v.buffer.rows();
+    for (index k = 0; k < v.x.cols();) {
+      index const together = group(k, v);
+      T* const y = v.buffer.data() + k * stride + c;
+      column p[group_size];
+      bool zero = true;
+      for (index l = 0; l < together; ++l) {
+        T* const d = y + l * stride;
+        p[l].setZero();
+        for (index j = 0; j < width; ++j) {
+          zero = zero && d[j] == T(0);
+          p[l] += d[j] * Eigen::Map<column const>(panel.inverse + j * panel_width);
+        }
+        for (index j = 0; j < width; ++j) d[j] = p[l][j];
       }
-      for (index j = 0; j < width; ++j) y[j] = p[j];
-      subtract_panel(long_vectors_, panel.below, p.data(), y + width, s.height() - c - width);
+      k += together;
+      if (zero) continue;
+      if (together == group_size) {
+        subtract_panel_from_four(long_vectors_, panel.below, p[0].data(), y + width, stride, below);
+      } else {
+        subtract_panel(long_vectors_, panel.below, p[0].data(), y + width, below);
+      }
     }
   }
 
   void backward(supernode const& s, index c, tail_vectors<T>& v) const {
     tail_panel<T> const panel = storage_.panel(s, c);
     index const width = std::min(panel_width, s.columns - c);
-    for (index k = 0; k < v.x.cols(); ++k) {
-      T* const y = v.buffer.data() + k * v.buffer.rows() + c;
-      column products, p = column::Zero();
-      panel_products(long_vectors_, panel.below, y + width, s.height() - c - width,
-                     products.data());
-      for (index j = 0; j < width; ++j) p[j] = y[j] - products[j];
-      for (index j = 0; j < width; ++j) {
-        y[j] = (p * Eigen::Map<column const>(panel.inverse + j * panel_width)).sum();
+    index const below = s.height() - c - width;
+    index const stride = v.buffer.rows();
+    for (index k = 0; k < v.x.cols();) {
+      index const together = group(k, v);
+      T* const y = v.buffer.data() + k * stride + c;
+      column products[group_size];
+      if (together == group_size) {
+        panel_products_of_four(long_vectors_, panel.below, y + width, stride, below,
+                               products[0].data());
+      } else {
+        panel_products(long_vectors_, panel.below, y + width, below, products[0].data());
       }
+      for (index l = 0; l < together; ++l) {
+        T* const d = y + l * stride;
+        column p = column::Zero();
+        for (index j = 0; j < width; ++j) p[j] = d[j] - products[l][j];
+        for (index j = 0; j < width; ++j) {
+          d[j] = (p * Eigen::Map<column const>(panel.inverse + j * panel_width)).sum();
+        }
+      }
+      k += together;
     }
+  }
+
+  /// Right-hand sides from k on that are treated together: four, or one.
+  static constexpr index group_size = 4;
+  static index group(index k, tail_vectors<T> const& v) {
+    return k + group_size <= v.x.cols() ? group_size : 1;
   }
 
   Storage const& storage_;
@@ -121,10 +163,11 @@ class tail_sweeps {
   bool long_vectors_ = has_long_vectors();
 };
 
-/// v.x ← (L_tt L_ttᵀ)⁻¹ v.x with the entries in `storage`.
+/// v.x ← (L_tt L_ttᵀ)⁻¹ v.x with the entries in `storage`. Where only zeros stand before `first`,
+/// the solution is computed from there on only.
 template <class T, class Storage>
-void solve_in_place(Storage const& storage, tail_vectors<T>& v) {
-  tail_sweeps<T, Storage>(storage).solve_in_place(v);
+void solve_in_place(Storage const& storage, tail_vectors<T>& v, index first = 0) {
+  tail_sweeps<T, Storage>(storage).solve_in_place(v, first);
 }
 
 }  // namespace slant::detail
