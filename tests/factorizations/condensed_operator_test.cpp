@@ -45,7 +45,7 @@ std::shared_ptr<sparse const> shared(sparse const& b) {
   return std::make_shared<sparse const>(b);
 }
 
-/// 20 rows, more than formed() takes at a time, each with two entries or three.
+/// 20 rows, each with two entries or three.
 struct scene {
   test::tail_factor factor;
   sparse B{20, 44};

@@ -15,6 +15,7 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/factorizations/detail/packed_symmetric.hpp>
 #include <slant/factorizations/detail/tail_columns.hpp>
+#include <slant/factorizations/detail/tail_inverse.hpp>
 #include <slant/factorizations/detail/tail_panels.hpp>
 #include <slant/factorizations/detail/tail_solve.hpp>
 
@@ -23,9 +24,11 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace slant {
 
@@ -91,21 +94,37 @@ class condensed_operator {
     slant::local(y).noalias() = *b_ * w.forces;
   }
 
-  /// A as a dense matrix, by as many solves as there are rows, several at a time: for methods that
-  /// want its entries, its diagonal or a factorisation of it.
-  [[nodiscard]] Eigen::MatrixXd formed() const {
-    constexpr index together = 16;
-    Eigen::MatrixXd a(rows(), rows());
-    for (index first = 0; first < rows(); first += together) {
-      auto columns = a.middleCols(first, std::min(together, rows() - first));
-      Eigen::MatrixXd units = Eigen::MatrixXd::Zero(rows(), columns.cols());
-      units.diagonal(-first).setOnes();
-      auto w = workspace(units);
-      Eigen::MatrixXd images(rows(), columns.cols());
-      apply(units, images, w);
-      columns = images;
+  /// A as a dense matrix, for methods that want its entries, its diagonal or a factorisation of
+  /// it. Costs a third of as many solves as B touches unknowns.
+  [[nodiscard]] Eigen::MatrixXd formed() const
+    requires std::same_as<T, double>
+  {
+    std::vector<int> touched;
+    for (int j = 0; j < b_->cols(); ++j) {
+      if (sparse_type::InnerIterator(*b_, j)) touched.push_back(j);
     }
-    return (a + a.transpose()) / 2;
+    auto const n = static_cast<index>(touched.size());
+    auto const unknown = [&](index i) { return touched[static_cast<std::size_t>(i)]; };
+    auto const part = inverse_ ? inverse_ : detail::tail_inverse(*factor_, touched);
+    Eigen::MatrixXd s(n, n);
+    for (index j = 0; j < n; ++j) {
+      for (index i = j; i < n; ++i) {
+        s(i, j) = s(j, i) = inverse_ ? (*part)(unknown(i), unknown(j)) : (*part)(i, j);
+      }
+    }
+    // A = B (B S)ᵀ, since S is symmetric.
+    auto const times_b = [&](auto const& x) {
+      Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), rows());
+      for (index j = 0; j < n; ++j) {
+        for (sparse_type::InnerIterator e(*b_, unknown(j)); e; ++e) {
+          y.col(e.row()) += e.value() * x.col(j);
+        }
+      }
+      return y;
+    };
+    Eigen::MatrixXd const bs = times_b(s).transpose();
+    Eigen::MatrixXd const a = times_b(bs);
+    return (a + a.transpose()) * (unit_ / 2);
   }
 
   /// The same with entries of floats, which are made on first use and shared.
