@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 #include <Eigen/Core>
 
-#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -32,6 +32,30 @@ TEST_CASE("rows and columns of the dense inverse, whichever unknowns are asked f
       }
     }
   }
+}
+
+TEST_CASE("rounded to floats, definite matrices that are well-conditioned but for units stay so") {
+  // S⁻¹ with ones on the diagonal and c beside it, in the unit scale^i: 1/(1 − c) is its condition.
+  auto const verdict = [](double c, double scale) {
+    slant::detail::packed_symmetric<double> inverse(6);
+    std::vector<double> stiffness;
+    for (int j = 0; j < 6; ++j) {
+      double const unit = std::pow(scale, j);
+      stiffness.push_back(1 / ((1 - c) * unit * unit));  // (S)_ii is less
+      for (int i = j; i < 6; ++i) {
+        inverse.set(i, j, (i == j ? 1 : c) * unit * std::pow(scale, i));
+      }
+    }
+    return slant::detail::stays_definite<float>(inverse, stiffness);
+  };
+  for (double const scale : {1.0, 1e-3, 1e3}) {
+    CHECK(verdict(0, scale));
+    CHECK(verdict(0.9, scale));
+    CHECK(verdict(1 - 1e-5, scale));
+    CHECK(!verdict(1 - 1e-8, scale));
+    CHECK(!verdict(1 - 1e-12, scale));
+  }
+  CHECK(!verdict(0, 1e6));  // up to 1e60, which floats do not hold
 }
 
 }  // namespace tail_inverse_test

@@ -35,8 +35,8 @@ struct condensation_options {
   /// 0: all contact unknowns last; l: behind their own subdomain of those that the l topmost
   /// separators leave; none: what the cost model finds best.
   std::optional<index> levels{};
-  /// Whether S⁻¹ is formed; none: where the cost model finds it better. Not where S is so
-  /// ill-conditioned that S⁻¹ in floats might be indefinite; the report says so.
+  /// Whether S⁻¹ is formed; none: where the cost model finds it better. Either way it is not kept
+  /// where S is so ill-conditioned that S⁻¹ in floats might be indefinite; the report says so.
   std::optional<bool> inverse{};
   /// Expected; one in rounded precision counts as half. Methods for contact need 60 to 150.
   index applications = 150;
@@ -76,6 +76,7 @@ struct condensation_plan {
   double entries = 0;       ///< of the whole factor
   double stored = 0;        ///< numbers kept for them: with upper halves of dense blocks
   double contact = 0;       ///< contact unknowns
+  double forming = 0;       ///< operations that S⁻¹ takes: from each of them on, both sweeps
   double tail = 0;          ///< unknowns that an application touches, if not by S⁻¹
   double tail_entries = 0;  ///< entries of the factor that an application reads, twice
   double seconds = 0;       ///< predicted, for all there is to do
@@ -86,16 +87,11 @@ struct condensation_plan {
   [[nodiscard]] double bytes() const {
     return 8 * stored + 4 * applied() + (inverse ? 8 * applied() : 0);
   }
-  /// Operations to form S⁻¹: from each unknown on, both sweeps.
-  [[nodiscard]] double forming_flops() const {
-    return inverse ? 4.0 / 3 * tail_entries * contact : 0;
-  }
-
   void predict(condensation_options const& o) {
     double const held = 8 * applied();
     double const speed = held < o.cache ? o.cached_per_second : o.bytes_per_second;
     double const read = inverse ? held : 2 * held;
-    seconds = flops / o.flops_per_second + forming_flops() / o.forming_per_second +
+    seconds = flops / o.flops_per_second + (inverse ? forming / o.forming_per_second : 0) +
               static_cast<double>(o.applications) * read / speed;
   }
   /// The same with S⁻¹.

@@ -72,16 +72,16 @@ class condensed_operator {
     requires std::same_as<scalar_t<X>, double>
   [[nodiscard]] workspace_type workspace(X const& x) const {
     index const columns = slant::local(x).cols();
-    index const buffer = inverse_ ? inverse_->size() : factor_->shape().height();
-    return {Eigen::MatrixXd(b_->cols(), columns), {b_->cols(), buffer, columns}};
+    return {Eigen::MatrixXd(b_->cols(), columns), {b_->cols(), buffer_rows(), columns}};
   }
   /// y = B K⁻¹Bᵀx for one or several right-hand sides.
   template <class X, class Y>
     requires std::same_as<scalar_t<X>, double>
   void apply(X const& x, Y& y, workspace_type& w) const {
+    // One that was made for another matrix, of the same B, may have another buffer.
     index const columns = slant::local(x).cols();
-    w.tail.x.resize(w.tail.x.rows(), columns);
-    w.tail.buffer.resize(w.tail.buffer.rows(), columns);
+    w.tail.x.resize(b_->cols(), columns);
+    w.tail.buffer.resize(buffer_rows(), columns);
     w.forces.noalias() = b_->transpose() * slant::local(x);
     if constexpr (std::is_same_v<T, double>) {
       w.tail.x.swap(w.forces);
@@ -136,6 +136,9 @@ class condensed_operator {
   }
 
  private:
+  [[nodiscard]] index buffer_rows() const {
+    return inverse_ ? inverse_->size() : factor_->shape().height();
+  }
   /// v.x ← S v.x.
   void solve_in_place(detail::tail_vectors<T>& v) const {
     if (!inverse_) {

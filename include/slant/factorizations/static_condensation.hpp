@@ -72,6 +72,7 @@ class static_condensation {
       slant::detail::check_size("rows of K", index(k.rows()), rows(), "as before,");
       result.factors_ = factors(k.derived());
     }
+    result.note(report_.contact);
     return result;
   }
 

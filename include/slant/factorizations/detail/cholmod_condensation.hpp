@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -37,16 +38,18 @@ class cholmod_condensation {
   cholmod_condensation(M const& matrix, std::vector<char> marked,
                        condensation_options const& options)
       : marked_(std::move(marked)),
-        factor_(matrix, best_order(matrix, marked_, options, report_)),
-        tail_(reached_part()),
-        inverse_(formed_part()) {}
+        factor_(matrix, best_order(matrix, marked_, options, planned_)),
+        tail_(reached_part()) {
+    form(matrix);
+  }
 
   template <class M>
   [[nodiscard]] cholmod_condensation refactorized(M const& matrix) const {
     cholmod_condensation result = *this;
     result.factor_ = factor_.refactorized(matrix);
     result.tail_ = result.reached_part();
-    result.inverse_ = result.formed_part();
+    result.report_ = planned_;
+    result.form(matrix);
     return result;
   }
 
@@ -117,13 +120,15 @@ class cholmod_condensation {
     // More levels cost ever less to factor and keep, and ever more to apply: the best one is before
     // times rise, if memory allows it.
     auto& plans = report.plans;
-    report.alone = given.plan(0, groups, weight);
+    auto const contact = static_cast<double>(std::ranges::count_if(marked, std::identity{}));
+    report.alone = given.plan(0, groups, weight, contact);
     report.alone.predict(options);
     index const first = options.levels.value_or(0);
     int rises = 0;
     bool found = false;
     for (index levels = first; rises < 2 || !found; ++levels) {
-      plans.push_back(cholmod_ordering(view, order_of(levels)).plan(levels, groups, weight));
+      plans.push_back(
+          cholmod_ordering(view, order_of(levels)).plan(levels, groups, weight, contact));
       plans.back().predict(options);
       found = found || fits(plans.back(), report.alone, options);
       if (plans.size() > 1 && plans.back().seconds >= plans[plans.size() - 2].seconds) ++rises;
@@ -198,24 +203,26 @@ class cholmod_condensation {
     return result;
   }
 
-  /// S⁻¹ if the plan has it. Entries of S⁻¹ in floats, unlike those of a factor, are no longer
-  /// those of a definite matrix where S is too ill-conditioned: its condition is about the largest
-  /// entry of S⁻¹, as that of K is about 1.
-  [[nodiscard]] std::shared_ptr<packed_symmetric<double> const> formed_part() {
-    if (!report_.chosen.inverse) return nullptr;
+  /// Forms S⁻¹ if the plan has it, and keeps it if it is good for floats.
+  void form(sparse_type const& matrix) {
+    report_ = planned_;
+    inverse_.reset();
+    if (!report_.chosen.inverse) return;
     std::vector<int> numbers = contact_unknowns();
-    for (int& j : numbers) j = place_[static_cast<std::size_t>(j)];
-    auto result = tail_inverse(*tail_, numbers);
-    double largest = 0;
-    for (index i = 0; i < result->size(); ++i) largest = std::max(largest, (*result)(i, i));
-    if (largest <= most_condition) return result;
+    std::vector<double> stiffness;
+    for (int& j : numbers) {
+      stiffness.push_back(matrix.coeff(j, j) * factor_.unit());
+      j = place_[static_cast<std::size_t>(j)];
+    }
+    inverse_ = tail_inverse(*tail_, numbers);
+    if (stays_definite<float>(*inverse_, stiffness)) return;
+    inverse_.reset();
     report_.chosen.inverse = false;
-    report_.reason += "; formed and left, because its condition is too large";
-    return nullptr;
+    report_.reason += "; but not kept, because floats would make it indefinite";
   }
-  static constexpr double most_condition = 1e4;
 
   std::vector<char> marked_;
+  condensation_report planned_;  // before it was known whether the inverse is any good
   condensation_report report_;
   cholmod factor_;
   std::vector<int> place_;  // unknown → number in the tail, or −1

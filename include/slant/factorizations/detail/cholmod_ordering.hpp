@@ -48,11 +48,14 @@ class cholmod_ordering {
   [[nodiscard]] std::vector<int> const& parent() const noexcept { return parent_; }
 
   /// What factoring costs, and applications from marked unknowns to marked ones, if each vertex of
-  /// the graph stands for so many unknowns.
-  [[nodiscard]] condensation_plan plan(index levels, std::vector<char> const& marked,
-                                       double weight) const {
+  /// the graph stands for so many unknowns. contact: the unknowns of the marked vertices that are
+  /// meant.
+  [[nodiscard]] condensation_plan plan(index levels, std::vector<char> const& marked, double weight,
+                                       double contact) const {
     condensation_plan p;
     p.levels = levels;
+    p.contact = contact;
+    double vertices = 0, skipped = 0;  // marked ones; entries before them
     p.stored = upper_halves(weight);
     std::vector<char> reached(order_.size(), 0);
     for (std::size_t j = 0; j < order_.size(); ++j) {
@@ -63,13 +66,15 @@ class cholmod_ordering {
       p.stored += entries;
       if (marked[static_cast<std::size_t>(order_[j])] != 0) {
         reached[j] = 1;
-        p.contact += weight;
+        vertices += 1;
+        skipped += p.tail_entries;
       }
       if (reached[j] == 0) continue;
       p.tail += weight;
       p.tail_entries += entries;
       if (parent_[j] >= 0) reached[static_cast<std::size_t>(parent_[j])] = 1;
     }
+    if (vertices > 0) p.forming = 4 * contact * (p.tail_entries - skipped / vertices);
     return p;
   }
 

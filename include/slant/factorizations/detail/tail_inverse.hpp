@@ -15,7 +15,9 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -41,6 +43,35 @@ template <class Storage>
     }
   }
   return result;
+}
+
+/// Whether S⁻¹, formed, is still positive definite when its entries are rounded to T, which those
+/// of a factor always mean. `stiffness`: K_ii of its unknowns, in its unit. With D = diag(S⁻¹) and
+/// M = D^-½ S⁻¹ D^-½, in any units of the unknowns,
+///
+///     λ_min(M)⁻¹ ≤ tr M⁻¹ = Σ (S⁻¹)_ii S_ii ≤ Σ (S⁻¹)_ii K_ii.
+///
+/// Rounding changes each entry of M by at most half an ε of it, one independently of the other; the
+/// norm of such a matrix is about twice that of its longest row.
+template <class T>
+[[nodiscard]] bool stays_definite(packed_symmetric<double> const& inverse,
+                                  std::vector<double> const& stiffness) {
+  double trace = 0, largest = 0;
+  std::vector<double> squares(stiffness.size(), 1);  // of the rows of M
+  for (index j = 0; j < inverse.size(); ++j) {
+    double const d = inverse(j, j);
+    trace += d * stiffness[static_cast<std::size_t>(j)];
+    largest = std::max(largest, d);
+    for (index i = j + 1; i < inverse.size(); ++i) {
+      double const m = inverse(i, j) / std::sqrt(inverse(i, i) * d);
+      squares[static_cast<std::size_t>(i)] += m * m;
+      squares[static_cast<std::size_t>(j)] += m * m;
+    }
+  }
+  if (squares.empty()) return true;
+  constexpr double ε = std::numeric_limits<T>::epsilon();
+  double const row = std::sqrt(*std::max_element(squares.begin(), squares.end()));
+  return largest < ε * std::numeric_limits<T>::max() && ε * row * trace < 0.5;
 }
 
 }  // namespace slant::detail
