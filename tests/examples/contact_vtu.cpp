@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+namespace contact_vtu {
 namespace {
 
 /// The numbers of a data array of points, one column per point.
@@ -75,3 +76,5 @@ TEST_CASE("a contact solution arrives at its points, of one body and of two") {
   check_points(bricks);
   check_points(fem::make_two_plates(2));
 }
+
+}  // namespace contact_vtu

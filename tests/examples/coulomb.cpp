@@ -13,6 +13,7 @@
 
 #include "run_program.hpp"
 
+namespace coulomb {
 namespace {
 
 using examples_test::contains;
@@ -175,3 +176,5 @@ TEST_CASE("coulomb refuses bad options in one line") {
   check("--steps 0", "--steps: got 0, expected a whole number >= 1");
   check("--output /dev/null", "--output: got /dev/null");
 }
+
+}  // namespace coulomb

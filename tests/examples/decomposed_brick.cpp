@@ -8,6 +8,7 @@
 
 #include "run_program.hpp"
 
+namespace decomposed_brick {
 namespace {
 
 using examples_test::contains;
@@ -53,3 +54,5 @@ TEST_CASE("decomposed_brick: too few steps, and bad options") {
     CHECK(contains(ran.err, options.substr(0, options.find(' '))));
   }
 }
+
+}  // namespace decomposed_brick

@@ -13,6 +13,7 @@
 
 #include "problem_files.hpp"
 
+namespace from_files {
 namespace {
 
 using examples_test::contains;
@@ -281,3 +282,5 @@ TEST_CASE("from_files: a folder whose name is no text") {
   CHECK(contains(json::parse(ran.out)["output"].get<std::string>(), "/caf"));
   CHECK(std::filesystem::exists(output + "/u.txt"));
 }
+
+}  // namespace from_files

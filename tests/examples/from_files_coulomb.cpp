@@ -10,6 +10,7 @@
 
 #include "problem_files.hpp"
 
+namespace from_files_coulomb {
 namespace {
 
 using examples_test::check_refusal;
@@ -119,3 +120,5 @@ TEST_CASE("from_files: coefficients that cannot be used") {
   files.remove("T.mtx");
   check_refusal(files, option, "T.mtx: got no such file");
 }
+
+}  // namespace from_files_coulomb

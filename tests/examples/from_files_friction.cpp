@@ -13,6 +13,7 @@
 
 #include "problem_files.hpp"
 
+namespace from_files_friction {
 namespace {
 
 using examples_test::check_refusal;
@@ -129,3 +130,5 @@ TEST_CASE("from_files: contacts that cannot be used") {
   check_refusal(friction_files(rover), "--symmetric", "W.mtx: got a matrix of asymmetry ");
   check_refusal(examples_test::small_brick(), "--symmetric", "--symmetric: got ");
 }
+
+}  // namespace from_files_friction

@@ -8,6 +8,7 @@
 
 #include "problem_files.hpp"
 
+namespace from_files_refusals {
 namespace {
 
 namespace fs = std::filesystem;
@@ -278,3 +279,5 @@ TEST_CASE("from_files: refused is refused, no file or folder comes of it") {
     CHECK(!fs::exists(files.output()));
   }
 }
+
+}  // namespace from_files_refusals

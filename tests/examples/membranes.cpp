@@ -15,6 +15,7 @@
 
 #include "run_program.hpp"
 
+namespace membranes {
 namespace {
 
 using examples_test::contains;
@@ -128,3 +129,5 @@ TEST_CASE("a membrane for ParaView: every node with its numbers, zero on the edg
   CHECK(point_data(file, "contact") ==
         list{0, 0, 0, 0, 0, 0, -1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0});
 }
+
+}  // namespace membranes

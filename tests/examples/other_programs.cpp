@@ -9,6 +9,7 @@
 
 #include "run_program.hpp"
 
+namespace other_programs {
 namespace {
 
 using examples_test::contains;
@@ -126,3 +127,5 @@ TEST_CASE("the programs refuse bad options in one line") {
   check("tridiagonal", "--step 2", "--step: got 2, expected a number in (0, 2)");
   check("tridiagonal", "extra", "argument: got extra, expected one of those that --help lists");
 }
+
+}  // namespace other_programs

@@ -8,6 +8,7 @@
 
 #include "run_program.hpp"
 
+namespace stokes {
 namespace {
 
 using examples_test::contains;
@@ -91,3 +92,5 @@ TEST_CASE("stokes: what cannot be used is named in one line") {
   refused("--kappa nan", "--kappa: got nan");
   refused("--method simplex", "--method: got simplex, expected newton");
 }
+
+}  // namespace stokes

@@ -10,6 +10,7 @@
 
 #include "run_program.hpp"
 
+namespace table_programs {
 namespace {
 
 using examples_test::contains;
@@ -107,3 +108,5 @@ TEST_CASE("the programs of tables refuse bad options in one line") {
   check("two_bodies", "--scene beams", "--scene: got beams, expected plates, bricks or both");
   check("two_bodies", "--output /dev/null", "--output: got /dev/null");
 }
+
+}  // namespace table_programs
