@@ -11,6 +11,7 @@
 #include <slant/sets/detail/cone_slant.hpp>
 #include <slant/sets/detail/cone_step.hpp>
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/stretch.hpp>
 
@@ -106,7 +107,7 @@ class second_order_cone {
   /// mantle, and so does d: a direction of the cone up to the band has no end.
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
     vector_type const v = x, w = d;
-    if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
     return detail::cone_step<S, N>(mu_, S(1), v, w);
   }
@@ -114,7 +115,7 @@ class second_order_cone {
   /// 0 for y in the polar cone y_n + μ‖y_t‖ <= 0 (up to 8 ε |y_n|), otherwise ∞.
   [[nodiscard]] S support(auto const& y) const {
     vector_type const v = y;
-    if (v.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v)) return detail::not_a_number<S>();
     if (v(0) > S(0)) return detail::infinity<S>();
     S const depth = -v(0) * (S(1) + detail::rounding_band<S>());
     auto const μρ = detail::scaled_slip<S, N>(mu_, v);
