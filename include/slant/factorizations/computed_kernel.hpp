@@ -43,7 +43,8 @@ void inverse_iteration(Eigen::SparseMatrix<S> const& K, Factors const& shifted,
     shifted.solve(X, Y);
   }
   matrix_type const Q = orthonormal_basis<S>(std::move(Y));
-  Eigen::SelfAdjointEigenSolver<matrix_type> const ritz(Q.transpose() * (K * Q));
+  matrix_type const image = K * Q, projected = Q.transpose() * image;
+  Eigen::SelfAdjointEigenSolver<matrix_type> const ritz(projected);
   X = Q * ritz.eigenvectors();
 }
 

@@ -152,11 +152,16 @@ class ball {
     return Eigen::Matrix<S, 1, 1>::Constant(f);
   }
 
-  [[nodiscard]] vector_type inequality_gradient(auto const& x) const { return S(2) * x; }
+  [[nodiscard]] vector_type inequality_gradient(auto const& x) const {
+    vector_type const v = x;
+    return detail::multiple_of(S(2), v);
+  }
 
   /// ν₁ ∇²f = 2 ν₁ I.
   [[nodiscard]] matrix_type inequality_hessian(auto const&, auto const& multipliers) const {
-    return S(2) * multipliers(0) * matrix_type::Identity();
+    matrix_type hessian = matrix_type::Zero();
+    for (int i = 0; i < N; ++i) hessian(i, i) = S(2) * multipliers(0);
+    return hessian;
   }
 
  private:
