@@ -95,8 +95,7 @@ template <class S>
   // P = s (1, μ e) with e = z_t / ‖z_t‖, s = (z_n + μ‖z_t‖) / (1 + μ²); here in terms of v, which
   // the difference of two long vectors would lose: with δ = ‖z_t‖ − μ r_n
   //     F_n = (v_n − μ δ) / (1 + μ²),   F_t = (δ r_t + μ r_n v_t) / ‖z_t‖ + μ F_n e.
-  S const r_t = detail::tangential_length(r), v_t = detail::tangential_length(v);
-  S const sum = tangential + r_t;
+  S const r_t = tangential_length(r), v_t = tangential_length(v), sum = tangential + r_t;
   S const δ = (r_t - μ * r[0]) + (v_t / sum * v_t - S(2) * (r[1] / sum * v[1] + r[2] / sum * v[2]));
   contact_vector<S> F;
   F[0] = μ <= S(1) ? S((v[0] - μ * δ) / (S(1) + μ * μ)) : S((v[0] / μ - δ) / (S(1) / μ + μ));
@@ -215,8 +214,8 @@ template <class S>
     };
     block const f = over(ri, force), w = over(ui, velocity);
     S const tangential = f[1] * w[1] + f[2] * w[2];
-    S const power =
-        detail::size_of(S(f[0] * w[0] + (μ * f[0] * detail::tangential_length(w) + tangential)));
+    S const friction = μ * detail::tangential_length(w);
+    S const power = detail::size_of(S(f[0] * w[0] + (f[0] * friction + tangential)));
     dissipation -= tangential;
     c.complementarity = power * force * velocity;
     c.dissipation = -tangential * force * velocity;

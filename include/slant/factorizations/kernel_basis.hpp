@@ -91,7 +91,8 @@ template <class M>
   if (d == 0) return rows;
   Eigen::ColPivHouseholderQR<matrix_type> qr;
   qr.setThreshold(S(1024) * std::numeric_limits<S>::epsilon());
-  qr.compute(R.transpose());
+  matrix_type const transposed = R.transpose();
+  qr.compute(transposed);
   if (qr.rank() < d) {
     throw bad_input("columns of R", "rank " + detail::show(index(qr.rank())),
                     detail::show(d) + " independent ones");
@@ -100,9 +101,12 @@ template <class M>
   for (index j = 0; j < d; ++j) rows.push_back(order[j]);
   // Each exchange multiplies the volume by more than 1.05, so there are few.
   while (true) {
-    matrix_type const held = R(rows, Eigen::all);
-    qr.compute(held.transpose());
-    matrix_type const amplification = qr.solve(R.transpose());
+    matrix_type held(d, d);
+    for (index k = 0; k < d; ++k) {
+      for (index l = 0; l < d; ++l) held(l, k) = transposed(l, rows[static_cast<std::size_t>(k)]);
+    }
+    qr.compute(held);
+    matrix_type const amplification = qr.solve(transposed);
     index j = 0, i = 0;
     if (!(amplification.cwiseAbs().maxCoeff(&j, &i) > S(1.05))) break;
     rows[static_cast<std::size_t>(j)] = i;
