@@ -45,7 +45,20 @@ template <class S>
   Eigen::ColPivHouseholderQR<matrix_type> qr;
   qr.setThreshold(S(1024) * std::numeric_limits<S>::epsilon());
   qr.compute(R);
-  return qr.householderQ() * matrix_type::Identity(R.rows(), qr.rank());
+  // The first columns of Q = H₀ H₁ …, H_k = I − τ v vᵀ, v the part of column k from its diagonal
+  // entry on, which is 1: what householderQ() does, and is slow to compile.
+  matrix_type const& v = qr.matrixQR();
+  matrix_type Q = matrix_type::Identity(R.rows(), qr.rank());
+  for (index k = qr.rank(); k-- > 0;) {
+    for (index j = k; j < Q.cols(); ++j) {
+      S sum = Q(k, j);
+      for (index i = k + 1; i < Q.rows(); ++i) sum += v(i, k) * Q(i, j);
+      sum *= qr.hCoeffs()[k];
+      Q(k, j) -= sum;
+      for (index i = k + 1; i < Q.rows(); ++i) Q(i, j) -= sum * v(i, k);
+    }
+  }
+  return Q;
 }
 
 /// The largest sum of |K_ij| over a row i: ‖K‖ in the maximum norm, and a bound of its eigenvalues.
