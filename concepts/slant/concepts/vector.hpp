@@ -172,9 +172,10 @@ struct norm_fn {
     using std::frexp;
     using std::ldexp;
     using std::sqrt;
-    if (v.size() == 0) return S(0);
-    S const largest = v.cwiseAbs().maxCoeff();
-    if (!(largest > S(0)) || !(largest <= std::numeric_limits<S>::max())) return v.stableNorm();
+    largest_entry<S> visitor;
+    if (v.size() > 0) v.visit(visitor);
+    S const& largest = visitor.size;
+    if (!(largest > S(0)) || !(largest <= std::numeric_limits<S>::max())) return largest;
     int e = 0;
     static_cast<void>(frexp(largest, &e));
     if (e < 3 - std::numeric_limits<S>::max_exponent) e = 3 - std::numeric_limits<S>::max_exponent;
@@ -182,6 +183,15 @@ struct norm_fn {
     S const square = (v * unit).dot(v * unit);
     return ldexp(S(sqrt(square)), e);
   }
+  template <class S>
+  struct largest_entry {  // a visitor
+    S size{};             ///< or NaN
+    void init(S const& entry, index i, index j) { (*this)(entry, i, j); }
+    void operator()(S const& entry, index, index) {
+      S const now = entry < S(0) ? S(-entry) : entry;
+      if (size == size && !(now <= size)) size = now;
+    }
+  };
 };
 
 }  // namespace detail

@@ -17,6 +17,8 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/contact/friction_problem.hpp>
+#include <slant/sets/detail/entries.hpp>
+#include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
 #include <slant/sets/second_order_cone.hpp>
 
@@ -67,16 +69,13 @@ class friction_blocks {
 
   /// The problem must be valid and of dimension N.
   explicit friction_blocks(friction_problem<S> const& p) : mu_(p.mu) {
-    using std::ldexp;
-    S largest(0);
-    for (index i = 0; i < p.q.size(); ++i) largest = std::max(largest, S(abs_of(p.q[i])));
-    velocity_ = exponent_of(largest);
-    q_ = p.q.unaryExpr([&](S const& x) { return S(ldexp(x, -velocity_)); });
+    velocity_ = exponent_of(slant::detail::largest_of(p.q));
+    q_ = scaled_by(p.q, -velocity_);
     q_norm_ = q_.norm();
-    largest = S(0);
+    S largest(0);
     for (index j = 0; j < p.W.outerSize(); ++j) {
       for (typename Eigen::SparseMatrix<S>::InnerIterator e(p.W, j); e; ++e) {
-        largest = std::max(largest, S(abs_of(e.value())));
+        largest = std::max(largest, S(e.value() < S(0) ? -e.value() : e.value()));
       }
     }
     compliance_ = exponent_of(largest);
@@ -106,22 +105,30 @@ class friction_blocks {
   /// u = W r + q.
   void velocity(vector_type const& r, vector_type& u) const {
     multiply(r, u);
-    u += q_;
+    for (index k = 0; k < size(); ++k) u[k] += q_[k];
   }
   /// y = W x.
   void multiply(vector_type const& x, vector_type& y) const {
     for (index i = 0; i < contacts(); ++i) {
-      part_type sum = diagonal(i) * x.template segment<N>(N * i);
+      part_type sum = slant::detail::product_of(diagonal(i), part_of(x, i));
       for_row(i, [&](index j, block_type const& b) {
-        sum.noalias() += b * x.template segment<N>(N * j);
+        slant::detail::add_product(b, x.data() + N * j, sum);
       });
-      y.template segment<N>(N * i) = sum;
+      put(sum, i, y);
     }
   }
 
+  /// Of contact i in a vector of all of them.
+  [[nodiscard]] static part_type part_of(vector_type const& x, index i) {
+    return slant::detail::entries_at<N>(x.data() + N * i);
+  }
+  static void put(part_type const& part, index i, vector_type& x) {
+    slant::detail::put_entries(part, x.data() + N * i);
+  }
   /// How good r is, u = velocity(r). Sliding slower than the rounding of u is none: times a large
   /// μ it would hide every sticking contact.
   [[nodiscard]] friction_error<S> error(vector_type const& r, vector_type const& u) const {
+    using slant::detail::multiple_of;
     using std::ldexp;
     using std::sqrt;
     S own(0), common(0), plain(0), penetration(0);
@@ -130,21 +137,21 @@ class friction_blocks {
     S const ε = std::numeric_limits<S>::epsilon();
     S squares(0), largest(0);  // of r/ρ, velocities
     for (index i = 0; i < contacts(); ++i) {
-      part_type const x = unit_[i] * r.template segment<N>(N * i);
-      squares += x.squaredNorm();
-      largest = std::max(largest, S(x.cwiseAbs().maxCoeff()));
+      part_type const x = multiple_of(unit_[i], part_of(r, i));
+      squares += slant::detail::dot_of(x, x);
+      largest = std::max(largest, slant::detail::largest_of(x));
     }
     S const still = S(4) * ε * (S(2) + largest);
     for (index i = 0; i < contacts(); ++i) {
-      part_type const ri = r.template segment<N>(N * i);
-      part_type v = u.template segment<N>(N * i);
+      part_type const ri = part_of(r, i);
+      part_type v = part_of(u, i);
       if (!(v(0) >= S(0))) penetration += v(0) * v(0);
-      S const sliding = v.template tail<N - 1>().norm();
+      S const sliding = sqrt(slant::detail::pairwise_squares<N - 1>(v.data() + 1));
       if (!(sliding <= still)) v(0) += mu_[i] * sliding;
-      S const square = natural_map(i, part_type(unit_[i] * ri), v).squaredNorm();
+      S const square = natural_map(i, multiple_of(unit_[i], ri), v);
       own += square;
-      common += unit_[i] == S(1) ? square : natural_map(i, ri, v).squaredNorm();
-      plain += natural_map(i, ri, part_type(ρ * v)).squaredNorm() / ρ / ρ;
+      common += unit_[i] == S(1) ? square : natural_map(i, ri, v);
+      plain += natural_map(i, ri, multiple_of(ρ, v)) / ρ / ρ;
     }
     S const scaled = (sqrt(own) + ε * sqrt(squares)) / q_norm_;
     S const rounding = S(16) * ε * r.norm() / q_norm_, other = sqrt(common) / q_norm_;
@@ -165,29 +172,30 @@ class friction_blocks {
   }
 
  private:
-  /// r − P_K(r − v); v itself, not what is left of it, where r − v is in K.
-  part_type natural_map(index i, part_type const& r, part_type const& v) const {
-    part_type const z = r - v, p = cone(i).project(z);
-    return p == z ? v : part_type(r - p);
-  }
-  static S abs_of(S const& x) {
-    using std::abs;
-    return abs(x);
+  /// ‖r − P_K(r − v)‖²; of v itself, not of what is left of it, where r − v is in K.
+  S natural_map(index i, part_type const& r, part_type const& v) const {
+    using slant::detail::combination;
+    part_type const z = combination(S(1), r, S(-1), v), p = cone(i).project(z);
+    bool const inside = slant::detail::all_zero(combination(S(1), z, S(-1), p));
+    part_type const rest = inside ? v : combination(S(1), r, S(-1), p);
+    return slant::detail::dot_of(rest, rest);
   }
   /// e with x in [2ᵉ, 2ᵉ⁺¹); 0 for 0.
   static int exponent_of(S const& x) {
     return x > S(0) ? slant::detail::binary_exponent(x) - 1 : 0;
   }
   static vector_type scaled_by(vector_type const& x, int exponent) {
-    return x.unaryExpr(
-        [exponent](S const& a) { return slant::detail::times_power_of_two(a, exponent); });
+    vector_type y = x;
+    for (S& entry : y) entry = slant::detail::times_power_of_two<S>(entry, exponent);
+    return y;
   }
 
   void collect(Eigen::SparseMatrix<S> const& W) {
     using std::ldexp;
     index const m = contacts();
     Eigen::SparseMatrix<S, Eigen::RowMajor> const rows = W;
-    diagonal_.assign(std::size_t(m), block_type::Zero());
+    block_type const zero = block_type::Zero();
+    diagonal_.assign(std::size_t(m), zero);
     first_.assign(1, 0);
     std::vector<index> place(std::size_t(m), -1);
     for (index i = 0; i < m; ++i) {
@@ -206,7 +214,7 @@ class friction_blocks {
           if (at < begin) {
             at = index(column_.size());
             column_.push_back(j);
-            blocks_.push_back(block_type::Zero());
+            blocks_.push_back(zero);
           }
           blocks_[std::size_t(at)](a, b) += value;
         }
@@ -218,9 +226,9 @@ class friction_blocks {
   /// 1/ρ of the contacts: powers of two, 1 where W has no entry.
   void measure_units() {
     using std::ldexp;
-    unit_.setZero(contacts());
+    unit_ = vector_type::Zero(contacts());
     auto const include = [&](index j, block_type const& b) {
-      unit_[j] = std::max(unit_[j], S(b.cwiseAbs().maxCoeff()));
+      unit_[j] = std::max(unit_[j], slant::detail::largest_of(b));
     };
     for (index i = 0; i < contacts(); ++i) {
       include(i, diagonal(i));

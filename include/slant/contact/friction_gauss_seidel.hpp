@@ -106,10 +106,9 @@ class friction_gauss_seidel {
 
  private:
   void extrapolate(state_type& s, index most) const {
-    s.trial = s.x + s.length * (s.x - s.trial);
+    for (index k = 0; k < s.x.size(); ++k) s.trial[k] = s.x[k] + s.length * (s.x[k] - s.trial[k]);
     for (index i = 0; i < blocks_->contacts(); ++i) {
-      auto part = s.trial.template segment<N>(N * i);
-      part = blocks_->cone(i).project(typename friction_blocks<N, S>::part_type(part));
+      blocks_->put(blocks_->cone(i).project(blocks_->part_of(s.trial, i)), i, s.trial);
     }
     pass(s, s.trial, most);
     auto const extrapolated = measure(s, s.trial, s.trial_u);

@@ -145,10 +145,10 @@ class friction_interior_point {
   using part = typename pair::part;
   using block = typename pair::block;
 
-  /// f(contact, its place in the vectors) for all of them.
+  /// f(contact, its number) for all of them.
   template <class F>
   static void each(state_type& s, F const& f) {
-    for (std::size_t i = 0; i < s.contacts.size(); ++i) f(s.contacts[i], N * index(i));
+    for (std::size_t i = 0; i < s.contacts.size(); ++i) f(s.contacts[i], index(i));
   }
   [[nodiscard]] index count() const { return blocks_->contacts(); }
   [[nodiscard]] S mean(S const& sum) const { return sum / S(std::max<index>(1, count())); }
@@ -157,8 +157,8 @@ class friction_interior_point {
     S size = std::numeric_limits<S>::epsilon(), weight(0);
     for (index i = 0; i < count(); ++i) {
       auto const& c = s.contacts.emplace_back(blocks_->mu(i), blocks_->diagonal(i));
-      part const b = c.D.cwiseProduct(blocks_->q().template segment<N>(N * i));
-      size = std::max(size, S(b.cwiseAbs().maxCoeff()));
+      part const b = c.scaled(blocks_->part_of(blocks_->q(), i));
+      size = std::max(size, slant::detail::largest_of(b));
       weight += c.weight;
     }
     S const force = size / mean(weight);
@@ -166,14 +166,14 @@ class friction_interior_point {
   }
   /// Everything at the x and s of the contacts.
   void look(state_type& s) const {
-    each(s, [&](pair& c, index k) { s.x.template segment<N>(k) = c.D.cwiseProduct(c.at.x()); });
+    each(s, [&](pair& c, index i) { blocks_->put(c.scaled(c.at.x()), i, s.x); });
     blocks_->velocity(s.x, s.u);
     ++s.evaluations;
     s.error = blocks_->error(s.x, s.u);
     S sum(0);
-    each(s, [&](pair& c, index k) {
-      c.look(part(s.u.template segment<N>(k)));
-      sum += c.at.λ().squaredNorm();
+    each(s, [&](pair& c, index i) {
+      c.look(blocks_->part_of(s.u, i));
+      sum += detail::dot_of(c.at.λ(), c.at.λ());
     });
     s.γ = mean(sum);
   }
@@ -191,15 +191,17 @@ class friction_interior_point {
 
   /// False if there is no direction.
   [[nodiscard]] bool advance(state_type& s) const {
+    using detail::combination, detail::dot_of, detail::multiple_of;
     using std::sqrt;
     each(s, [](pair& c, index) { c.aim_at_nothing(); });
     S const a = std::min(S(1), find_direction(s));
     if (!(a > S(0))) return false;
     S after(0), work(0), p(0);
     each(s, [&](pair& c, index) {
-      after += (c.at.λ() + a * c.dx).dot(c.at.λ() + a * c.ds);
-      work += c.p.norm() * c.at.x().norm();
-      p += c.p.squaredNorm();
+      after += dot_of(combination(S(1), c.at.λ(), a, c.dx), combination(S(1), c.at.λ(), a, c.ds));
+      part const x = c.at.x();
+      work += sqrt(dot_of(c.p, c.p)) * sqrt(dot_of(x, x));
+      p += dot_of(c.p, c.p);
     });
     S σ = std::clamp(S(mean(after) / s.γ), S(0), S(1));
     σ *= σ;
@@ -209,7 +211,7 @@ class friction_interior_point {
     each(s, [&](pair& c, index) { c.aim_at(σ * s.γ, a); });
     S const t = std::min(S(1), S(options_.fraction * find_direction(s)));
     if (!(t > std::numeric_limits<S>::epsilon())) return false;
-    each(s, [&](pair& c, index) { c.at.move(t * c.dx, t * c.ds); });
+    each(s, [&](pair& c, index) { c.at.move(multiple_of(t, c.dx), multiple_of(t, c.ds)); });
     s.length = t;
     if (t < S(0.1)) s.α = std::max(S(S(3) * s.α), options_.proximal);
     if (t > S(0.5)) s.α = s.α > S(1e-14) ? S(s.α / S(2)) : S(0);
@@ -234,12 +236,10 @@ class friction_interior_point {
   }
   /// dx and ds for the aim, and how far it is to the boundary; 0 if they are no numbers.
   [[nodiscard]] S find_direction(state_type& s) const {
-    each(s, [&](pair& c, index k) { s.right.template segment<N>(k) = c.right_hand_side(); });
+    each(s, [&](pair& c, index i) { blocks_->put(c.right_hand_side(), i, s.right); });
     if (!s.lu.solve(s.right, s.z)) return S(0);
     S length = std::numeric_limits<S>::infinity();
-    each(s, [&](pair& c, index k) {
-      length = std::min(length, c.turn(part(s.z.template segment<N>(k))));
-    });
+    each(s, [&](pair& c, index i) { length = std::min(length, c.turn(blocks_->part_of(s.z, i))); });
     return length;
   }
 

@@ -16,6 +16,7 @@
 #include <slant/contact/detail/block_lu.hpp>
 #include <slant/contact/detail/friction_map.hpp>
 #include <slant/contact/friction_blocks.hpp>
+#include <slant/sets/detail/entries.hpp>
 
 #include <Eigen/Core>
 
@@ -57,7 +58,8 @@ class friction_newton {
         trial_(blocks.size()),
         trial_u_(blocks.size()) {
     for (index i = 0; i < blocks.contacts(); ++i) {
-      S const mean = blocks.diagonal(i).trace() / S(N);
+      auto const& d = blocks.diagonal(i);
+      S const mean = slant::detail::sum_of<N>([&](int k) { return d(k, k); }) / S(N);
       weight_[i] = mean > S(0) ? mean : S(1);
     }
   }
@@ -112,27 +114,23 @@ class friction_newton {
     blocks_->velocity(r, u);
     ++work_.evaluations;
     if (α_ == S(0)) return;
-    for (index i = 0; i < blocks_->contacts(); ++i) {
-      u.template segment<N>(N * i) +=
-          α_ * weight_[i] * (r.template segment<N>(N * i) - center_->template segment<N>(N * i));
+    for (index k = 0; k < blocks_->size(); ++k) {
+      u[k] += α_ * weight_[k / N] * (r[k] - (*center_)[k]);
     }
   }
   void multiply(vector_type const& x, vector_type& y) {
     blocks_->multiply(x, y);
     ++work_.evaluations;
     if (α_ == S(0)) return;
-    for (index i = 0; i < blocks_->contacts(); ++i) {
-      y.template segment<N>(N * i) += α_ * weight_[i] * x.template segment<N>(N * i);
-    }
+    for (index k = 0; k < blocks_->size(); ++k) y[k] += α_ * weight_[k / N] * x[k];
   }
   [[nodiscard]] S rho(index i) const { return S(1) / ((S(1) + α_) * weight_[i]); }
 
   S residual(vector_type const& r, vector_type const& u) {
     detail::friction_map<N, S> f;
     for (index i = 0; i < blocks_->contacts(); ++i) {
-      f.look(which_, blocks_->mu(i), rho(i), part_type(r.template segment<N>(N * i)),
-             part_type(u.template segment<N>(N * i)), false);
-      F_.template segment<N>(N * i) = f.F;
+      f.look(which_, blocks_->mu(i), rho(i), blocks_->part_of(r, i), blocks_->part_of(u, i), false);
+      blocks_->put(f.F, i, F_);
     }
     return F_.norm();
   }
@@ -140,11 +138,10 @@ class friction_newton {
     closed_.clear();
     for (index i = 0; i < blocks_->contacts(); ++i) {
       auto& f = maps_[std::size_t(i)];
-      f.look(which_, blocks_->mu(i), rho(i), part_type(r.template segment<N>(N * i)),
-             part_type(u_.template segment<N>(N * i)), true);
+      f.look(which_, blocks_->mu(i), rho(i), blocks_->part_of(r, i), blocks_->part_of(u_, i), true);
       place_[std::size_t(i)] = f.open ? -1 : index(closed_.size());
       if (!f.open) closed_.push_back(i);
-      direction_.template segment<N>(N * i) = -f.F;
+      for (int a = 0; a < N; ++a) direction_[N * i + a] = -f.F[a];
     }
   }
 
@@ -156,16 +153,16 @@ class friction_newton {
     index entries = index(closed_.size());  // blocks; the diagonal first
     for (index k = 0; k < index(closed_.size()); ++k) {
       index const i = closed_[std::size_t(k)];
-      part_type known = part_type::Zero();
+      part_type known = slant::detail::from_entries<part_type>([](int) { return S(0); });
       blocks_->for_row(i, [&](index j, block_type const& b) {
         if (place_[std::size_t(j)] < 0) {
-          known.noalias() += b * direction_.template segment<N>(N * j);
+          slant::detail::add_product(b, direction_.data() + N * j, known);
         } else {
           ++entries;
         }
       });
-      right_.template segment<N>(N * k) =
-          direction_.template segment<N>(N * i) - maps_[std::size_t(i)].B * known;
+      part_type const moved = slant::detail::product_of(maps_[std::size_t(i)].B, known);
+      for (int a = 0; a < N; ++a) right_[N * k + a] = direction_[N * i + a] - moved[a];
     }
     ++work_.factorizations;
     work_.unknowns += n;
@@ -174,8 +171,7 @@ class friction_newton {
     work_.sparse += lu_.is_sparse() ? 1 : 0;
     if (!good || !lu_.solve(right_, solution_)) return false;
     for (index k = 0; k < index(closed_.size()); ++k) {
-      direction_.template segment<N>(N * closed_[std::size_t(k)]) =
-          solution_.template segment<N>(N * k);
+      blocks_->put(blocks_->part_of(solution_, k), closed_[std::size_t(k)], direction_);
     }
     return true;
   }
@@ -186,11 +182,12 @@ class friction_newton {
       index const i = closed_[std::size_t(k)];
       auto const& f = maps_[std::size_t(i)];
       block_type d = blocks_->diagonal(i);
-      d.diagonal().array() += (α_ + δ) * weight_[i];
-      put(k, k, block_type(f.A + f.B * d));
+      for (int a = 0; a < N; ++a) d(a, a) += (α_ + δ) * weight_[i];
+      d = slant::detail::product_of(f.B, d);
+      put(k, k, slant::detail::combination(S(1), f.A, S(1), d));
       blocks_->for_row(i, [&](index j, block_type const& b) {
         index const l = place_[std::size_t(j)];
-        if (l >= 0) put(k, l, block_type(f.B * b));
+        if (l >= 0) put(k, l, slant::detail::product_of(f.B, b));
       });
     }
   }

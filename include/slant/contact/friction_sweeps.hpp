@@ -9,8 +9,8 @@
 
 #include <slant/contact/detail/one_contact.hpp>
 #include <slant/contact/friction_blocks.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <slant/sets/detail/entries.hpp>
+#include <slant/sets/detail/symmetric_eigen.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -55,20 +55,24 @@ class friction_sweeps {
     for (index i = 0; i < p.contacts(); ++i) {
       auto const k = std::size_t(i);
       if (!all && memory.idle[k] >= patience) continue;
-      part_type q = p.q().template segment<N>(N * i);
+      S* const ri = r.data() + N * i;
+      S const* const ci = center.data() + N * i;
+      part_type q = slant::detail::entries_at<N>(p.q().data() + N * i);
       p.for_row(i, [&](index j, block_type const& b) {
-        auto const rj = r.template segment<N>(N * j);
-        if (rj(0) == S(0)) return;  // the apex: open
-        q.noalias() += b * rj;
+        S const* const rj = r.data() + N * j;
+        if (*rj == S(0)) return;  // the apex: open
+        slant::detail::add_product(b, rj, q);
         ++products;
       });
       block_type W = p.diagonal(i);
-      W.diagonal().array() += shift_[i] + α * weight[i];
-      q -= shift_[i] * r.template segment<N>(N * i) +
-           α * weight[i] * center.template segment<N>(N * i);
+      S const shift = shift_[i], proximal = α * weight[i];
+      for (int a = 0; a < N; ++a) {
+        W(a, a) += shift + proximal;
+        q(a) -= shift * ri[a] + proximal * ci[a];
+      }
       auto const c = detail::solve_one_contact<N, S>(W, q, p.mu(i), memory.slip[k]);
       ++products;
-      r.template segment<N>(N * i) = c.r;
+      slant::detail::put_entries(c.r, ri);
       if (c.slip > S(0)) memory.slip[k] = c.slip;
       memory.idle[k] = c.r(0) > S(0) ? 0 : std::min(memory.idle[k] + 1, patience);
     }
@@ -88,12 +92,12 @@ class friction_sweeps {
   /// eigenvalue is more than a millionth of its size: a step of the proximal point method for this
   /// contact. 0 where it is as it is.
   static S needed_shift(block_type const& d) {
-    S const size = d.cwiseAbs().maxCoeff();
+    S const size = slant::detail::largest_of(d);
     if (size == S(0)) return S(1);
-    block_type const symmetric = (d + d.transpose()) / (S(2) * size);
-    S const least = Eigen::SelfAdjointEigenSolver<block_type>(symmetric, Eigen::EigenvaluesOnly)
-                        .eigenvalues()
-                        .minCoeff();
+    slant::detail::symmetric_eigen<S, N> const eigen(slant::detail::from_entries<block_type>(
+        [&](int i, int j) -> S { return (d(i, j) + d(j, i)) / (S(2) * size); }));
+    S least = eigen.values(0);
+    for (int i = 1; i < N; ++i) least = std::min(least, S(eigen.values(i)));
     return least > S(1e-6) ? S(0) : S(size * (S(1e-2) + std::max(S(0), S(-least))));
   }
 

@@ -7,6 +7,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/sets/detail/entries.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>
@@ -25,15 +26,24 @@ template <class S, class M>
 [[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> about_centre(M const& nodes) {
   using std::sqrt;
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  S const largest = nodes.cwiseAbs().maxCoeff();
-  matrix_type x = nodes * (S(1) / unit_near(largest));
-  x.colwise() -= Eigen::Matrix<S, Eigen::Dynamic, 1>(x.rowwise().mean());
-  Eigen::JacobiSVD<matrix_type> const svd(x, Eigen::ComputeThinU);
   auto const n = static_cast<S>(static_cast<double>(nodes.cols()));
+  matrix_type x = nodes;
+  S const factor = S(1) / unit_near(slant::detail::largest_of(x));
+  for (index i = 0; i < x.rows(); ++i) {
+    S sum(0);
+    for (index j = 0; j < x.cols(); ++j) {
+      x(i, j) *= factor;
+      sum += x(i, j);
+    }
+    S const mean = sum / n;
+    for (index j = 0; j < x.cols(); ++j) x(i, j) -= mean;
+  }
+  Eigen::JacobiSVD<matrix_type> const svd(x, Eigen::ComputeThinU);
   S const rounding = S(16) * sqrt(n) * std::numeric_limits<S>::epsilon();
-  index const rank = (svd.singularValues().array() > rounding).count();
+  index rank = 0;
+  for (S const& σ : svd.singularValues()) rank += σ > rounding ? 1 : 0;
   matrix_type const axes = svd.matrixU().leftCols(rank);
-  return axes * (axes.transpose() * x);
+  return axes * matrix_type(axes.transpose() * x);
 }
 
 }  // namespace detail

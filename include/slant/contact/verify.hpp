@@ -3,8 +3,7 @@
 // Are these forces a solution? The law of contacts with Coulomb friction, evaluated at r from the
 // data alone: no set, operator or solver of the library takes part.
 //
-//     u = W r + q,   û = u + μ‖u_t‖ n,   r ∈ K_μ,   û ∈ K_μ*,   ûᵀ r = 0       (de Saxcé, Feng
-//     1998)
+//     u = W r + q,   û = u + μ‖u_t‖ n,   r ∈ K_μ,   û ∈ K_μ*,   ûᵀ r = 0    (de Saxcé, Feng 1998)
 //
 // K_μ = {‖x_t‖ <= μ x_n}, and û ∈ K_μ* is no more than u_n >= 0. The natural map r − P_K(r − ρ û)
 // is zero exactly at the solutions; it adds forces and velocities, so it takes a ρ in their ratio,
@@ -13,6 +12,8 @@
 #pragma once
 
 #include <slant/contact/friction_problem.hpp>
+#include <slant/sets/detail/entries.hpp>
+#include <slant/sets/detail/scaled_norm.hpp>
 
 #include <limits>
 #include <vector>
@@ -63,8 +64,15 @@ struct friction_check {
 
 namespace detail {
 
+/// Of a contact in the plane the last component is 0.
 template <class S>
-using contact_vector = Eigen::Matrix<S, Eigen::Dynamic, 1, 0, 3, 1>;
+using contact_vector = Eigen::Matrix<S, 3, 1>;
+
+/// ‖x_t‖.
+template <class S>
+[[nodiscard]] S tangential_length(contact_vector<S> const& x) {
+  return slant::detail::length_of(slant::detail::tail_of(x));
+}
 
 /// √(1 + μ²).
 template <class S>
@@ -77,8 +85,8 @@ template <class S>
 template <class S>
 [[nodiscard]] contact_vector<S> natural_map(contact_vector<S> const& r, contact_vector<S> const& v,
                                             S const& μ, contact_state& state) {
-  contact_vector<S> const z = r - v;
-  S const tangential = z.tail(z.size() - 1).stableNorm();
+  contact_vector<S> const z = slant::detail::combination(S(1), r, S(-1), v);
+  S const tangential = detail::tangential_length(z);
   state = contact_state::open;
   if (μ * tangential <= -z[0]) return r;
   state = contact_state::stick;
@@ -87,23 +95,21 @@ template <class S>
   // P = s (1, μ e) with e = z_t / ‖z_t‖, s = (z_n + μ‖z_t‖) / (1 + μ²); here in terms of v, which
   // the difference of two long vectors would lose: with δ = ‖z_t‖ − μ r_n
   //     F_n = (v_n − μ δ) / (1 + μ²),   F_t = (δ r_t + μ r_n v_t) / ‖z_t‖ + μ F_n e.
-  index const d = r.size() - 1;
-  S const r_t = r.tail(d).stableNorm(), v_t = v.tail(d).stableNorm(), sum = tangential + r_t;
-  S const δ = (r_t - μ * r[0]) +
-              (v_t / sum * v_t - S(2) * contact_vector<S>(r.tail(d) / sum).dot(v.tail(d)));
-  contact_vector<S> F(r.size());
+  S const r_t = tangential_length(r), v_t = tangential_length(v), sum = tangential + r_t;
+  S const δ = (r_t - μ * r[0]) + (v_t / sum * v_t - S(2) * (r[1] / sum * v[1] + r[2] / sum * v[2]));
+  contact_vector<S> F;
   F[0] = μ <= S(1) ? S((v[0] - μ * δ) / (S(1) + μ * μ)) : S((v[0] / μ - δ) / (S(1) / μ + μ));
-  F.tail(d) = (δ / tangential) * r.tail(d) + (μ * r[0] / tangential) * v.tail(d) +
-              (μ * F[0] / tangential) * z.tail(d);
+  S const of_r = δ / tangential, of_v = μ * r[0] / tangential, of_z = μ * F[0] / tangential;
+  for (int i = 1; i < 3; ++i) F[i] = of_r * r[i] + of_v * v[i] + of_z * z[i];
   return F;
 }
 
 /// Distance from {x : ‖x_t‖ <= μ x_n}.
 template <class S>
 [[nodiscard]] S distance_from_cone(contact_vector<S> const& x, S const& μ) {
-  S const tangential = x.tail(x.size() - 1).stableNorm();
+  S const tangential = detail::tangential_length(x);
   if (tangential <= μ * x[0]) return S(0);
-  if (μ * tangential <= -x[0]) return x.stableNorm();
+  if (μ * tangential <= -x[0]) return slant::detail::length_of(x);
   return (tangential - μ * x[0]) / slope(μ);
 }
 
@@ -111,14 +117,33 @@ template <class S>
 template <class S>
 [[nodiscard]] S distance_from_dual(contact_vector<S> const& u, S const& μ) {
   if (u[0] >= S(0)) return S(0);
-  S const tangential = u.tail(u.size() - 1).stableNorm();
+  S const tangential = detail::tangential_length(u);
   S const normal = u[0] + μ * tangential;
   if (tangential <= -μ * normal) {
     contact_vector<S> v = u;
     v[0] = normal;
-    return v.stableNorm();
+    return slant::detail::length_of(v);
   }
   return -u[0] / slope(μ);
+}
+
+template <class S>
+[[nodiscard]] S size_of(S const& x) {
+  return x < S(0) ? S(-x) : x;
+}
+/// |W| |r| + |q|.
+template <class S>
+[[nodiscard]] typename friction_problem<S>::vector_type sum_of_sizes(
+    friction_problem<S> const& p, typename friction_problem<S>::vector_type const& r) {
+  auto sum = p.q;
+  for (S& entry : sum) entry = detail::size_of(entry);
+  for (index j = 0; j < p.W.outerSize(); ++j) {
+    S const size = detail::size_of(r[j]);
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(p.W, j); e; ++e) {
+      sum[e.row()] += detail::size_of(S(e.value())) * size;
+    }
+  }
+  return sum;
 }
 
 /// x / y where 0 / 0 is 0.
@@ -152,9 +177,9 @@ template <class S>
     throw bad_input("rho", slant::detail::show(ρ), "a finite number > 0");
   }
   vector_type const u = p.W * r + p.q;
-  vector_type magnitude = p.W.cwiseAbs() * r.cwiseAbs() + p.q.cwiseAbs();
+  vector_type magnitude = detail::sum_of_sizes(p, r);
   auto const largest = [](vector_type const& x) {
-    S const size = x.size() > 0 ? S(x.cwiseAbs().maxCoeff()) : S(0);
+    S const size = slant::detail::largest_of(x);
     return size > S(0) ? size : S(1);
   };
   S const force = largest(r), velocity = largest(u);  // units of their own for powers
@@ -166,22 +191,31 @@ template <class S>
   S dissipation = S(0);
   for (index i = 0; i < p.contacts(); ++i) {
     S const μ = p.mu[i];
-    block const ri = r.segment(i * d, d), ui = u.segment(i * d, d);
-    block v = ρ * ui;
-    v[0] += μ * v.tail(d - 1).stableNorm();
+    auto const part_of = [&](vector_type const& x) {
+      return slant::detail::from_entries<block>([&](int k) { return k < d ? x[i * d + k] : S(0); });
+    };
+    block const ri = part_of(r), ui = part_of(u);
+    block v = slant::detail::multiple_of(ρ, ui);
+    v[0] += μ * detail::tangential_length(v);
     auto& c = all.contacts[static_cast<std::size_t>(i)];
     block const F = detail::natural_map(ri, v, μ, c.state);
-    residual.segment(i * d, d) = F;
-    magnitude.segment(i * d, d) = ri.cwiseAbs() + ρ * (S(1) + μ) * magnitude.segment(i * d, d);
-    c.natural_map = F.stableNorm();
+    for (index k = 0; k < d; ++k) {
+      residual[i * d + k] = F[k];
+      S& size = magnitude[i * d + k];
+      size = detail::size_of(ri[k]) + ρ * (S(1) + μ) * size;
+    }
+    c.natural_map = slant::detail::length_of(F);
     c.outside_cone = detail::distance_from_cone(ri, μ);
     c.outside_dual = detail::distance_from_dual(ui, μ);
     c.penetration = ui[0] >= S(0) ? S(0) : S(-ui[0]);
 
-    block const f = ri / force, w = ui / velocity;
-    S const tangential = f.tail(d - 1).dot(w.tail(d - 1));
-    S power = f[0] * w[0] + (μ * f[0] * w.tail(d - 1).stableNorm() + tangential);
-    power = power < S(0) ? S(-power) : power;
+    auto const over = [](block const& x, S const& unit) {
+      return slant::detail::from_entries<block>([&](int k) -> S { return x[k] / unit; });
+    };
+    block const f = over(ri, force), w = over(ui, velocity);
+    S const tangential = f[1] * w[1] + f[2] * w[2];
+    S const friction = μ * detail::tangential_length(w);
+    S const power = detail::size_of(S(f[0] * w[0] + (f[0] * friction + tangential)));
     dissipation -= tangential;
     c.complementarity = power * force * velocity;
     c.dissipation = -tangential * force * velocity;
@@ -196,10 +230,10 @@ template <class S>
                                          : all.slip);
   }
 
-  S const r_norm = r.stableNorm(), q_norm = p.q.stableNorm();
-  all.natural_map = residual.stableNorm();
+  S const r_norm = slant::norm(r), q_norm = slant::norm(p.q);
+  all.natural_map = slant::norm(residual);
   all.relative_natural_map = detail::ratio(S(all.natural_map / ρ), q_norm);
-  all.rounding = std::numeric_limits<S>::epsilon() * S(magnitude.stableNorm());
+  all.rounding = std::numeric_limits<S>::epsilon() * slant::norm(magnitude);
   all.relative_rounding = detail::ratio(S(all.rounding / ρ), q_norm);
   all.outside_cone.relative = detail::ratio(all.outside_cone.value, r_norm);
   all.outside_dual.relative = detail::ratio(all.outside_dual.value, q_norm);

@@ -43,7 +43,8 @@ void inverse_iteration(Eigen::SparseMatrix<S> const& K, Factors const& shifted,
     shifted.solve(X, Y);
   }
   matrix_type const Q = orthonormal_basis<S>(std::move(Y));
-  Eigen::SelfAdjointEigenSolver<matrix_type> const ritz(Q.transpose() * (K * Q));
+  matrix_type const image = K * Q, projected = Q.transpose() * image;
+  Eigen::SelfAdjointEigenSolver<matrix_type> const ritz(projected);
   X = Q * ritz.eigenvectors();
 }
 
@@ -52,7 +53,10 @@ template <class S>
 [[nodiscard]] index count_below(Eigen::SparseMatrix<S> const& K,
                                 Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& X,
                                 S const& limit) {
-  return ((K * X).colwise().norm().array() <= limit).count();
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const image = K * X;
+  index count = 0;
+  for (index j = 0; j < image.cols(); ++j) count += image.col(j).norm() <= limit ? 1 : 0;
+  return count;
 }
 
 /// In [−1, 1): from the bits themselves, since standard libraries differ in their distributions.

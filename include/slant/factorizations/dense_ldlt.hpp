@@ -11,8 +11,10 @@
 #include <Eigen/Cholesky>
 
 #include <memory>
+#include <numeric>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace slant {
 
@@ -53,7 +55,9 @@ class dense_ldlt {
     for (index i = 0; i < rows(); ++i) exchange(solution, i, index(swaps[i]));
     factors_->matrixL().solveInPlace(solution);
     auto const pivots = factors_->vectorD();
-    for (index j = 0; j < solution.cols(); ++j) solution.col(j).array() /= pivots.array();
+    for (index j = 0; j < solution.cols(); ++j) {
+      for (index i = 0; i < rows(); ++i) solution(i, j) /= pivots.coeff(i);
+    }
     factors_->matrixU().solveInPlace(solution);
     for (index i = rows(); i-- > 0;) exchange(solution, i, index(swaps[i]));
     solution *= unit_;
@@ -71,13 +75,14 @@ class dense_ldlt {
     auto factors = std::make_shared<factors_type>(k.rows());
     if (k.rows() > 0) {
       factors->compute(k);
-      Eigen::Matrix<S, Eigen::Dynamic, 1> const diagonal = k.diagonal();
-      Eigen::Matrix<index, Eigen::Dynamic, 1> row =
-          Eigen::Matrix<index, Eigen::Dynamic, 1>::LinSpaced(k.rows(), 0, k.rows() - 1);
-      row = factors->transpositionsP() * row;
+      std::vector<index> order(static_cast<std::size_t>(k.rows()));
+      std::iota(order.begin(), order.end(), index{0});
+      auto const& swaps = factors->transpositionsP().indices();
       auto const pivots = factors->vectorD();
       for (index i = 0; i < k.rows(); ++i) {
-        detail::require_positive_pivot("K", k.rows(), i, row[i], S(pivots[i]), S(diagonal[row[i]]),
+        index& row = order[static_cast<std::size_t>(i)];
+        std::swap(row, order[static_cast<std::size_t>(swaps[i])]);
+        detail::require_positive_pivot("K", k.rows(), i, row, S(pivots.coeff(i)), S(k(row, row)),
                                        exponent_);
       }
     }

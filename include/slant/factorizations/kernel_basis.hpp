@@ -45,7 +45,20 @@ template <class S>
   Eigen::ColPivHouseholderQR<matrix_type> qr;
   qr.setThreshold(S(1024) * std::numeric_limits<S>::epsilon());
   qr.compute(R);
-  return qr.householderQ() * matrix_type::Identity(R.rows(), qr.rank());
+  // The first columns of Q = H₀ H₁ …, H_k = I − τ v vᵀ, v the part of column k from its diagonal
+  // entry on, which is 1: what householderQ() does, and is slow to compile.
+  matrix_type const& v = qr.matrixQR();
+  matrix_type Q = matrix_type::Identity(R.rows(), qr.rank());
+  for (index k = qr.rank(); k-- > 0;) {
+    for (index j = k; j < Q.cols(); ++j) {
+      S sum = Q(k, j);
+      for (index i = k + 1; i < Q.rows(); ++i) sum += v(i, k) * Q(i, j);
+      sum *= qr.hCoeffs()[k];
+      Q(k, j) -= sum;
+      for (index i = k + 1; i < Q.rows(); ++i) Q(i, j) -= sum * v(i, k);
+    }
+  }
+  return Q;
 }
 
 /// The largest sum of |K_ij| over a row i: ‖K‖ in the maximum norm, and a bound of its eigenvalues.
@@ -91,7 +104,8 @@ template <class M>
   if (d == 0) return rows;
   Eigen::ColPivHouseholderQR<matrix_type> qr;
   qr.setThreshold(S(1024) * std::numeric_limits<S>::epsilon());
-  qr.compute(R.transpose());
+  matrix_type const transposed = R.transpose();
+  qr.compute(transposed);
   if (qr.rank() < d) {
     throw bad_input("columns of R", "rank " + detail::show(index(qr.rank())),
                     detail::show(d) + " independent ones");
@@ -100,9 +114,12 @@ template <class M>
   for (index j = 0; j < d; ++j) rows.push_back(order[j]);
   // Each exchange multiplies the volume by more than 1.05, so there are few.
   while (true) {
-    matrix_type const held = R(rows, Eigen::all);
-    qr.compute(held.transpose());
-    matrix_type const amplification = qr.solve(R.transpose());
+    matrix_type held(d, d);
+    for (index k = 0; k < d; ++k) {
+      for (index l = 0; l < d; ++l) held(l, k) = transposed(l, rows[static_cast<std::size_t>(k)]);
+    }
+    qr.compute(held);
+    matrix_type const amplification = qr.solve(transposed);
     index j = 0, i = 0;
     if (!(amplification.cwiseAbs().maxCoeff(&j, &i) > S(1.05))) break;
     rows[static_cast<std::size_t>(j)] = i;

@@ -17,10 +17,10 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/operators/detail/definite_inverse.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <limits>
@@ -120,19 +120,23 @@ class barrier {
       constexpr int k = detail::inequalities_of<block_type>;
       if constexpr (k > 0) {
         using square = Eigen::Matrix<S, n, n>;
-        Eigen::Matrix<S, k, 1> const forces = unit * multipliers.template segment<k>(row);
-        Eigen::Map<Eigen::Matrix<S, n, k> const> const g(jacobian_.entries().data() + entry);
-        square w = block.inequality_hessian(
-            place.value(x),
-            Eigen::Matrix<S, k, 1>(forces.cwiseProduct(per_unit_.template segment<k>(row))));
+        Eigen::Matrix<S, k, 1> forces, weights;
+        for (int i = 0; i < k; ++i) {
+          forces[i] = unit * multipliers.coeff(row + i);
+          weights[i] = forces[i] * per_unit_.coeff(row + i);
+        }
+        square w = block.inequality_hessian(place.value(x), weights);
         curvature_.template block<n>(number) = w;
         for (int i = 0; i < k; ++i) {
-          Eigen::Matrix<S, n, 1> const stiff = (forces(i) / slack.coeff(row + i)) * g.col(i);
-          w += stiff * g.col(i).transpose();
+          S const stiff = forces[i] / slack.coeff(row + i);
+          S const* const g = jacobian_.entries().data() + entry + n * i;
+          for (int c = 0; c < n; ++c) {
+            for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
+          }
         }
         stiffness_.template block<n>(number) = w;
-        for (int j = 0; j < n; ++j) w(j, j) += diagonal.coeff(place.component(j));
-        preconditioner_.template block<n>(number) = inverse_of(w);
+        for (int j = 0; j < n; ++j) w.data()[j + n * j] += diagonal.coeff(place.component(j));
+        preconditioner_.template block<n>(number) = detail::definite_inverse(w);
         row += k;
         entry += k * n;
         ++number;
@@ -151,15 +155,6 @@ class barrier {
   }
 
  private:
-  template <class M>
-  [[nodiscard]] static M inverse_of(M const& m) {
-    if constexpr (M::RowsAtCompileTime == 1) {
-      return m.cwiseInverse();
-    } else {
-      return Eigen::LDLT<M>(m).solve(M::Identity());
-    }
-  }
-
   std::shared_ptr<detail::inequality_layout const> layout_;
   inequality_jacobian<S> jacobian_;
   curvature_operator curvature_;

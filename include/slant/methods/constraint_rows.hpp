@@ -164,7 +164,8 @@ class constraint_rows {
         for (entry e(b, part.rows[j]); e; ++e) {
           part.e(place[static_cast<std::size_t>(e.col())], static_cast<index>(j)) = e.value();
         }
-        lengths_[part.rows[j]] = part.e.col(static_cast<index>(j)).stableNorm();
+        vector_type const row = part.e.col(static_cast<index>(j));
+        lengths_[part.rows[j]] = slant::norm(row);
       }
     }
   }

@@ -15,10 +15,12 @@
 
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/operators/detail/definite_inverse.hpp>
 #include <slant/sets/block_diagonal_slant.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/direct_sum_slant.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include <cstddef>
 #include <limits>
@@ -50,16 +52,21 @@ struct range_inverse<block_diagonal_slant<S, N, Layout, Identity>> {
 
   static matrix_type inverted(matrix_type const& g) {
     using std::sqrt;
-    S const trace = g.trace();
+    S trace(0);
+    for (int i = 0; i < N; ++i) trace += g.coeff(i, i);
     if (!(trace > S(0))) return matrix_type::Identity();
     if constexpr (N == 1) {
       return matrix_type::Constant(S(1) / trace);
     } else {
       // In units of the trace: a block may be as small as radius/distance is.
       S const shift = sqrt(std::numeric_limits<S>::epsilon());
-      matrix_type const shifted = g * (S(1) / trace) + shift * matrix_type::Identity();
-      matrix_type const inverse = shifted.inverse();
-      return (inverse + inverse.transpose()) * (S(1) / (S(2) * trace));
+      auto const shifted = from_entries<matrix_type>([&](int i, int j) -> S {
+        return g.coeff(i, j) * (S(1) / trace) + (i == j ? shift : S(0));
+      });
+      matrix_type const inverse = definite_inverse(shifted);
+      return from_entries<matrix_type>([&](int i, int j) -> S {
+        return (inverse.coeff(i, j) + inverse.coeff(j, i)) * (S(1) / (S(2) * trace));
+      });
     }
   }
 };

@@ -7,6 +7,7 @@
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/exit_root.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
@@ -63,7 +64,7 @@ class ball {
     S const factor = g / length.value;
     S const smallest = (std::numeric_limits<S>::min)();
     if (factor < smallest || g < smallest) return far_projection(v, length);
-    return factor * v;
+    return detail::multiple_of(factor, v);
   }
 
   /// Membership up to the band.
@@ -91,11 +92,15 @@ class ball {
     vector_type const v = x;
     auto const length = detail::scaled_norm<S, N>(v);
     S const g = detail::times_power_of_two<S>(radius_, -length.exponent);
-    if (length.value <= g) return S(radius_ > S(0) ? 1 : 0) * matrix_type::Identity();
-    vector_type const e = detail::times_power_of_two<S, N>(v, -length.exponent) / length.value;
-    if (e.hasNaN()) return matrix_type::Constant(detail::not_a_number<S>());
-    S const factor = g / length.value;
     matrix_type result;
+    if (length.value <= g) {
+      result.setZero();
+      if (radius_ > S(0)) result.setIdentity();
+      return result;
+    }
+    vector_type const e = direction(v, length);
+    if (detail::has_nan(e)) return matrix_type::Constant(detail::not_a_number<S>());
+    S const factor = g / length.value;
     for (int i = 0; i < N; ++i) {
       // 1 − eᵢ² as a sum of squares: no cancellation, and the result stays semidefinite.
       S others(0);
@@ -113,8 +118,8 @@ class ball {
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
     vector_type const v = x;
     vector_type const w = d;
-    if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
-    if ((w.array() == S(0)).all() || !detail::is_finite(radius_)) return detail::infinity<S>();
+    if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
+    if (detail::all_zero(w) || !detail::is_finite(radius_)) return detail::infinity<S>();
     if (radius_ == S(0)) return S(0);
     int const e = detail::binary_exponent(radius_);
     int const f = detail::binary_exponent(w);
@@ -147,11 +152,16 @@ class ball {
     return Eigen::Matrix<S, 1, 1>::Constant(f);
   }
 
-  [[nodiscard]] vector_type inequality_gradient(auto const& x) const { return S(2) * x; }
+  [[nodiscard]] vector_type inequality_gradient(auto const& x) const {
+    vector_type const v = x;
+    return detail::multiple_of(S(2), v);
+  }
 
   /// ν₁ ∇²f = 2 ν₁ I.
   [[nodiscard]] matrix_type inequality_hessian(auto const&, auto const& multipliers) const {
-    return S(2) * multipliers(0) * matrix_type::Identity();
+    matrix_type hessian = matrix_type::Zero();
+    for (int i = 0; i < N; ++i) hessian(i, i) = S(2) * multipliers(0);
+    return hessian;
   }
 
  private:
@@ -159,9 +169,16 @@ class ball {
   [[nodiscard]] vector_type far_projection(vector_type const& v,
                                            detail::scaled_number<S> const& length) const {
     if (!detail::is_finite(length.value)) return vector_type::Constant(detail::not_a_number<S>());
-    vector_type const direction =
-        detail::times_power_of_two<S, N>(v, -length.exponent) / length.value;
-    return radius_ * direction;
+    return detail::multiple_of(radius_, direction(v, length));
+  }
+  /// x/‖x‖.
+  [[nodiscard]] static vector_type direction(vector_type const& v,
+                                             detail::scaled_number<S> const& length) {
+    vector_type e;
+    for (int i = 0; i < N; ++i) {
+      e(i) = detail::times_power_of_two<S>(v(i), -length.exponent) / length.value;
+    }
+    return e;
   }
 
   S radius_{1};

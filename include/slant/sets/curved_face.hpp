@@ -16,6 +16,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/symmetric_eigen.hpp>
 
 #include <Eigen/Core>
@@ -120,8 +121,9 @@ class curved_face {
   template <class G, class P>
   void add(G const& g, P const& p, S const& κ) {
     constexpr int N = G::RowsAtCompileTime;
-    bool const inside = (g.array() == G::Identity().array()).all();
-    bool const fixed = (g.array() == S(0)).all();
+    bool inside = true;
+    for (int j = 0; j < N * N; ++j) inside = inside && g.data()[j] == S(j % (N + 1) == 0 ? 1 : 0);
+    bool const fixed = detail::all_zero(g);
     for (index j = 0; j < N; ++j) mask_.coeffRef(p.component(j)) = fixed ? S(0) : S(1);
     if (fixed) ++fixed_;
     if (inside || fixed) return;
@@ -133,14 +135,20 @@ class curved_face {
     }
     detail::symmetric_eigen<S, N> const spectrum(g);
     // An eigenvalue that is only a rounding error of the largest one is no motion.
-    S const zero = S(4 * N) * std::numeric_limits<S>::epsilon() * spectrum.values.maxCoeff();
+    S const zero =
+        S(4 * N) * std::numeric_limits<S>::epsilon() * detail::largest_of(spectrum.values);
     auto const append = [&](auto of) {
-      G m = G::Zero();
+      std::size_t const first = matrices_.size();
+      matrices_.resize(first + N * N, S(0));
       for (int j = 0; j < N; ++j) {
-        S const γ = spectrum.values(j) < S(1) ? spectrum.values(j) : S(1);
-        if (γ > zero) m += of(γ) * spectrum.vectors.col(j) * spectrum.vectors.col(j).transpose();
+        S const γ = spectrum.values[j] < S(1) ? spectrum.values[j] : S(1);
+        if (!(γ > zero)) continue;
+        S const weight = of(γ);
+        S const* const v = spectrum.vectors.data() + N * j;
+        for (int k = 0; k < N * N; ++k) {
+          matrices_[first + std::size_t(k)] += weight * v[k % N] * v[k / N];
+        }
       }
-      matrices_.insert(matrices_.end(), m.data(), m.data() + N * N);
     };
     append([](S const&) { return S(1); });
     append([](S const& γ) { return S((S(1) - γ) / γ); });

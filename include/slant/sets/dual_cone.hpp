@@ -15,6 +15,7 @@
 #include <slant/sets/detail/cone_slant.hpp>
 #include <slant/sets/detail/cone_step.hpp>
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/mapped_power.hpp>
 #include <slant/sets/detail/stretch.hpp>
 #include <slant/sets/power.hpp>
@@ -111,7 +112,7 @@ class dual_cone {
   /// mantle, and so does d: a direction of the cone up to the band has no end.
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
     vector_type const v = x, w = d;
-    if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
     return detail::cone_step<S, N>(S(1), mu(), v, w);
   }
@@ -119,7 +120,7 @@ class dual_cone {
   /// 0 for −y in K_μ (up to its band), otherwise ∞.
   [[nodiscard]] S support(auto const& y) const {
     vector_type const v = -y;
-    if (v.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v)) return detail::not_a_number<S>();
     return primal_.contains(v) ? S(0) : detail::infinity<S>();
   }
 
@@ -155,7 +156,7 @@ class dual_cone {
   /// μ‖x_t‖ <= factor · x_n, with one unit of the smallest numbers allowed for every component:
   /// there rounding is no longer relative. None for the plane that bounds a half space.
   [[nodiscard]] bool ratio_at_most(vector_type const& v, S const& factor) const {
-    if (v.hasNaN() || !(v(0) >= S(0))) return false;
+    if (detail::has_nan(v) || !(v(0) >= S(0))) return false;
     if (mu() == S(0)) return factor > S(1) || v(0) > S(0);
     auto const μρ = detail::scaled_slip<S, N>(mu(), v);
     S const unit = std::numeric_limits<S>::denorm_min();

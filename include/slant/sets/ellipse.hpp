@@ -10,6 +10,7 @@
 #include <slant/sets/detail/bounds.hpp>
 #include <slant/sets/detail/ellipse_foot.hpp>
 #include <slant/sets/detail/ellipse_step.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 
 #include <Eigen/Core>
@@ -62,7 +63,7 @@ class ellipse {
       for (int i = 0; i < 2; ++i) v(i) = clamp(v(i), axis(i));
       return v;
     }
-    if (!v.allFinite()) return vector_type::Constant(detail::not_a_number<S>());
+    if (!detail::all_finite(v)) return vector_type::Constant(detail::not_a_number<S>());
     auto const foot = first_quadrant_foot(v);
     if (foot.inside) return v;
     set_with_sign(v(major()), foot.x);
@@ -115,7 +116,7 @@ class ellipse {
       }
       return G;
     }
-    if (!v.allFinite()) return matrix_type::Constant(detail::not_a_number<S>());
+    if (!detail::all_finite(v)) return matrix_type::Constant(detail::not_a_number<S>());
     int const e = unit();
     auto const foot = first_quadrant_foot(v);
     if (foot.inside) return matrix_type::Identity();

@@ -11,6 +11,7 @@
 #include <slant/sets/detail/elliptic_cone_foot.hpp>
 #include <slant/sets/detail/elliptic_cone_slant.hpp>
 #include <slant/sets/detail/elliptic_cone_step.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/stretch.hpp>
 #include <slant/sets/second_order_cone.hpp>
@@ -63,7 +64,7 @@ class elliptic_cone {
   /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
-    if (!v.allFinite()) return vector_type::Constant(detail::not_a_number<S>());
+    if (!detail::all_finite(v)) return vector_type::Constant(detail::not_a_number<S>());
     if (flat()) return lifted(in_its_plane().project(in_plane(v)));
     auto const found = detail::nearest_on_elliptic_cone<S>(mu_, v);
     if (found.region == detail::cone_region::apex) v.setZero();
@@ -77,7 +78,7 @@ class elliptic_cone {
   /// Membership up to the band.
   [[nodiscard]] bool contains(auto const& x) const {
     vector_type const v = x;
-    if (v.hasNaN()) return false;
+    if (detail::has_nan(v)) return false;
     if (flat()) return v(minor()) == S(0) && in_its_plane().contains(in_plane(v));
     return length_at_most(v, S(1) + band());
   }
@@ -96,7 +97,7 @@ class elliptic_cone {
   /// that of the plane one, and 0 across it.
   [[nodiscard]] matrix_type slant(auto const& x) const {
     vector_type const v = x;
-    if (!v.allFinite()) return matrix_type::Constant(detail::not_a_number<S>());
+    if (!detail::all_finite(v)) return matrix_type::Constant(detail::not_a_number<S>());
     matrix_type G = matrix_type::Zero();
     if (flat()) {
       auto const g = in_its_plane().slant(in_plane(v));
@@ -118,7 +119,7 @@ class elliptic_cone {
   /// mantle, and so does d: a direction of the cone up to the band has no end.
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
     vector_type const v = x, w = d;
-    if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
     if (!flat()) return detail::elliptic_cone_step<S>(mu_, v, w);
     return w(minor()) != S(0) ? S(0) : in_its_plane().step_to_boundary(in_plane(v), in_plane(w));
@@ -127,7 +128,7 @@ class elliptic_cone {
   /// 0 for y in the polar cone y_n + ‖(μ₁y₁, μ₂y₂)‖ <= 0 (up to 16 ε |y_n|), otherwise ∞.
   [[nodiscard]] S support(auto const& y) const {
     vector_type const v = y;
-    if (v.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v)) return detail::not_a_number<S>();
     if (v(0) > S(0)) return detail::infinity<S>();
     auto const slip = detail::elliptic_length<S>(mu_, v, false);
     S const depth = detail::times_power_of_two<S>(-v(0) * (S(1) + band()), -slip.exponent);

@@ -5,6 +5,7 @@
 
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaling.hpp>
 
 #include <Eigen/Core>
@@ -28,26 +29,26 @@ class free_space {
   [[nodiscard]] vector_type project(auto const& x) const { return x; }
 
   /// True unless x holds a NaN.
-  [[nodiscard]] bool contains(auto const& x) const { return !vector_type(x).hasNaN(); }
+  [[nodiscard]] bool contains(auto const& x) const { return !detail::has_nan(vector_type(x)); }
 
   [[nodiscard]] block_state state(auto const&) const { return block_state::free; }
 
   [[nodiscard]] matrix_type slant(auto const& x) const {
-    if (vector_type(x).hasNaN()) return matrix_type::Constant(detail::not_a_number<S>());
+    if (detail::has_nan(vector_type(x))) return matrix_type::Constant(detail::not_a_number<S>());
     return matrix_type::Identity();
   }
 
   /// ∞: no step leaves the space.
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
-    bool const nan = vector_type(x).hasNaN() || vector_type(d).hasNaN();
+    bool const nan = detail::has_nan(vector_type(x)) || detail::has_nan(vector_type(d));
     return nan ? detail::not_a_number<S>() : detail::infinity<S>();
   }
 
   /// 0 for y = 0, otherwise ∞.
   [[nodiscard]] S support(auto const& y) const {
     vector_type const v = y;
-    if (v.hasNaN()) return detail::not_a_number<S>();
-    return (v.array() == S(0)).all() ? S(0) : detail::infinity<S>();
+    if (detail::has_nan(v)) return detail::not_a_number<S>();
+    return detail::all_zero(v) ? S(0) : detail::infinity<S>();
   }
 
   [[nodiscard]] Eigen::Matrix<S, 0, 1> inequality(auto const&) const { return {}; }

@@ -19,6 +19,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/checks.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/mapped_power.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 
@@ -96,7 +97,7 @@ class in_metric_block {
   /// Points of cones are taken in units of themselves, 2^e: their products with √d are numbers
   /// then.
   [[nodiscard]] static int unit_of(vector_type const& x) {
-    return is_cone && x.allFinite() ? detail::binary_exponent(x) : 0;
+    return is_cone && detail::all_finite(x) ? detail::binary_exponent(x) : 0;
   }
   [[nodiscard]] vector_type stretched_point(vector_type const& x, int e) const {
     return roots_.cwiseProduct(detail::times_power_of_two<scalar, dimension>(x, -e));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/elliptic_cone.hpp>
 
 #include <Eigen/Core>
@@ -66,7 +67,7 @@ class moreau_dual {
   /// 0 for −y in K, otherwise ∞.
   [[nodiscard]] scalar support(auto const& y) const {
     vector_type const v = -y;
-    if (v.hasNaN()) return detail::not_a_number<scalar>();
+    if (detail::has_nan(v)) return detail::not_a_number<scalar>();
     return primal_.contains(v) ? scalar(0) : detail::infinity<scalar>();
   }
 

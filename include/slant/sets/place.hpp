@@ -70,12 +70,8 @@ class place {
     auto const& entries = slant::local(x);
     using S = scalar_t<X>;
     Eigen::Matrix<S, N, 1> v;
-    if constexpr (!strided && N != Eigen::Dynamic) {
-      v = entries.template segment<N>(first_);
-    } else {
-      if constexpr (N == Eigen::Dynamic) v.resize(size_);
-      for (slant::index j = 0; j < size(); ++j) v.coeffRef(j) = entries.coeff(component(j));
-    }
+    if constexpr (N == Eigen::Dynamic) v.resize(size_);
+    for (slant::index j = 0; j < size(); ++j) v.coeffRef(j) = entries.coeff(component(j));
     return v;
   }
 
@@ -83,11 +79,7 @@ class place {
   template <class Y, class V>
   void put(Y& y, V const& v) const {
     auto& entries = slant::local(y);
-    if constexpr (!strided && N != Eigen::Dynamic) {
-      entries.template segment<N>(first_) = v;
-    } else {
-      for (slant::index j = 0; j < size(); ++j) entries.coeffRef(component(j)) = v.coeff(j);
-    }
+    for (slant::index j = 0; j < size(); ++j) entries.coeffRef(component(j)) = v.coeff(j);
   }
 
   /// The place in the whole vector of something at `inner` within this block.

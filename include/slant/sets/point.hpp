@@ -6,6 +6,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
 
@@ -44,7 +45,7 @@ class point {
   [[nodiscard]] vector_type const& position() const { return position_; }
 
   [[nodiscard]] vector_type project(auto const& x) const {
-    if (vector_type(x).hasNaN()) return vector_type::Constant(detail::not_a_number<S>());
+    if (detail::has_nan(vector_type(x))) return vector_type::Constant(detail::not_a_number<S>());
     return position_;
   }
 
@@ -60,14 +61,15 @@ class point {
   [[nodiscard]] block_state state(auto const&) const { return block_state::fixed; }
 
   [[nodiscard]] matrix_type slant(auto const& x) const {
-    return matrix_type::Constant(vector_type(x).hasNaN() ? detail::not_a_number<S>() : S(0));
+    return matrix_type::Constant(detail::has_nan(vector_type(x)) ? detail::not_a_number<S>()
+                                                                 : S(0));
   }
 
   /// 0, and ∞ for d = 0.
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
     vector_type const w = d;
-    if (vector_type(x).hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
-    return (w.array() == S(0)).all() ? detail::infinity<S>() : S(0);
+    if (detail::has_nan(vector_type(x)) || detail::has_nan(w)) return detail::not_a_number<S>();
+    return detail::all_zero(w) ? detail::infinity<S>() : S(0);
   }
 
   /// yᵀp.

@@ -11,6 +11,7 @@
 #include <slant/sets/detail/cone_slant.hpp>
 #include <slant/sets/detail/cone_step.hpp>
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/stretch.hpp>
 
@@ -106,7 +107,7 @@ class second_order_cone {
   /// mantle, and so does d: a direction of the cone up to the band has no end.
   [[nodiscard]] S step_to_boundary(auto const& x, auto const& d) const {
     vector_type const v = x, w = d;
-    if (v.hasNaN() || w.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
     return detail::cone_step<S, N>(mu_, S(1), v, w);
   }
@@ -114,7 +115,7 @@ class second_order_cone {
   /// 0 for y in the polar cone y_n + μ‖y_t‖ <= 0 (up to 8 ε |y_n|), otherwise ∞.
   [[nodiscard]] S support(auto const& y) const {
     vector_type const v = y;
-    if (v.hasNaN()) return detail::not_a_number<S>();
+    if (detail::has_nan(v)) return detail::not_a_number<S>();
     if (v(0) > S(0)) return detail::infinity<S>();
     S const depth = -v(0) * (S(1) + detail::rounding_band<S>());
     auto const μρ = detail::scaled_slip<S, N>(mu_, v);
@@ -126,7 +127,7 @@ class second_order_cone {
   [[nodiscard]] Eigen::Matrix<S, 2, 1> inequality(auto const& x) const {
     using word = detail::double_word<S>;
     vector_type const v = x;
-    Eigen::Matrix<S, N - 1, 1> const t = v.template tail<N - 1>();
+    auto const t = detail::tail_of(v);
     auto const bound = detail::exact_product<S>(mu_, v(0));
     auto const squares = detail::precise_dot<S>(t, t);
     return {(squares - bound * word(bound)).hi, S(-v(0))};
@@ -134,18 +135,20 @@ class second_order_cone {
 
   /// Column i is the gradient of fᵢ.
   [[nodiscard]] Eigen::Matrix<S, N, 2> inequality_gradient(auto const& x) const {
-    Eigen::Matrix<S, N, 2> gradient = Eigen::Matrix<S, N, 2>::Zero();
-    gradient.col(0) = S(2) * x;
-    gradient(0, 0) = S(-2) * mu_ * (mu_ * vector_type(x)(0));
-    gradient(0, 1) = S(-1);
-    return gradient;
+    vector_type const v = x;
+    return detail::from_entries<Eigen::Matrix<S, N, 2>>([&](int i, int j) -> S {
+      if (j == 1) return S(i == 0 ? -1 : 0);
+      return i == 0 ? S(-2) * mu_ * (mu_ * v[0]) : S(2) * v[i];
+    });
   }
 
   /// ν₁ ∇²f₁ = 2 ν₁ diag(−μ², 1, …, 1); f₂ is linear.
   [[nodiscard]] matrix_type inequality_hessian(auto const&, auto const& multipliers) const {
-    matrix_type hessian = S(2) * multipliers(0) * matrix_type::Identity();
-    hessian(0, 0) *= -mu_ * mu_;
-    return hessian;
+    S const twice = S(2) * multipliers(0);
+    return detail::from_entries<matrix_type>([&](int i, int j) -> S {
+      if (i != j) return S(0);
+      return i == 0 ? twice * (-mu_ * mu_) : twice;
+    });
   }
 
  private:
@@ -153,7 +156,7 @@ class second_order_cone {
   /// component: there rounding is no longer relative.
   [[nodiscard]] bool ratio_at_most(vector_type const& v, S const& factor) const {
     if (!(v(0) >= S(0))) return false;
-    auto const ρ = detail::scaled_norm<S, N - 1>(v.template tail<N - 1>());
+    auto const ρ = detail::scaled_norm<S, N - 1>(detail::tail_of(v));
     int const k = detail::binary_exponent(mu_);
     S const unit = std::numeric_limits<S>::denorm_min();
     S const bound = factor * detail::times_power_of_two<S>(mu_, -k) *

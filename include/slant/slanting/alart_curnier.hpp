@@ -29,6 +29,7 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/sets/ball.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/blockwise.hpp>
 #include <slant/slanting/identity.hpp>
@@ -63,18 +64,17 @@ class alart_curnier_block {
   [[nodiscard]] S const& mu() const { return mu_; }
 
   [[nodiscard]] vector_type value(vector_type const& z) const {
-    if (z.hasNaN()) return vector_type::Constant(detail::not_a_number<S>());
+    if (detail::has_nan(z)) return vector_type::Constant(detail::not_a_number<S>());
     if (!(z(0) > S(0))) return vector_type::Zero();
-    vector_type v = z;
-    v.template tail<N - 1>() = disc(z).project(tangent_type(z.template tail<N - 1>()));
-    return v;
+    tangent_type const t = disc(z).project(detail::tail_of(z));
+    return detail::from_entries<vector_type>([&](int i) { return i == 0 ? z(0) : t(i - 1); });
   }
 
   /// A°, see the top of this file.
   [[nodiscard]] matrix_type slant(vector_type const& z) const {
-    if (z.hasNaN()) return matrix_type::Constant(detail::not_a_number<S>());
+    if (detail::has_nan(z)) return matrix_type::Constant(detail::not_a_number<S>());
     if (z(0) < S(0)) return matrix_type::Zero();
-    tangent_type const t = z.template tail<N - 1>();
+    tangent_type const t = detail::tail_of(z);
     auto const length = detail::scaled_norm<S, N - 1>(t);
     S const bound = detail::times_power_of_two<S>(radius(z), -length.exponent);
     matrix_type g = matrix_type::Zero();
@@ -83,9 +83,12 @@ class alart_curnier_block {
       if (mu_ > S(0)) g.setIdentity();
       return g;
     }
-    g.template bottomLeftCorner<N - 1, 1>() =
-        mu_ * (detail::times_power_of_two<S, N - 1>(t, -length.exponent) / length.value);
-    g.template bottomRightCorner<N - 1, N - 1>() = disc(z).slant(t);
+    auto const across = disc(z).slant(t);
+    for (int i = 1; i < N; ++i) {
+      S const e = detail::times_power_of_two<S>(t(i - 1), -length.exponent) / length.value;
+      g(i, 0) = mu_ * e;
+      for (int j = 1; j < N; ++j) g(i, j) = across(i - 1, j - 1);
+    }
     return g;
   }
 

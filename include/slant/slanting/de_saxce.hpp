@@ -32,6 +32,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/slanting/blockwise.hpp>
 
@@ -100,7 +101,7 @@ class de_saxce_block {
   }
   /// (μ₁u₁, …).
   [[nodiscard]] tangent_type weighted(vector_type const& u) const {
-    return mu_.cwiseProduct(u.template tail<N - 1>());
+    return detail::from_entries<tangent_type>([&](int i) -> S { return mu_(i) * u(i + 1); });
   }
 
   tangent_type mu_ = tangent_type::Ones();

@@ -30,6 +30,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/slanting/detail/blockwise_pair.hpp>
 #include <slant/slanting/detail/jordan_fischer_burmeister.hpp>
 
@@ -68,7 +69,7 @@ class friction_fischer_burmeister {
   }
 
   [[nodiscard]] vector_type value(vector_type const& r, vector_type const& u) const {
-    if (!r.allFinite() || !u.allFinite()) return vector_type::Constant(not_a_number<S>());
+    if (!all_finite(r) || !all_finite(u)) return vector_type::Constant(not_a_number<S>());
     int e = 0;
     vector_type φ = in_algebra(r, u, e).value();
     φ(0) = times_power_of_two<S>(φ(0), e);
@@ -83,7 +84,7 @@ class friction_fischer_burmeister {
   /// {∂Φ/∂r, ∂Φ/∂û}.
   [[nodiscard]] std::pair<matrix_type, matrix_type> slants(vector_type const& r,
                                                            vector_type const& u) const {
-    if (!r.allFinite() || !u.allFinite()) {
+    if (!all_finite(r) || !all_finite(u)) {
       matrix_type const bad = matrix_type::Constant(not_a_number<S>());
       return {bad, bad};
     }

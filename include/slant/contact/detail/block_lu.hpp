@@ -50,7 +50,9 @@ class block_lu {
   bool factor_dense(index n, Assemble const& assemble) {
     dense_.setZero(n, n);
     assemble([&](index i, index j, block_type const& b) {
-      dense_.template block<N, N>(N * i, N * j) = b;
+      for (int c = 0; c < N; ++c) {
+        for (int r = 0; r < N; ++r) dense_.coeffRef(N * i + r, N * j + c) = b.coeff(r, c);
+      }
     });
     dense_lu_.compute(dense_);
     for (index i = 0; i < n; ++i) {

@@ -9,6 +9,7 @@
 // An open contact has G = 0 or P° = 0: F = r, A = I, B = 0.
 #pragma once
 
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/alart_curnier.hpp>
 #include <slant/slanting/de_saxce.hpp>
@@ -38,7 +39,7 @@ struct friction_map {
     if (which == friction_equations::natural_map) {
       de_saxce_block<N, S> const velocity(μ);
       compose(second_order_cone<N, S>(μ), ρ, r, velocity.value(u), derivative);
-      if (derivative) B *= velocity.slant(u);
+      if (derivative) B = slant::detail::product_of(B, velocity.slant(u));
     } else {
       compose(as_set{alart_curnier_block<N, S>(μ)}, ρ, r, u, derivative);
     }
@@ -54,14 +55,15 @@ struct friction_map {
   template <class Set>
   void compose(Set const& set, S const& ρ, part_type const& r, part_type const& v,
                bool derivative) {
-    part_type const z = r - ρ * v;
-    F = r - set.project(z);
+    using slant::detail::combination;
+    part_type const z = combination(S(1), r, S(-ρ), v);
+    F = combination(S(1), r, S(-1), set.project(z));
     if (!derivative) return;
     B = set.slant(z);
-    open = (B.array() == S(0)).all();
-    A = -B;
-    A.diagonal().array() += S(1);
-    B *= ρ;
+    open = slant::detail::all_zero(B);
+    A = slant::detail::from_entries<block_type>(
+        [&](int i, int j) -> S { return S(i == j ? 1 : 0) - B(i, j); });
+    for (int k = 0; k < N * N; ++k) B.data()[k] *= ρ;
   }
 };
 

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/exact_squares.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
@@ -38,16 +39,18 @@ struct cone_foot {
   /// Makes the point x its nearest one.
   template <int N>
   void move(Eigen::Matrix<S, N, 1>& x) const {
-    if (region == cone_region::apex) x.setZero();
-    if (region == cone_region::undefined) x.setConstant(not_a_number<S>());
-    if (region != cone_region::mantle) return;
+    if (region == cone_region::inside) return;
     S const product = times_power_of_two<S>(factor, exponent);
-    if (product >= (std::numeric_limits<S>::min)()) {
-      x *= product;
-    } else {  // factor · 2^exponent underflows
-      x = times_power_of_two<S, N>(factor * x, exponent);
+    bool const underflow = product < (std::numeric_limits<S>::min)();
+    for (int i = 0; i < N; ++i) {
+      S& entry = x.data()[i];
+      if (region == cone_region::apex) entry = S(0);
+      if (region == cone_region::undefined) entry = not_a_number<S>();
+      if (region != cone_region::mantle) continue;
+      entry = i == 0      ? normal
+              : underflow ? times_power_of_two<S>(factor * entry, exponent)
+                          : S(entry * product);
     }
-    x(0) = normal;
   }
 };
 
@@ -68,10 +71,10 @@ template <class S, int N>
 [[nodiscard]] cone_foot<S> nearest_on_mantle(S const& κ, S const& ν,
                                              Eigen::Matrix<S, N, 1> const& x) {
   using word = double_word<S>;
-  if (!x.allFinite()) return {cone_region::undefined, S(0), S(0), 0};
+  if (!all_finite(x)) return {cone_region::undefined, S(0), S(0), 0};
   S const n = x(0);
-  Eigen::Matrix<S, N - 1, 1> t = x.template tail<N - 1>();
-  if ((t.array() == S(0)).all()) {
+  Eigen::Matrix<S, N - 1, 1> t = tail_of(x);
+  if (all_zero(t)) {
     return {n >= S(0) ? cone_region::inside : cone_region::apex, S(0), S(0), 0};
   }
   int const t_unit = binary_exponent(t);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/sets/detail/cone_projection.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 
 #include <Eigen/Core>
@@ -19,16 +20,19 @@ template <class S, int N>
 [[nodiscard]] Eigen::Matrix<S, N, N> mantle_slant(S const& κ, S const& ν, cone_foot<S> const& foot,
                                                   Eigen::Matrix<S, N, 1> const& x) {
   using std::sqrt;
-  Eigen::Matrix<S, N - 1, 1> e = x.template tail<N - 1>();
+  Eigen::Matrix<S, N - 1, 1> e = tail_of(x);
   auto const ρ = scaled_norm<S, N - 1>(e);
-  e = times_power_of_two<S, N - 1>(e, -ρ.exponent) / ρ.value;
+  for (int i = 0; i < N - 1; ++i) e(i) = times_power_of_two<S>(e(i), -ρ.exponent) / ρ.value;
   S const θ = times_power_of_two<S>(foot.factor, foot.exponent);
   S const q = κ < ν ? S(κ / ν) : S(ν / κ);
   S const larger = S(1) / sqrt(S(1) + q * q), smaller = q * larger;
   Eigen::Matrix<S, N, 1> w;
   w(0) = κ < ν ? larger : smaller;
-  w.template tail<N - 1>() = (κ < ν ? smaller : larger) * e;
-  Eigen::Matrix<S, N, N> G = w * w.transpose();
+  for (int i = 1; i < N; ++i) w(i) = (κ < ν ? smaller : larger) * e(i - 1);
+  Eigen::Matrix<S, N, N> G;
+  for (int j = 0; j < N; ++j) {
+    for (int i = 0; i < N; ++i) G(i, j) = w(i) * w(j);
+  }
   for (int i = 0; i < N - 1; ++i) {
     for (int j = 0; j < N - 1; ++j) {
       if (j == i) continue;
@@ -42,7 +46,7 @@ template <class S, int N>
 /// μ‖x_t‖ for x = (x_n, x_t), with its exponent apart: it may be no number of the format.
 template <class S, int N>
 [[nodiscard]] scaled_number<S> scaled_slip(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
-  auto const ρ = scaled_norm<S, N - 1>(x.template tail<N - 1>());
+  auto const ρ = scaled_norm<S, N - 1>(tail_of(x));
   int const k = binary_exponent(μ);
   return {S(times_power_of_two(μ, -k) * ρ.value), k + ρ.exponent};
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/exit_root.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
@@ -20,11 +21,10 @@ struct cone_coordinates {
   Eigen::Matrix<S, N - 1, 1> t;
   int exponent = 0;
 
-  cone_coordinates(S const& κ, S const& ν, Eigen::Matrix<S, N, 1> const& x)
-      : t(x.template tail<N - 1>()) {
+  cone_coordinates(S const& κ, S const& ν, Eigen::Matrix<S, N, 1> const& x) : t(tail_of(x)) {
     int const k = binary_exponent(κ), l = binary_exponent(ν);
     bool const has_axis = x(0) != S(0) && κ != S(0);
-    bool const has_t = !(t.array() == S(0)).all() && ν != S(0);
+    bool const has_t = !all_zero(t) && ν != S(0);
     int const n_exponent = binary_exponent<S>(x(0)) + k;
     int const t_exponent = binary_exponent(t) + l;
     exponent = has_axis && (!has_t || n_exponent > t_exponent) ? n_exponent : t_exponent;
@@ -33,7 +33,7 @@ struct cone_coordinates {
     if (has_t) {
       t = times_power_of_two<S, N - 1>(t, l - exponent);
     } else {
-      t.setZero();
+      for (int i = 0; i < N - 1; ++i) t(i) = S(0);
     }
   }
 };

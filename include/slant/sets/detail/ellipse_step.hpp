@@ -4,6 +4,7 @@
 #pragma once
 
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/exit_root.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/sets/detail/scaling.hpp>
@@ -17,7 +18,7 @@ namespace slant::detail {
 template <class S>
 [[nodiscard]] S ellipse_step(Eigen::Matrix<S, 2, 1> const& axes, Eigen::Matrix<S, 2, 1> const& x,
                              Eigen::Matrix<S, 2, 1> const& d) {
-  if (x.hasNaN() || d.hasNaN()) return not_a_number<S>();
+  if (has_nan(x) || has_nan(d)) return not_a_number<S>();
   double_word<S> v[2];
   int exponent[2] = {0, 0};
   int f = 0;

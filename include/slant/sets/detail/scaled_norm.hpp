@@ -3,6 +3,7 @@
 // Euclidean norm of a short vector that neither overflows nor underflows.
 #pragma once
 
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaling.hpp>
 
 #include <Eigen/Core>
@@ -19,16 +20,13 @@ struct scaled_number {
   int exponent;
 };
 
-/// Σ vᵢ², summed in pairs of halves beyond 32 terms so that the error grows like log N and not like
-/// N.
-template <class S, int N>
-[[nodiscard]] S pairwise_squares(Eigen::Matrix<S, N, 1> const& v) {
-  if constexpr (N <= 32) {
-    return v.squaredNorm();
+/// Σ vᵢ² of N entries, summed in pairs of halves so that the error grows like log N and not like N.
+template <int N, class S>
+[[nodiscard]] S pairwise_squares(S const* v) {
+  if constexpr (N <= 4) {
+    return sum_of<N>([&](int i) -> S { return v[i] * v[i]; });
   } else {
-    constexpr int half = N / 2;
-    return pairwise_squares<S, half>(v.template head<half>()) +
-           pairwise_squares<S, N - half>(v.template tail<N - half>());
+    return pairwise_squares<N / 2>(v) + pairwise_squares<N - N / 2>(v + N / 2);
   }
 }
 
@@ -62,7 +60,7 @@ template <class S, int N>
   using std::sqrt;
   using limits = std::numeric_limits<S>;
   if constexpr (N == 1) return {S(abs(v(0))), 0};
-  S const squares = pairwise_squares<S, N>(v);
+  S const squares = pairwise_squares<N>(v.data());
   if (squares <= (limits::max)() &&
       squares >= (limits::min)() / (limits::epsilon() * limits::epsilon())) {
     return {S(sqrt(squares)), 0};
@@ -74,8 +72,15 @@ template <class S, int N>
   }
   if (infinite) return {infinity<S>(), 0};
   int const e = binary_exponent(v);
-  S const scaled_squares = pairwise_squares<S, N>(times_power_of_two(v, -e));
+  S const scaled_squares = pairwise_squares<N>(times_power_of_two(v, -e).data());
   return {S(sqrt(scaled_squares)), e};
+}
+
+/// ‖v‖ as a number of the format.
+template <class S, int N>
+[[nodiscard]] S length_of(Eigen::Matrix<S, N, 1> const& v) {
+  auto const length = scaled_norm<S, N>(v);
+  return times_power_of_two<S>(length.value, length.exponent);
 }
 
 }  // namespace slant::detail

@@ -18,10 +18,11 @@ struct symmetric_eigen {
   Eigen::Matrix<S, N, N> vectors;
 
   /// Of a symmetric g with finite entries. Does not allocate.
-  explicit symmetric_eigen(Eigen::Matrix<S, N, N> g) : vectors(Eigen::Matrix<S, N, N>::Identity()) {
+  explicit symmetric_eigen(Eigen::Matrix<S, N, N> g) {
+    for (int k = 0; k < N * N; ++k) vectors.data()[k] = S(k % (N + 1) == 0 ? 1 : 0);
     for (int sweep = 0; sweep < 60 && rotate_all(g); ++sweep) {
     }
-    values = g.diagonal();
+    for (int k = 0; k < N; ++k) values[k] = g.coeff(k, k);
   }
 
  private:
@@ -32,11 +33,11 @@ struct symmetric_eigen {
     bool rotated = false;
     for (int p = 0; p < N; ++p) {
       for (int q = p + 1; q < N; ++q) {
-        S const off = g(p, q);
-        S const size = sqrt(S(abs(g(p, p)))) * sqrt(S(abs(g(q, q))));
+        S const off = g.coeffRef(p, q);
+        S const size = sqrt(S(abs(g.coeffRef(p, p)))) * sqrt(S(abs(g.coeffRef(q, q))));
         if (!(S(abs(off)) > std::numeric_limits<S>::epsilon() * size)) continue;
         rotated = true;
-        S const θ = (g(q, q) - g(p, p)) / (S(2) * off);
+        S const θ = (g.coeffRef(q, q) - g.coeffRef(p, p)) / (S(2) * off);
         S const tangent = (θ < S(0) ? S(-1) : S(1)) / (S(abs(θ)) + S(sqrt(S(θ * θ + S(1)))));
         S const c = S(1) / S(sqrt(S(tangent * tangent + S(1))));
         S const s = tangent * c;
@@ -45,10 +46,10 @@ struct symmetric_eigen {
           a = c * old - s * b;
           b = s * old + c * b;
         };
-        for (int k = 0; k < N; ++k) rotate(g(k, p), g(k, q));
-        for (int k = 0; k < N; ++k) rotate(g(p, k), g(q, k));
-        for (int k = 0; k < N; ++k) rotate(vectors(k, p), vectors(k, q));
-        g(p, q) = g(q, p) = S(0);
+        for (int k = 0; k < N; ++k) rotate(g.coeffRef(k, p), g.coeffRef(k, q));
+        for (int k = 0; k < N; ++k) rotate(g.coeffRef(p, k), g.coeffRef(q, k));
+        for (int k = 0; k < N; ++k) rotate(vectors.coeffRef(k, p), vectors.coeffRef(k, q));
+        g.coeffRef(p, q) = g.coeffRef(q, p) = S(0);
       }
     }
     return rotated;

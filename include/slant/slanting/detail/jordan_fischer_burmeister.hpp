@@ -15,6 +15,7 @@
 #pragma once
 
 #include <slant/sets/detail/double_word.hpp>
+#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 
 #include <Eigen/Core>
@@ -123,7 +124,7 @@ class jordan_fischer_burmeister {
 
   [[nodiscard]] static int unit(vector_type const& x, vector_type const& y) {
     int const a = binary_exponent(x), b = binary_exponent(y);
-    bool const has_x = !(x.array() == S(0)).all(), has_y = !(y.array() == S(0)).all();
+    bool const has_x = !all_zero(x), has_y = !all_zero(y);
     return has_x && (!has_y || a > b) ? a : b;
   }
 
