@@ -18,16 +18,7 @@ template <class S>
 using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
 /// Q diag(eigenvalues) Qᵀ with a random orthogonal Q, symmetric to the last bit.
-inline Eigen::MatrixXd with_spectrum(Eigen::VectorXd const& eigenvalues, unsigned seed = 1) {
-  auto const n = eigenvalues.size();
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> gaussian;
-  Eigen::MatrixXd g(n, n);
-  for (auto& e : g.reshaped()) e = gaussian(generator);
-  Eigen::MatrixXd const q = Eigen::HouseholderQR<Eigen::MatrixXd>(g).householderQ();
-  Eigen::MatrixXd const a = q * eigenvalues.asDiagonal() * q.transpose();
-  return (a + a.transpose()) / 2;
-}
+Eigen::MatrixXd with_spectrum(Eigen::VectorXd const& eigenvalues, unsigned seed = 1);
 
 /// n numbers from 1/κ to 1, equally spaced in their logarithms.
 inline Eigen::VectorXd log_spaced(Eigen::Index n, double κ) {

@@ -15,54 +15,12 @@ namespace oracle {
 
 /// Generalised Jacobian (I − G) + G ρ A with G the derivative of the projection at z = x − ρ r,
 /// each row of the equation divided by ρ.
-[[nodiscard]] inline Eigen::MatrixXd scaled_jacobian(dense_qp const& qp, real_vector const& z,
-                                                     Eigen::VectorXd const& ρ) {
-  Eigen::MatrixXd J = qp.A;
-  for (auto const& c : qp.intervals) {
-    if (z[c.at] >= c.lower && z[c.at] <= c.upper) continue;
-    J.row(c.at).setZero();
-    J(c.at, c.at) = 1 / ρ[c.at];
-  }
-  for (auto const& c : qp.circles) {
-    real const length = std::hypot(z[c.first], z[c.second]);
-    if (!(length > c.radius)) continue;
-    double const cosine = static_cast<double>(z[c.first] / length);
-    double const sine = static_cast<double>(z[c.second] / length);
-    Eigen::Matrix2d G;  // τ (I − e eᵀ)
-    G << sine * sine, -sine * cosine, -sine * cosine, cosine * cosine;
-    G *= static_cast<double>(c.radius / length);
-    Eigen::Matrix<double, 2, Eigen::Dynamic> both(2, qp.size());
-    both << qp.A.row(c.first), qp.A.row(c.second);
-    both = G * both;
-    Eigen::Matrix2d const rest = (Eigen::Matrix2d::Identity() - G) / ρ[c.first];
-    both.col(c.first) += rest.col(0);
-    both.col(c.second) += rest.col(1);
-    J.row(c.first) = both.row(0);
-    J.row(c.second) = both.row(1);
-  }
-  return J;
-}
+[[nodiscard]] Eigen::MatrixXd scaled_jacobian(dense_qp const& qp, real_vector const& z,
+                                              Eigen::VectorXd const& ρ);
 
 /// Accelerated projected gradient steps with restart, in double; `count` products with A.
-[[nodiscard]] inline real_vector projected_gradients(dense_qp const& qp, real_vector const& start,
-                                                     Eigen::VectorXd const& ρ, int count) {
-  // In the metric of 1/ρ the largest eigenvalue of A is at most the row sum norm of ρA.
-  double const L = (ρ.asDiagonal() * qp.A).cwiseAbs().rowwise().sum().maxCoeff();
-  Eigen::VectorXd const b = qp.b.cast<double>();
-  Eigen::VectorXd x = start.cast<double>();
-  Eigen::VectorXd y = x;
-  double t = 1;
-  for (int i = 0; i < count; ++i) {
-    Eigen::VectorXd const free_step = y - ρ.cwiseProduct(qp.A * y - b) / L;
-    Eigen::VectorXd const next = qp.project(free_step.cast<real>()).cast<double>();
-    bool const wrong_way = (y - next).cwiseQuotient(ρ).dot(next - x) > 0;
-    double const t_next = wrong_way ? 1 : (1 + std::sqrt(1 + 4 * t * t)) / 2;
-    y = wrong_way ? next : Eigen::VectorXd(next + (t - 1) / t_next * (next - x));
-    t = t_next;
-    x = next;
-  }
-  return x.cast<real>();
-}
+[[nodiscard]] real_vector projected_gradients(dense_qp const& qp, real_vector const& start,
+                                              Eigen::VectorXd const& ρ, int count);
 
 struct newton_report {
   real_vector x;
@@ -75,8 +33,8 @@ using dense_lu = Eigen::PartialPivLU<Eigen::MatrixXd>;
 
 /// One Newton run with halved steps: goes on while ‖F‖ decreases. Counts its steps in `steps`.
 template <class LU>
-[[nodiscard]] inline real_vector newton_run(dense_qp const& qp, real_vector x,
-                                            Eigen::VectorXd const& ρ, int& steps) {
+[[nodiscard]] real_vector newton_run(dense_qp const& qp, real_vector x, Eigen::VectorXd const& ρ,
+                                     int& steps) {
   LU lu;
   bool factors_are_good = false;
   real_vector F = qp.natural_residual(x, ρ);
@@ -140,5 +98,9 @@ template <class LU = dense_lu>
   report.gradient_steps += 100;
   return report;
 }
+
+// Compiled once.
+extern template newton_report solve_dense<dense_lu>(dense_qp const&, real_vector const&);
+extern template newton_report solve_dense<dense_lu>(dense_qp const&);
 
 }  // namespace oracle
