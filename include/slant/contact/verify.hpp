@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Are these forces a solution? The law of contacts with Coulomb friction, evaluated at r from the
-// data alone: no set, operator or solver of the library takes part.
+// data alone: no set, operator or solver of the library takes part, only lengths of small vectors.
 //
 //     u = W r + q,   û = u + μ‖u_t‖ n,   r ∈ K_μ,   û ∈ K_μ*,   ûᵀ r = 0    (de Saxcé, Feng 1998)
 //
