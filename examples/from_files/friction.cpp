@@ -64,11 +64,11 @@ int solve_friction_folder(arguments const& a) {
                                           : contact::asymmetric_data::used_as_given});
   auto files = places_for(a, {"r.txt", "u.txt"});
 
-  using clock = std::chrono::steady_clock;
-  auto const begin = clock::now();
+  auto const begin = std::chrono::steady_clock::now();
   auto const run =
       method.run(problem, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
-  double const seconds = std::chrono::duration<double>(clock::now() - begin).count();
+  double const seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   auto const check = contact::verify(problem, run.r);
   bool const is_finite = run.r.allFinite() && run.u.allFinite();
   if (!is_finite) files.reset();
