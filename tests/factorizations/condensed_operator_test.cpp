@@ -108,6 +108,11 @@ TEST_CASE_TEMPLATE("entries of A: as by dense matrices, symmetric to the last bi
   MatrixXd const A = s.condensed().formed();
   CHECK((A - s.dense()).norm() < 1e-14 * A.norm());
   CHECK(A == A.transpose());
+  // B and the unit may each be far from 1 where A is not.
+  scene large = s;
+  large.B *= std::ldexp(1.0, 700);
+  large.unit = std::ldexp(large.unit, -1000);
+  CHECK((large.condensed().formed() * std::ldexp(1.0, -400) - A).norm() < 1e-14 * A.norm());
 }
 
 TEST_CASE_TEMPLATE("a workspace fits other numbers of right-hand sides", Way, by_sweeps,

@@ -4,10 +4,11 @@
 //
 //     y = u B_t L_tt⁻ᵀ L_tt⁻¹ B_tᵀ x,      u: the power of two by which K was scaled,
 //
-// by two sweeps with L_tt, or by one product with S = (L_tt L_ttᵀ)⁻¹ on the contact unknowns where
-// that was formed. Their entries have the precision T: rounded to float they are read in half the
-// time, and good for the inner iterations of methods that compute their residuals with the exact
-// ones; see concepts/slant/concepts/rounded.hpp. B_t and x are of doubles either way, of any scale.
+// by two sweeps with L_tt, or by one product with S⁻¹, the part of (L_tt L_ttᵀ)⁻¹ that belongs to
+// the contact unknowns, where that was formed. Their entries have the precision T: rounded to float
+// they are read in half the time, and good for the inner iterations of methods that compute their
+// residuals with the exact ones; see concepts/slant/concepts/rounded.hpp. B_t and x are of doubles
+// either way, of any scale.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -51,11 +52,12 @@ class condensed_operator {
     slant::detail::check_size("columns of B", b_->cols(), factor_->shape().size(),
                               "the size of the factor,");
   }
-  /// b: n × (size of S); throws bad_input if it has another number of columns.
+  /// b: n × (size of S⁻¹); throws bad_input if it has another number of columns.
   condensed_operator(std::shared_ptr<sparse_type const> b,
                      std::shared_ptr<inverse_type const> inverse, double unit)
       : b_(std::move(b)), inverse_(std::move(inverse)), unit_(unit) {
-    slant::detail::check_size("columns of B", b_->cols(), inverse_->size(), "the size of S,");
+    slant::detail::check_size("columns of B", b_->cols(), inverse_->size(),
+                              "the size of the inverse,");
   }
 
   [[nodiscard]] index rows() const { return b_->rows(); }
@@ -112,7 +114,7 @@ class condensed_operator {
         s(i, j) = s(j, i) = inverse_ ? (*part)(unknown(i), unknown(j)) : (*part)(i, j);
       }
     }
-    // A = B (B S)ᵀ, since S is symmetric.
+    // A = (B S⁻¹) Bᵀ. The unit comes between: B alone may be of any scale.
     auto const times_b = [&](auto const& x) {
       Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), rows());
       for (index j = 0; j < n; ++j) {
@@ -122,9 +124,9 @@ class condensed_operator {
       }
       return y;
     };
-    Eigen::MatrixXd const bs = times_b(s).transpose();
+    Eigen::MatrixXd const bs = unit_ * times_b(s).transpose();
     Eigen::MatrixXd const a = times_b(bs);
-    return (a + a.transpose()) * (unit_ / 2);
+    return a / 2 + a.transpose() / 2;
   }
 
   /// The same with entries of floats, which are made on first use and shared.
@@ -139,7 +141,7 @@ class condensed_operator {
   [[nodiscard]] index buffer_rows() const {
     return inverse_ ? inverse_->size() : factor_->shape().height();
   }
-  /// v.x ← S v.x.
+  /// v.x ← (L_tt L_ttᵀ)⁻¹ v.x, or S⁻¹ v.x.
   void solve_in_place(detail::tail_vectors<T>& v) const {
     if (!inverse_) {
       slant::detail::solve_in_place(*factor_, v);

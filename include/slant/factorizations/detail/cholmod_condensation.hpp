@@ -48,7 +48,6 @@ class cholmod_condensation {
     cholmod_condensation result = *this;
     result.factor_ = factor_.refactorized(matrix);
     result.tail_ = result.reached_part();
-    result.report_ = planned_;
     result.form(matrix);
     return result;
   }

@@ -100,10 +100,7 @@ class tail_sweeps {
     tail_panel<T> const panel = storage_.panel(s, c);
     index const width = std::min(panel_width, s.columns - c);
     index const below = s.height() - c - width;
-    index const stride = v.buffer.rows();
-    for (index k = 0; k < v.x.cols();) {
-      index const together = group(k, v);
-      T* const y = v.buffer.data() + k * stride + c;
+    by_groups(c, v, [&](T* y, index stride, index together) {
       column p[group_size];
       bool zero = true;
       for (index l = 0; l < together; ++l) {
@@ -115,24 +112,20 @@ class tail_sweeps {
         }
         for (index j = 0; j < width; ++j) d[j] = p[l][j];
       }
-      k += together;
-      if (zero) continue;
+      if (zero) return;
       if (together == group_size) {
         subtract_panel_from_four(long_vectors_, panel.below, p[0].data(), y + width, stride, below);
       } else {
         subtract_panel(long_vectors_, panel.below, p[0].data(), y + width, below);
       }
-    }
+    });
   }
 
   void backward(supernode const& s, index c, tail_vectors<T>& v) const {
     tail_panel<T> const panel = storage_.panel(s, c);
     index const width = std::min(panel_width, s.columns - c);
     index const below = s.height() - c - width;
-    index const stride = v.buffer.rows();
-    for (index k = 0; k < v.x.cols();) {
-      index const together = group(k, v);
-      T* const y = v.buffer.data() + k * stride + c;
+    by_groups(c, v, [&](T* y, index stride, index together) {
       column products[group_size];
       if (together == group_size) {
         panel_products_of_four(long_vectors_, panel.below, y + width, stride, below,
@@ -148,15 +141,21 @@ class tail_sweeps {
           d[j] = (p * Eigen::Map<column const>(panel.inverse + j * panel_width)).sum();
         }
       }
+    });
+  }
+
+  /// step(y, stride, together) for the right-hand sides, four of them together or one: y is the
+  /// entry c of the first.
+  template <class Step>
+  static void by_groups(index c, tail_vectors<T>& v, Step const& step) {
+    index const stride = v.buffer.rows();
+    for (index k = 0; k < v.x.cols();) {
+      index const together = k + group_size <= v.x.cols() ? group_size : 1;
+      step(v.buffer.data() + k * stride + c, stride, together);
       k += together;
     }
   }
-
-  /// Right-hand sides from k on that are treated together: four, or one.
   static constexpr index group_size = 4;
-  static index group(index k, tail_vectors<T> const& v) {
-    return k + group_size <= v.x.cols() ? group_size : 1;
-  }
 
   Storage const& storage_;
   tail_shape const& shape_;
