@@ -9,6 +9,7 @@
 // First: a complaint about a method begins with the trail of headers that has led to it.
 #include <slant/methods/methods.hpp>
 
+#include <slant/certificates/certificates.hpp>
 #include <slant/concepts/concepts.hpp>
 #include <slant/contact/contact.hpp>
 #include <slant/factorizations/factorizations.hpp>

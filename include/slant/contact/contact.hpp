@@ -6,6 +6,7 @@
 // IWYU pragma: begin_exports
 #include <slant/contact/asymmetry.hpp>
 #include <slant/contact/bodies.hpp>
+#include <slant/contact/certificate.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/coulomb.hpp>
@@ -30,6 +31,7 @@
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/solve.hpp>
 #include <slant/contact/solve_coulomb.hpp>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>

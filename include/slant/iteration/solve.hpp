@@ -65,8 +65,11 @@ template <class Method, class State, class Rule, class... Observers>
         verdict = stop(std::as_const(state));
       }
     }
-    // Success first: whoever else wants to stop in the step that succeeds has nothing to add.
+    // Convergence takes precedence over any other reason to stop in the same step.
     if (verdict == status::converged) return {verdict, stop.reason(state)};
+    // A rule that has looked at the error may deny what the method believes.
+    bool const is_denied = state.status == status::converged && verdict == status::stalled;
+    if (is_denied) return {verdict, stop.reason(state)};
     if (state.status != status::running) return {state.status, own_words(state)};
     if (verdict != status::running) return {verdict, stop.reason(state)};
     method.step(state);

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+//
+// Bounds and estimates of the error.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/normal_part.hpp>
+// IWYU pragma: end_exports

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// The stopping rule on the error itself: ‖x − x*‖_A ≤ tolerance · ‖x*‖_A as far as a certificate
+// shows it, for any method.
+//
+//     auto const certificate = slant::energy_certificate(qp, M);
+//     slant::solve(method, x0, slant::energy_error_below(1e-8, certificate) ||
+//     slant::at_most(500));
+//
+// A certificate costs about as much as a step, so it is asked only where it may say yes: when the
+// quantity that the method watches anyway (reduced gradient, residual, step; relative) has fallen
+// to the tolerance, and after a no when that has fallen by the factor that was missing. A method
+// that ends by itself is judged too: `converged` becomes `stalled` where the certificate disagrees,
+// with the error reached in the reason.
+#pragma once
+
+#include <slant/certificates/energy_error.hpp>
+#include <slant/iteration/step_below.hpp>
+#include <slant/iteration/stopping.hpp>
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+/// certificate(x) → energy_error<S>.
+template <class Certificate, class V>
+concept certifies = requires(Certificate& c, V const& x) {
+  { c(x).relative() <= c(x).bound };
+};
+
+/// The rule at the top of this file; the certificate is kept as the library keeps parts. The
+/// relative error is that of the last certificate: `error()`.
+template <class S, class Certificate>
+class energy_error_below : public rule {
+ public:
+  energy_error_below(S tolerance, Certificate certificate)
+      : tolerance_(detail::checked_tolerance(tolerance)),
+        threshold_(tolerance),
+        certificate_(std::move(certificate)) {}
+
+  template <class State>
+    requires certifies<Certificate, std::remove_cvref_t<decltype(std::declval<State>().x)>>
+  status operator()(State const& s) {
+    S const measure = watched(s);
+    bool const at_rest = s.status != status::running;
+    if (!at_rest && !(measure <= threshold_)) return status::running;
+    error_ = certificate_(s.x);
+    S const relative = error_.relative();
+    if (relative <= tolerance_) return status::converged;
+    if (at_rest) return s.status == status::converged ? status::stalled : s.status;
+    // Not beyond a hundredth: far from the solution the two have little to do with each other.
+    S const missing = tolerance_ / relative;
+    S const factor = missing > S(0.01) ? S(missing / S(2)) : S(0.01);
+    threshold_ = factor * measure;
+    return status::running;
+  }
+  template <class State>
+  std::string reason(State const&) const {
+    return error_.sentence() + (error_.relative() <= tolerance_ ? ", at most " : "; asked was ") +
+           detail::show(tolerance_);
+  }
+  /// What the last certificate said.
+  [[nodiscard]] energy_error<S> const& error() const { return error_; }
+
+ private:
+  template <class State>
+  [[nodiscard]] static S watched(State const& s) {
+    if constexpr (has_reduced_gradient_norm<State>) {
+      return ratio(s.reduced_gradient_norm, s.gradient_scale);
+    } else if constexpr (has_residual_norm<State>) {
+      return ratio(s.residual_norm, s.residual_scale);
+    } else if constexpr (has_step_norm<State>) {
+      return ratio(s.step_norm, s.x_norm);
+    } else {
+      return S(0);
+    }
+  }
+  template <class N>
+  [[nodiscard]] static S ratio(N const& size, N const& scale) {
+    return scale > N(0) ? S(size / scale) : S(0);
+  }
+
+  S tolerance_;
+  S threshold_;
+  Certificate certificate_;
+  energy_error<S> error_{};
+};
+
+}  // namespace slant

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// The part of a gradient that the constraints balance, block by block.
+//
+// At x ∈ Λᵢ with the gradient g = (A x − b)ᵢ, any s with a finite support value splits g into
+//
+//     s,  balanced up to the gap  γ = sᵀx + σ(−s) ≥ 0,      and the rest  d = g − s,
+//
+// γ = 0 exactly if −s is normal to Λᵢ at x. Both enter the bound of the error
+// (certificates/energy_error.hpp) as m‖d‖² + 4γ, m > 0 the stiffness of the block: the size of A⁻¹
+// there. The least value belongs to
+//
+//     s = (p − z)/ρ,   z = x − ρ g,   p = P(z),   ρ = m/2,
+//
+// because 0 ∈ ∂ₛ(m‖g − s‖² + 4 sᵀx + 4 σ(−s)) says x − ρ g + ρ s ∈ ∂σ(−s), and that is p = P(z).
+// (With s = g, the duality gap, the bound is the root of a difference of energies; with the nearest
+// normal, m → 0, it is the reduced gradient alone. This choice is between the two, block by block.)
+//
+// Half lines, intervals, balls, points and free blocks evaluate γ without cancellation. x counts as
+// the point of the boundary next to it where it lies there up to rounding: off by less than 9 ε‖x‖.
+// Any other set with a projection gets γ = sᵀ(x − p), where the rounding errors of P remain.
+#pragma once
+
+#include <slant/concepts/scalar.hpp>
+#include <slant/sets/ball.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
+#include <slant/sets/symmetric_interval.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <limits>
+
+namespace slant {
+
+/// How the gradient of one block splits.
+template <class S, int N>
+struct normal_part {
+  Eigen::Matrix<S, N, 1> rest;  ///< d = g − s
+  S gap{0};                     ///< γ ≥ 0
+};
+
+namespace detail {
+
+/// g against one flat bound at the distance h ≥ 0 in the direction of −g; g ≥ 0.
+template <class S>
+[[nodiscard]] normal_part<S, 1> against_bound(S const& g, S const& h, S const& ρ) {
+  normal_part<S, 1> part;
+  S const lost = h > S(0) ? S(h / ρ) : S(0);  // an infinite ρ takes all of g
+  S const s = lost < g ? S(g - lost) : S(0);
+  part.rest(0) = s > S(0) ? lost : g;
+  part.gap = s > S(0) && h > S(0) ? S(s * h) : S(0);
+  return part;
+}
+
+/// g on [l, u] at x.
+template <class S>
+[[nodiscard]] normal_part<S, 1> between_bounds(S const& x, S const& g, S const& l, S const& u,
+                                               S const& ρ) {
+  bool const down = g >= S(0);  // −g points at l
+  S const h = down ? S(x - l) : S(u - x);
+  auto part = against_bound<S>(down ? g : S(-g), h > S(0) ? h : S(0), ρ);
+  if (!down) part.rest(0) = -part.rest(0);
+  return part;
+}
+
+/// g on the ball ‖x‖ ≤ R.
+template <class S, int N>
+[[nodiscard]] normal_part<S, N> in_ball(Eigen::Matrix<S, N, 1> const& x,
+                                        Eigen::Matrix<S, N, 1> const& g, S const& R, S const& ρ) {
+  using std::abs;
+  using std::sqrt;
+  using point = Eigen::Matrix<S, N, 1>;
+  normal_part<S, N> part;
+  part.rest = g;
+  S const force = g.stableNorm();
+  if (R == S(0)) {
+    part.rest.setZero();
+    return part;
+  }
+  if (!is_finite(R) || !(force > S(0)) || !is_finite(force)) return part;
+  if (!is_finite(ρ)) {  // all of g is balanced
+    part.rest.setZero();
+    part.gap = x.dot(g) + R * force;
+    return part;
+  }
+  // In units of R and of R/ρ, in which no square leaves the range.
+  point const e = x / R, h = g * (ρ / R);
+  S const length = e.stableNorm();
+  bool const on_sphere = abs(length - S(1)) <= S(9) * std::numeric_limits<S>::epsilon();
+  point const n = on_sphere ? point(e / length) : e;
+  point const z = n - h;
+  S const size = z.stableNorm();
+  if (!(size > S(1)) || !is_finite(size)) return part;
+  // t = ‖z‖ − 1 from ‖z‖² − 1 = (‖n‖² − 1) − 2 nᵀh + ‖h‖².
+  S const inner = on_sphere ? S(0) : S((length - S(1)) * (length + S(1)));
+  S const t = (inner - S(2) * n.dot(h) + h.squaredNorm()) / (size + S(1));
+  if (!(t > S(0))) return part;
+  point const direction = z / size;  // −s = (R/ρ) t direction
+  part.rest = (R / ρ) * (h + t * direction);
+  // γ = (R²/ρ) t (1 − nᵀz/‖z‖); on the sphere the bracket is sin²/(1 + cos) of the angle, which
+  // comes from the tangential part of h.
+  S const cosine = n.dot(direction);
+  S bracket = S(1) - cosine;
+  if (on_sphere && cosine > S(0)) {
+    S const sine = (h - n.dot(h) * n).stableNorm() / size;
+    bracket = sine * sine / (S(1) + cosine);
+  }
+  part.gap = bracket > S(0) ? S(R * ((R / ρ) * t) * bracket) : S(0);
+  return part;
+}
+
+}  // namespace detail
+
+/// Blocks whose gap is evaluated without cancellation, so that a bound made of it is one.
+template <class Block>
+inline constexpr bool has_exact_normal_part = whole_space<Block> || single_point<Block>;
+template <class S>
+inline constexpr bool has_exact_normal_part<half_line<S>> = true;
+template <class S>
+inline constexpr bool has_exact_normal_part<interval<S>> = true;
+template <class S>
+inline constexpr bool has_exact_normal_part<symmetric_interval<S>> = true;
+template <int N, class S>
+inline constexpr bool has_exact_normal_part<ball<N, S>> = true;
+
+/// d and γ at x ∈ block with the gradient g; ρ = m/2 > 0, also ∞.
+template <class Block, class S, int N>
+[[nodiscard]] normal_part<S, N> split_gradient(Block const& block, Eigen::Matrix<S, N, 1> const& x,
+                                               Eigen::Matrix<S, N, 1> const& g, S const& ρ) {
+  if constexpr (whole_space<Block>) {
+    return {g, S(0)};
+  } else if constexpr (single_point<Block>) {
+    return {Eigen::Matrix<S, N, 1>::Zero(), S(0)};
+  } else if constexpr (requires { block.lower(), block.upper(); }) {
+    return detail::between_bounds<S>(x(0), g(0), block.lower(), block.upper(), ρ);
+  } else if constexpr (std::same_as<Block, half_line<S>>) {
+    return detail::between_bounds<S>(x(0), g(0), block.lower(), std::numeric_limits<S>::infinity(),
+                                     ρ);
+  } else if constexpr (std::same_as<Block, ball<N, S>> && N == 1) {
+    return detail::between_bounds<S>(x(0), g(0), -block.radius(), block.radius(), ρ);
+  } else if constexpr (std::same_as<Block, ball<N, S>>) {
+    return detail::in_ball<S, N>(x, g, block.radius(), ρ);
+  } else {
+    if (!detail::is_finite(ρ)) return {g, S(0)};
+    Eigen::Matrix<S, N, 1> const z = x - ρ * g;
+    Eigen::Matrix<S, N, 1> const p = slant::project(block, z);
+    Eigen::Matrix<S, N, 1> const s = (p - z) / ρ;
+    // What rounding leaves of x − p where both are the same point of the boundary is no gap.
+    S const noise = S(32) * std::numeric_limits<S>::epsilon() * s.stableNorm() *
+                    (x.stableNorm() + p.stableNorm());
+    S const gap = s.dot(x - p);
+    return {(x - p) / ρ, gap > noise ? gap : S(0)};
+  }
+}
+
+}  // namespace slant

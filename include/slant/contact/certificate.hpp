@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: MIT
+//
+// The error of a solution of contact with Tresca friction, in the energy norm, from K, the contact
+// data, (λ, u) and solves with K: a bound that knows neither the method nor its stopping rule.
+//
+//     λ ∈ Λ,   u(λ) = K⁻¹(f − Bᵀλ),   A = B K⁻¹Bᵀ,   ‖λ − λ*‖_A = ‖u(λ) − u*‖_K
+//
+// The bound of certificates/energy_error.hpp needs the gradient g = A λ − b = c − B u(λ) and norms
+// ‖·‖_{A⁻¹}. Both are had from displacements:
+//
+//     ‖d‖_{A⁻¹} = min { ‖v‖_K : B v = d },     so every v with B v = d gives a bound,
+//     u computed, ρ = f − Bᵀλ − K u:           ‖u − u(λ)‖_K = ‖ρ‖_{K⁻¹} ≤ ε
+//     g = (c − B u) + B(u − u(λ)):             ‖g − (c − B u)‖_{A⁻¹} ≤ ε
+//
+//     ‖u − u*‖_K ≤ ½ (δ + ε + √((δ + ε)² + 4γ)) + ε,      δ = ‖(c − B u) − s‖_{A⁻¹}
+//
+// ε: with w ≈ K⁻¹ρ, ‖ρ‖_{K⁻¹} ≤ ‖w‖_K + ‖ρ − K w‖₂/√λ, λ ≤ λ_min(K); the second term is of second
+// order, so that a crude λ does. w is also the correction that refines u where ε is not small.
+// δ: v by zero outside of the contact unknowns, v = Bᵀ(BBᵀ)⁻¹d: no work. Where that is not enough,
+// the remainder that a few conjugate gradient steps y for A y = d leave is extended by zero, and
+// ‖d‖_{A⁻¹} ≤ ‖y‖_A + ‖d − A y‖_{A⁻¹}: the harmonic extension, up to a tenth.
+//
+// Residuals are computed in doubled precision. `proven` is said if λ is a proven lower bound
+// (smallest_eigenvalue_bound), the rows of B are orthogonal or empty, the gaps of the set are exact
+// and the extension was by zero or by a solve with K; sums are then enlarged by their rounding
+// errors. Else the result is an estimate: λ from solves at hand, A y as applied by the method.
+//
+// Cost: one solve with K and two sparse products; one solve more for each refinement of u.
+#pragma once
+
+#include <slant/certificates/energy_error.hpp>
+#include <slant/concepts/checks.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/detail/stacked_constraints.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/sets/detail/double_word.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace slant::contact {
+
+namespace detail {
+
+/// √(Σ xᵢyᵢ) for a sum that is positive but for rounding; no product leaves the range.
+template <class V>
+[[nodiscard]] scalar_t<V> root_of_product(V const& x, V const& y) {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  S const ux = unit_near(S(x.stableNorm())), uy = unit_near(S(y.stableNorm()));
+  S sum(0);
+  for (index i = 0; i < x.size(); ++i) sum += (x(i) / ux) * (y(i) / uy);
+  if (!(sum > S(0))) return sum == sum ? S(0) : sum;
+  return sqrt(sum) * sqrt(ux) * sqrt(uy);
+}
+
+/// start − Σᵢ M_ij xᵢ in doubled precision, M column by column.
+template <class S, class V>
+[[nodiscard]] slant::detail::double_word<S> minus_column(Eigen::SparseMatrix<S> const& M, index j,
+                                                         V const& x,
+                                                         slant::detail::double_word<S> sum) {
+  for (typename Eigen::SparseMatrix<S>::InnerIterator e(M, j); e; ++e) {
+    sum = sum - slant::detail::exact_product<S>(e.value(), x(e.row()));
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+/// A bound λ ≤ λ_min(K), proven by a factorisation: where K − c I has a Cholesky factor in floating
+/// point, λ_min(K) ≥ c − γ tr(K), γ = (n + 2)ε/(1 − (n + 2)ε) [Rump, BIT 46 (2006) 433–452,
+/// Cor. 2.4]. `factor(matrix)` factors or throws bad_input; guess is an estimate of λ_min(K). 0 if
+/// no proof was found, that is if K is too ill-conditioned or the guess too far off.
+template <class S, class Factor>
+[[nodiscard]] S smallest_eigenvalue_bound(Eigen::SparseMatrix<S> const& K, S const& guess,
+                                          Factor const& factor) {
+  S const ε = std::numeric_limits<S>::epsilon(), n(static_cast<double>(K.rows() + 2));
+  if (!(guess > S(0)) || !(n * ε < S(0.1))) return S(0);
+  S const lost = S(1.1) * n * ε * K.diagonal().sum();
+  Eigen::SparseMatrix<S> identity(K.rows(), K.cols());
+  identity.setIdentity();
+  for (S c = guess / S(4); c > S(2) * lost; c /= S(16)) {
+    try {
+      factor(Eigen::SparseMatrix<S>(K - c * identity));
+      return (c - lost) * (S(1) - S(8) * ε);
+    } catch (bad_input const&) {  // not definite: c is too large
+    }
+  }
+  return S(0);
+}
+
+/// The certificate of a contact scene; refers to K and the data. λ and u may be anything finite: λ
+/// is projected onto Λ.
+template <class S = double>
+class certificate {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  /// Throws bad_input if sizes do not match.
+  certificate(sparse_type const& K, data<S> const& c)
+      : K_(&K), data_(&c), B_(detail::stacked_constraints(c)), rows_(B_.transpose()) {
+    slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
+    slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+    prepare();
+  }
+
+  /// A proven lower bound of λ_min(K), in units of K; without one, solves give an estimate.
+  void set_smallest_eigenvalue(S const& bound) {
+    smallest_ = bound;
+    is_proven_ = bound > S(0);
+  }
+  /// The lower bound of λ_min(K) in use.
+  [[nodiscard]] S smallest_eigenvalue() const { return smallest_; }
+  /// An upper bound of λ_max(K): the largest sum of moduli in a row.
+  [[nodiscard]] S largest_eigenvalue() const { return largest_; }
+  /// Estimate of the condition number of K; 0 before the first certificate.
+  [[nodiscard]] S condition() const { return quotient_ > S(0) ? S(largest_ / quotient_) : S(0); }
+  /// m: the stiffness that acts on each multiplier, diag of the lumped preconditioner; ∞ for empty
+  /// rows.
+  [[nodiscard]] vector_type const& stiffness() const { return stiffness_; }
+  /// K.
+  [[nodiscard]] sparse_type const& matrix() const { return *K_; }
+  /// Solves with K so far.
+  [[nodiscard]] index solves() const { return solves_; }
+  /// c − B u of the last certificate: the gradient of the dual problem at λ, up to what the last
+  /// correction of u says.
+  [[nodiscard]] vector_type const& gradient() const { return g_; }
+
+  /// Bounds ‖u − u*‖_K. λ ← P_Λ(λ); u ← K⁻¹(f − Bᵀλ), refined as far as `goal`, a relative error,
+  /// needs it. solve(b, x) solves K x = b.
+  template <class Set, class Solve>
+  [[nodiscard]] energy_error<S> operator()(Set const& set, vector_type& λ, vector_type& u,
+                                           S const& goal, Solve const& solve) {
+    return (*this)(set, λ, u, goal, solve, [](vector_type const&, S const&) { return S(-1); });
+  }
+  /// The same where sharper(d, δ) → a bound or estimate of ‖d‖_{A⁻¹}, negative: none, is asked if
+  /// δ, from the extension by zero, does not show the goal.
+  template <class Set, class Solve, class Sharper>
+  [[nodiscard]] energy_error<S> operator()(Set const& set, vector_type& λ, vector_type& u,
+                                           S const& goal, Solve const& solve,
+                                           Sharper const& sharper) {
+    slant::detail::check_size("lambda", λ.size(), B_.rows());
+    slant::detail::check_size("u", u.size(), K_->rows());
+    slant::project(set, λ, λ);
+    energy_error<S> e;
+    S const ε = recover(λ, u, goal, solve);
+    e.size = energy_norm(u);
+    if (!slant::detail::is_finite(ε) || !slant::detail::is_finite(e.size)) return e;
+    g_.resize(B_.rows());
+    for (index i = 0; i < g_.size(); ++i) {
+      slant::detail::double_word<S> const start =
+          i < data_->nodes() && slant::detail::is_finite(data_->d(i)) ? data_->d(i) : S(0);
+      g_(i) = detail::minus_column<S>(rows_, i, u, start).hi;
+    }
+    rest_ = g_;
+    auto const balanced = balance(set, λ, g_, stiffness_, rest_);
+    e.proven = is_proven_ && balanced.exact && is_orthogonal_;
+    S const grown = S(1) + S(8 * (K_->rows() + 64)) * std::numeric_limits<S>::epsilon();
+    auto const bound = [&](S const& δ) {
+      return (error_bound<S>(δ + ε, balanced.gap) + ε) * grown;
+    };
+    S const δ_zero = extension_by_zero(rest_);
+    e.bound = bound(δ_zero);
+    if (e.relative() > goal) {
+      S const δ = sharper(std::as_const(rest_), δ_zero / e.size);
+      S const sharp = δ >= S(0) ? bound(δ) : e.bound;
+      if (sharp < e.bound) {
+        e.bound = sharp;
+        e.proven = false;
+      }
+    }
+    return e;
+  }
+
+  /// ‖v‖_K of v = Bᵀ(BBᵀ)⁻¹d, an upper bound of ‖d‖_{A⁻¹}; ∞ where d acts on an empty row.
+  [[nodiscard]] S extension_by_zero(vector_type const& d) {
+    vector_type left = d;
+    v_.setZero(K_->rows());
+    // Once if the rows are orthogonal; else Richardson's iteration for BBᵀ.
+    index const passes = is_orthogonal_ ? 1 : 30;
+    S const size = d.stableNorm();
+    S rest(0);
+    for (index k = 0; k < passes; ++k) {
+      for (index i = 0; i < d.size(); ++i) {
+        S const amount = damping_ * inverse_squares_(i) * left(i);
+        if (amount == S(0)) {
+          if (left(i) != S(0)) return std::numeric_limits<S>::infinity();
+          continue;
+        }
+        for (typename sparse_type::InnerIterator e(rows_, i); e; ++e)
+          v_(e.row()) += amount * e.value();
+      }
+      for (index i = 0; i < d.size(); ++i) {
+        left(i) = detail::minus_column<S>(rows_, i, v_, d(i)).hi;
+      }
+      rest = left.stableNorm();
+      if (!(rest > S(1e-3) * size)) break;
+    }
+    return norm_on_contact(v_) + tail_norm(rest);
+  }
+
+  /// √(vᵀK v).
+  [[nodiscard]] S energy_norm(vector_type const& v) {
+    image_.resize(v.size());
+    image_.noalias() = *K_ * v;
+    return detail::root_of_product(v, image_);
+  }
+
+ private:
+  void prepare() {
+    index const n = B_.rows(), m = K_->rows();
+    inverse_squares_.setZero(n);
+    stiffness_.setConstant(n, std::numeric_limits<S>::infinity());
+    vector_type squares = vector_type::Zero(n), row_sums = vector_type::Zero(m);
+    touched_.clear();
+    for (index j = 0; j < m; ++j) {
+      S sum(0);
+      for (typename sparse_type::InnerIterator e(*K_, j); e; ++e) {
+        using std::abs;
+        sum += abs(e.value());
+      }
+      largest_ = std::max<S>(largest_, sum);
+      bool is_touched = false;
+      for (typename sparse_type::InnerIterator e(B_, j); e; ++e) {
+        squares(e.row()) += e.value() * e.value();
+        is_touched = is_touched || e.value() != S(0);
+      }
+      if (is_touched) touched_.push_back(j);
+    }
+    for (index i = 0; i < n; ++i) {
+      if (squares(i) > S(0)) inverse_squares_(i) = S(1) / squares(i);
+    }
+    // BBᵀ: orthogonal rows have nothing but rounding off the diagonal; its largest scaled row sum
+    // bounds what Richardson's iteration amplifies.
+    sparse_type const gram = B_ * rows_;
+    S widest(1);
+    for (index j = 0; j < gram.outerSize(); ++j) {
+      S sum(0);
+      for (typename sparse_type::InnerIterator e(gram, j); e; ++e) {
+        using std::abs;
+        S const scaled = abs(e.value()) * inverse_squares_(j);
+        sum += scaled;
+        if (e.row() != j && scaled > S(8) * std::numeric_limits<S>::epsilon()) {
+          is_orthogonal_ = false;
+        }
+      }
+      widest = std::max<S>(widest, sum);
+    }
+    damping_ = is_orthogonal_ ? S(1) : S(S(1.5) / widest);
+    // m_i = diag of D B K BᵀD.
+    v_.setZero(m);
+    for (index i = 0; i < n; ++i) {
+      if (!(inverse_squares_(i) > S(0))) continue;
+      S sum(0);
+      for (typename sparse_type::InnerIterator e(rows_, i); e; ++e) v_(e.row()) = e.value();
+      for (typename sparse_type::InnerIterator e(rows_, i); e; ++e) {
+        for (typename sparse_type::InnerIterator k(*K_, e.row()); k; ++k) {
+          sum += e.value() * k.value() * v_(k.row());
+        }
+      }
+      for (typename sparse_type::InnerIterator e(rows_, i); e; ++e) v_(e.row()) = S(0);
+      stiffness_(i) = inverse_squares_(i) * inverse_squares_(i) * sum;
+    }
+  }
+
+  /// √(vᵀK v) of a v that is zero off the contact unknowns.
+  [[nodiscard]] S norm_on_contact(vector_type const& v) const {
+    S const unit = unit_near(S(v.stableNorm())), unit_of_K = unit_near(largest_);
+    using std::sqrt;
+    S sum(0);
+    for (index j : touched_) {
+      S column(0);
+      for (typename sparse_type::InnerIterator e(*K_, j); e; ++e) {
+        column += (e.value() / unit_of_K) * (v(e.row()) / unit);
+      }
+      sum += column * (v(j) / unit);
+    }
+    // What the sum may have lost to cancellation.
+    S lost(0);
+    for (index j : touched_) lost += (v(j) / unit) * (v(j) / unit);
+    sum += S(256) * std::numeric_limits<S>::epsilon() * lost * (largest_ / unit_of_K);
+    return sqrt(sum > S(0) ? sum : S(0)) * unit * sqrt(unit_of_K);
+  }
+  /// ‖v‖_K for the shortest v with ‖B v‖ ≤ rest.
+  [[nodiscard]] S tail_norm(S const& rest) const {
+    using std::sqrt;
+    if (!(rest > S(0))) return S(0);
+    return S(2) * rest * sqrt(largest_) * sqrt(inverse_squares_.maxCoeff());
+  }
+
+  /// ε of u, which is refined where that pays; ρ in doubled precision.
+  template <class Solve>
+  [[nodiscard]] S recover(vector_type const& λ, vector_type& u, S const& goal, Solve const& solve) {
+    using std::sqrt;
+    S last = std::numeric_limits<S>::infinity();
+    for (index pass = 0;; ++pass) {
+      residual(λ, u);
+      w_.setZero(u.size());
+      solve(residual_, w_);
+      ++solves_;
+      note_quotient(residual_.stableNorm(), w_.stableNorm());
+      S const correction = energy_norm(w_);
+      // ρ − K w, of second order.
+      second_.resize(u.size());
+      for (index j = 0; j < u.size(); ++j) {
+        second_(j) = detail::minus_column<S>(*K_, j, w_, residual_(j)).hi;
+      }
+      S const second = second_.stableNorm() / sqrt(smallest());
+      S const size = energy_norm(u);
+      bool const enough = correction + second <= S(0.02) * goal * size;
+      if (enough || pass >= 4 || !(correction < last / S(2)) ||
+          !slant::detail::is_finite(correction)) {
+        return correction + second;
+      }
+      last = correction;
+      // u ← u + w; the corrected u is off by ρ − K w and by the rounding of the sum, which is
+      // known.
+      for (index j = 0; j < u.size(); ++j) {
+        auto const sum = slant::detail::exact_sum<S>(u(j), w_(j));
+        u(j) = sum.hi;
+        w_(j) = sum.lo;
+      }
+      S const rounded = energy_norm(w_);
+      if (second + rounded <= S(0.02) * goal * size || pass == 3) return second + rounded;
+    }
+  }
+
+  void residual(vector_type const& λ, vector_type const& u) {
+    residual_.resize(u.size());
+    for (index j = 0; j < u.size(); ++j) {
+      auto const sum = detail::minus_column<S>(B_, j, λ, data_->f(j));
+      residual_(j) = detail::minus_column<S>(*K_, j, u, sum).hi;
+    }
+  }
+
+  /// λ_min(K) ≤ ‖K x‖/‖x‖ for every x.
+  void note_quotient(S const& load, S const& response) {
+    if (!(load > S(0)) || !(response > S(0))) return;
+    S const quotient = load / response;
+    if (quotient_ == S(0) || quotient < quotient_) quotient_ = quotient;
+  }
+  /// A lower bound if there is one, else well below what has been seen: it divides nothing but a
+  /// term of second order.
+  [[nodiscard]] S smallest() const {
+    return smallest_ > S(0) ? smallest_ : quotient_ > S(0) ? S(quotient_ / S(1024)) : largest_;
+  }
+
+  sparse_type const* K_;
+  data<S> const* data_;
+  sparse_type B_, rows_;  // B and Bᵀ
+  vector_type inverse_squares_, stiffness_;
+  std::vector<index> touched_;
+  S largest_{0}, smallest_{0}, quotient_{0}, damping_{1};
+  bool is_orthogonal_ = true, is_proven_ = false;
+  index solves_ = 0;
+  vector_type residual_, second_, w_, v_, g_, rest_, image_;
+};
+
+}  // namespace slant::contact
