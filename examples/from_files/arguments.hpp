@@ -21,7 +21,8 @@ struct arguments {
   std::string method{};  ///< empty: the one recommended for the problem
   double tolerance = 1e-8;
   std::optional<slant::index> max_iterations{};
-  std::string start{"zero"};
+  std::string start{"automatic"};
+  bool prove = false;                    ///< the bound of the error
   std::filesystem::path coefficients{};  ///< of friction, for Coulomb's law on a body
   bool symmetric = false;                ///< refuse a W that is not
   std::filesystem::path output{};

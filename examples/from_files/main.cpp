@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using from_files::arguments;
 
 std::map<std::string, from_files::start_point> const starts{
+    {"automatic", from_files::start_point::automatic},
     {"zero", from_files::start_point::zero},
     {"qpc", from_files::start_point::qpc},
     {"interior_point", from_files::start_point::interior_point}};
@@ -52,6 +53,9 @@ int deliver_solution(arguments const& a, from_files::problem const& p, std::stri
       {"setup_applications", s.run.work.setup_applications},
       {"setup_seconds", s.setup_seconds},
       {"solve_seconds", s.solve_seconds},
+      {"energy_error", s.error.relative()},
+      {"energy_error_proven", s.error.proven},
+      {"condition_estimate", s.condition},
       {"kkt_residual", s.kkt_residual},
       {"tolerance", a.tolerance},
       {"unknowns", p.K.rows()},
@@ -62,7 +66,7 @@ int deliver_solution(arguments const& a, from_files::problem const& p, std::stri
 }
 
 from_files::settings settings_of(arguments const& a) {
-  from_files::settings s{.tolerance = a.tolerance, .start = starts.at(a.start)};
+  from_files::settings s{.tolerance = a.tolerance, .start = starts.at(a.start), .prove = a.prove};
   if (a.max_iterations) s.max_iterations = *a.max_iterations;
   return s;
 }
@@ -80,7 +84,8 @@ int solve_tresca(arguments const& a) {
 int solve_coulomb(arguments const& a) {
   auto const& method =
       from_files::method_named(from_files::coulomb_methods, a.method, ", as --coulomb is given");
-  if (a.start != "zero") throw slant::bad_input("--start", a.start, "zero, as --coulomb is given");
+  if (a.start != "zero" && a.start != "automatic")
+    throw slant::bad_input("--start", a.start, "zero, as --coulomb is given");
   if (a.max_iterations && *a.max_iterations < 1)
     throw slant::bad_input("--max-iterations", "0", "at least 1, as --coulomb is given");
   auto const problem = from_files::read_coulomb_folder(a.folder, a.coefficients);
@@ -112,7 +117,8 @@ int main(int argc, char** argv) {
       "    u = Wr + q,  |r_t| <= mu r_n,  r orthogonal to u + mu |u_t| n,  u_n >= 0",
       "from_files");
   app.footer(
-      "Prints one JSON object. For a body \"kkt_residual\" is relative and computed from the "
+      "Prints one JSON object. For a body \"energy_error\" bounds |u - u*|/|u*| in the energy norm "
+      "and\n\"kkt_residual\" is relative; both are computed from the "
       "matrices;\n\"operator_applications\" includes \"setup_applications\". For contacts "
       "\"check\" "
       "holds the violations of the law,\ncomputed from the files and r alone.\n"
@@ -125,18 +131,19 @@ int main(int argc, char** argv) {
                  "name of a method; see --list-methods; default: the one recommended there");
   app.add_option(
          "--tolerance", a.tolerance,
-         "relative norm of the reduced gradient at which the method stops (ssn, semismooth_newton: "
-         "of the\nnatural residual; ssn_primal_dual, ssnm_*: of a step; contacts: of the natural "
-         "map over |q|); 0: when\nrounding lets it get no further, or the limit of steps is "
-         "reached, with exit status 1: for a body mostly\nstatus \"stalled\"")
+         "bodies with Tresca friction: relative error in the energy norm, estimated or, with "
+         "--prove, proven;\nwith Coulomb friction: relative norm of the residual; contacts: of the "
+         "natural map over |q|; 0: as far\nas rounding allows, with exit status 1: for a body "
+         "mostly "
+         "status \"stalled\"")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--start", a.start,
-                 "zero, or qpc or interior_point: where that method has reduced the reduced "
-                 "gradient to a tenth")
+                 "automatic, zero, or qpc or interior_point: where that method has reduced the "
+                 "reduced gradient to a tenth")
       ->capture_default_str()
       ->check(examples::expects<std::string>(
-          "zero, qpc or interior_point",
+          "automatic, zero, qpc or interior_point",
           [](std::string const& start) { return starts.contains(start); }));
   app.add_option("--max-iterations", a.max_iterations, "steps at most")
       ->check(examples::expects_at_least(0));
@@ -144,6 +151,9 @@ int main(int argc, char** argv) {
                  "file with a friction coefficient F_i >= 0 for each contact node of a body: "
                  "Coulomb friction,\n|lambda_t,i| <= F_i lambda_n,i; g.txt is not read")
       ->check(examples::expects_name());
+  app.add_flag(
+      "--prove", a.prove,
+      "prove the bound of the error (bodies with Tresca friction): one more factorisation");
   app.add_flag("--symmetric", a.symmetric,
                "refuse a W that is not symmetric up to rounding; else it is used as given");
   app.add_option("--output", a.output,

@@ -25,7 +25,7 @@
 namespace from_files {
 
 /// A method: run(friction law, problem, dual, λ⁰, settings) → outcome, where dual is a
-/// slant::contact::dual.
+/// slant::contact::dual. The recommended one has no run: contact::solve takes the problem itself.
 template <class Run>
 struct named_method {
   std::string_view name;
@@ -54,8 +54,7 @@ template <class Solver>
 inline constexpr std::tuple methods{
     named_method{"symmetric_newton",
                  "Semismooth Newton with the curvature of the discs, preconditioned CG inside.",
-                 [](auto, problem const& p, auto const& dual, Eigen::VectorXd const& λ0,
-                    settings const& s) { return run_symmetric_newton(p, dual, λ0, s); }},
+                 nullptr},
     named_method{"interior_point", "Path following inside the set, preconditioned CG inside.",
                  [](auto, problem const& p, auto const& dual, Eigen::VectorXd const& λ0,
                     settings const& s) { return run_interior_point(p, dual, λ0, s); }},

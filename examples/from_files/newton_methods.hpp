@@ -3,14 +3,13 @@
 // The runs of Newton's methods that take more than a line.
 #pragma once
 
+#include <algorithm>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
-#include <slant/iteration/step_below.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/ssnm.hpp>
-#include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/bicgstab_solver.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <utility>
@@ -21,20 +20,7 @@
 
 namespace from_files {
 
-/// Our method, with the preconditioner that K offers for nothing.
-template <class Dual>
-[[nodiscard]] outcome run_symmetric_newton(problem const& p, Dual const& dual,
-                                           Eigen::VectorXd const& λ0, settings const& s) {
-  slant::symmetric_newton_options<double> options;
-  options.forcing.goal = s.tolerance;
-  return run_on_dual(
-      slant::symmetric_newton{dual.qp(),
-                              slant::contact::lumped_preconditioner(p.K, dual.constraints()),
-                              std::move(options)},
-      λ0, s);
-}
-
-/// Path following, with the same preconditioner.
+/// Path following, with the preconditioner that K offers for nothing.
 template <class Dual>
 [[nodiscard]] outcome run_interior_point(problem const& p, Dual const& dual,
                                          Eigen::VectorXd const& λ0, settings const& s) {
@@ -52,8 +38,8 @@ template <class Dual, class Solver, class Search, class Forcing>
   auto const step = slant::mean_step(A, λ0, 0.5);
   auto const F = slant::natural_residual(A, dual.b(), dual.set(), step.length);
   outcome result = run_and_project(
-      slant::semismooth_newton{F, std::move(solver), std::move(search), std::move(forcing)}, λ0,
-      slant::residual_below(s.tolerance), s, dual);
+      slant::semismooth_newton{F, std::move(solver), std::move(search), std::move(forcing)}, λ0, s,
+      dual);
   result.work.setup_applications += step.applications;
   return result;
 }
@@ -67,15 +53,19 @@ template <class Friction, class Dual>
   auto const G = contact.function(p.K.diagonal().mean());
   Eigen::VectorXd y0(G.cols());
   y0 << dual.displacement(λ0), λ0;
+  auto const forces = [&](Eigen::VectorXd const& y) {
+    return slant::project(dual.set(), contact.multipliers(y));
+  };
+  // The forces alone are judged: displacements follow from them by a solve with K.
+  certificate const error_of = [&](Eigen::VectorXd const& y) { return s.error_of(forces(y)); };
   return run_until(
       slant::semismooth_newton{G, slant::bicgstab_solver{}, slant::halving_line_search{},
                                slant::adaptive_precision{}},
-      y0, slant::step_below(s.tolerance), s,
-      [&](Eigen::VectorXd const& y) { return slant::project(dual.set(), contact.multipliers(y)); });
+      y0, slant::energy_error_below(s.tolerance, error_of), s, forces);
 }
 
-/// SSNM of the thesis; A is formed and factored. It has nothing against cycles: as there, a run of
-/// 1000 steps is one too many.
+/// SSNM of the thesis; A is formed and factored. It has nothing against cycles: as there, 1000
+/// steps are the most.
 template <class Dual, class Solver>
 [[nodiscard]] outcome run_ssnm(Dual const& dual, Eigen::VectorXd const& λ0, settings const& s,
                                Solver solver) {
@@ -84,8 +74,9 @@ template <class Dual, class Solver>
   options.rho = dense.mean() > 0 ? dense.mean() : 1;
   options.precision = {.r_tol = 0.1, .c_fact = 0.5};
   options.multipliers = slant::ssnm_multipliers::estimated;
-  outcome result = run_and_project(slant::ssnm{dense.qp(), solver, options}, λ0,
-                                   slant::step_below(s.tolerance) || slant::at_most(1000), s, dual);
+  settings limited = s;
+  limited.max_iterations = std::min<slant::index>(s.max_iterations, 1000);
+  outcome result = run_and_project(slant::ssnm{dense.qp(), solver, options}, λ0, limited, dual);
   result.work.setup_applications += dense.products();
   return result;
 }

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <chrono>
+#include <functional>
+#include <slant/certificates/energy_error_below.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
@@ -15,15 +17,21 @@ namespace from_files {
 
 using clock = std::chrono::steady_clock;
 
-/// Where a method starts: λ = 0, or where another method has reduced the reduced gradient to a
-/// tenth.
-enum class start_point { zero, qpc, interior_point };
+/// Where a method starts: where it would by itself (λ = 0 for all but the recommended one), λ = 0,
+/// or where another method has reduced the reduced gradient to a tenth.
+enum class start_point { automatic, zero, qpc, interior_point };
+
+/// λ → its error. One type for all friction laws and factorisations; asked a few times in a run.
+using certificate = std::function<slant::energy_error<double>(Eigen::VectorXd const&)>;
 
 /// What the user asks of a method.
 struct settings {
-  double tolerance = 1e-8;  ///< relative, of the norm that the method judges itself by
+  double tolerance = 1e-8;  ///< of the relative error in the energy norm
   slant::index max_iterations = 1000000;
-  start_point start = start_point::zero;
+  start_point start = start_point::automatic;
+  bool prove = false;        ///< the bound of the error is to be proven
+  bool stops_early = false;  ///< a first phase: at this relative reduced gradient
+  certificate error_of{};    ///< of the multipliers; set when the problem is known
 };
 
 /// What came of it.
@@ -56,19 +64,23 @@ template <class Method, class Rule, class Multipliers>
           .λ = multipliers(std::as_const(report.state.x))};
 }
 
-/// A method for the dual problem whose state measures the reduced gradient.
+/// A method for the dual problem, to the error that is asked for.
 template <class Method>
 [[nodiscard]] outcome run_on_dual(Method const& method, Eigen::VectorXd const& λ0,
                                   settings const& s) {
-  return run_until(method, λ0, slant::reduced_gradient_below(s.tolerance), s,
-                   [](auto const& λ) { return λ; });
+  auto const itself = [](auto const& λ) { return λ; };
+  if constexpr (requires { method.start(λ0).reduced_gradient_norm; }) {
+    if (s.stops_early)
+      return run_until(method, λ0, slant::reduced_gradient_below(s.tolerance), s, itself);
+  }
+  return run_until(method, λ0, slant::energy_error_below(s.tolerance, s.error_of), s, itself);
 }
 
-/// A method whose iterates leave Λ: the nearest point of Λ is the result.
-template <class Method, class Rule, class Dual>
+/// A method whose iterates leave Λ: the nearest point of Λ is judged, and the result.
+template <class Method, class Dual>
 [[nodiscard]] outcome run_and_project(Method const& method, Eigen::VectorXd const& λ0,
-                                      Rule accurate, settings const& s, Dual const& dual) {
-  return run_until(method, λ0, std::move(accurate), s,
+                                      settings const& s, Dual const& dual) {
+  return run_until(method, λ0, slant::energy_error_below(s.tolerance, s.error_of), s,
                    [&](auto const& λ) { return slant::project(dual.set(), λ); });
 }
 

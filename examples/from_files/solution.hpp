@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <chrono>
+#include <slant/certificates/energy_error.hpp>
 #include <string>
 
 #include "outcome.hpp"
@@ -14,11 +15,13 @@ namespace from_files {
 struct solution {
   outcome run;
   Eigen::VectorXd u;
-  std::string solved_by{};    ///< what found it, where several methods have a turn; else empty
-  std::string factorization;  ///< what factored K
-  double setup_seconds;       ///< factorisation, right-hand side, what the method prepares
-  double solve_seconds;       ///< iteration and recovery of u
-  double kkt_residual;        ///< relative; NaN if the run broke down
+  std::string solved_by{};      ///< what found it, where several methods have a turn; else empty
+  std::string factorization{};  ///< what factored K
+  slant::energy_error<double> error{};  ///< what is known of the error in the energy norm
+  double condition = 0;                 ///< estimate of that of K; 0: none
+  double setup_seconds = 0;  ///< factorisation, right-hand side, what the method prepares
+  double solve_seconds = 0;  ///< iteration and recovery of u
+  double kkt_residual = 0;   ///< relative; NaN if the run broke down
 
   /// Sets the times of a solution that was begun and has ended now.
   void take_times(clock::time_point begin) {

@@ -4,11 +4,16 @@
 #pragma once
 
 #include <limits>
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/contact/certificate.hpp>
 #include <slant/contact/optimality.hpp>
+#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/solve.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "methods.hpp"
@@ -31,6 +36,7 @@ template <class Dual>
 [[nodiscard]] outcome find_start(problem const& p, Dual const& dual, settings const& s) {
   settings rough = s;
   rough.tolerance = 0.1;
+  rough.stops_early = true;
   if (s.start == start_point::qpc) {
     return run_on_dual(slant::qpc{dual.qp()}, dual.zero(), rough);
   }
@@ -50,12 +56,79 @@ template <class Dual>
   return s == slant::status::unbounded || s == slant::status::breakdown;
 }
 
+inline void add_work(outcome const& first, outcome& run) {
+  run.work.operator_applications += first.work.operator_applications;
+  run.work.setup_applications += first.work.setup_applications;
+}
+
+/// By contact::solve, from its own start or from that of another method.
 template <class Friction>
-[[nodiscard]] solution solve_with(Friction friction, problem const& p, std::string_view method,
-                                  settings const& s) {
+[[nodiscard]] solution solve_recommended(Friction friction, problem const& p, settings const& s) {
+  auto const begin = clock::now();
+  slant::contact::solve_options<double> o{
+      .tolerance = s.tolerance, .prove = s.prove, .max_steps = s.max_iterations};
+  solution result;
+  outcome start{.status = slant::status::converged,
+                .reason = {},
+                .iterations = 0,
+                .work = {},
+                .started = begin,
+                .λ = {}};
+  if (s.start == start_point::zero) {
+    o.start = Eigen::VectorXd::Zero(p.contact.N.rows() + p.contact.T.rows()).eval();
+  } else if (s.start != start_point::automatic) {
+    auto const factor = slant::factorize(p.K);
+    slant::contact::dual const dual(friction, factor, p.contact);
+    start = find_start(p, dual, s);
+    o.start = start.λ;
+    if (hopeless(start.status)) o.max_steps = 0;
+  }
+  clock::time_point started{};
+  auto const note_start = [&](auto const& state) {
+    if (state.iteration == 0) started = clock::now();
+  };
+  auto found = slant::contact::solve(friction, p.K, p.contact, o, note_start);
+  result.run = {.status = found.status,
+                .reason = std::move(found.reason),
+                .iterations = found.iterations,
+                .work = found.work,
+                .started = started,
+                .λ = std::move(found.multipliers)};
+  if (hopeless(start.status)) result.run.status = start.status;
+  add_work(start, result.run);
+  result.u = std::move(found.u);
+  result.error = found.error;
+  result.condition = found.condition;
+  result.factorization = std::move(found.factorization);
+  result.take_times(begin);
+  return result;
+}
+
+/// By a method of that name, judged by the same certificate.
+template <class Friction>
+[[nodiscard]] solution solve_by_name(Friction friction, problem const& p, std::string_view method,
+                                     settings s) {
   auto const begin = clock::now();
   auto const factor = slant::factorize(p.K);
   slant::contact::dual const dual(friction, factor, p.contact);
+  slant::contact::certificate<double> error_of(p.K, p.contact);
+  auto const solve_with_K = [&](Eigen::VectorXd const& load, Eigen::VectorXd& u) {
+    factor.solve(load, u);
+  };
+  if (s.prove) error_of.prove(solve_with_K, [](auto const& K) { (void)slant::factorize(K); });
+  Eigen::VectorXd λ, u;
+  auto const M = slant::contact::lumped_preconditioner(p.K, dual.constraints());
+  auto const A = dual.a();
+  auto wa = slant::workspace(A, dual.b());
+  slant::dual_norm_workspace norm_workspace(M, dual.b());
+  auto const sharper = [&](Eigen::VectorXd const& rest, double) {
+    return slant::dual_norm(A, M, rest, 12, true, wa, norm_workspace).value;
+  };
+  s.error_of = [&](Eigen::VectorXd const& forces) {
+    λ = forces;
+    u = dual.displacement(slant::project(dual.set(), λ));
+    return error_of(dual.set(), λ, u, s.tolerance, solve_with_K, sharper);
+  };
   solution result;
   outcome const start = find_start(p, dual, s);
   with_method(method, [&](auto const& chosen) {
@@ -63,14 +136,34 @@ template <class Friction>
       result.run = start;
       return;
     }
-    result.run = chosen.run(friction, p, dual, start.λ, s);
-    result.run.work.operator_applications += start.work.operator_applications;
-    result.run.work.setup_applications += start.work.setup_applications;
+    if constexpr (!std::is_null_pointer_v<std::remove_cvref_t<decltype(chosen.run)>>) {
+      result.run = chosen.run(friction, p, dual, start.λ, s);
+      add_work(start, result.run);
+    }
   });
-  if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
-  result.u = dual.displacement(result.run.λ);
+  result.error = s.error_of(result.run.λ);
+  result.u = u;
+  result.run.λ = λ;
+  result.condition = error_of.condition();
+  // Whatever a method says of itself: the certificate is right.
+  bool const is_accurate = result.error.relative() <= s.tolerance;
+  if (result.converged() && !is_accurate) {
+    result.run.status = slant::status::stalled;
+    result.run.reason = result.error.sentence();
+  } else if (result.run.status == slant::status::stalled) {
+    result.run.reason += "; " + result.error.sentence();
+  }
   result.take_times(begin);
   result.factorization = factor.name();
+  return result;
+}
+
+template <class Friction>
+[[nodiscard]] solution solve_with(Friction friction, problem const& p, std::string_view method,
+                                  settings const& s) {
+  solution result = method == recommended_method ? solve_recommended(friction, p, s)
+                                                 : solve_by_name(friction, p, method, s);
+  if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
   result.kkt_residual =
       slant::contact::check_optimality(p.K, p.contact, result.u, result.run.λ).residual();
   return result;

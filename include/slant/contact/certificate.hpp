@@ -110,10 +110,26 @@ class certificate {
     prepare();
   }
 
-  /// A proven lower bound of λ_min(K), in units of K; without one, solves give an estimate.
-  void set_smallest_eigenvalue(S const& bound) {
-    smallest_ = bound;
-    is_proven_ = bound > S(0);
+  /// Looks for a proven lower bound of λ_min(K), by three solves with K and one factorisation of a
+  /// matrix with its pattern, more if the first is not definite; see smallest_eigenvalue_bound.
+  /// Without it λ_min(K) is estimated. Whether a bound was found.
+  template <class Solve, class Factor>
+  bool prove(Solve const& solve, Factor const& factor) {
+    index const n = K_->rows();
+    vector_type x(n), y(n);
+    for (index i = 0; i < n; ++i) x(i) = S(1) + S((i * 7919) % 101) / S(202);
+    S quotient(0);
+    for (int k = 0; k < 3; ++k) {
+      x /= x.stableNorm();
+      solve(x, y);
+      ++solves_;
+      quotient = S(1) / y.stableNorm();
+      note_quotient(quotient, S(1));
+      x.swap(y);
+    }
+    smallest_ = smallest_eigenvalue_bound(*K_, quotient, factor);
+    is_proven_ = smallest_ > S(0);
+    return is_proven_;
   }
   /// The lower bound of λ_min(K) in use.
   [[nodiscard]] S smallest_eigenvalue() const { return smallest_; }

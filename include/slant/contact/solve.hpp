@@ -33,6 +33,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -46,6 +47,8 @@ struct solve_options {
   index max_steps = 5000;  ///< of Newton's method, and of its fallback, in all
   bool scale = true;       ///< whether rows of B may be scaled
   condensation_options condensation{};
+  /// λ to start from; none: conjugate gradients without the constraints.
+  std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {
@@ -134,21 +137,22 @@ class certified_run {
     }
     if (result_.scaled) C_ = sparse_type(d_.asDiagonal() * C_);
     if (o.prove) {
-      auto const refactor = [](sparse_type const& matrix) { static_cast<void>(factorize(matrix)); };
-      ++result_.work.factorizations;
-      certificate_.set_smallest_eigenvalue(
-          smallest_eigenvalue_bound(K, rough_smallest_eigenvalue(), refactor));
+      auto const solve = [&](vector_type const& load, vector_type& u) { factor_.solve(load, u); };
+      certificate_.prove(solve, [&](sparse_type const& matrix) {
+        ++result_.work.factorizations;
+        static_cast<void>(factorize(matrix));
+      });
     }
   }
   certified_run(certified_run const&) = delete;
   certified_run& operator=(certified_run const&) = delete;
 
-  [[nodiscard]] solution<S> run() {
+  template <class... Observers>
+  [[nodiscard]] solution<S> run(Observers&... observers) {
     auto const set = feasible_set(Friction{}, data_->nodes(), g_);
     separable_qp const qp{dual_.a(C_), b_, set};
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
-    auto const start = unconstrained_start(qp, M);
-    result_.work.setup_applications += start.applications;
+    vector_type const x0 = start(qp, M);
     // The reduced gradient is some 3 to 10 times smaller than the error that goes with it.
     S threshold = S(0.06) * options_.tolerance;
     index budget = options_.max_steps;
@@ -157,7 +161,7 @@ class certified_run {
       o.forcing.goal = static_cast<double>(threshold);
       return symmetric_newton{qp, M, o};
     };
-    auto state = method().start(start.x);
+    auto state = method().start(x0);
     image_.resize(b_.size());
     S best = std::numeric_limits<S>::infinity();
     auto wa = workspace(qp.a(), state.x);
@@ -165,7 +169,7 @@ class certified_run {
     while (true) {
       auto newton = method();
       auto stop = reduced_gradient_below(threshold) || at_most(budget);
-      auto end = slant::detail::run_to_end(newton, state, stop);
+      auto end = slant::detail::run_to_end(newton, state, stop, observers...);
       // A later phase that takes longer than all before it is at its floor.
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
@@ -212,6 +216,19 @@ class certified_run {
  private:
   sparse_type const& certificate_matrix() const { return certificate_.matrix(); }
 
+  template <class QP, class M>
+  [[nodiscard]] vector_type start(QP const& qp, M const& m) {
+    if (options_.start) {
+      slant::detail::check_size("start", options_.start->size(), b_.size());
+      slant::detail::check_finite("start", *options_.start);
+      return options_.start->cwiseQuotient(d_);
+    }
+    if (options_.max_steps == 0) return vector_type::Zero(b_.size());
+    auto found = unconstrained_start(qp, m);
+    result_.work.setup_applications += found.applications;
+    return std::move(found.x);
+  }
+
   /// The error at x, u and λ with it.
   template <class QP, class M, class W>
   void certify(QP const& qp, M const& m, vector_type const& x, W& wa,
@@ -230,21 +247,6 @@ class certified_run {
     };
     result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
                                  solve, sharper);
-  }
-
-  /// λ_min(K), roughly: two steps of inverse iteration.
-  [[nodiscard]] S rough_smallest_eigenvalue() {
-    vector_type x = vector_type::Ones(data_->f.size()), y(x.size());
-    for (index i = 0; i < x.size(); ++i) x(i) += S(0.5) * S((i * 7919) % 101) / S(101);
-    S quotient(0);
-    for (int k = 0; k < 3; ++k) {
-      x /= x.stableNorm();
-      factor_.solve(x, y);
-      ++result_.solves;
-      quotient = S(1) / y.stableNorm();
-      x.swap(y);
-    }
-    return quotient;
   }
 
   void finish(slant::detail::ending& end, bool is_enough) {
@@ -279,29 +281,30 @@ class certified_run {
 
 }  // namespace detail
 
-/// Solves with this friction law, which the data must have: no other one is compiled. Throws
-/// bad_input if K is not symmetric positive definite, for data that do not fit, or for options out
-/// of range.
-template <class Friction, class S>
+/// Solves with this friction law, which the data must have: no other one is compiled. Observers see
+/// every state of symmetric_newton. Throws bad_input if K is not symmetric positive definite, for
+/// data that do not fit, or for options out of range.
+template <class Friction, class S, class... Observers>
 [[nodiscard]] solution<S> solve(Friction friction, Eigen::SparseMatrix<S> const& K,
-                                data<S> const& c, solve_options<S> const& o = {}) {
+                                data<S> const& c, solve_options<S> const& o = {},
+                                Observers&&... observers) {
   o.validate();
   detail::validated(friction, c, K.rows());
-  return detail::certified_run<Friction, S>(friction, K, c, o).run();
+  return detail::certified_run<Friction, S>(friction, K, c, o).run(observers...);
 }
 
 /// The same with the law that T stands for.
-template <class S>
+template <class S, class... Observers>
 [[nodiscard]] solution<S> solve(Eigen::SparseMatrix<S> const& K, data<S> const& c,
-                                solve_options<S> const& o = {}) {
+                                solve_options<S> const& o = {}, Observers&&... observers) {
   c.validate();
   switch (c.tangents()) {
     case 0:
-      return solve(frictionless{}, K, c, o);
+      return solve(frictionless{}, K, c, o, observers...);
     case 1:
-      return solve(friction_line{}, K, c, o);
+      return solve(friction_line{}, K, c, o, observers...);
     default:
-      return solve(friction_disc{}, K, c, o);
+      return solve(friction_disc{}, K, c, o, observers...);
   }
 }
 
