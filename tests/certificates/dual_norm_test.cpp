@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <support/allocation_guard.hpp>
+
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/operators/diagonal.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace dual_norm_test {
+
+using Eigen::VectorXd;
+
+auto spd(VectorXd const& d) { return slant::diagonal<slant::positive_definite>(d); }
+
+TEST_CASE("dual norm of a diagonal operator, from below by the limit of steps, from above by M") {
+  VectorXd const a = VectorXd::LinSpaced(50, 1, 100);
+  VectorXd const d = VectorXd::LinSpaced(50, -1, 2);
+  double const exact = std::sqrt(d.cwiseAbs2().cwiseQuotient(a).sum());
+  auto const A = spd(a);
+  VectorXd const ones = VectorXd::Ones(50);
+  auto const M = spd(ones);  // M ⪰ A⁻¹
+  auto wa = slant::workspace(A, d);
+  slant::dual_norm_workspace w(M, d);
+  for (slant::index const most : {0, 1, 3, 10, 60}) {
+    auto const above = slant::dual_norm(A, M, d, most, true, wa, w);
+    CHECK(above.value >= exact * (1 - 1e-14));
+    CHECK(above.applications <= most);
+  }
+  CHECK(slant::dual_norm(A, M, d, 60, true, wa, w).value <= 1.25 * exact);
+  auto const estimate = slant::dual_norm(A, M, d, 60, false, wa, w);
+  CHECK(estimate.value == doctest::Approx(exact).epsilon(0.3));
+  CHECK(estimate.applications < 30);
+}
+
+TEST_CASE("dual norm with the exact inverse takes one step; units do not matter; nothing allocates") {
+  VectorXd const a = VectorXd::LinSpaced(20, 1, 50), inverse = a.cwiseInverse();
+  VectorXd const d = VectorXd::LinSpaced(20, 1, 2);
+  auto const A = spd(a);
+  auto const M = spd(inverse);
+  auto wa = slant::workspace(A, d);
+  slant::dual_norm_workspace w(M, d);
+  double const exact = std::sqrt(d.cwiseAbs2().cwiseQuotient(a).sum());
+  auto const one = slant::dual_norm(A, M, d, 10, true, wa, w);
+  CHECK(one.applications == 1);
+  CHECK(one.value == doctest::Approx(exact).epsilon(1e-12));
+  VectorXd const large = 0x1p900 * d;
+  slant::testing::allocation_guard guard;
+  auto const scaled = slant::dual_norm(A, M, large, 10, true, wa, w);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(scaled.value == 0x1p900 * one.value);
+  VectorXd const zero = VectorXd::Zero(20);
+  CHECK(slant::dual_norm(A, M, zero, 10, true, wa, w).value == 0);
+}
+
+}  // namespace dual_norm_test

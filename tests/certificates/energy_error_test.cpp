@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/energy_error_below.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+
+#include <doctest/doctest.h>
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <random>
+
+namespace energy_error_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using real = long double;
+using real_vector = Eigen::Matrix<real, Eigen::Dynamic, 1>;
+
+/// A quadratic program over half lines and discs that is made from its solution: x* with forces −g*
+/// in the normal cone, b = A x* − g*.
+struct made {
+  MatrixXd A;
+  MatrixXd inverse;
+  VectorXd b;
+  VectorXd g;  // radii
+  VectorXd solution;
+  double lost;  // ‖·‖_{A⁻¹} of what rounding b loses
+};
+
+made make(int m, double log_condition, std::mt19937& random) {
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int const n = 3 * m;
+  MatrixXd X(n, n);
+  for (int j = 0; j < n * n; ++j) X.data()[j] = gauss(random);
+  MatrixXd const Q = Eigen::HouseholderQR<MatrixXd>(X).householderQ();
+  VectorXd eigenvalues(n);
+  for (int j = 0; j < n; ++j) eigenvalues(j) = std::pow(10, -log_condition * uniform(random));
+  eigenvalues(0) = 1;
+  eigenvalues(n - 1) = std::pow(10, -log_condition);
+  made p;
+  p.A = Q * eigenvalues.asDiagonal() * Q.transpose();
+  p.A = (0.5 * (p.A + p.A.transpose())).eval();
+  p.inverse = Q * eigenvalues.cwiseInverse().asDiagonal() * Q.transpose();
+  p.g.resize(m);
+  p.solution.resize(n);
+  real_vector force = real_vector::Zero(n);
+  for (int i = 0; i < m; ++i) {
+    bool const open = uniform(random) < 0.5;
+    p.solution(i) = open ? 0 : uniform(random);
+    if (open) force(i) = uniform(random) < 0.2 ? 0 : uniform(random);  // weak contact at times
+    p.g(i) = uniform(random) < 0.1 ? 0 : uniform(random);
+    Eigen::Vector2d t(gauss(random), gauss(random));
+    bool const slides = uniform(random) < 0.5;
+    t *= p.g(i) * (slides ? 1 : 0.9 * uniform(random)) / t.norm();
+    p.solution.segment<2>(m + 2 * i) = t;
+    if (slides && p.g(i) > 0) {
+      real const size = uniform(random) / p.g(i);
+      force(m + 2 * i) = -size * static_cast<real>(t(0));
+      force(m + 2 * i + 1) = -size * static_cast<real>(t(1));
+    }
+  }
+  real_vector const b = p.A.cast<real>() * p.solution.cast<real>() - force;
+  p.b = b.cast<double>();
+  VectorXd const rounding = (b - p.b.cast<real>()).cast<double>();
+  p.lost = std::sqrt(rounding.dot(p.inverse * rounding));
+  // The radius of a sliding disc is that of the point, up to rounding.
+  p.lost += 4e-16 * p.solution.norm() + 4e-16 * force.cast<double>().norm();
+  return p;
+}
+
+double energy_norm(MatrixXd const& A, VectorXd const& x) {
+  real_vector const y = x.cast<real>();
+  return static_cast<double>(std::sqrt(std::fmax(0.0L, y.dot(A.cast<real>() * y))));
+}
+
+auto program(made const& p) {
+  return slant::separable_qp{
+      slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A), p.b,
+      slant::cartesian(slant::half_lines(p.g.size()), slant::discs(p.g))};
+}
+
+TEST_CASE("with A⁻¹ itself the bound is never below the error, and near the solution close to it") {
+  std::mt19937 random(2026);
+  std::normal_distribution<double> gauss;
+  int close = 0, all = 0;
+  for (int run = 0; run < 60; ++run) {
+    made const p = make(1 + run % 5, 8.0 * (run % 7) / 6, random);
+    auto const qp = program(p);
+    auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
+    slant::energy_certificate certificate(qp, slant::dominates_inverse(M));
+    for (double δ = 1; δ > 1e-13; δ /= 100) {
+      VectorXd x = p.solution;
+      for (double& entry : x) entry += δ * gauss(random);
+      // Steps of the projected gradient method, which put the point on its face.
+      for (int step = 0; step < 3; ++step) x = slant::project(qp.set(), VectorXd(x - p.A * x + p.b));
+      VectorXd const y = slant::project(qp.set(), x);
+      double const error = energy_norm(p.A, y - p.solution);
+      auto const known = certificate(x);
+      CHECK(known.bound * (1 + 1e-9) + 2 * p.lost >= error);
+      // With larger condition numbers three steps do not find the face.
+      if (run % 7 <= 2 && δ < 1e-3 && error > 100 * p.lost) {
+        ++all;
+        close += known.bound <= 30 * error ? 1 : 0;
+      }
+    }
+  }
+  CHECK(all > 50);
+  CHECK(close >= 0.9 * all);
+}
+
+TEST_CASE("without A⁻¹ conjugate gradients estimate the same") {
+  std::mt19937 random(11);
+  std::normal_distribution<double> gauss;
+  for (int run = 0; run < 20; ++run) {
+    made const p = make(2 + run % 3, 4.0 * (run % 4) / 3, random);
+    auto const qp = program(p);
+    auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
+    slant::energy_certificate by_inverse(qp, slant::dominates_inverse(M));
+    slant::energy_certificate by_cg(qp);
+    VectorXd x = p.solution;
+    for (double& entry : x) entry += 1e-3 * gauss(random);
+    auto const bound = by_inverse(x), estimate = by_cg(x);
+    CHECK_FALSE(estimate.proven);
+    CHECK(estimate.bound <= 2 * bound.bound);
+    CHECK(bound.bound <= 2 * estimate.bound);
+    CHECK(estimate.size == doctest::Approx(bound.size).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("relative errors: of a solution that is zero, of one about which nothing is known") {
+  CHECK(slant::energy_error<double>{.bound = 0, .size = 0}.relative() == 0);
+  CHECK(slant::energy_error<double>{.bound = 1, .size = 3}.relative() == 0.5);
+  CHECK(std::isinf(slant::energy_error<double>{.bound = 2, .size = 1}.relative()));
+  CHECK(std::isinf(slant::energy_error<double>{}.relative()));
+  CHECK(slant::error_bound(0.0, 0.0) == 0);
+  CHECK(slant::error_bound(2.0, 0.0) == doctest::Approx(2));
+  CHECK(slant::error_bound(0.0, 4.0) == doctest::Approx(2));
+  CHECK(slant::error_bound(1e-200, 1e-300) >= 1e-150);
+  CHECK(slant::error_bound(1e200, 1e300) >= 1e200);
+}
+
+TEST_CASE("energy_error_below: kprgp stops by the error, asked only where it may say yes") {
+  std::mt19937 random(5);
+  made const p = make(4, 3, random);
+  auto const qp = program(p);
+  auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
+  slant::energy_certificate certificate(qp, slant::dominates_inverse(M));
+  int asked = 0;
+  auto const count = [&](VectorXd const& x) {
+    ++asked;
+    return certificate(x);
+  };
+  VectorXd const x0 = VectorXd::Zero(p.b.size());
+  auto const run = slant::solve(slant::kprgp{qp}, x0,
+                                slant::energy_error_below(1e-9, count) || slant::at_most(20000));
+  CHECK(run.status == slant::status::converged);
+  CHECK(run.reason.find("relative energy error") != std::string::npos);
+  CHECK(energy_norm(p.A, run.x() - p.solution) <= 1e-9 * energy_norm(p.A, p.solution));
+  CHECK(asked < 12);
+  CHECK(asked < run.iterations());
+}
+
+TEST_CASE("energy_error_below: what the certificate denies is no success") {
+  std::mt19937 random(5);
+  made const p = make(2, 1, random);
+  auto const qp = program(p);
+  auto const hopeless = [](VectorXd const&) {
+    return slant::energy_error<double>{.bound = 0.5, .size = 1};
+  };
+  auto const run = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(p.b.size())),
+                                slant::energy_error_below(1e-6, hopeless) || slant::at_most(5000));
+  CHECK(run.status != slant::status::converged);
+  CHECK_THROWS_AS(slant::energy_error_below(-1.0, hopeless), slant::bad_input);
+  CHECK_THROWS_AS(slant::energy_error_below(1.5, hopeless), slant::bad_input);
+}
+
+}  // namespace energy_error_test
