@@ -13,7 +13,9 @@ namespace dual_norm_test {
 
 using Eigen::VectorXd;
 
-auto spd(VectorXd const& d) { return slant::diagonal<slant::positive_definite>(d); }
+auto spd(VectorXd const& d) {
+  return slant::diagonal<slant::positive_definite>(d);
+}
 
 TEST_CASE("dual norm of a diagonal operator, from below by the limit of steps, from above by M") {
   VectorXd const a = VectorXd::LinSpaced(50, 1, 100);
@@ -35,7 +37,8 @@ TEST_CASE("dual norm of a diagonal operator, from below by the limit of steps, f
   CHECK(estimate.applications < 30);
 }
 
-TEST_CASE("dual norm with the exact inverse takes one step; units do not matter; nothing allocates") {
+TEST_CASE(
+    "dual norm with the exact inverse takes one step; units do not matter; nothing allocates") {
   VectorXd const a = VectorXd::LinSpaced(20, 1, 50), inverse = a.cwiseInverse();
   VectorXd const d = VectorXd::LinSpaced(20, 1, 2);
   auto const A = spd(a);

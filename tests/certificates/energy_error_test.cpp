@@ -80,9 +80,8 @@ double energy_norm(MatrixXd const& A, VectorXd const& x) {
 }
 
 auto program(made const& p) {
-  return slant::separable_qp{
-      slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A), p.b,
-      slant::cartesian(slant::half_lines(p.g.size()), slant::discs(p.g))};
+  return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A), p.b,
+                             slant::cartesian(slant::half_lines(p.g.size()), slant::discs(p.g))};
 }
 
 TEST_CASE("with A⁻¹ itself the bound is never below the error, and near the solution close to it") {
@@ -98,7 +97,8 @@ TEST_CASE("with A⁻¹ itself the bound is never below the error, and near the s
       VectorXd x = p.solution;
       for (double& entry : x) entry += δ * gauss(random);
       // Steps of the projected gradient method, which put the point on its face.
-      for (int step = 0; step < 3; ++step) x = slant::project(qp.set(), VectorXd(x - p.A * x + p.b));
+      for (int step = 0; step < 3; ++step)
+        x = slant::project(qp.set(), VectorXd(x - p.A * x + p.b));
       VectorXd const y = slant::project(qp.set(), x);
       double const error = energy_norm(p.A, y - p.solution);
       auto const known = certificate(x);

@@ -19,8 +19,10 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// sᵀx + g‖s‖ in the long type: the gap on a disc by its definition.
 long double gap_on_disc(vec2 const& x, vec2 const& s, double radius) {
-  long double const inner = static_cast<long double>(s(0)) * x(0) + static_cast<long double>(s(1)) * x(1);
-  return inner + static_cast<long double>(radius) * std::hypot(static_cast<long double>(s(0)), s(1));
+  long double const inner =
+      static_cast<long double>(s(0)) * x(0) + static_cast<long double>(s(1)) * x(1);
+  return inner +
+         static_cast<long double>(radius) * std::hypot(static_cast<long double>(s(0)), s(1));
 }
 
 double value(double m, Eigen::VectorXd const& rest, double gap) {
@@ -47,7 +49,8 @@ TEST_CASE("half line: on the bound all of a pressing gradient is balanced, none 
   CHECK(part.gap == 0.75);
 }
 
-TEST_CASE("interval: each end balances its own sign; equal ends balance all; infinite ones nothing") {
+TEST_CASE(
+    "interval: each end balances its own sign; equal ends balance all; infinite ones nothing") {
   slant::interval<double> const block(-1, 2);
   auto const split = [](auto const& b, double x, double g) {
     return split_gradient<std::remove_cvref_t<decltype(b)>, double, 1>(b, vec1(x), vec1(g), 0.5);
@@ -71,7 +74,8 @@ TEST_CASE("disc: the gap is that of the definition, and no other s gives a small
     vec2 x(uniform(random), uniform(random));
     bool const on_sphere = i % 2 == 0;
     x *= on_sphere ? radius / x.norm() : radius * uniform(random) / (1.5 * x.norm());
-    vec2 const g = radius / ρ * std::exp2(8 * uniform(random)) * vec2(uniform(random), uniform(random));
+    vec2 const g =
+        radius / ρ * std::exp2(8 * uniform(random)) * vec2(uniform(random), uniform(random));
     auto const part = split_gradient<slant::ball<2>, double, 2>(block, x, g, ρ);
     vec2 const s = g - part.rest;
     long double const exact = gap_on_disc(x, s, radius);
@@ -79,7 +83,8 @@ TEST_CASE("disc: the gap is that of the definition, and no other s gives a small
     CHECK(part.gap >= 0);
     CHECK(std::abs(static_cast<double>(part.gap - exact)) <= 1e-14 * size);
     for (int k = 0; k < 5; ++k) {
-      vec2 const other = s + s.norm() * std::exp2(-8.0 * k) * vec2(uniform(random), uniform(random));
+      vec2 const other =
+          s + s.norm() * std::exp2(-8.0 * k) * vec2(uniform(random), uniform(random));
       double const γ = static_cast<double>(std::fmax(0.0L, gap_on_disc(x, other, radius)));
       CHECK(value(2 * ρ, part.rest, part.gap) <=
             value(2 * ρ, g - other, γ) * (1 + 1e-12) + 1e-13 * size);
@@ -106,7 +111,8 @@ TEST_CASE("radius 0 and ∞, points, free blocks") {
   CHECK(none.rest == vec2(0, 0));
   CHECK(none.gap == 0);
   CHECK(split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(inf), x, g, 1.0).rest == g);
-  CHECK(split_gradient<slant::point<2>, double, 2>(slant::point<2>(), x, g, 1.0).rest == vec2(0, 0));
+  CHECK(split_gradient<slant::point<2>, double, 2>(slant::point<2>(), x, g, 1.0).rest ==
+        vec2(0, 0));
   CHECK(split_gradient<slant::free_space<2>, double, 2>({}, x, g, 1.0).rest == g);
 }
 

@@ -62,6 +62,7 @@
 #include <slant/methods/smalse.hpp>
 #include <slant/methods/smalse_options.hpp>
 #include <slant/methods/smalse_state.hpp>
+#include <slant/methods/solve_program.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/ssnm_options.hpp>
 #include <slant/methods/ssnm_problem.hpp>

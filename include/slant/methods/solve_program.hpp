@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+//
+// A quadratic program solved to a relative error in the energy norm, with nothing else to choose:
+//
+//     auto const run = slant::solve(qp, 1e-8);         // ‖x − x*‖_A ≤ 1e-8 ‖x*‖_A, estimated
+//     auto const run = slant::solve(qp, M, 1e-8);      // with a preconditioner M ≈ A⁻¹
+//
+//     scale      blocks whose stiffness diag(A) differs by more than 64 become alike
+//     (equilibrated.hpp),
+//                where A gives its diagonal
+//     solve      symmetric_newton to a reduced gradient of a tenth of the tolerance
+//     certify    the energy error by energy_certificate; while that is too large, a smaller one
+//
+// The certificate estimates ‖·‖_{A⁻¹} by conjugate gradients, in up to 200 applications of A. Give
+// `solve(method, x0, energy_error_below(tolerance, certificate))` a bound where one is known.
+#pragma once
+
+#include <slant/certificates/energy_error.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/equilibrated.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace slant {
+
+/// What solve(qp, tolerance) found.
+template <class V>
+struct certified_point {
+  using scalar = scalar_t<V>;
+
+  V point;                       ///< in Λ
+  slant::status status;          ///< converged: the estimated error is at most the tolerance
+  std::string reason;            ///< the status as a sentence
+  energy_error<scalar> error{};  ///< what is known of ‖x − x*‖_A
+  index steps = 0;               ///< of symmetric_newton
+  slant::work work{};            ///< all applications of A, those of certificates included
+  bool scaled = false;           ///< whether the blocks were scaled
+
+  [[nodiscard]] V const& x() const { return point; }
+  [[nodiscard]] index iterations() const { return steps; }
+  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
+};
+
+namespace detail {
+
+/// Newton's method under the control of certificates; x = d ∘ y where the problem is scaled.
+template <class QP, class M>
+[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::scalar tolerance,
+                                   index most) -> certified_point<typename QP::vector_type> {
+  using V = typename QP::vector_type;
+  using S = typename QP::scalar;
+  V x0 = like(qp.b(), qp.size());
+  slant::local(x0).setZero();
+  energy_certificate certificate(qp, m);
+  S threshold = tolerance / S(10), best = std::numeric_limits<S>::infinity();
+  auto const method = [&] {
+    symmetric_newton_options<S> o;
+    o.forcing.goal = static_cast<double>(threshold);
+    if constexpr (std::same_as<M, identity_operator>) {
+      return symmetric_newton{qp, o};
+    } else {
+      return symmetric_newton{qp, m, o};
+    }
+  };
+  auto state = method().start(x0);
+  certified_point<V> result{.point = x0, .status = status::running, .reason = {}};
+  while (true) {
+    auto newton = method();
+    auto stop = reduced_gradient_below(threshold) || slant::at_most(most);
+    auto end = run_to_end(newton, state, stop);
+    result.error = certificate(state.x);
+    S const error = result.error.relative();
+    result.status = end.how;
+    bool const is_enough = error <= tolerance;
+    bool const can_go_on = end.how == status::converged && error < best / S(1.5) &&
+                           threshold > S(0) && state.reduced_gradient_norm > S(0);
+    if (is_enough || !can_go_on) {
+      if (is_enough) {
+        result.status = status::converged;
+        result.reason = result.error.sentence() + ", at most " + show(tolerance);
+      } else {
+        if (end.how == status::converged) result.status = status::stalled;
+        result.reason = end.how == status::converged || end.how == status::stalled
+                            ? result.error.sentence() + ": rounding errors allow no more"
+                            : end.why + "; " + result.error.sentence();
+      }
+      break;
+    }
+    best = error;
+    S const missing = tolerance / error;
+    threshold = std::min<S>(threshold, state.reduced_gradient_norm / state.gradient_scale) *
+                std::clamp<S>(missing / S(3), S(1e-3), S(0.3));
+    newton.resume(state);
+  }
+  slant::local(result.point) = slant::local(state.x);
+  result.steps = state.iteration;
+  result.work = state.work;
+  result.work.operator_applications += certificate.applications();
+  return result;
+}
+
+/// One factor for each unknown if the stiffness of the blocks spreads by more than 64; else none.
+template <class QP>
+[[nodiscard]] auto block_factors_if_needed(QP const& qp) {
+  using S = typename QP::scalar;
+  using V = typename QP::vector_type;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> d;
+  if constexpr (has_diagonal<typename QP::operator_type, V>) {
+    V a = like(qp.b(), qp.size());
+    qp.a().diagonal(a);
+    Eigen::Matrix<S, Eigen::Dynamic, 1> const entries = slant::local(a);
+    auto const factors = block_factors(qp.set(), entries);
+    S least = std::numeric_limits<S>::infinity(), most(0);
+    for (index i = 0; i < factors.size(); ++i) {
+      if (!(entries(i) > S(0))) continue;
+      least = std::min<S>(least, factors(i));
+      most = std::max<S>(most, factors(i));
+    }
+    if (most > S(8) * least && is_finite(most)) d = factors;
+  }
+  return d;
+}
+
+}  // namespace detail
+
+/// Solves min ½xᵀA x − bᵀx over Λ; see the top of this file. Requires what symmetric_newton does.
+/// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a problem that the
+/// method refuses.
+template <class QP>
+  requires symmetric_newton_problem<QP>
+[[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {
+  detail::checked_tolerance(tolerance);
+  identity_operator const I(qp.size());
+  if constexpr (has_diagonal<typename QP::operator_type, typename QP::vector_type>) {
+    auto d = detail::block_factors_if_needed(qp);
+    if (d.size() > 0) {
+      equilibrated<QP const&> const scaled(qp, std::move(d));
+      auto const alike = scaled.qp();
+      auto result = detail::solve_certified(alike, I, tolerance, max_steps);
+      result.point = scaled.back(std::move(result.point));
+      result.scaled = true;
+      return result;
+    }
+  }
+  return detail::solve_certified(qp, I, tolerance, max_steps);
+}
+
+/// The same with a preconditioner M ≈ A⁻¹, self-adjoint and semidefinite; blocks are not scaled.
+template <class QP, class M>
+  requires symmetric_newton_problem<QP> && preconditioner_for<M, QP>
+[[nodiscard]] auto solve(QP const& qp, M const& m, typename QP::scalar tolerance,
+                         index max_steps = 5000) {
+  detail::checked_tolerance(tolerance);
+  return detail::solve_certified(qp, m, tolerance, max_steps);
+}
+
+}  // namespace slant

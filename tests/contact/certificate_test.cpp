@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "scenes.hpp"
+
+#include <slant/contact/certificate.hpp>
+#include <slant/contact/tresca.hpp>
+#include <slant/factorizations/factorize.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace certificate_test {
+
+using Eigen::VectorXd;
+namespace contact = slant::contact;
+
+/// A brick with a reference solution, and the certificate of points beside it.
+struct certified_scene {
+  fem::contact_scene<3> scene;
+  contact::data<double> data;
+  decltype(slant::factorize(std::declval<Eigen::SparseMatrix<double> const&>())) factor;
+  contact::certificate<double> certificate;
+  oracle::contact_reference reference;
+  decltype(slant::cartesian(slant::half_lines(slant::index(1)), slant::discs(VectorXd()))) set;
+
+  explicit certified_scene(fem::steel_brick_options const& o)
+      : scene(fem::make_steel_brick(o)),
+        data(test::contact_data(scene)),
+        factor(slant::factorize(scene.K)),
+        certificate(scene.K, data),
+        reference(test::reference(scene.K, data)),
+        set(slant::cartesian(slant::half_lines(data.nodes()), slant::discs(data.g))) {}
+
+  auto solver() const {
+    return [this](VectorXd const& load, VectorXd& u) { factor.solve(load, u); };
+  }
+  bool prove() {
+    return certificate.prove(solver(), [](auto const& K) { (void)slant::factorize(K); });
+  }
+  VectorXd displacement(VectorXd const& λ) const {
+    VectorXd load = data.f - data.N.transpose() * λ.head(data.nodes()) -
+                    data.T.transpose() * λ.tail(data.T.rows());
+    VectorXd u(load.size());
+    factor.solve(load, u);
+    return u;
+  }
+  slant::energy_error<double> operator()(VectorXd λ, VectorXd& u, double goal = 1e-8) {
+    u = displacement(slant::project(set, λ));
+    return certificate(set, λ, u, goal, solver());
+  }
+  double error(VectorXd const& u) const {
+    VectorXd const e = u - reference.u;
+    return std::sqrt(e.dot(scene.K * e));
+  }
+};
+
+/// λ* off by δ, then three steps of the projected gradient method, which put it on its face.
+VectorXd near_solution(certified_scene const& s, double δ, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gauss;
+  VectorXd λ = s.reference.multipliers();
+  double const size = λ.cwiseAbs().maxCoeff();
+  for (double& entry : λ) entry += δ * size * gauss(random);
+  λ = slant::project(s.set, λ);
+  double const step = 0.3 * s.scene.K.diagonal().mean() / 10;
+  for (int k = 0; k < 3; ++k) {
+    VectorXd const u = s.displacement(λ);
+    VectorXd g(λ.size());
+    g << s.data.d - s.data.N * u, -(s.data.T * u);
+    λ = slant::project(s.set, VectorXd(λ - step * g));
+  }
+  return λ;
+}
+
+TEST_CASE("a proven bound is never below the error, and not far above it") {
+  for (auto const load : fem::brick_loads) {
+    certified_scene s({.k = 2, .load = load});
+    REQUIRE(s.prove());
+    // λ_min(K) by the power method on K⁻¹ from the other side.
+    VectorXd x = VectorXd::Ones(s.data.f.size()), y(x.size());
+    for (int k = 0; k < 60; ++k) {
+      s.factor.solve(x, y);
+      x = y / y.norm();
+    }
+    double const smallest = x.dot(s.scene.K * x);
+    CHECK(s.certificate.smallest_eigenvalue() <= smallest * (1 + 1e-9));
+    CHECK(s.certificate.smallest_eigenvalue() >= smallest / 100);
+    for (double const δ : {1e-1, 1e-3, 1e-6, 1e-9, 0.0}) {
+      VectorXd u;
+      auto const e = s(near_solution(s, δ, 3), u);
+      double const error = s.error(u), slack = 2 * s.reference.energy_error * e.size;
+      CHECK(e.proven);
+      CHECK(e.bound >= error - slack);
+      CHECK(e.bound <= 60 * (error + slack));
+      CHECK(e.size == doctest::Approx(std::sqrt(u.dot(s.scene.K * u))));
+    }
+  }
+}
+
+TEST_CASE("slender and thin bodies: the certificate sees what the reduced gradient does not") {
+  for (auto const& [length, height] : {std::pair(300.0, 1.0), std::pair(3.0, 1e-3)}) {
+    certified_scene s(
+        {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(length, 1, height)});
+    for (double const δ : {1e-2, 1e-5, 1e-8}) {
+      VectorXd u;
+      auto const e = s(near_solution(s, δ, 8), u, 1e-12);
+      CHECK(e.bound >= s.error(u) - 2 * s.reference.energy_error * e.size);
+    }
+  }
+}
+
+TEST_CASE("u is refined where the solve with K is too rough for the goal, and only there") {
+  certified_scene s({.k = 1, .load = fem::brick_load::lift});
+  VectorXd const λ = s.reference.multipliers();
+  VectorXd u;
+  (void)s(λ, u);
+  CHECK(s.certificate.solves() == 1);
+  // A solver with four digits.
+  auto const rough = [&](VectorXd const& load, VectorXd& x) {
+    s.factor.solve(load, x);
+    for (slant::index i = 0; i < x.size(); ++i) x(i) *= 1 + 1e-4 * double(i % 3 - 1);
+  };
+  VectorXd v(u.size()), μ = λ;
+  VectorXd const load = s.data.f - s.data.N.transpose() * λ.head(s.data.nodes()) -
+                        s.data.T.transpose() * λ.tail(s.data.T.rows());
+  rough(load, v);
+  auto const before = s.certificate.solves();
+  auto const e = s.certificate(s.set, μ, v, 1e-9, rough);
+  CHECK(s.certificate.solves() - before >= 2);
+  CHECK(e.relative() <= 1e-9);
+  CHECK(s.error(v) <= e.bound + 2 * s.reference.energy_error * e.size);
+}
+
+TEST_CASE("nothing is called proven that is not: dependent rows, sets by projection, no λ_min(K)") {
+  auto scene = fem::make_steel_brick({.k = 1, .load = fem::brick_load::press});
+  auto data = test::contact_data(scene);
+  auto const factor = slant::factorize(scene.K);
+  auto const solve = [&](VectorXd const& load, VectorXd& u) { factor.solve(load, u); };
+  auto const prove = [&](contact::certificate<double>& c) {
+    return c.prove(solve, [](auto const& K) { (void)slant::factorize(K); });
+  };
+  // Rows that are not orthogonal.
+  Eigen::SparseMatrix<double> N = data.N;
+  N.coeffRef(0, 0) += 0.5;
+  data.N = N;
+  contact::certificate<double> skew(scene.K, data);
+  REQUIRE(prove(skew));
+  auto const set = slant::cartesian(slant::half_lines(data.nodes()), slant::discs(data.g));
+  VectorXd λ = VectorXd::Zero(3 * data.nodes()), u = VectorXd::Zero(data.f.size());
+  auto const e = skew(set, λ, u, 1e-8, solve);
+  CHECK_FALSE(e.proven);
+  CHECK(std::isfinite(e.bound));
+
+  CHECK(contact::smallest_eigenvalue_bound(scene.K, 0.0, [](auto const&) {}) == 0);
+  // A guess that is too large is made smaller until the matrix is definite.
+  double const bound =
+      contact::smallest_eigenvalue_bound(scene.K, 1e3 * scene.K.diagonal().maxCoeff(),
+                                         [](auto const& K) { (void)slant::factorize(K); });
+  CHECK(bound > 0);
+}
+
+TEST_CASE("units do not matter; a scene without load is exact; NaN is no bound") {
+  certified_scene s({.k = 1, .load = fem::brick_load::press});
+  VectorXd u;
+  VectorXd const λ = near_solution(s, 1e-4, 5);
+  auto const one = s(λ, u);
+  for (double const unit : {0x1p-200, 0x1p200}) {
+    auto data = s.data;
+    data.f *= unit;
+    data.g *= unit;
+    contact::certificate<double> scaled(s.scene.K, data);
+    auto const set = slant::cartesian(slant::half_lines(data.nodes()), slant::discs(data.g));
+    VectorXd μ = unit * λ, v = s.displacement(slant::project(s.set, λ)) * unit;
+    auto const other = scaled(set, μ, v, 1e-8, s.solver());
+    CHECK(other.relative() == doctest::Approx(one.relative()).epsilon(1e-6));
+  }
+  VectorXd broken = λ;
+  broken(0) = std::numeric_limits<double>::quiet_NaN();
+  auto const nothing = s(broken, u);
+  CHECK_FALSE(nothing.relative() <= 1);
+
+  auto idle = s.data;
+  idle.f.setZero();
+  contact::certificate<double> of_idle(s.scene.K, idle);
+  VectorXd zero = VectorXd::Zero(λ.size()), rest = VectorXd::Zero(u.size());
+  CHECK(of_idle(s.set, zero, rest, 1e-8, s.solver()).relative() == 0);
+}
+
+}  // namespace certificate_test
