@@ -37,7 +37,7 @@ namespace slant::contact {
 template <class S = double>
 struct obstacle_options {
   obstacle_route route = obstacle_route::automatic;
-  /// Of the reduced gradient, relative to that of P(0), of u or of λ; and a tenth of what
+  /// Of the reduced gradient, relative to that of P(0), of u or of λ; and a hundredth of what
   /// check_optimality may find at the end.
   S tolerance = S(1e-10);
   index steps = 200;  ///< Newton steps at most
@@ -76,7 +76,7 @@ void solve_bounded(QP const& qp, M const& m, Eigen::SparseMatrix<S> const& K, da
                    obstacle_options<S> const& o, obstacle_solution<S>& s, Back const& back) {
   using slant::detail::show;
   constexpr index rounds = 8;  // the tolerance falls by orders of magnitude from one to the next
-  S const allowed = S(10) * o.tolerance;
+  S const allowed = S(100) * o.tolerance;
   obstacle_vector<S> x = obstacle_vector<S>::Zero(qp.size());
   S asked = o.tolerance, before(0);
   for (index round = 0;; ++round) {
@@ -104,7 +104,7 @@ void solve_bounded(QP const& qp, M const& m, Eigen::SparseMatrix<S> const& K, da
     if (!s.converged() || !helps || round == rounds || s.steps >= o.steps) {
       if (s.converged()) s.status = status::stalled;
       s.reason = "check_optimality finds " + show(s.kkt_residual) + ", more than " +
-                 show(allowed) + ", where the " + s.reason;
+                 show(allowed) + "; " + s.reason;
       return;
     }
     before = s.kkt_residual;
