@@ -246,11 +246,11 @@ template <class S>
     block const F = detail::natural_map(ri, v, μ, c.state);
     // The same in units of the contact: forces times √w, velocities over it.
     contact_state ignored{};
-    block const x = slant::detail::multiple_of(root[i], ri);
+    block const own = slant::detail::multiple_of(root[i], ri);
     block y = slant::detail::from_entries<block>([&](int k) -> S { return ui[k] / root[i]; });
     penetrations[i] = y[0] >= S(0) ? S(0) : S(-y[0]);
     y[0] += μ * detail::tangential_length(y);
-    block const E = detail::natural_map(x, y, μ, ignored);
+    block const E = detail::natural_map(own, y, μ, ignored);
     c.unit_free_map = slant::detail::length_of(E);
     detail::take_larger(all.worst, c.unit_free_map, i);
     for (index k = 0; k < d; ++k) {
@@ -258,7 +258,7 @@ template <class S>
       unit_free[i * d + k] = E[k];
       loads[i * d + k] = p.q[i * d + k] / root[i];
       S& size = magnitude[i * d + k];
-      size_in_units[i * d + k] = detail::size_of(x[k]) + (S(1) + μ) * (size / root[i]);
+      size_in_units[i * d + k] = detail::size_of(own[k]) + (S(1) + μ) * (size / root[i]);
       size = detail::size_of(ri[k]) + ρ * (S(1) + μ) * size;
     }
     c.natural_map = slant::detail::length_of(F);
