@@ -119,7 +119,8 @@ TEST_CASE("solve_friction: verdict and forces in any units of W, of q and of sin
     slant::index const n = p->q.size();
     auto const same = [&](double s, double t, Eigen::VectorXd const& d) {
       auto scaled = *p;
-      scaled.W = Eigen::MatrixXd(s * (d.asDiagonal() * p->W * d.asDiagonal())).sparseView();
+      scaled.W = Eigen::MatrixXd(d.asDiagonal() * p->W * d.asDiagonal()).sparseView();
+      scaled.W *= s;
       scaled.q = t * d.cwiseProduct(p->q);
       auto const r = solve_friction(scaled);
       CHECK(r.converged());

@@ -65,7 +65,8 @@ struct friction_check {
   /// none. ε ‖ |r| + ρ (1 + μ) (|W| |r| + |q|) ‖.
   S rounding = S(0);
   S relative_rounding = S(0);  ///< over ρ ‖q‖: where it is not small the natural map says nothing
-  S unit_free_map = S(0);  ///< that of the top of this file; infinite as the other
+  /// That of the top of this file; infinite as the other. Sliding below the rounding of u is none.
+  S unit_free_map = S(0);
   /// What the unit-free natural map may become by rounding, as `relative_rounding`.
   S unit_free_rounding = S(0);
   S unit_free_penetration = S(0);  ///< ‖max(0, −u_n)/√w‖ / ‖(q/√w)‖: where μ is large it says more
@@ -249,7 +250,13 @@ template <class S>
     block const own = slant::detail::multiple_of(root[i], ri);
     block y = slant::detail::from_entries<block>([&](int k) -> S { return ui[k] / root[i]; });
     penetrations[i] = y[0] >= S(0) ? S(0) : S(-y[0]);
-    y[0] += μ * detail::tangential_length(y);
+    // Sliding slower than the rounding of u is none: times a large μ it would hide all the rest.
+    block const sizes = part_of(magnitude);
+    S const sliding_μ = detail::tangential_length(ui) <=
+                              S(4) * std::numeric_limits<S>::epsilon() * detail::tangential_length(sizes)
+                          ? S(0)
+                          : μ;
+    y[0] += sliding_μ * detail::tangential_length(y);
     block const E = detail::natural_map(own, y, μ, ignored);
     c.unit_free_map = slant::detail::length_of(E);
     detail::take_larger(all.worst, c.unit_free_map, i);
@@ -258,7 +265,7 @@ template <class S>
       unit_free[i * d + k] = E[k];
       loads[i * d + k] = p.q[i * d + k] / root[i];
       S& size = magnitude[i * d + k];
-      size_in_units[i * d + k] = detail::size_of(own[k]) + (S(1) + μ) * (size / root[i]);
+      size_in_units[i * d + k] = detail::size_of(own[k]) + (S(1) + sliding_μ) * (size / root[i]);
       size = detail::size_of(ri[k]) + ρ * (S(1) + μ) * size;
     }
     c.natural_map = slant::detail::length_of(F);
