@@ -108,10 +108,10 @@ TEST_CASE("blocks: contacts of very different stiffness are measured by units of
   wrong.tail<3>() *= 1 + 1e-6;  // a velocity of 1e-15
   CHECK(error_at(wrong).worst() > 1e-7);
   // Forces in a kernel of W are not seen, but their rounding is.
-  p = test::repeated(test::make_friction_problem(Eigen::Matrix3d::Identity(),
-                                                 Eigen::Vector3d(-1, 0.1, 0.7),
-                                                 Eigen::VectorXd::Constant(1, 2)),
-                     2);
+  p = test::repeated(
+      test::make_friction_problem(Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 0.1, 0.7),
+                                  Eigen::VectorXd::Constant(1, 2)),
+      2);
   r << 1, -0.1, -0.7, 0, 0, 0;
   CHECK(error_at(r).at_most(1e-14));
   r *= 1e17;

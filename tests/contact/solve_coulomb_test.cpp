@@ -140,7 +140,8 @@ int judge_on_springs(Friction friction, double spring, double tolerance) {
     CHECK(r.error == r.law.relative);
     CHECK(r.law.largest <= r.law.relative);
     CHECK(r.law.contact >= 0);
-    CHECK(kkt <= 2 * r.error + 1e-13 / spring);  // of all nodes here, of two kinds of residual there
+    CHECK(kkt <=
+          2 * r.error + 1e-13 / spring);  // of all nodes here, of two kinds of residual there
     CHECK(r.error <= 4 * kkt + 1e-13 / spring);
     if (!r.converged()) {
       if (r.status == slant::status::stalled) CHECK(!r.reason.empty());

@@ -148,7 +148,8 @@ TEST_CASE("solve_friction: verdict and forces in any units of W, of q and of sin
   }
 }
 
-TEST_CASE("solve_friction: a run that ends without a solution says where the law is violated most") {
+TEST_CASE(
+    "solve_friction: a run that ends without a solution says where the law is violated most") {
   auto const p = test::random_friction(20, 3, 0.4, 3);
   auto const s = solve_friction(p, {.method = friction_method::gauss_seidel, .sweeps = 1});
   CHECK(!s.converged());

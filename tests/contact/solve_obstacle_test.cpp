@@ -74,8 +74,7 @@ TEST_CASE("without a near kernel, at sizes of a single level of multigrid too") 
     for (int k = 1; k <= test::effort(6, 4); ++k) {
       CAPTURE(k);
       auto const s = fem::make_steel_brick({.k = k, .load = load});
-      auto const a =
-          solve_obstacle(s.K, s.f, s.N, s.d, {.route = obstacle_route::iterate});
+      auto const a = solve_obstacle(s.K, s.f, s.N, s.d, {.route = obstacle_route::iterate});
       CHECK(a.converged());
       CHECK(a.steps <= 20);
       CHECK(a.work.inner_iterations <= 200);
@@ -85,9 +84,9 @@ TEST_CASE("without a near kernel, at sizes of a single level of multigrid too") 
   auto const plane = test::spring_block<2>(8, 1e-2);
   auto const& c = plane.contact;
   for (slant::index const coarsest : {600, 50}) {
-    auto const a = solve_obstacle(
-        plane.K, c.f, c.N, c.d,
-        {.route = obstacle_route::iterate, .multigrid = {.coarsest = coarsest}});
+    auto const a =
+        solve_obstacle(plane.K, c.f, c.N, c.d,
+                       {.route = obstacle_route::iterate, .multigrid = {.coarsest = coarsest}});
     CHECK(a.converged());
     CHECK(a.steps <= 20);
     CHECK(kkt(plane.K, c.N, c.f, c.d, a) <= 1e-9);
@@ -103,7 +102,8 @@ TEST_CASE("a verdict that the check contradicts is none; the factors take over w
   CHECK(a.converged());
   CHECK(kkt(s.K, c.N, c.f, c.d, a) <= 1e-8);
   CHECK(a.choice.route == obstacle_route::factor);
-  CHECK(a.choice.reason.find("factored after all, because that ended stalled") != std::string::npos);
+  CHECK(a.choice.reason.find("factored after all, because that ended stalled") !=
+        std::string::npos);
   // Loads along a foundation without friction: u is 1e10 times the deformation, and K u − f is
   // rounding of that.
   for (auto const route : {obstacle_route::factor, obstacle_route::iterate}) {

@@ -201,7 +201,8 @@ TEST_CASE("verify: any unit") {
   }
 }
 
-TEST_CASE("verify: the unit-free natural map is that of W in units of one, whatever the units are") {
+TEST_CASE(
+    "verify: the unit-free natural map is that of W in units of one, whatever the units are") {
   random_case const c(4, 3, 5);
   // w = 1 at each contact: there √w r and u/√w are r and u.
   Eigen::VectorXd d(c.r.size());
@@ -222,8 +223,7 @@ TEST_CASE("verify: the unit-free natural map is that of W in units of one, whate
     CHECK(other.worst.contact == one.worst.contact);
     CHECK(other.worst.value == doctest::Approx(one.worst.value).epsilon(1e-12));
     CHECK(other.contacts[std::size_t(other.worst.contact)].unit_free_map == other.worst.value);
-    CHECK(other.unit_free_penetration ==
-          doctest::Approx(one.unit_free_penetration).epsilon(1e-12));
+    CHECK(other.unit_free_penetration == doctest::Approx(one.unit_free_penetration).epsilon(1e-12));
   };
   same(one);
   same(verify(c.p, c.r));

@@ -9,8 +9,8 @@
 // A λ and b are far larger than u, and relative to ‖b‖ any forces are a solution. Here nothing is
 // larger than what loads and forces of contact leave over: ρ = ‖f − Bᵀλ‖/‖u‖ is the stiffness that
 // the body shows under p = f − Bᵀλ, at most λ_max(K), so that of rounding nothing is made but
-// rounding. It is no bound of the error: Coulomb's law minimises no energy. One product by B and one
-// by Bᵀ; no projection or method of the library takes part.
+// rounding. It is no bound of the error: Coulomb's law minimises no energy. One product by B and
+// one by Bᵀ; no projection or method of the library takes part.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -65,13 +65,16 @@ class coulomb_check {
       scalar const length = part.tail(k).stableNorm();
       scalar const kept = length > bound ? bound / length : scalar(1);
       part.tail(k) = τ - kept * part.tail(k);
-      each(i) = part.stableNorm();
+      // Norms may pass over a NaN.
+      scalar const sum = pressure + gaps(i) + τ.sum() + gaps.segment(m + k * i, k).sum();
+      each(i) = sum == sum ? scalar(part.stableNorm()) : sum;
       if (each(i) > v.largest || each(i) != each(i)) {
         v.largest = each(i);
         v.contact = i;
       }
     }
-    v.relative = m > 0 ? each.stableNorm() : scalar(0);
+    bool const known = v.largest == v.largest;
+    v.relative = m > 0 && known ? scalar(each.stableNorm()) : v.largest;
     return v;
   }
 

@@ -167,7 +167,9 @@ class friction_blocks {
   }
 
   /// r and u in the units of the data.
-  [[nodiscard]] vector_type force(vector_type const& r) const { return scaled_by(r, velocity_, -1); }
+  [[nodiscard]] vector_type force(vector_type const& r) const {
+    return scaled_by(r, velocity_, -1);
+  }
   [[nodiscard]] vector_type speed(vector_type const& u) const { return scaled_by(u, velocity_, 1); }
   /// r′ of an r in the units of the data.
   [[nodiscard]] vector_type from_force(vector_type const& r) const {

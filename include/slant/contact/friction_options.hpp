@@ -50,8 +50,8 @@ template <scalar S = double>
 struct friction_options {
   friction_method method = friction_method::automatic;
   /// Of the unit-free natural map and penetration of verify.hpp. Where the natural map of the
-  /// literature, with ρ = 1, is larger and not by rounding, the run goes on for a while to make that
-  /// smaller too; its verdict does not depend on it.
+  /// literature, with ρ = 1, is larger and not by rounding, the run goes on for a while to make
+  /// that smaller too; its verdict does not depend on it.
   S tolerance = S(1e-8);
   friction_equations equations = friction_equations::natural_map;
   asymmetric_data asymmetry = asymmetric_data::used_as_given;

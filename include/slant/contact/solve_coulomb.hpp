@@ -7,11 +7,11 @@
 // smaller residual of Alart and Curnier ‖λ − P(λ − ρ (A λ − b))‖, which both are measured with. The
 // work is that of all.
 //
-// Both residuals are relative to those at λ = 0, which bodies that nearly move rigidly make as large
-// as their motion: relative to it any forces are a solution. So what has converged is judged by
-// another check, of (λ, u), by default coulomb_check. Where that contradicts the method goes on with
-// a tolerance that is smaller by as much, as long as this helps; where it does not, the run ends
-// `stalled` with what the check finds.
+// Both residuals are relative to those at λ = 0, which bodies that nearly move rigidly make as
+// large as their motion: relative to it any forces are a solution. So what has converged is judged
+// by another check, of (λ, u), by default coulomb_check. Where that contradicts the method goes on
+// with a tolerance that is smaller by as much, as long as this helps; where it does not, the run
+// ends `stalled` with what the check finds.
 //
 //     contact::dual problem(contact::friction_disc{}, slant::factorize(K), data);
 //     auto const r = contact::solve_coulomb(problem, F, {.tolerance = 1e-10});
@@ -38,8 +38,8 @@ struct solve_coulomb_options {
   /// Of the residuals, relative to those at λ = 0; and a hundredth of what the check may find. (On
   /// well-posed problems it finds 0.01 to 20 times the tolerance.)
   double tolerance = 1e-10;
-  index newton_steps = 60;   ///< of Newton's method at most; 0: none, if the others are some
-  index outer_steps = 300;   ///< of successive approximations at most; 0: none, if the others are
+  index newton_steps = 60;  ///< of Newton's method at most; 0: none, if the others are some
+  index outer_steps = 300;  ///< of successive approximations at most; 0: none, if the others are
 
   /// Throws bad_input naming the option, its value and what was expected.
   void validate() const {

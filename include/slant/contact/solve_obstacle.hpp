@@ -56,9 +56,9 @@ struct obstacle_solution {
   Eigen::Matrix<S, Eigen::Dynamic, 1> λ;  ///< contact forces, one per row of N; f − K u = Nᵀλ
   slant::status status = slant::status::running;  ///< of the method
   std::string reason;                             ///< the same as a sentence
-  S kkt_residual = S(0);   ///< check_optimality(K, data, u, λ).residual()
-  route_choice choice;     ///< which route was taken, and why
-  index steps = 0;         ///< Newton steps
+  S kkt_residual = S(0);                          ///< check_optimality(K, data, u, λ).residual()
+  route_choice choice;                            ///< which route was taken, and why
+  index steps = 0;                                ///< Newton steps
   slant::work work{};  ///< inner_iterations: cycles, or applications of K⁻¹ in inner systems
 
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
@@ -103,8 +103,8 @@ void solve_bounded(QP const& qp, M const& m, Eigen::SparseMatrix<S> const& K, da
     bool const helps = round == 0 || s.kkt_residual <= S(0.5) * before;
     if (!s.converged() || !helps || round == rounds || s.steps >= o.steps) {
       if (s.converged()) s.status = status::stalled;
-      s.reason = "check_optimality finds " + show(s.kkt_residual) + ", more than " +
-                 show(allowed) + "; " + s.reason;
+      s.reason = "check_optimality finds " + show(s.kkt_residual) + ", more than " + show(allowed) +
+                 "; " + s.reason;
       return;
     }
     before = s.kkt_residual;

@@ -91,9 +91,9 @@ class dual {
   /// f.
   [[nodiscard]] vector_type const& load() const& { return f_; }
   vector_type const& load() const&& = delete;
-  /// c − B u, c = (d, w): what is open, or slips, at displacements u. In exact arithmetic A λ − b for
-  /// u = displacement(λ), but no difference of numbers larger than u. A node with an infinite gap,
-  /// whose row of B is empty, has a positive entry.
+  /// c − B u, c = (d, w): what is open, or slips, at displacements u. In exact arithmetic A λ − b
+  /// for u = displacement(λ), but no difference of numbers larger than u. A node with an infinite
+  /// gap, whose row of B is empty, has a positive entry.
   [[nodiscard]] vector_type openings(vector_type const& u) const {
     slant::detail::check_size("u", u.size(), f_.size());
     vector_type x = B_ * u;

@@ -38,8 +38,8 @@ enum class contact_state : unsigned char { open, stick, slip };
 template <class S>
 struct contact_check {
   contact_state state = contact_state::open;
-  S natural_map = S(0);      ///< ‖r − P_K(r − ρ û)‖, a force
-  S unit_free_map = S(0);    ///< ‖x − P_K(x − v)‖ / ‖(q/√w)‖: its part of that of all contacts
+  S natural_map = S(0);  ///< ‖r − P_K(r − ρ û)‖, a force
+  S unit_free_map = S(0);  ///< ‖x − P_K(x − v)‖ / ‖(q/√w)‖: its part of that of all contacts
   S outside_cone = S(0);     ///< distance of r from K_μ, a force
   S outside_dual = S(0);     ///< distance of û from K_μ*, a velocity
   S penetration = S(0);      ///< max(−u_n, 0): the same but for a factor up to √(1 + μ²)
@@ -70,7 +70,7 @@ struct friction_check {
   /// What the unit-free natural map may become by rounding, as `relative_rounding`.
   S unit_free_rounding = S(0);
   S unit_free_penetration = S(0);  ///< ‖max(0, −u_n)/√w‖ / ‖(q/√w)‖: where μ is large it says more
-  violation<S> worst{};            ///< the contact with the largest unit-free map; relative = value
+  violation<S> worst{};  ///< the contact with the largest unit-free map; relative = value
   violation<S> outside_cone{};
   violation<S> outside_dual{};
   violation<S> penetration{};
@@ -165,8 +165,8 @@ template <class S>
   return sum;
 }
 
-/// √w of each contact. Where W_ii = 0 the largest |entry| of its columns takes the place, or what the
-/// most compliant contact has; 1 without any. Such a contact cannot be moved by its own force.
+/// √w of each contact. Where W_ii = 0 the largest |entry| of its columns takes the place, or what
+/// the most compliant contact has; 1 without any. Such a contact cannot be moved by its own force.
 template <class S>
 [[nodiscard]] typename friction_problem<S>::vector_type compliance_roots(
     friction_problem<S> const& p) {
@@ -252,10 +252,11 @@ template <class S>
     penetrations[i] = y[0] >= S(0) ? S(0) : S(-y[0]);
     // Sliding slower than the rounding of u is none: times a large μ it would hide all the rest.
     block const sizes = part_of(magnitude);
-    S const sliding_μ = detail::tangential_length(ui) <=
-                              S(4) * std::numeric_limits<S>::epsilon() * detail::tangential_length(sizes)
-                          ? S(0)
-                          : μ;
+    S const sliding_μ = detail::tangential_length(ui) <= S(4) * std::numeric_limits<S>::epsilon() *
+                                                             detail::tangential_length(sizes)
+                            ? S(0)
+                            : μ;
+    bool const forceless = own[0] == S(0) && own[1] == S(0) && own[2] == S(0);
     y[0] += sliding_μ * detail::tangential_length(y);
     block const E = detail::natural_map(own, y, μ, ignored);
     c.unit_free_map = slant::detail::length_of(E);
@@ -265,7 +266,10 @@ template <class S>
       unit_free[i * d + k] = E[k];
       loads[i * d + k] = p.q[i * d + k] / root[i];
       S& size = magnitude[i * d + k];
-      size_in_units[i * d + k] = detail::size_of(own[k]) + (S(1) + sliding_μ) * (size / root[i]);
+      // Without a force all depends on the sign of u_n.
+      size_in_units[i * d + k] =
+          forceless ? (k == 0 ? S(size / root[i]) : S(0))
+                    : S(detail::size_of(own[k]) + (S(1) + sliding_μ) * (size / root[i]));
       size = detail::size_of(ri[k]) + ρ * (S(1) + μ) * size;
     }
     c.natural_map = slant::detail::length_of(F);

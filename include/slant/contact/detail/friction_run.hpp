@@ -243,8 +243,8 @@ class friction_run {
                                   .plain = check.relative_natural_map,
                                   .floor = check.relative_rounding,
                                   .penetration = check.unit_free_penetration};
-    bool const holds = error.at_most(options_.tolerance) &&
-                       check.unit_free_rounding <= options_.tolerance;
+    bool const holds =
+        error.at_most(options_.tolerance) && check.unit_free_rounding <= options_.tolerance;
     if (solved()) status_ = lost ? status::breakdown : holds ? status::converged : status::stalled;
     std::string reason = "unit-free natural map " + show(error.scaled);
     if (error.penetration > error.scaled) reason += " and penetration " + show(error.penetration);
