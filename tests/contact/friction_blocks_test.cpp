@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/friction_blocks.hpp>
+#include <slant/contact/verify.hpp>
 
 #include "contact/friction_scenes.hpp"
 #include "oracle/naive_friction.hpp"
@@ -50,38 +51,50 @@ TEST_CASE("blocks: products and errors are those of the dense problem in the uni
   check.operator()<3>(space, 1e-3, 1e120);
 }
 
-TEST_CASE("blocks: the scaled error knows no units, and rounding is told apart") {
-  auto p = test::random_friction(5, 3, 0.7, 3);
-  blocks<3> const one(p);
-  Eigen::VectorXd const r = one.q().cwiseAbs();
-  Eigen::VectorXd u(r.size());
-  one.velocity(r, u);
-  double const expected = one.error(r, u).scaled;
+TEST_CASE("blocks: the scaled error is that of verify and knows no units, rounding is told apart") {
+  auto const p = test::random_friction(5, 3, 0.7, 3);
+  Eigen::VectorXd u(15);
+  auto const error_at = [&](test::friction_problem const& problem, Eigen::VectorXd const& r) {
+    blocks<3> const b(problem);
+    Eigen::VectorXd const x = b.from_force(r);
+    b.velocity(x, u);
+    auto const e = b.error(x, u);
+    auto const check = slant::contact::verify(problem, r);
+    CHECK(e.scaled == doctest::Approx(check.unit_free_map).epsilon(1e-10));
+    CHECK(e.penetration == doctest::Approx(check.unit_free_penetration).epsilon(1e-10));
+    return e;
+  };
+  Eigen::VectorXd const r = p.q.cwiseAbs();
+  double const expected = error_at(p, r).scaled;
   for (double const unit : {1e150, 1e-150, 1e10}) {
     auto scaled = p;
     scaled.W *= unit;
-    blocks<3> const b(scaled);
-    auto const e = b.error(r, u);
-    // W in other units, rounded to a power of two: ρ changes by at most 2.
-    CHECK(e.scaled <= 2.001 * expected);
-    CHECK(e.scaled >= 0.499 * expected);
+    CHECK(error_at(scaled, r / unit).scaled == doctest::Approx(expected).epsilon(1e-12));
   }
+  Eigen::VectorXd d = Eigen::VectorXd::Ones(15);
+  for (slant::index i = 3; i < 9; ++i) d[i] = i < 6 ? 1e-8 : 1e8;
+  auto other = p;
+  other.W = Eigen::MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
+  other.q = d.cwiseProduct(p.q);
+  CHECK(error_at(other, r.cwiseQuotient(d)).scaled == doctest::Approx(expected).epsilon(1e-12));
   // r = 1e20 in units of u: its rounding alone is 1e4 |q|.
   auto tiny = p;
   tiny.W *= 1e-20;
-  auto const e = blocks<3>(tiny).error(r, u);
-  CHECK(e.floor > 1e3);
-  CHECK(slant::contact::friction_error<double>{1e-9, 1e3, 1e4, 0}.at_most(1e-8));
-  CHECK(!slant::contact::friction_error<double>{1e-9, 1e5, 1e4, 0}.at_most(1e-8));
-  CHECK(!slant::contact::friction_error<double>{1e-7, 1e-9, 1e4, 0}.at_most(1e-8));
+  CHECK(error_at(tiny, r * 1e20).floor > 1e3);
+  using error = slant::contact::friction_error<double>;
+  CHECK(error{1e-9, 1e3, 1e4, 0}.at_most(1e-8));
+  CHECK(error{1e-9, 1e3, 1e4, 0}.plain_at_most(1e-8));
+  CHECK(error{1e-9, 1e5, 1e4, 0}.at_most(1e-8));
+  CHECK(!error{1e-9, 1e5, 1e4, 0}.plain_at_most(1e-8));
+  CHECK(!error{1e-7, 1e-9, 1e4, 0}.at_most(1e-8));
 }
 
 TEST_CASE("blocks: contacts of very different stiffness are measured by units of their own") {
   Eigen::VectorXd d(6), r(6), u(6);
   d << 1, 1, 1, 1e-18, 1e-18, 1e-18;
   auto p = test::make_friction_problem(
-      d.asDiagonal().toDenseMatrix(), (Eigen::VectorXd(6) << -1, 0.1, 0.7, -1, 0.1, 0.7).finished(),
-      Eigen::Vector2d(2, 2));
+      d.asDiagonal().toDenseMatrix(),
+      (Eigen::VectorXd(6) << -1, 0.1, 0.7, -1e-9, 1e-10, 7e-10).finished(), Eigen::Vector2d(2, 2));
   r = -p.q.cwiseQuotient(d);
   auto const error_at = [&](Eigen::VectorXd const& force) {
     blocks<3> const b(p);
@@ -91,21 +104,18 @@ TEST_CASE("blocks: contacts of very different stiffness are measured by units of
   };
   CHECK(error_at(r).at_most(1e-14));
   CHECK(error_at((1 + 1e-6) * r).worst() > 1e-7);
-  // A force at an open contact counts among those of the others, however little it moves.
-  p.q[3] = 1;
-  r.tail<3>().setZero();
+  Eigen::VectorXd wrong = r;
+  wrong.tail<3>() *= 1 + 1e-6;  // a velocity of 1e-15
+  CHECK(error_at(wrong).worst() > 1e-7);
+  // Forces in a kernel of W are not seen, but their rounding is.
+  p = test::repeated(
+      test::make_friction_problem(Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 0.1, 0.7),
+                                  Eigen::VectorXd::Constant(1, 2)),
+      2);
+  r << 1, -0.1, -0.7, 0, 0, 0;
   CHECK(error_at(r).at_most(1e-14));
-  r[3] = 1e-3;
-  CHECK(error_at(r).scaled > 1e-4);
-  p.W *= 1e12;  // also where forces are small numbers
-  r *= 1e-12;
-  CHECK(error_at(r).scaled > 1e-4);
-  p.W /= 1e12;
-  p.q[3] = -1;
-  r = -p.q.cwiseQuotient(d);
-  // Where the force of the one contact moves the other, its rounding does as well.
-  p.W.coeffRef(0, 3) = 1;
-  r[0] = -r[3];
+  r *= 1e17;
+  r.tail<3>() -= r.head<3>();
   CHECK(error_at(r).scaled > 1);
 }
 
@@ -138,7 +148,7 @@ TEST_CASE("blocks: a NaN in an error is not hidden") {
     CHECK(!e.at_most(1));
   }
   CHECK(error{1, 2, 3, 0.5}.worst() == 1);
-  CHECK(error{1, 4, 3, 0.5}.worst() == 4);
+  CHECK(error{1, 4, 3, 0.5}.worst() == 1);
   CHECK(error{1, 4, 3, 5}.worst() == 5);
 }
 

@@ -90,8 +90,8 @@ TEST_CASE("interior point: contacts of simulations, by the independent check") {
     auto const s = run(p, 1e-8);
     CHECK(s.error.at_most(1e-8));
     auto const check = slant::contact::verify(p, s.r);
-    CHECK(check.relative_natural_map <= 1.01e-8);
-    CHECK(check.penetration.relative <= 1.01e-8);
+    CHECK(check.unit_free_map <= 1.01e-8);  // what its states measure; solve_friction looks further
+    CHECK(check.unit_free_penetration <= 1.01e-8);
   }
 }
 

@@ -40,10 +40,11 @@ TEST_CASE("sweeps: with α they solve the problem of W + αΛ, q − αΛc") {
   auto shifted = p;
   Eigen::MatrixXd dense = p.W;
   Eigen::VectorXd const c = b.force(center);
-  double const unit = b.force(Eigen::VectorXd::Ones(18))[0] / b.speed(Eigen::VectorXd::Ones(18))[0];
+  Eigen::VectorXd const ones = Eigen::VectorXd::Ones(18),
+                        unit = b.force(ones).cwiseQuotient(b.speed(ones));
   for (slant::index i = 0; i < 18; ++i) {
-    dense(i, i) += α * weight[i / 3] / unit;
-    shifted.q[i] -= α * weight[i / 3] / unit * c[i];
+    dense(i, i) += α * weight[i / 3] / unit[i];
+    shifted.q[i] -= α * weight[i / 3] / unit[i] * c[i];
   }
   shifted.W = dense.sparseView();
   sweeps const s(b);

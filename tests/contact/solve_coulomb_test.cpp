@@ -3,12 +3,17 @@
 
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
+#include "spring_scenes.hpp"
+
+#include <slant/contact/optimality.hpp>
 
 #include <fem/two_bricks.hpp>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -110,6 +115,78 @@ TEST_CASE("neither is given time: the better answer is kept, whichever it is") {
   }
   CHECK(newton_wins == 1);
   CHECK(approximations_win == 1);
+}
+
+/// A block on springs, by Newton's method and by radii; each verdict beside check_optimality. How
+/// many converged.
+template <int D, class Friction>
+int judge_on_springs(Friction friction, double spring, double tolerance) {
+  CAPTURE(D);
+  CAPTURE(spring);
+  auto const s = test::spring_block<D>(3, spring);
+  test::counting_factor const factor{s.K};
+  contact::dual problem(friction, factor, s.contact);
+  VectorXd const F = VectorXd::Constant(s.contact.d.size(), 0.3);
+  int converged = 0;
+  VectorXd found;
+  for (slant::index const newton_steps : {60, 0}) {
+    factor.solves = 0;
+    auto const r =
+        contact::solve_coulomb(problem, F, {.tolerance = tolerance, .newton_steps = newton_steps});
+    CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
+    auto law = s.contact;
+    law.g = F.cwiseProduct(r.λ.head(F.size()).cwiseMax(0));
+    double const kkt = contact::check_optimality(s.K, law, r.u, r.λ).residual();
+    CHECK(r.error == r.law.relative);
+    CHECK(r.law.largest <= r.law.relative);
+    CHECK(r.law.contact >= 0);
+    CHECK(kkt <=
+          2 * r.error + 1e-13 / spring);  // of all nodes here, of two kinds of residual there
+    CHECK(r.error <= 4 * kkt + 1e-13 / spring);
+    if (!r.converged()) {
+      if (r.status == slant::status::stalled) CHECK(!r.reason.empty());
+      continue;
+    }
+    CHECK(kkt <= 200 * tolerance);
+    if (++converged == 1) found = r.λ;
+    CHECK((r.λ - found).norm() <= 1e4 * tolerance * found.norm());
+  }
+  return converged;
+}
+
+TEST_CASE("a block that hardly anything holds: forces right to 1e-6, or no verdict of success") {
+  using line = contact::friction_line;
+  CHECK(judge_on_springs<2>(line{}, 1e-2, 1e-10) == 2);
+  CHECK(judge_on_springs<2>(line{}, 1e-4, 1e-10) == 2);
+  CHECK(judge_on_springs<2>(line{}, 1e-6, 1e-10) == 2);
+  // Here rounding of A λ − b alone is more than is asked for.
+  CHECK(judge_on_springs<2>(line{}, 1e-10, 1e-10) == 0);
+  CHECK(judge_on_springs<2>(line{}, 1e-12, 1e-10) == 0);
+  // Asked for less they do: b = 4e8 of the load times the compliance.
+  CHECK(judge_on_springs<2>(line{}, 1e-8, 1e-8) == 2);
+  CHECK(judge_on_springs<3>(contact::friction_disc{}, 1e-4, 1e-10) == 2);
+}
+
+TEST_CASE("the check is the caller's if one is given; where nothing satisfies it the run stalls") {
+  auto const s = test::spring_block<2>(2, 1e-2);
+  test::counting_factor const factor{s.K};
+  contact::dual problem(contact::friction_line{}, factor, s.contact);
+  VectorXd const F = VectorXd::Constant(s.contact.d.size(), 0.3);
+  int asked = 0;
+  auto const r = contact::solve_coulomb(problem, F, {}, [&](VectorXd const& λ, VectorXd const& u) {
+    ++asked;
+    CHECK((u - problem.displacement(λ)).norm() == 0);
+    return 0.5;
+  });
+  CHECK(r.status == slant::status::stalled);
+  CHECK(r.error == 0.5);
+  CHECK(r.law.relative <= 1e-8);
+  CHECK(r.reason.starts_with("the check finds 0.5, more than 1e-08, largest at contact "));
+  CHECK(asked >= 2);
+  auto const none = contact::solve_coulomb(problem, F, {}, [](VectorXd const&, VectorXd const&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  });
+  CHECK(none.status == slant::status::stalled);
 }
 
 TEST_CASE("options and coefficients that do not fit are refused") {

@@ -111,6 +111,54 @@ TEST_CASE("solve_friction: contacts stiffer than others by any factor") {
   CHECK((d.cwiseProduct(s.r) - reference.r).norm() <= 1e-6 * reference.r.norm());
 }
 
+TEST_CASE("solve_friction: verdict and forces in any units of W, of q and of single contacts") {
+  auto const given = test::repeated(test::random_friction(8, 3, 0.5, 5), 2);
+  auto const definite = test::random_friction(8, 3, 0.5, 5);
+  for (auto const* p : {&given, &definite}) {
+    auto const reference = solve_friction(*p);
+    slant::index const n = p->q.size();
+    auto const same = [&](double s, double t, Eigen::VectorXd const& d) {
+      auto scaled = *p;
+      scaled.W = Eigen::MatrixXd(d.asDiagonal() * p->W * d.asDiagonal()).sparseView();
+      scaled.W *= s;
+      scaled.q = t * d.cwiseProduct(p->q);
+      auto const r = solve_friction(scaled);
+      CHECK(r.converged());
+      CHECK(r.error.scaled <= 1e-8);
+      CHECK(r.error.scaled == verify(scaled, r.r).unit_free_map);
+      CHECK(r.worst.contact == verify(scaled, r.r).worst.contact);
+      CHECK(r.reason.starts_with("unit-free natural map "));
+      Eigen::VectorXd const back = s / t * d.cwiseProduct(r.r);
+      CHECK(verify(*p, back).unit_free_map <= 1.0001e-8);
+      if (p == &definite) CHECK((back - reference.r).norm() <= 1e-7 * reference.r.norm());
+      // Where the measures do not agree the reason has both.
+      bool const both = r.reason.find("with rho = 1 in the units given") != std::string::npos;
+      CHECK(both == (r.error.plain > 1e-8));
+    };
+    Eigen::VectorXd const ones = Eigen::VectorXd::Ones(n);
+    for (double const s : {1e6, 1e-6, 1e150, 1e-150}) same(s, 1, ones);
+    for (double const t : {1e150, 1e-150}) same(1, t, ones);
+    for (double const factor : {1e8, 1e-8}) {
+      for (slant::index const i : {0, 5}) {
+        Eigen::VectorXd d = ones;
+        d.segment(3 * i, 3).setConstant(factor);
+        same(1, 1, d);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "solve_friction: a run that ends without a solution says where the law is violated most") {
+  auto const p = test::random_friction(20, 3, 0.4, 3);
+  auto const s = solve_friction(p, {.method = friction_method::gauss_seidel, .sweeps = 1});
+  CHECK(!s.converged());
+  CHECK(s.worst.contact >= 0);
+  CHECK(s.worst.value <= s.error.scaled);
+  CHECK(s.reason.find("largest at contact " + std::to_string(s.worst.contact)) !=
+        std::string::npos);
+}
+
 TEST_CASE("solve_friction: contacts that open cost nothing later, a sparse W stays sparse") {
   slant::index const m = 100;
   auto const p = test::chain_friction(m);

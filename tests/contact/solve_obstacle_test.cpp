@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/optimality.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
 #include <slant/contact/solve_obstacle.hpp>
+
+#include "spring_scenes.hpp"
 
 #include <fem/steel_brick.hpp>
 #include <support/effort.hpp>
@@ -54,6 +57,61 @@ TEST_CASE("the brick by both routes; cycles hardly grow with the mesh") {
       CHECK(a.steps <= 30);
       CHECK(a.work.inner_iterations <= 160);
     }
+  }
+}
+
+/// check_optimality of a solution, which reports the same.
+double kkt(sparse const& K, sparse const& N, VectorXd const& f, VectorXd const& d,
+           slant::contact::obstacle_solution<double> const& s) {
+  slant::contact::data<double> const c{N, sparse(0, f.size()), f, d, VectorXd(0)};
+  double const found = slant::contact::check_optimality(K, c, s.u, s.λ).residual();
+  CHECK(s.kkt_residual == found);
+  return found;
+}
+
+TEST_CASE("without a near kernel, at sizes of a single level of multigrid too") {
+  for (auto const load : fem::brick_loads) {
+    for (int k = 1; k <= test::effort(6, 4); ++k) {
+      CAPTURE(k);
+      auto const s = fem::make_steel_brick({.k = k, .load = load});
+      auto const a = solve_obstacle(s.K, s.f, s.N, s.d, {.route = obstacle_route::iterate});
+      CHECK(a.converged());
+      CHECK(a.steps <= 20);
+      CHECK(a.work.inner_iterations <= 200);
+      CHECK(kkt(s.K, s.N, s.f, s.d, a) <= 1e-9);
+    }
+  }
+  auto const plane = test::spring_block<2>(8, 1e-2);
+  auto const& c = plane.contact;
+  for (slant::index const coarsest : {600, 50}) {
+    auto const a =
+        solve_obstacle(plane.K, c.f, c.N, c.d,
+                       {.route = obstacle_route::iterate, .multigrid = {.coarsest = coarsest}});
+    CHECK(a.converged());
+    CHECK(a.steps <= 20);
+    CHECK(kkt(plane.K, c.N, c.f, c.d, a) <= 1e-9);
+  }
+}
+
+TEST_CASE("a verdict that the check contradicts is none; the factors take over where it is left") {
+  auto const s = test::spring_block<2>(3, 1e-6);
+  auto const& c = s.contact;
+  slant::contact::route_costs costs;
+  costs.operation = 1;  // factors seem dear
+  auto const a = solve_obstacle(s.K, c.f, c.N, c.d, {.costs = costs});
+  CHECK(a.converged());
+  CHECK(kkt(s.K, c.N, c.f, c.d, a) <= 1e-8);
+  CHECK(a.choice.route == obstacle_route::factor);
+  CHECK(a.choice.reason.find("factored after all, because that ended stalled") !=
+        std::string::npos);
+  // Loads along a foundation without friction: u is 1e10 times the deformation, and K u − f is
+  // rounding of that.
+  for (auto const route : {obstacle_route::factor, obstacle_route::iterate}) {
+    auto const loose = test::spring_block<2>(3, 1e-10);
+    auto const& l = loose.contact;
+    auto const b = solve_obstacle(loose.K, l.f, l.N, l.d, {.route = route});
+    CHECK(b.status == slant::status::stalled);
+    CHECK(kkt(loose.K, l.N, l.f, l.d, b) > 1e-8);
   }
 }
 

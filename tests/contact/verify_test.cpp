@@ -201,6 +201,56 @@ TEST_CASE("verify: any unit") {
   }
 }
 
+TEST_CASE(
+    "verify: the unit-free natural map is that of W in units of one, whatever the units are") {
+  random_case const c(4, 3, 5);
+  // w = 1 at each contact: there √w r and u/√w are r and u.
+  Eigen::VectorXd d(c.r.size());
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    double const w = Eigen::MatrixXd(c.p.W).block(3 * i, 3 * i, 3, 3).cwiseAbs().maxCoeff();
+    d.segment(3 * i, 3).setConstant(1 / std::sqrt(w));
+  }
+  auto const in_units = [&](Eigen::VectorXd const& D) {
+    auto p = c.p;
+    p.W = Eigen::MatrixXd(D.asDiagonal() * c.p.W * D.asDiagonal()).sparseView();
+    p.q = D.cwiseProduct(c.p.q);
+    return p;
+  };
+  auto const one = verify(in_units(d), Eigen::VectorXd(c.r.cwiseQuotient(d)));
+  auto const same = [&](slant::contact::friction_check<double> const& other) {
+    CHECK(other.unit_free_map == doctest::Approx(one.relative_natural_map).epsilon(1e-12));
+    CHECK(other.unit_free_rounding == doctest::Approx(one.relative_rounding).epsilon(1e-12));
+    CHECK(other.worst.contact == one.worst.contact);
+    CHECK(other.worst.value == doctest::Approx(one.worst.value).epsilon(1e-12));
+    CHECK(other.contacts[std::size_t(other.worst.contact)].unit_free_map == other.worst.value);
+    CHECK(other.unit_free_penetration == doctest::Approx(one.unit_free_penetration).epsilon(1e-12));
+  };
+  same(one);
+  same(verify(c.p, c.r));
+  for (double const s : {1e6, 1e-6, 1e150, 1e-150}) {
+    auto p = c.p;
+    p.W *= s;
+    same(verify(p, Eigen::VectorXd(c.r / s)));
+    p = c.p;
+    p.q *= s;
+    same(verify(p, Eigen::VectorXd(c.r * s)));
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      Eigen::VectorXd D = Eigen::VectorXd::Ones(c.r.size());
+      D.segment(3 * i, 3).setConstant(s > 1 ? 1e8 : 1e-8);
+      same(verify(in_units(D), Eigen::VectorXd(c.r.cwiseQuotient(D))));
+    }
+  }
+  // The measure of the literature sees nothing of a wrong force there, or nothing else.
+  auto p = test::plane_contact(1e-150, 0, 1e-150, -1, 0.5, 1);
+  auto const wrong = verify(p, Eigen::VectorXd(test::numbers({2e150, 0})));
+  CHECK(wrong.unit_free_map > 0.4);
+  CHECK(wrong.relative_rounding > 1e100);
+  CHECK(wrong.unit_free_rounding < 1e-14);
+  // A contact that its own force does not move has the units of the others.
+  p.W.coeffRef(0, 0) = p.W.coeffRef(1, 1) = 0;
+  CHECK(verify(p, Eigen::VectorXd(test::numbers({0, 0}))).unit_free_penetration > 0.8);
+}
+
 TEST_CASE("verify: extreme coefficients") {
   for (double const mu : {1e-200, 1e-9, 1e9, 1e200}) {
     auto const p = test::plane_contact(1, 0, 1, -1, 0.5, mu);

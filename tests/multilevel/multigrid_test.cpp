@@ -92,6 +92,25 @@ TEST_CASE("with one level it is the inverse") {
   CHECK((K * x - b).norm() <= 1e-13 * b.norm());
 }
 
+TEST_CASE("with one level what a face holds stays at zero, as with several") {
+  auto const s = fem::make_steel_brick({.k = 2});
+  VectorXd kept = VectorXd::Ones(s.f.size());
+  for (slant::index i = 2; i < kept.size(); i += 7) kept[i] = 0;
+  struct {
+    VectorXd const& kept;
+    void keep(VectorXd const& x, VectorXd& y) const { y = kept.cwiseProduct(x); }
+  } const face{kept};
+  for (slant::index const coarsest : {600, 60}) {
+    multigrid const m(s.K, {.coarsest = coarsest});
+    VectorXd x = kept.cwiseProduct(VectorXd::LinSpaced(s.f.size(), -1, 2)), y(s.f.size());
+    auto w = slant::workspace(m, x);
+    m.enter(face, w);
+    m.apply_on_face(x, y, w);
+    CHECK(y == kept.cwiseProduct(y));
+    CHECK(x.dot(y) > 0);
+  }
+}
+
 TEST_CASE("the spectrum on the whole space and on faces, by dense algebra") {
   auto const s = fem::make_steel_brick({.k = 3});
   multigrid const m(s.K, slant::contact::rigid_body_modes(test::moving_nodes(s)), {.coarsest = 60});

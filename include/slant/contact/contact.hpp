@@ -10,6 +10,7 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/coulomb.hpp>
+#include <slant/contact/coulomb_check.hpp>
 #include <slant/contact/coulomb_cones.hpp>
 #include <slant/contact/coulomb_newton.hpp>
 #include <slant/contact/coulomb_radii.hpp>

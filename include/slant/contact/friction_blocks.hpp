@@ -2,17 +2,17 @@
 //
 // A friction problem contact by contact, in units of its own: what the solvers work on.
 //
-//     W = ω W′,   q = υ q′,   r = (υ/ω) r′,   u = υ u′,     ω, υ powers of two
+//     W = D W′ D,   q = υ D q′,   r = υ D⁻¹ r′,   u = υ D u′,
 //
-// with max |W′| and max |q′| in [1, 2), so that no solver meets the units of the data. W′ is kept
-// in rows of N × N blocks, those without an entry left out, the diagonal ones apart.
+// υ and D powers of two, D with one entry for each contact: max |q′| in [1, 2) and the largest
+// |entry| of each W′_ii in [1, 4), so that no solver meets the units of the data, nor those of a
+// contact. W′ is kept in rows of N × N blocks, those without an entry left out, the diagonal ones
+// apart.
 //
-// How good r is, is measured twice. The natural map F_ρ = r − P_K(r − ρ (u + μ‖u_t‖ n)), ‖F_ρ‖/ρ
-// relative to ‖q‖, is independent of units where every contact has a ρ of its own, 1/ρ the largest
-// of |W| in its columns: contacts may be stiffer than others by any factor. For ρ = 1 it is what
-// the literature compares (Acary, Brémond and Huber, 2018), but below the rounding of r itself it
-// says nothing more. Where μ is large the natural map hardly sees the gaps, −u_n counts as
-// −u_n/√(1 + μ²) only: penetration is measured besides.
+// How good r is, is measured by the unit-free natural map of verify.hpp, and by that of the
+// literature, ρ = 1 in the units of the data, which below the rounding of r itself says nothing
+// more. Where μ is large the natural map hardly sees the gaps, −u_n counts as −u_n/√(1 + μ²) only:
+// penetration is measured besides.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
@@ -32,27 +32,26 @@
 
 namespace slant::contact {
 
-/// The measures of the top of this file, relative to ‖q‖. NaN in one is NaN in `worst`.
+/// The measures of the top of this file. NaN in one is NaN in `worst`.
 template <class S>
 struct friction_error {
-  /// (‖F_ρ/ρ‖ + ε ‖r/ρ‖) / ‖q‖, with the rounding that hides û where forces are too large; or the
-  /// same with 1/ρ = ω for all, should that be larger than what rounding of r makes of it.
+  /// ‖√w (r − P_K(r − û/w))‖ / ‖q/√w‖; of the solvers, with the rounding that hides û where forces
+  /// are too large, ε ‖√w r‖ / ‖q/√w‖.
   S scaled{};
-  S plain{};        ///< ‖F₁‖ / ‖q‖ in the units of the data
+  S plain{};        ///< ‖r − P_K(r − û)‖ / ‖q‖ in the units of the data
   S floor{};        ///< what rounding of r makes of `plain`
-  S penetration{};  ///< ‖max(0, −u_n)‖ / ‖q‖
+  S penetration{};  ///< ‖max(0, −u_n)/√w‖ / ‖q/√w‖
 
-  /// The largest of them, `plain` only as far as it is more than rounding.
+  /// The larger of those without units; a NaN in `plain` is one here too.
   [[nodiscard]] S worst() const {
-    S most = scaled;
-    for (S const& e : {plain <= floor ? S(0) : plain, penetration}) {
-      if (most == most && !(e <= most)) most = e;
-    }
-    return most;
+    S const most = !(penetration <= scaled) && scaled == scaled ? penetration : scaled;
+    return plain == plain ? most : plain;
   }
-  /// All at most `tolerance`, `plain` as far as rounding allows.
-  [[nodiscard]] bool at_most(S const& tolerance) const {
-    return scaled <= tolerance && plain <= std::max(tolerance, floor) && penetration <= tolerance;
+  /// Those without units at most `tolerance`, and `plain` a number.
+  [[nodiscard]] bool at_most(S const& tolerance) const { return worst() <= tolerance; }
+  /// `plain` as well, as far as rounding allows.
+  [[nodiscard]] bool plain_at_most(S const& tolerance) const {
+    return plain <= std::max(tolerance, floor);
   }
 };
 
@@ -69,20 +68,28 @@ class friction_blocks {
 
   /// The problem must be valid and of dimension N.
   explicit friction_blocks(friction_problem<S> const& p) : mu_(p.mu) {
-    velocity_ = exponent_of(slant::detail::largest_of(p.q));
-    q_ = scaled_by(p.q, -velocity_);
-    q_norm_ = q_.norm();
-    S largest(0);
-    for (index j = 0; j < p.W.outerSize(); ++j) {
-      for (typename Eigen::SparseMatrix<S>::InnerIterator e(p.W, j); e; ++e) {
-        largest = std::max(largest, S(e.value() < S(0) ? -e.value() : e.value()));
-      }
+    measure_units(p.W);
+    q_ = p.q;
+    int highest = -std::numeric_limits<int>::max();
+    for (index k = 0; k < q_.size(); ++k) {
+      S const size = q_[k] < S(0) ? -q_[k] : q_[k];
+      if (size > S(0)) highest = std::max(highest, exponent_of(size) - half(k / N));
     }
-    compliance_ = exponent_of(largest);
+    velocity_ = highest == -std::numeric_limits<int>::max() ? 0 : highest;
+    q_ = scaled_by(p.q, -velocity_, -1);
     collect(p.W);
-    measure_units();
     cones_.reserve(std::size_t(contacts()));
     for (index i = 0; i < contacts(); ++i) cones_.emplace_back(mu_[i]);
+    S own(0), plain(0);
+    for (index i = 0; i < contacts(); ++i) {
+      part_type const x = part_of(q_, i);
+      S const square = slant::detail::dot_of(x, x);
+      own += square / unit_[i];
+      plain += plain_weight(i) * plain_weight(i) * square;
+    }
+    using std::sqrt;
+    q_norm_ = sqrt(own);
+    plain_norm_ = sqrt(plain);
   }
 
   [[nodiscard]] index contacts() const { return mu_.size(); }
@@ -129,46 +136,44 @@ class friction_blocks {
   /// μ it would hide every sticking contact.
   [[nodiscard]] friction_error<S> error(vector_type const& r, vector_type const& u) const {
     using slant::detail::multiple_of;
-    using std::ldexp;
     using std::sqrt;
-    S own(0), common(0), plain(0), penetration(0);
-    int const far = 2 * std::numeric_limits<S>::max_exponent / 5;  // squares must not overflow
-    S const ρ = ldexp(S(1), std::clamp(compliance_, -far, far));
+    S own(0), plain(0), penetration(0), rounding(0);
     S const ε = std::numeric_limits<S>::epsilon();
-    S squares(0), largest(0);  // of r/ρ, velocities
+    S squares(0), largest(0);  // of √w r; of w r, velocities
     for (index i = 0; i < contacts(); ++i) {
-      part_type const x = multiple_of(unit_[i], part_of(r, i));
-      squares += slant::detail::dot_of(x, x);
+      part_type const ri = part_of(r, i), x = multiple_of(unit_[i], ri);
+      S const square = slant::detail::dot_of(ri, ri);
+      squares += unit_[i] * square;
       largest = std::max(largest, slant::detail::largest_of(x));
+      rounding += square / plain_weight(i) / plain_weight(i);
     }
     S const still = S(4) * ε * (S(2) + largest);
     for (index i = 0; i < contacts(); ++i) {
       part_type const ri = part_of(r, i);
       part_type v = part_of(u, i);
-      if (!(v(0) >= S(0))) penetration += v(0) * v(0);
+      if (!(v(0) >= S(0))) penetration += v(0) * v(0) / unit_[i];
       S const sliding = sqrt(slant::detail::pairwise_squares<N - 1>(v.data() + 1));
       if (!(sliding <= still)) v(0) += mu_[i] * sliding;
-      S const square = natural_map(i, multiple_of(unit_[i], ri), v);
-      own += square;
-      common += unit_[i] == S(1) ? square : natural_map(i, ri, v);
-      plain += natural_map(i, ri, multiple_of(ρ, v)) / ρ / ρ;
+      own += natural_map(i, multiple_of(unit_[i], ri), v) / unit_[i];
+      // r = D⁻¹ r′ and u = D u′ have F = D⁻¹ (r′ − P_K(r′ − D² û′)); a part of D is in ‖q‖.
+      plain += natural_map(i, ri, multiple_of(ldexp_within(2 * half(i)), v)) / plain_weight(i) /
+               plain_weight(i);
     }
-    S const scaled = (sqrt(own) + ε * sqrt(squares)) / q_norm_;
-    S const rounding = S(16) * ε * r.norm() / q_norm_, other = sqrt(common) / q_norm_;
-    return {.scaled = other <= rounding || other <= scaled ? scaled : other,
-            .plain = sqrt(plain) / q_norm_,
-            .floor = rounding / ρ,
+    S const data = ldexp_within(-2 * highest_);
+    return {.scaled = (sqrt(own) + ε * sqrt(squares)) / q_norm_,
+            .plain = sqrt(plain) / plain_norm_ * data,
+            .floor = S(16) * ε * sqrt(rounding) / plain_norm_ * data,
             .penetration = sqrt(penetration) / q_norm_};
   }
 
   /// r and u in the units of the data.
   [[nodiscard]] vector_type force(vector_type const& r) const {
-    return scaled_by(r, velocity_ - compliance_);
+    return scaled_by(r, velocity_, -1);
   }
-  [[nodiscard]] vector_type speed(vector_type const& u) const { return scaled_by(u, velocity_); }
+  [[nodiscard]] vector_type speed(vector_type const& u) const { return scaled_by(u, velocity_, 1); }
   /// r′ of an r in the units of the data.
   [[nodiscard]] vector_type from_force(vector_type const& r) const {
-    return scaled_by(r, compliance_ - velocity_);
+    return scaled_by(r, -velocity_, 1);
   }
 
  private:
@@ -184,11 +189,23 @@ class friction_blocks {
   static int exponent_of(S const& x) {
     return x > S(0) ? slant::detail::binary_exponent(x) - 1 : 0;
   }
-  static vector_type scaled_by(vector_type const& x, int exponent) {
+  /// 2ᵉ Dˢ x.
+  [[nodiscard]] vector_type scaled_by(vector_type const& x, int e, int s) const {
     vector_type y = x;
-    for (S& entry : y) entry = slant::detail::times_power_of_two<S>(entry, exponent);
+    for (index k = 0; k < y.size(); ++k) {
+      y[k] = slant::detail::times_power_of_two<S>(y[k], e + s * half(k / N));
+    }
     return y;
   }
+  /// 2ᵉ, as far as its square is a number.
+  [[nodiscard]] static S ldexp_within(int e) {
+    using std::ldexp;
+    constexpr int far = 2 * std::numeric_limits<S>::max_exponent / 5;
+    return ldexp(S(1), std::clamp(e, -far, far));
+  }
+  /// D over its largest entry.
+  [[nodiscard]] S plain_weight(index i) const { return ldexp_within(half(i) - highest_); }
+  [[nodiscard]] int half(index i) const { return half_[std::size_t(i)]; }
 
   void collect(Eigen::SparseMatrix<S> const& W) {
     using std::ldexp;
@@ -203,9 +220,9 @@ class friction_blocks {
       for (int a = 0; a < N; ++a) {
         for (typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator e(rows, N * i + a); e;
              ++e) {
-          S const value = ldexp(e.value(), -compliance_);
-          if (value == S(0)) continue;
           index const j = e.col() / N, b = e.col() % N;
+          S const value = ldexp(e.value(), -half(i) - half(j));
+          if (value == S(0)) continue;
           if (j == i) {
             diagonal_[std::size_t(i)](a, b) += value;
             continue;
@@ -223,23 +240,39 @@ class friction_blocks {
     }
   }
 
-  /// 1/ρ of the contacts: powers of two, 1 where W has no entry.
-  void measure_units() {
-    using std::ldexp;
+  /// D = 2^half, and w of the contacts in its units. Where W_ii = 0 as in verify.hpp.
+  void measure_units(Eigen::SparseMatrix<S> const& W) {
     unit_ = vector_type::Zero(contacts());
-    auto const include = [&](index j, block_type const& b) {
-      unit_[j] = std::max(unit_[j], slant::detail::largest_of(b));
-    };
-    for (index i = 0; i < contacts(); ++i) {
-      include(i, diagonal(i));
-      for_row(i, include);
+    vector_type column = unit_;
+    for (index j = 0; j < W.outerSize(); ++j) {
+      for (typename Eigen::SparseMatrix<S>::InnerIterator e(W, j); e; ++e) {
+        S const size = e.value() < S(0) ? -e.value() : e.value();
+        S& most = e.row() / N == j / N ? unit_[j / N] : column[j / N];
+        most = std::max(most, size);
+      }
     }
-    for (S& unit : unit_) unit = ldexp(S(1), exponent_of(unit));
+    S largest(0);
+    for (index i = 0; i < contacts(); ++i) {
+      if (unit_[i] == S(0)) unit_[i] = column[i];
+      largest = std::max(largest, unit_[i]);
+    }
+    half_.assign(std::size_t(contacts()), 0);
+    highest_ = contacts() > 0 ? -std::numeric_limits<S>::max_exponent : 0;
+    for (index i = 0; i < contacts(); ++i) {
+      S& w = unit_[i];
+      if (w == S(0)) w = largest > S(0) ? largest : S(1);
+      int const e = exponent_of(w);
+      int& h = half_[std::size_t(i)];
+      h = e >= 0 ? e / 2 : -((1 - e) / 2);
+      w = slant::detail::times_power_of_two<S>(w, -2 * h);
+      highest_ = std::max(highest_, h);
+    }
   }
 
   vector_type mu_, q_, unit_;
-  S q_norm_{};
-  int velocity_ = 0, compliance_ = 0;
+  S q_norm_{}, plain_norm_{};  // ‖q/√w‖; ‖q‖ over the largest entry of D
+  int velocity_ = 0, highest_ = 0;
+  std::vector<int> half_;  // exponents of D
   std::vector<index> first_, column_;
   std::vector<block_type> blocks_, diagonal_;
   std::vector<cone_type> cones_;

@@ -10,6 +10,7 @@
 #include <slant/contact/friction_blocks.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
 #include <slant/contact/friction_interior_point.hpp>
+#include <slant/contact/verify.hpp>
 #include <slant/methods/proximal_point.hpp>
 
 #include <limits>
@@ -48,8 +49,9 @@ enum class friction_method : unsigned char {
 template <scalar S = double>
 struct friction_options {
   friction_method method = friction_method::automatic;
-  /// Of friction_error: ‖natural map‖ / ‖q‖ with ρ = 1, as far as rounding allows, and in units of
-  /// the problem.
+  /// Of the unit-free natural map and penetration of verify.hpp. Where the natural map of the
+  /// literature, with ρ = 1, is larger and not by rounding, the run goes on for a while to make
+  /// that smaller too; its verdict does not depend on it.
   S tolerance = S(1e-8);
   friction_equations equations = friction_equations::natural_map;
   asymmetric_data asymmetry = asymmetric_data::used_as_given;
@@ -121,7 +123,8 @@ struct friction_result {
   vector_type u{};  ///< W r + q
   slant::status status = slant::status::running;
   std::string reason{};       ///< the same as a sentence
-  friction_error<S> error{};  ///< of r
+  friction_error<S> error{};  ///< of r, as verify finds it
+  violation<S> worst{};       ///< the contact with the largest unit-free natural map
   /// What had the last word; `automatic` if there was nothing to do.
   friction_method solved_by = friction_method::automatic;
   friction_work work{};

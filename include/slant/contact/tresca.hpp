@@ -88,6 +88,19 @@ class dual {
   /// B = [N; T].
   [[nodiscard]] sparse_type const& constraints() const& { return B_; }
   sparse_type const& constraints() const&& = delete;
+  /// f.
+  [[nodiscard]] vector_type const& load() const& { return f_; }
+  vector_type const& load() const&& = delete;
+  /// c − B u, c = (d, w): what is open, or slips, at displacements u. In exact arithmetic A λ − b
+  /// for u = displacement(λ), but no difference of numbers larger than u. A node with an infinite
+  /// gap, whose row of B is empty, has a positive entry.
+  [[nodiscard]] vector_type openings(vector_type const& u) const {
+    slant::detail::check_size("u", u.size(), f_.size());
+    vector_type x = B_ * u;
+    if (w_.size() > 0) x.tail(B_.rows() - d_.size()) -= w_;
+    detail::subtract_gaps(d_, x);
+    return -x;
+  }
   /// λ = 0, the start that costs nothing.
   [[nodiscard]] vector_type zero() const { return vector_type::Zero(b_.size()); }
 

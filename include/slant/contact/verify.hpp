@@ -6,15 +6,26 @@
 //     u = W r + q,   û = u + μ‖u_t‖ n,   r ∈ K_μ,   û ∈ K_μ*,   ûᵀ r = 0    (de Saxcé, Feng 1998)
 //
 // K_μ = {‖x_t‖ <= μ x_n}, and û ∈ K_μ* is no more than u_n >= 0. The natural map r − P_K(r − ρ û)
-// is zero exactly at the solutions; it adds forces and velocities, so it takes a ρ in their ratio,
-// for which collections of problems have 1. The other figures keep the units of the data, which may
-// be anywhere in the range of the scalar: relative figures come from numbers near 1.
+// is zero exactly at the solutions; it adds forces and velocities, so it takes a ρ in their ratio.
+//
+// Two are evaluated. For ρ = 1 it is what the literature compares (Acary, Brémond and Huber, 2018),
+// and depends on the units of W: of W in the unit 1e-150 it says nothing. The unit-free one takes
+// ρᵢ = 1/wᵢ at contact i, wᵢ the largest |entry| of W_ii, and measures
+//
+//     xᵢ = √wᵢ rᵢ,   vᵢ = ûᵢ/√wᵢ,      ‖x − P_K(x − v)‖ / ‖(qᵢ/√wᵢ)‖,
+//
+// roots of energies above and below. For W → s W, q → t q, and for D W D, D q, D⁻¹r with a factor
+// for each contact, which is a change of its units, the figure stays as it is.
+//
+// The other figures keep the units of the data, which may be anywhere in the range of the scalar:
+// relative figures come from numbers near 1.
 #pragma once
 
 #include <slant/contact/friction_problem.hpp>
 #include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -27,7 +38,8 @@ enum class contact_state : unsigned char { open, stick, slip };
 template <class S>
 struct contact_check {
   contact_state state = contact_state::open;
-  S natural_map = S(0);      ///< ‖r − P_K(r − ρ û)‖, a force
+  S natural_map = S(0);  ///< ‖r − P_K(r − ρ û)‖, a force
+  S unit_free_map = S(0);  ///< ‖x − P_K(x − v)‖ / ‖(q/√w)‖: its part of that of all contacts
   S outside_cone = S(0);     ///< distance of r from K_μ, a force
   S outside_dual = S(0);     ///< distance of û from K_μ*, a velocity
   S penetration = S(0);      ///< max(−u_n, 0): the same but for a factor up to √(1 + μ²)
@@ -46,12 +58,19 @@ struct violation {
 /// The law at all contacts.
 template <class S>
 struct friction_check {
-  S natural_map = S(0);           ///< Euclidean norm over all contacts
-  S relative_natural_map = S(0);  ///< over ρ ‖q‖; infinite if q = 0 and r is no solution
+  S natural_map = S(0);  ///< Euclidean norm over all contacts
+  /// Over ρ ‖q‖; infinite if q = 0 and r is no solution. For ρ = 1 the measure of the literature.
+  S relative_natural_map = S(0);
   /// What the natural map may become by rounding r and evaluating u: a few of these are as good as
   /// none. ε ‖ |r| + ρ (1 + μ) (|W| |r| + |q|) ‖.
   S rounding = S(0);
   S relative_rounding = S(0);  ///< over ρ ‖q‖: where it is not small the natural map says nothing
+  /// That of the top of this file; infinite as the other. Sliding below the rounding of u is none.
+  S unit_free_map = S(0);
+  /// What the unit-free natural map may become by rounding, as `relative_rounding`.
+  S unit_free_rounding = S(0);
+  S unit_free_penetration = S(0);  ///< ‖max(0, −u_n)/√w‖ / ‖(q/√w)‖: where μ is large it says more
+  violation<S> worst{};  ///< the contact with the largest unit-free map; relative = value
   violation<S> outside_cone{};
   violation<S> outside_dual{};
   violation<S> penetration{};
@@ -146,6 +165,31 @@ template <class S>
   return sum;
 }
 
+/// √w of each contact. Where W_ii = 0 the largest |entry| of its columns takes the place, or what
+/// the most compliant contact has; 1 without any. Such a contact cannot be moved by its own force.
+template <class S>
+[[nodiscard]] typename friction_problem<S>::vector_type compliance_roots(
+    friction_problem<S> const& p) {
+  using vector_type = typename friction_problem<S>::vector_type;
+  using std::sqrt;
+  index const d = p.dimension();
+  vector_type own = vector_type::Zero(p.contacts()), column = own;
+  for (index j = 0; j < p.W.outerSize(); ++j) {
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(p.W, j); e; ++e) {
+      S const size = detail::size_of(S(e.value()));
+      S& most = e.row() / d == j / d ? own[j / d] : column[j / d];
+      if (size > most) most = size;
+    }
+  }
+  S largest(0);
+  for (index i = 0; i < own.size(); ++i) {
+    if (own[i] == S(0)) own[i] = column[i];
+    if (own[i] > largest) largest = own[i];
+  }
+  for (S& w : own) w = w > S(0) ? S(sqrt(w)) : largest > S(0) ? S(sqrt(largest)) : S(1);
+  return own;
+}
+
 /// x / y where 0 / 0 is 0.
 template <class S>
 [[nodiscard]] S ratio(S const& x, S const& y) {
@@ -187,7 +231,9 @@ template <class S>
   friction_check<S> all;
   index const d = p.dimension();
   all.contacts.resize(static_cast<std::size_t>(p.contacts()));
-  vector_type residual(r.size());
+  vector_type residual(r.size()), unit_free(r.size()), size_in_units(r.size());
+  vector_type penetrations = vector_type::Zero(p.contacts()), loads(r.size());
+  vector_type const root = detail::compliance_roots(p);
   S dissipation = S(0);
   for (index i = 0; i < p.contacts(); ++i) {
     S const μ = p.mu[i];
@@ -199,9 +245,31 @@ template <class S>
     v[0] += μ * detail::tangential_length(v);
     auto& c = all.contacts[static_cast<std::size_t>(i)];
     block const F = detail::natural_map(ri, v, μ, c.state);
+    // The same in units of the contact: forces times √w, velocities over it.
+    contact_state ignored{};
+    block const own = slant::detail::multiple_of(root[i], ri);
+    block y = slant::detail::from_entries<block>([&](int k) -> S { return ui[k] / root[i]; });
+    penetrations[i] = y[0] >= S(0) ? S(0) : S(-y[0]);
+    // Sliding slower than the rounding of u is none: times a large μ it would hide all the rest.
+    block const sizes = part_of(magnitude);
+    S const sliding_μ = detail::tangential_length(ui) <= S(4) * std::numeric_limits<S>::epsilon() *
+                                                             detail::tangential_length(sizes)
+                            ? S(0)
+                            : μ;
+    bool const forceless = own[0] == S(0) && own[1] == S(0) && own[2] == S(0);
+    y[0] += sliding_μ * detail::tangential_length(y);
+    block const E = detail::natural_map(own, y, μ, ignored);
+    c.unit_free_map = slant::detail::length_of(E);
+    detail::take_larger(all.worst, c.unit_free_map, i);
     for (index k = 0; k < d; ++k) {
       residual[i * d + k] = F[k];
+      unit_free[i * d + k] = E[k];
+      loads[i * d + k] = p.q[i * d + k] / root[i];
       S& size = magnitude[i * d + k];
+      // Without a force all depends on the sign of u_n.
+      size_in_units[i * d + k] =
+          forceless ? (k == 0 ? S(size / root[i]) : S(0))
+                    : S(detail::size_of(own[k]) + (S(1) + sliding_μ) * (size / root[i]));
       size = detail::size_of(ri[k]) + ρ * (S(1) + μ) * size;
     }
     c.natural_map = slant::detail::length_of(F);
@@ -235,6 +303,13 @@ template <class S>
   all.relative_natural_map = detail::ratio(S(all.natural_map / ρ), q_norm);
   all.rounding = std::numeric_limits<S>::epsilon() * slant::norm(magnitude);
   all.relative_rounding = detail::ratio(S(all.rounding / ρ), q_norm);
+  S const loads_norm = slant::norm(loads);
+  all.unit_free_map = detail::ratio(slant::norm(unit_free), loads_norm);
+  all.unit_free_rounding =
+      std::numeric_limits<S>::epsilon() * detail::ratio(slant::norm(size_in_units), loads_norm);
+  all.unit_free_penetration = detail::ratio(slant::norm(penetrations), loads_norm);
+  for (auto& c : all.contacts) c.unit_free_map = detail::ratio(c.unit_free_map, loads_norm);
+  all.worst.value = all.worst.relative = detail::ratio(all.worst.value, loads_norm);
   all.outside_cone.relative = detail::ratio(all.outside_cone.value, r_norm);
   all.outside_dual.relative = detail::ratio(all.outside_dual.value, q_norm);
   all.penetration.relative = detail::ratio(all.penetration.value, q_norm);

@@ -207,6 +207,7 @@ class successive_approximations {
     s.inner_iterations = in.iteration - first;
     s.inner_status = in.status;
     s.work.operator_applications += in.work.operator_applications - before.operator_applications;
+    s.work.setup_applications += in.work.setup_applications - before.setup_applications;
     s.work.factorizations += in.work.factorizations - before.factorizations;
     s.work.inner_iterations += s.inner_iterations;
     s.solved_once = true;
@@ -222,7 +223,6 @@ class successive_approximations {
       method.resume(s.inner, s.x);
     } else {
       s.inner = method.start(s.x);
-      s.work.setup_applications += s.inner.work.setup_applications;
     }
   }
 

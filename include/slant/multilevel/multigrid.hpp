@@ -217,6 +217,9 @@ class multigrid {
     auto& here = w.levels[depth];
     if (depth == levels_->smooth.size()) {
       slant::apply(levels_->inverse(), here.b, here.x, *w.factor);
+      for (index i = 0; i < here.x.size(); ++i) {
+        if (held(i)) here.x[i] = S(0);
+      }
       return;
     }
     auto const& level = levels_->smooth[depth];
