@@ -4,6 +4,7 @@
 # Runs the benchmarks; `./run bench` builds them and then comes here.
 #
 #   benchmarks/run_all.sh [--only NAME]… [--output FOLDER]
+#   benchmarks/run_all.sh --list | --help
 #
 #   composition         instructions of composed operators, beside loops written by hand
 #   slanting            instructions of F°(y) by the chain rule, beside hand-derived formulas
@@ -62,7 +63,22 @@ die() {
   exit 2
 }
 
+# usage: the comment above, without its marks.
+usage() {
+  sed -n '/^#   benchmarks/,/^set -/{ /^set -/d; s/^# \{0,1\}//; p; }' "${BASH_SOURCE[0]}"
+}
+
 output=$root/out/bench
+case ${1-} in
+  --help | -h)
+    usage
+    exit 0
+    ;;
+  --list)
+    printf '%s\n' "${all[@]}"
+    exit 0
+    ;;
+esac
 chosen=()
 while (($# > 0)); do
   (($# > 1)) || die "unknown option or missing value: $1"
