@@ -26,25 +26,27 @@ class bytes {
   /// A multiple of 1/4 in [−4, 4): sums of products of a few are exact.
   double quarter() { return (below(32) - 16) / 4.0; }
 
-  /// A finite number: mostly a multiple of 1/4, else one with digits, a power of two or an extreme.
+  /// A finite number of the range that methods are made for: mostly a multiple of 1/4, else one
+  /// with digits, a power of two or an extreme.
   double finite() {
     int const kind = byte();
     if (kind < 192) return (kind % 32 - 16) / 4.0;
     if (kind < 224) return (below(2) == 0 ? 1.0 : -1.0) * std::ldexp(1.0, 4 * (below(256) - 128));
     if (kind < 248) return (kind - 236) / 3.0;
-    static constexpr double extremes[] = {1e150,  -1e150,
-                                          1e-150, std::numeric_limits<double>::max(),
-                                          -0.0,   std::numeric_limits<double>::min(),
-                                          1e16,   std::numeric_limits<double>::denorm_min()};
+    static constexpr double extremes[] = {1e150, -1e150, 1e-150, 1e16, -1e16, -0.0, 1e8, -1e-8};
     return extremes[kind - 248];
   }
   /// Any number, of any eight bytes too: NaN, infinite, subnormal.
   double any() {
     int const kind = byte();
-    if (kind < 240) return finite();
-    if (kind < 244) return std::numeric_limits<double>::infinity();
-    if (kind < 246) return -std::numeric_limits<double>::infinity();
-    if (kind < 248) return std::numeric_limits<double>::quiet_NaN();
+    if (kind < 232) return finite();
+    if (kind < 248) {
+      using limits = std::numeric_limits<double>;
+      static constexpr double ends[] = {
+          limits::infinity(), -limits::infinity(), limits::quiet_NaN(),  limits::max(),
+          limits::lowest(),   limits::min(),       limits::denorm_min(), limits::epsilon()};
+      return ends[kind % 8];
+    }
     std::uint64_t bits = 0;
     for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();
     double x = 0;

@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   // A narrower scalar and index: more is refused, nothing else is accepted.
   Eigen::SparseMatrix<float, Eigen::ColMajor, short> narrow;
   if (parse(text, narrow)) {
-    fuzz::demand(accepted && narrow.rows() == A.rows() && narrow.nonZeros() == A.nonZeros(),
+    fuzz::demand(accepted && narrow.rows() == A.rows() && narrow.nonZeros() <= A.nonZeros(),
                  "what short and float can hold, int and double can");
     for (slant::index k = 0; k < narrow.nonZeros(); ++k)
       fuzz::demand(std::isfinite(narrow.valuePtr()[k]), "entries of a float are finite");
