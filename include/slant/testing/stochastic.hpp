@@ -81,7 +81,6 @@ class stochastic {
   template <std::floating_point N>
   constexpr explicit stochastic(N value)
       : stochastic(static_cast<T>(value), static_cast<T>(value), static_cast<T>(value)) {}
-  stochastic(bool) = delete;
   /// Three samples of one quantity.
   constexpr stochastic(T a, T b, T c) : x_{a, b, c} {}
 
@@ -91,7 +90,12 @@ class stochastic {
     if (is_exact()) return x_[0];
     return x_[0] + ((x_[1] - x_[0]) + (x_[2] - x_[0])) / T(3);
   }
-  constexpr explicit operator T() const { return mean(); }
+  /// The mean, in another arithmetic type; never a truth value.
+  template <class N>
+    requires(std::floating_point<N> || (std::integral<N> && !std::same_as<N, bool>))
+  constexpr explicit operator N() const {
+    return static_cast<N>(mean());
+  }
 
   friend stochastic operator+(stochastic const& a, stochastic const& b) {
     return each(a, b, [](T x, T y, bool away) {
@@ -166,19 +170,40 @@ class stochastic {
   T x_[3] = {0, 0, 0};
 };
 
-/// Decimal digits that rounding has left, between 0 and those of T (15.95 for double); 0 for NaN.
+namespace detail {
+
+/// Decimal digits that rounding has left of x beside a length `unit` > 0: between 0 and those of T
+/// (15.95 for double); 0 for NaN.
 template <std::floating_point T>
-[[nodiscard]] double digits(stochastic<T> const& x) {
+[[nodiscard]] double digits_beside(stochastic<T> const& x, T unit) {
   static double const all = -std::log10(double(std::numeric_limits<T>::epsilon()) / 2);
   if (x.is_exact()) return all;
   T const mean = x.mean();
-  double spread = 0;  // relative to the mean, so that no square leaves the range
+  double squares = 0;  // of numbers relative to the unit, which do not leave the range
   for (int i = 0; i < 3; ++i) {
-    double const deviation = double((x.sample(i) - mean) / mean);
-    spread += deviation * deviation;
+    double const deviation = double((x.sample(i) - mean) / unit);
+    squares += deviation * deviation;
   }
-  double const found = std::log10(std::sqrt(3.0) / (4.303 * std::sqrt(spread / 2)));
+  double const found = std::log10(std::sqrt(3.0) / (4.303 * std::sqrt(squares / 2)));
   return found > 0 ? std::min(found, all) : 0;  // NaN too is 0
+}
+
+}  // namespace detail
+
+/// Decimal digits that rounding has left of x, by Student's test; 0 for NaN.
+template <std::floating_point T>
+[[nodiscard]] double digits(stochastic<T> const& x) {
+  return detail::digits_beside(x, T(std::fabs(x.mean())));
+}
+
+/// The fewest digits among the entries of a vector, beside the largest entry.
+template <std::floating_point T, int N>
+[[nodiscard]] double digits(Eigen::Matrix<stochastic<T>, N, 1> const& x) {
+  T largest = 0;
+  for (auto const& entry : x) largest = std::max(largest, T(std::fabs(entry.mean())));
+  double fewest = detail::digits_beside(stochastic<T>(1), T(1));
+  for (auto const& entry : x) fewest = std::min(fewest, detail::digits_beside(entry, largest));
+  return fewest;
 }
 
 /// The digits that survive, and no other: "3.14159e+00"; "@.0" if there is none.
