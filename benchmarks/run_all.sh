@@ -4,6 +4,7 @@
 # Runs the benchmarks; `./run bench` builds them and then comes here.
 #
 #   benchmarks/run_all.sh [--only NAME]… [--output FOLDER]
+#   benchmarks/run_all.sh --list | --help
 #
 #   composition         instructions of composed operators, beside loops written by hand
 #   slanting            instructions of F°(y) by the chain rule, beside hand-derived formulas
@@ -15,6 +16,7 @@
 #   newton_brick        products of Newton's methods on the brick until the energy error is 1e-8
 #   newton_wire         Newton steps on the wire, from zero and by nested iteration
 #   newton_floor        the accuracy at which the symmetric Newton method stalls, against κ(A)
+#   digits              digits of the solutions that rounding leaves, method by method, against κ(A)
 #   interior_brick      products of the interior-point method until the energy error is 1e-6
 #   interior_condition  condition of its systems with and without preconditioner
 #   interior_crossover  lift to the last digits: interior point, then the symmetric Newton method
@@ -47,7 +49,7 @@ here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
-  newton_floor interior_brick interior_condition interior_crossover projector_steps
+  newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
   load_steps coulomb coulomb_models multilevel multilevel_large friction friction_variants
   precision growth)
@@ -62,7 +64,22 @@ die() {
   exit 2
 }
 
+# usage: the comment above, without its marks.
+usage() {
+  sed -n '/^#   benchmarks/,/^set -/{ /^set -/d; s/^# \{0,1\}//; p; }' "${BASH_SOURCE[0]}"
+}
+
 output=$root/out/bench
+case ${1-} in
+  --help | -h)
+    usage
+    exit 0
+    ;;
+  --list)
+    printf '%s\n' "${all[@]}"
+    exit 0
+    ;;
+esac
 chosen=()
 while (($# > 0)); do
   (($# > 1)) || die "unknown option or missing value: $1"
@@ -95,6 +112,7 @@ run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"
 run_newton_brick() { "$(program newton_products)" brick >"$output/newton_brick.csv"; }
 run_newton_wire() { "$(program newton_products)" wire >"$output/newton_wire.csv"; }
 run_newton_floor() { "$(program newton_floor)" >"$output/newton_floor.csv"; }
+run_digits() { "$(program digits)" >"$output/digits.csv"; }
 run_interior_brick() { "$(program interior_point)" brick >"$output/interior_brick.csv"; }
 run_interior_condition() { "$(program interior_point)" condition >"$output/interior_condition.csv"; }
 run_interior_crossover() { "$(program interior_point)" crossover >"$output/interior_crossover.csv"; }
@@ -250,6 +268,7 @@ write_summary() {
   section newton_brick "Brick: products until the relative energy error is at most 1e-8"
   section newton_wire "Wire: Newton steps to a relative reduced gradient of 1e-10"
   section newton_floor "Where the symmetric Newton method stalls, in multiples of the rounding of its terms"
+  section digits "Digits that rounding leaves, by random rounding"
   section interior_brick "Interior point: brick, relative energy error 1e-6, beside [K] Table 3"
   section interior_condition "Interior point: condition numbers along the iteration"
   section interior_crossover "Interior point, then symmetric Newton: lift to the last digits"

@@ -45,6 +45,21 @@ std::string refused_with(std::string_view name, std::string_view text) {
   return files.refused();
 }
 
+TEST_CASE("friction folder: the texts of its files, without a file") {
+  std::string const W = coordinate + "3 3 2\n1 1 2\n3 3 1\n";
+  auto const p = slant::parse_friction_problem({W, "-1\n2\n3\n", "0.5\n"}, "box");
+  CHECK(p.W.coeff(2, 2) == 1);
+  CHECK(p.q == Eigen::Vector3d(-1, 2, 3));
+  CHECK(complaint([&] {
+          (void)slant::parse_friction_problem({W, "-1\n2\n3\n", "-1\n"}, "box");
+        }) == "box/mu.txt: got -1 of contact 0, expected a number >= 0");
+  // Six bytes follow the sizes.
+  CHECK(complaint([&] {
+          (void)slant::parse_friction_problem({coordinate + "30 30 1\n1 1 2\n", "1\n", "1\n"},
+                                              "box", {.W = {.unbacked_dimension = 2}});
+        }) == "box/W.mtx:2: got '30', expected a number of rows from 0 to 6");
+}
+
 TEST_CASE("friction folder: the dimension follows from the sizes") {
   one_contact const files;
   auto const p = files.read();

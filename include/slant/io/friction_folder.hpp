@@ -19,12 +19,14 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace slant {
 
 struct friction_folder_options {
   contact::asymmetric_data asymmetry = contact::asymmetric_data::used_as_given;
+  matrix_market_options W{};  ///< of the matrix
 };
 
 namespace detail {
@@ -55,8 +57,31 @@ void check_friction_files(std::filesystem::path const& folder,
 
 }  // namespace detail
 
-/// Reads and checks the problem in a folder; contacts in messages count from 0. Throws bad_input
-/// naming the file (and the line, where it can), what was found and what was expected.
+/// The texts of the three files.
+struct friction_texts {
+  std::string_view W, q, mu;
+};
+
+/// Parses and checks a problem; the folder names the files in messages, where contacts count from
+/// 0. Throws bad_input naming the file (and the line, where it can), what was found and what was
+/// expected.
+template <std::floating_point S = double>
+[[nodiscard]] contact::friction_problem<S> parse_friction_problem(
+    friction_texts const& texts, std::filesystem::path const& folder,
+    friction_folder_options const& options = {}) {
+  contact::friction_problem<S> p;
+  p.W = parse_matrix_market<S>(texts.W, detail::printable(folder / "W.mtx"), options.W);
+  p.q = parse_text_vector<S>(texts.q, detail::printable(folder / "q.txt"));
+  p.mu = parse_text_vector<S>(texts.mu, detail::printable(folder / "mu.txt"));
+  detail::check_friction_files(folder, p);
+  if (options.asymmetry == contact::asymmetric_data::refused) {
+    contact::require_symmetric(detail::printable(folder / "W.mtx"), p.W);
+  }
+  p.validate();
+  return p;
+}
+
+/// Reads and checks the problem in a folder. Throws bad_input as parse_friction_problem does.
 template <std::floating_point S = double>
 [[nodiscard]] contact::friction_problem<S> read_friction_problem(
     std::filesystem::path const& folder, friction_folder_options const& options = {}) {
@@ -65,16 +90,10 @@ template <std::floating_point S = double>
     throw bad_input(detail::printable(folder), "no folder",
                     "a folder with W.mtx, q.txt and mu.txt");
   }
-  contact::friction_problem<S> p;
-  p.W = read_matrix_market<S>(folder / "W.mtx");
-  p.q = read_text_vector<S>(folder / "q.txt");
-  p.mu = read_text_vector<S>(folder / "mu.txt");
-  detail::check_friction_files(folder, p);
-  if (options.asymmetry == contact::asymmetric_data::refused) {
-    contact::require_symmetric(detail::printable(folder / "W.mtx"), p.W);
-  }
-  p.validate();
-  return p;
+  std::string const W = detail::read_text_file(folder / "W.mtx");
+  std::string const q = detail::read_text_file(folder / "q.txt");
+  std::string const mu = detail::read_text_file(folder / "mu.txt");
+  return parse_friction_problem<S>({W, q, mu}, folder, options);
 }
 
 /// Writes a problem so that reading it gives the same bits. Throws bad_input for one that is not
