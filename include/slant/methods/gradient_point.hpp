@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace slant {
@@ -86,17 +87,19 @@ struct gradient_point {
     return begin(qp, x0);
   }
 
-  /// r = (A x − b) / unit; one application, none at x = 0.
-  void gradient(QP const& qp) {
-    since_refresh = 0;
-    scalar const per_unit = scalar(1) / unit;
-    if (norm(x) == scalar(0)) {
-      slant::local(r) = -per_unit * slant::local(qp.b());
-      return;
-    }
-    slant::apply(qp.a(), x, r, a_workspace);
-    ++work.operator_applications;
-    slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
+  /// r = (A x − b) / unit; one application, none at x = 0. True if the unit is another one from now
+  /// on: that of a start far away is of no use later, where products of r would vanish in it.
+  bool gradient(QP const& qp) {
+    compute_gradient(qp);
+    using std::sqrt;
+    scalar const size = std::max<scalar>(size_of_b, norm(r));
+    if (!(size < sqrt(std::numeric_limits<scalar>::epsilon()) && size > scalar(0))) return false;
+    scalar const factor = scalar(1) / unit_near(size);
+    if (!(unit / factor > scalar(0))) return false;
+    unit /= factor;
+    size_of_b = norm(qp.b()) / unit;
+    slant::local(r) *= factor;
+    return true;
   }
 
   /// P_Λ(x − α̃ r) and r̃.
@@ -118,11 +121,30 @@ struct gradient_point {
     return scalar(32) * std::numeric_limits<scalar>::epsilon() * of_terms;
   }
 
+  /// The accuracy reached, for sentences: "relative reduced gradient 1e-15 / 1, …".
+  [[nodiscard]] std::string accuracy() const {
+    return "relative reduced gradient " + detail::show(reduced_gradient_norm) + " / " +
+           detail::show(gradient_scale) + ", of which rounding errors may be " +
+           detail::show(rounding());
+  }
+
  private:
+  void compute_gradient(QP const& qp) {
+    since_refresh = 0;
+    scalar const per_unit = scalar(1) / unit;
+    if (norm(x) == scalar(0)) {
+      slant::local(r) = -per_unit * slant::local(qp.b());
+      return;
+    }
+    slant::apply(qp.a(), x, r, a_workspace);
+    ++work.operator_applications;
+    slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
+  }
+
   /// x = P_Λ(y) with its r and r̃.
   void place(QP const& qp, vector_type const& y) {
     slant::project(qp.set(), slant::local(y), slant::local(x));
-    gradient(qp);
+    compute_gradient(qp);
     reduce(qp);
   }
   /// Is x = P_Λ(y)?
