@@ -87,18 +87,31 @@ struct gradient_point {
     return begin(qp, x0);
   }
 
-  /// r = (A x − b) / unit; one application, none at x = 0. True if the unit is another one from now
-  /// on: that of a start far away is of no use later, where products of r would vanish in it.
-  bool gradient(QP const& qp) {
-    compute_gradient(qp);
+  /// r = (A x − b) / unit; one application, none at x = 0.
+  void gradient(QP const& qp) {
+    since_refresh = 0;
+    scalar const per_unit = scalar(1) / unit;
+    if (norm(x) == scalar(0)) {
+      slant::local(r) = -per_unit * slant::local(qp.b());
+      return;
+    }
+    slant::apply(qp.a(), x, r, a_workspace);
+    ++work.operator_applications;
+    slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
+  }
+
+  /// The same in a smaller unit, where that of a start far away is so large that products of r
+  /// would vanish in it. True if the unit is another one from now on.
+  bool gradient_and_unit(QP const& qp) {
+    gradient(qp);
     using std::sqrt;
     scalar const size = std::max<scalar>(size_of_b, norm(r));
     if (!(size < sqrt(std::numeric_limits<scalar>::epsilon()) && size > scalar(0))) return false;
-    scalar const factor = scalar(1) / unit_near(size);
-    if (!(unit / factor > scalar(0))) return false;
-    unit /= factor;
-    size_of_b = norm(qp.b()) / unit;
-    slant::local(r) *= factor;
+    scalar const next = unit * unit_near(size);
+    if (!(next > scalar(0))) return false;
+    slant::local(r) *= unit / next;
+    size_of_b = norm(qp.b()) / next;
+    unit = next;
     return true;
   }
 
@@ -129,22 +142,10 @@ struct gradient_point {
   }
 
  private:
-  void compute_gradient(QP const& qp) {
-    since_refresh = 0;
-    scalar const per_unit = scalar(1) / unit;
-    if (norm(x) == scalar(0)) {
-      slant::local(r) = -per_unit * slant::local(qp.b());
-      return;
-    }
-    slant::apply(qp.a(), x, r, a_workspace);
-    ++work.operator_applications;
-    slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
-  }
-
   /// x = P_Λ(y) with its r and r̃.
   void place(QP const& qp, vector_type const& y) {
     slant::project(qp.set(), slant::local(y), slant::local(x));
-    compute_gradient(qp);
+    gradient(qp);
     reduce(qp);
   }
   /// Is x = P_Λ(y)?

@@ -28,6 +28,8 @@
 #include <slant/methods/modified_newton_state.hpp>
 #include <slant/methods/separable_qp.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -139,12 +141,16 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
   /// r from x.
   void compute_gradient(state_type& s) const {
-    if (s.gradient(qp_.get())) s.progress.forget_energy();
+    if (s.gradient_and_unit(qp_.get())) s.progress.forget_energy();
   }
 
-  /// (3.3°): conjugate gradients on the face until ‖r‖ there is at most `size`.
-  void minimise(state_type& s, scalar const& size) const {
+  /// (3.3°): conjugate gradients on the face until ‖r‖ there is at most `accuracy`. By recurrences
+  /// it would go on to fall below the rounding errors of r, until its squares vanish.
+  void minimise(state_type& s, scalar const& accuracy) const {
     auto const& qp = qp_.get();
+    scalar const noise =
+        std::numeric_limits<scalar>::epsilon() / scalar(4) * (s.size_of_b + norm(s.r));
+    scalar const size = std::max<scalar>(accuracy, s.unit * noise);
     s.directions.live = false;
     s.inner_iterations = 0;
     s.last_inner = inner_end::going_on;

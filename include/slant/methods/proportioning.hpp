@@ -156,7 +156,7 @@ class proportioning<QP, Rule> {
 
   /// r from x.
   void compute_gradient(state_type& s) const {
-    if (s.gradient(qp_.get())) s.progress.forget_energy();
+    if (s.gradient_and_unit(qp_.get())) s.progress.forget_energy();
   }
 
   /// r and r̃ from x; the next direction is φ itself.
