@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace progress_watch_test {
@@ -33,6 +35,36 @@ TEST_CASE("a norm that stays is none, unless the energy falls") {
   CHECK(gives_up(stays, [](int k) { return -1e-3 * k; }).first == 0);
   CHECK(gives_up(stays, [](int k) { return -1e-15 * k; }).first == 23);  // rounding errors
   CHECK(gives_up(stays, [](int k) { return k < 100 ? -1.0 * k : -100.0; }).first > 100);
+}
+
+TEST_CASE("a norm that falls by rounding errors only is none") {
+  auto const creeps = [](int k) { return 1.0 - 1e-15 * k; };
+  CHECK(gives_up(creeps, [](int) { return 0.0; }).first == 23);
+  auto const slow = [](int k) { return 1.0 - 1e-6 * k; };  // 1e-5 in `patience` steps
+  CHECK(gives_up(slow, [](int) { return 0.0; }).first == 0);
+}
+
+TEST_CASE("below the floor a halving counts, within half of the steps spent") {
+  auto const ends = [](auto norm_at) {
+    slant::progress_watch<double> watch;
+    for (int k = 1; k <= 100000; ++k) {
+      if (watch.stalled(k, norm_at(k), 1000, 1e-12)) return k;
+    }
+    return 0;
+  };
+  // At the floor after 40 steps, or 400, or 4000, and oscillating or creeping there.
+  for (int reached : {40, 400, 4000}) {
+    CAPTURE(reached);
+    double const rate = std::pow(1e-13, 1.0 / reached);
+    CHECK(ends([&](int k) {
+            return std::max(std::pow(rate, k), k % 3 == 0 ? 1e-11 : 1e-13 - 1e-19 * k);
+          }) <= 2 * reached + 20);
+    // Still on its way down: it goes on.
+    int const end = ends([&](int k) { return std::pow(rate, k); });
+    CHECK((end == 0 || end >= 10 * reached));
+  }
+  // Where the floor is not known, or not reached, patience counts.
+  CHECK(ends([](int k) { return k < 40 ? 1.0 / k : 1e-9; }) == 1041);
 }
 
 TEST_CASE("without an energy the norm alone counts") {

@@ -1,17 +1,32 @@
 // SPDX-License-Identifier: MIT
+#include <slant/iteration/report.hpp>
 #include <slant/methods/recession.hpp>
+#include <slant/methods/separable_qp.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
 
+#include <tuple>
+
 namespace recession_test {
 
 using Eigen::VectorXd;
 
+/// A = diag(1, soft), b = (0, 1): q falls for ever along (0, 1) if soft = 0.
+template <class Set>
+auto program(Set const& set, double soft = 0) {
+  return slant::separable_qp{slant::declare<slant::self_adjoint, slant::positive_semidefinite>(
+                                 slant::diagonal(VectorXd{{1.0, soft}})),
+                             VectorXd{{0.0, 1.0}}, set};
+}
+
 /// What the watch looks at.
 struct snapshot {
+  using scalar = double;
   VectorXd x;
   VectorXd r;
   double unit = 1;
@@ -22,9 +37,10 @@ struct snapshot {
   struct {
     VectorXd p = VectorXd(2);
   } directions{};
+  std::tuple<> a_workspace{};
+  slant::work work{};
 };
 
-// A = diag(1, 0), b = (0, 1): q falls for ever along (0, 1).
 snapshot at(double x0, double x1) {
   return {VectorXd{{x0, x1}}, VectorXd{{x0, -1.0}}};
 }
@@ -37,10 +53,11 @@ TEST_CASE("a cycle of any length that moves on along the kernel is found") {
     int k = 0;
     for (; k < 100 && !found; ++k) {
       auto s = at(1 + k % period, k);
-      found = watch.found(slant::half_lines(2), s);
+      found = watch.found(program(slant::half_lines(2)), s);
       if (found) {
         CHECK(s.directions.p(0) == 0.0);
         CHECK(s.directions.p(1) < 0.0);
+        CHECK(s.work.operator_applications == 1);
       }
     }
     CHECK(found);
@@ -49,12 +66,12 @@ TEST_CASE("a cycle of any length that moves on along the kernel is found") {
 }
 
 TEST_CASE("no direction: the set is in the way, the way is not flat, or it does not go down") {
-  auto const never = [](auto const& set, auto const& snapshot_at) {
+  auto const never = [](auto const& set, auto const& snapshot_at, double soft = 0) {
     slant::recession_watch<VectorXd> watch(VectorXd(2), 2);
     bool found = false;
     for (int k = 0; k < 50; ++k) {
       auto s = snapshot_at(k);
-      found = found || watch.found(set, s);
+      found = found || watch.found(program(set, soft), s);
     }
     return !found;
   };
@@ -67,6 +84,21 @@ TEST_CASE("no direction: the set is in the way, the way is not flat, or it does 
     return s;
   }));
   CHECK(never(slant::half_lines(2), [](int) { return at(1, 1); }));
+  // The differences of gradients have lost a curvature that A has.
+  CHECK(never(
+      slant::half_lines(2), [](int k) { return at(1, k); }, 1e-9));
+}
+
+TEST_CASE("a direction that looks flat and is not is confirmed only now and then") {
+  slant::recession_watch<VectorXd> watch(VectorXd(2), 2);
+  slant::index spent = 0;
+  auto const qp = program(slant::half_lines(2), 1e-9);
+  for (int k = 0; k < 1000; ++k) {
+    auto s = at(1, k);
+    CHECK_FALSE(watch.found(qp, s));
+    spent += s.work.operator_applications;
+  }
+  CHECK(spent <= 10);
 }
 
 TEST_CASE("flatness and descent know no units") {

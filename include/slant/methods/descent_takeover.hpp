@@ -66,22 +66,36 @@ class descent_takeover {
   template <class State>
   status step(QP const& qp, options const& o, State& s) {
     index const before = state_->work.operator_applications;
-    kprgp<QP const&>{qp, o}.step(*state_);
+    kprgp<QP const&> const method{qp, o};
+    method.step(*state_);
+    copy(qp, s);
+    // r̃ = 0 counts if r was computed from x.
+    if (s.reduced_gradient_norm == scalar(0) && method.refresh(*state_)) copy(qp, s);
     s.work.operator_applications += state_->work.operator_applications - before;
-    return follow(qp, s);
+    return judged(s);
   }
 
  private:
-  /// s.x, s.r and s.reduced are those of KPRGP's iterate; no longer at work if that is good enough.
+  /// s.x, s.r and s.reduced become those of KPRGP's iterate, which is no longer at work if that is
+  /// good enough.
   template <class State>
   status follow(QP const& qp, State& s) {
+    copy(qp, s);
+    return judged(s);
+  }
+  template <class State>
+  void copy(QP const& qp, State& s) {
     slant::local(s.x) = slant::local(state_->x);
     slant::local(s.r) = (state_->unit / s.unit) * slant::local(state_->r);
     s.since_refresh = state_->since_refresh;
     s.reduce(qp);
+  }
+  /// By the reduced gradient of s, whose step length is another one.
+  template <class State>
+  status judged(State const& s) {
     if (s.reduced_gradient_norm == scalar(0)) return status::converged;
     if (state_->status == status::running) at_work_ = s.reduced_gradient_norm > goal_;
-    return state_->status;
+    return state_->status == status::converged ? status::stalled : state_->status;
   }
 
   std::optional<kprgp_state<QP>> state_;

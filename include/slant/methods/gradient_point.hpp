@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace slant {
@@ -99,6 +100,21 @@ struct gradient_point {
     slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
   }
 
+  /// The same in a smaller unit, where that of a start far away is so large that products of r
+  /// would vanish in it. True if the unit is another one from now on.
+  bool gradient_and_unit(QP const& qp) {
+    gradient(qp);
+    using std::sqrt;
+    scalar const size = std::max<scalar>(size_of_b, norm(r));
+    if (!(size < sqrt(std::numeric_limits<scalar>::epsilon()) && size > scalar(0))) return false;
+    scalar const next = unit * unit_near(size);
+    if (!(next > scalar(0))) return false;
+    slant::local(r) *= unit / next;
+    size_of_b = norm(qp.b()) / next;
+    unit = next;
+    return true;
+  }
+
   /// P_Λ(x − α̃ r) and r̃.
   void reduce(QP const& qp) {
     reduced_gradient(qp.set(), x, r, step_length * unit, trial, projected, reduced);
@@ -116,6 +132,13 @@ struct gradient_point {
   [[nodiscard]] scalar rounding() const {
     scalar const of_terms = unit * (size_of_b + norm(r)) + norm(x) / step_length;
     return scalar(32) * std::numeric_limits<scalar>::epsilon() * of_terms;
+  }
+
+  /// The accuracy reached, for sentences: "relative reduced gradient 1e-15 / 1, …".
+  [[nodiscard]] std::string accuracy() const {
+    return "relative reduced gradient " + detail::show(reduced_gradient_norm) + " / " +
+           detail::show(gradient_scale) + ", of which rounding errors may be " +
+           detail::show(rounding());
   }
 
  private:

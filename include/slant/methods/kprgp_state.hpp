@@ -34,6 +34,7 @@ struct kprgp_state : gradient_point<QP> {
   scalar βr{0};  ///< β̃ᵀr / unit², what the active set can still gain; of qpq and qpc: ‖β‖² / unit²
   scalar φr_at_restart{0};  ///< φr when the face was chosen
   scalar σ{0};              ///< σ_max to a few digits; known if A is not declared definite
+  bool no_minimum = false;  ///< ended by a direction along which q has no minimum in floating point
   kprgp_step last_step = kprgp_step::conjugate_gradient;
   index iteration = 0;
   slant::status status = slant::status::running;
@@ -52,7 +53,11 @@ struct kprgp_state : gradient_point<QP> {
       case slant::status::unbounded:
         return "the function decreases for ever along a direction of the set";
       case slant::status::stalled:
-        return "neither the reduced gradient nor the function has fallen any more";
+        return (no_minimum
+                    ? "along a direction that does not leave the set the curvature is lost "
+                      "in rounding errors: "
+                    : "neither the reduced gradient nor the function has fallen any more: ") +
+               this->accuracy();
       case slant::status::breakdown:
         return "a number left the range of the scalar, or A is not positive semidefinite";
       default:

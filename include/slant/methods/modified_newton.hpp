@@ -28,6 +28,8 @@
 #include <slant/methods/modified_newton_state.hpp>
 #include <slant/methods/separable_qp.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -99,8 +101,9 @@ class modified_newton<QP, Start, Inner, Forcing> {
   bool refresh(state_type& s) const {
     if (s.since_refresh == 0) return false;
     s.status = status::running;
-    s.gradient(qp_.get());
+    compute_gradient(s);
     reduce(s);
+    judge(s);
     return true;
   }
 
@@ -110,6 +113,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   void begin_newton(state_type& s, bool solved) const {
     s.face.assign(qp_.get().set(), slant::local(s.x));
     reduce(s);
+    judge(s);
     s.forcing = s.forcing.starting_at(s.reduced_gradient_norm);
     if (solved) s.status = status::converged;
   }
@@ -132,12 +136,21 @@ class modified_newton<QP, Start, Inner, Forcing> {
         slant::everywhere(s.x, (slant::local(s.trial).array() == slant::local(s.x).array()).all());
     if (stays && (options_.refresh == 0 || s.since_refresh < options_.refresh)) return;
     std::swap(s.x, s.trial);
-    s.gradient(qp_.get());
+    compute_gradient(s);
   }
 
-  /// (3.3°): conjugate gradients on the face until ‖r‖ there is at most `size`.
-  void minimise(state_type& s, scalar const& size) const {
+  /// r from x.
+  void compute_gradient(state_type& s) const {
+    if (s.gradient_and_unit(qp_.get())) s.progress.forget_energy();
+  }
+
+  /// (3.3°): conjugate gradients on the face until ‖r‖ there is at most `accuracy`. By recurrences
+  /// it would go on to fall below the rounding errors of r, until its squares vanish.
+  void minimise(state_type& s, scalar const& accuracy) const {
     auto const& qp = qp_.get();
+    scalar const noise =
+        std::numeric_limits<scalar>::epsilon() / scalar(4) * (s.size_of_b + norm(s.r));
+    scalar const size = std::max<scalar>(accuracy, s.unit * noise);
     s.directions.live = false;
     s.inner_iterations = 0;
     s.last_inner = inner_end::going_on;
@@ -157,7 +170,18 @@ class modified_newton<QP, Start, Inner, Forcing> {
     }
     s.work.inner_iterations += s.inner_iterations;
     if (s.last_inner == inner_end::broken) s.status = status::breakdown;
-    if (s.last_inner == inner_end::unbounded) s.status = status::unbounded;
+    if (s.last_inner == inner_end::endless) look_for_descent(s);
+  }
+
+  /// Where an inner iteration has found no minimum along p and no end of Λ.
+  void look_for_descent(state_type& s) const {
+    if constexpr (definite) {
+      s.status =
+          status::breakdown;  // a curvature of 0 is out of range, or A is not what it promised
+    } else {
+      bool const confirmed = confirm_descent(qp_.get(), s, options_.max_inner);
+      s.status = confirmed ? status::unbounded : status::stalled;
+    }
   }
 
   /// (4°), with x = P_Λ(λ).
@@ -170,14 +194,20 @@ class modified_newton<QP, Start, Inner, Forcing> {
         s.outside.in_use = true;
         exchange(s);
         std::swap(s.x, s.trial);
-        s.gradient(qp_.get());
+        compute_gradient(s);
       }
     }
     reduce(s);
+    // r̃ = 0 counts if r was computed from x.
+    if (s.reduced_gradient_norm == scalar(0) && s.since_refresh > 0) {
+      compute_gradient(s);
+      reduce(s);
+    }
+    judge(s);
     if constexpr (!definite) {
       // Steps that end at the boundary again and again may still sum up to a direction of descent
       // that never does.
-      if (s.status == status::running && s.recession.found(qp_.get().set(), s)) {
+      if (s.status == status::running && s.recession.found(qp_.get(), s)) {
         s.status = status::unbounded;
       }
     }
@@ -189,8 +219,10 @@ class modified_newton<QP, Start, Inner, Forcing> {
     std::swap(s.since_refresh, s.outside.since_refresh);
   }
 
-  void reduce(state_type& s) const {
-    s.reduce(qp_.get());
+  void reduce(state_type& s) const { s.reduce(qp_.get()); }
+
+  /// The status of the point at which a step has ended.
+  void judge(state_type& s) const {
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
     if (s.status == status::running && s.reduced_gradient_norm == scalar(0)) {
       s.status = status::converged;
@@ -200,7 +232,8 @@ class modified_newton<QP, Start, Inner, Forcing> {
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
     auto const energy = [&] { return s.energy(qp_.get()); };
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy)) {
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy,
+                           s.rounding())) {
       s.status = status::stalled;
     }
   }

@@ -34,12 +34,12 @@ struct projected_start {
 
 /// How the inner iterations of a step ended.
 enum class inner_end : unsigned char {
-  going_on,   ///< not yet
-  accurate,   ///< to the accuracy asked for
-  boundary,   ///< at the boundary of Λ, by a half step
-  limit,      ///< after max_inner iterations
-  unbounded,  ///< q falls for ever along −p, and −p does not leave Λ
-  broken      ///< A is not positive definite on the face, or a number is not finite
+  going_on,  ///< not yet
+  accurate,  ///< to the accuracy asked for
+  boundary,  ///< at the boundary of Λ, by a half step
+  limit,     ///< after max_inner iterations
+  endless,   ///< q has no minimum along p in floating point, and −p does not leave Λ
+  broken     ///< A is not positive definite on the face, or a number is not finite
 };
 
 /// CG [K (62)]: to the minimum on the face, in Λ or not.
@@ -77,7 +77,7 @@ struct feasible_cg {
     bool const descent = is_descent(step.slope, s.directions.p, S(s.size_of_b + norm(s.r)));
     if (step.flat && !descent) return inner_end::accurate;
     if (step.end == feasible_step_end::endless) {
-      return step.flat ? inner_end::unbounded : inner_end::broken;
+      return step.flat ? inner_end::endless : inner_end::broken;
     }
     half_step(s, step);
     return inner_end::boundary;

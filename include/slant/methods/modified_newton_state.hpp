@@ -72,16 +72,23 @@ struct modified_newton_state : gradient_point<QP> {
       case slant::status::unbounded:
         return "the function decreases for ever along a direction of the set";
       case slant::status::stalled:
-        return last_inner == inner_end::limit
-                   ? "neither the reduced gradient nor the function falls any more; the inner "
-                     "iterations end at their limit"
-                   : "neither the reduced gradient nor the function falls any more; the active "
-                     "sets may recur";
+        return stagnation() + ": " + this->accuracy();
       case slant::status::breakdown:
         return "a number left the range of the scalar, or A is not positive definite on a face";
       default:
         return std::string(to_string(status));
     }
+  }
+
+ private:
+  [[nodiscard]] std::string stagnation() const {
+    if (last_inner == inner_end::endless) {
+      return "along a direction that does not leave the set the curvature is lost in rounding "
+             "errors";
+    }
+    return std::string("neither the reduced gradient nor the function falls any more; the ") +
+           (last_inner == inner_end::limit ? "inner iterations end at their limit"
+                                           : "active sets may recur");
   }
 };
 

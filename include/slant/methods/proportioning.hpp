@@ -51,6 +51,7 @@ class proportioning<QP, Rule> {
     set_step_length(s);
     bool const solved = s.begin(qp, x0);
     restart(s);
+    settle(s);
     if (solved) s.status = status::converged;
     return s;
   }
@@ -64,6 +65,7 @@ class proportioning<QP, Rule> {
       release_step(s);
     }
     ++s.iteration;
+    settle(s);
     note_progress(s);
   }
 
@@ -73,8 +75,9 @@ class proportioning<QP, Rule> {
     s.status = status::running;
     s.progress = {};
     s.recession.forget();
-    s.gradient(qp_.get());
+    compute_gradient(s);
     restart(s);
+    settle(s);
   }
 
   /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
@@ -88,6 +91,7 @@ class proportioning<QP, Rule> {
     s.status = status::running;
     bool const solved = s.begin_again(qp_.get(), x0);
     restart(s);
+    settle(s);
     if (solved) s.status = status::converged;
   }
 
@@ -95,13 +99,13 @@ class proportioning<QP, Rule> {
   bool refresh(state_type& s) const {
     if (s.since_refresh == 0) return false;
     s.status = status::running;
-    s.directions.live = false;
-    s.gradient(qp_.get());
-    split(s);
+    recompute(s);
+    judge(s);
     return true;
   }
 
  private:
+  static constexpr index most_confirming_steps = 500;
   static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
 
   /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
@@ -133,16 +137,33 @@ class proportioning<QP, Rule> {
     // A is not what it promised, or not a number.
     if (step.end == feasible_step_end::broken) s.status = status::breakdown;
     if (step.end == feasible_step_end::endless) {
-      bool const descent =
-          !definite && step.flat && is_descent(step.slope, s.directions.p, gradient_noise(s));
+      bool descent = false;
+      if constexpr (!definite) {
+        descent = step.flat && is_descent(step.slope, s.directions.p, gradient_noise(s)) &&
+                  confirm_descent(qp, s, most_confirming_steps);
+      }
       s.status = descent ? status::unbounded : status::stalled;
+      s.no_minimum = true;
+      s.reduce(qp);
     }
     return step;
   }
 
   /// r anew from x after many updates.
   void renew(state_type& s) const {
-    if (options_.refresh > 0 && s.since_refresh >= options_.refresh) s.gradient(qp_.get());
+    if (options_.refresh > 0 && s.since_refresh >= options_.refresh) compute_gradient(s);
+  }
+
+  /// r from x.
+  void compute_gradient(state_type& s) const {
+    if (s.gradient_and_unit(qp_.get())) s.progress.forget_energy();
+  }
+
+  /// r and r̃ from x; the next direction is φ itself.
+  void recompute(state_type& s) const {
+    s.directions.live = false;
+    compute_gradient(s);
+    split(s);
   }
 
   /// x ← x − α̃ φ̃: may add blocks to the active set.
@@ -173,7 +194,7 @@ class proportioning<QP, Rule> {
   /// The blocks that move are in s.φ, the others in s.trial.
   void take_gradient_step(state_type& s, kprgp_step kind) const {
     slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
-    s.gradient(qp_.get());
+    compute_gradient(s);
     restart(s);
     s.last_step = kind;
   }
@@ -188,7 +209,10 @@ class proportioning<QP, Rule> {
     s.φr_at_restart = s.φr;
     if constexpr (!definite) {
       // Steps that leave Λ again and again may still sum up to a direction that never does.
-      if (s.recession.found(qp_.get().set(), s)) s.status = status::unbounded;
+      if (s.status == status::running && s.reduced_gradient_norm > scalar(0) &&
+          s.recession.found(qp_.get(), s)) {
+        s.status = status::unbounded;
+      }
     }
   }
 
@@ -198,8 +222,19 @@ class proportioning<QP, Rule> {
     weigh(s);
   }
 
-  void weigh(state_type& s) const {
-    Rule::weigh(qp_.get(), s);
+  void weigh(state_type& s) const { Rule::weigh(qp_.get(), s); }
+
+  /// The status of the point at which a step has ended, never of one that it has passed. Whatever
+  /// ends the run counts if r was computed from x; if not, the run goes on from there.
+  void settle(state_type& s) const {
+    bool const at_end = s.status != status::running || s.reduced_gradient_norm == scalar(0);
+    if (at_end && s.since_refresh > 0 && s.status != status::unbounded) {
+      s.status = status::running;
+      recompute(s);
+    }
+    if (s.status == status::running) judge(s);
+  }
+  void judge(state_type& s) const {
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
   }
@@ -210,8 +245,12 @@ class proportioning<QP, Rule> {
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
     auto const energy = [&] { return s.energy(qp_.get()); };
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy)) {
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy,
+                           s.rounding())) {
+      s.no_minimum = false;
+      if (s.since_refresh > 0) recompute(s);
       s.status = status::stalled;
+      judge(s);
     }
   }
 

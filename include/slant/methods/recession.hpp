@@ -5,13 +5,18 @@
 //
 //     A d = 0,   rᵀd < 0,   x + t d ∈ Λ for all t ≥ 0.
 //
-// In floating point: the curvature dᵀA d is below its own rounding error, the slope above its.
+// In floating point: ‖A d‖ is below its own rounding error, the slope bᵀd above its. A curvature
+// dᵀA d below its rounding error is a reason to look, no proof: it only bounds ‖A d‖ by √ε σ ‖d‖.
 #pragma once
 
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/flat_direction.hpp>
+#include <slant/krylov/unit.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace slant {
@@ -38,10 +43,86 @@ template <bool Definite, class Directions, class S>
   }
 }
 
+/// ‖A d‖ up to which d counts as a direction of the kernel: rounding errors of the product.
+template <class V, class S>
+[[nodiscard]] S kernel_image(V const& d, S σ) {
+  using std::sqrt;
+  return S(32) * std::numeric_limits<S>::epsilon() * sqrt(S(slant::global_size(d))) * norm(d) * σ;
+}
+
+/// Is q unbounded along d = s.trial? With the image A d in s.φ:
+///
+///     x + t d ∈ Λ for all t ≥ 0,   ‖A d‖ at rounding level,   bᵀd > 0 beyond its rounding errors.
+///
+/// Where A d = 0 the slope is −bᵀd, whatever of x is in r.
+template <class QP, class State>
+[[nodiscard]] bool is_endless_descent(QP const& qp, State const& s) {
+  using S = typename State::scalar;
+  S const slope = inner_product(s.trial, qp.b()) / s.unit;
+  return norm(s.φ) <= kernel_image(s.trial, s.σ) &&
+         is_descent(slope, s.trial, S(4) * s.size_of_b) &&
+         !(slant::minimum(s.x,
+                          qp.set().step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
+           std::numeric_limits<S>::infinity());
+}
+
+/// Takes the part in range(A) out of a direction of descent d = −s.directions.p that is flat and
+/// does not leave Λ: conjugate gradients for
+///
+///     minimise   ½ δᵀA δ − (A d)ᵀδ   over the face,      d ← d − δ.
+///
+/// A curvature of ε σ ‖d‖² leaves ‖A d‖ of √ε σ ‖d‖, no proof that there is no minimum. True if d
+/// then is one, with A d computed anew; s.directions.p is −d. Scratch: φ, trial, projected,
+/// reduced. One application for each of at most `steps` steps and one for the proof.
+template <class QP, class State>
+[[nodiscard]] bool confirm_descent(QP const& qp, State& s, index steps) {
+  using S = typename State::scalar;
+  using std::abs;
+  auto& d = s.directions.p;
+  auto& image = s.directions.Ap;
+  auto& w = s.projected;
+  auto& Aw = s.reduced;
+  s.directions.live = false;
+  S const first = norm(d);
+  if (!(first > S(0)) || !detail::is_finite(first)) return false;
+  S const size = unit_near(first), least = first / size / S(128);
+  slant::local(d) *= S(-1) / size;
+  slant::local(image) *= S(-1) / size;
+  S curvature(0);
+  for (index k = 0; k < steps && norm(d) > least; ++k) {
+    s.face.keep(image, s.trial);
+    S const residual = norm(s.trial);
+    if (!(residual > kernel_image(d, s.σ) / S(8))) break;
+    if (k == 0) {
+      slant::local(w) = slant::local(s.trial);
+    } else {
+      S const γ = inner_product(s.trial, Aw) / curvature;
+      slant::local(w) = slant::local(s.trial) - γ * slant::local(w);
+    }
+    slant::apply(qp.a(), w, Aw, s.a_workspace);
+    ++s.work.operator_applications;
+    curvature = inner_product(w, Aw);
+    if (!(curvature > flatness(w, s.σ))) break;
+    S const α = inner_product(s.trial, w) / curvature;
+    slant::local(d) -= α * slant::local(w);
+    slant::local(image) -= α * slant::local(Aw);
+  }
+  // What is left of components that d does not have are rounding errors of the others.
+  S const nothing = S(8) * std::numeric_limits<S>::epsilon() * norm(d);
+  slant::local(s.trial) =
+      slant::local(d).unaryExpr([&](S const& e) { return abs(e) <= nothing ? S(0) : e; });
+  slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
+  ++s.work.operator_applications;
+  slant::local(d) = -slant::local(s.trial);
+  return norm(s.trial) > least && is_endless_descent(qp, s);
+}
+
 /// Compares iterates with an earlier one, which is replaced whenever the number of comparisons is a
 /// power of two (Brent's cycle detection): steps may repeat in cycles of any length and add up to
-/// such a direction, although none of them is one. Spends no product: A d is a difference of
-/// gradients.
+/// such a direction, although none of them is one. A difference of iterates that looks like one by
+/// the difference of its gradients, which is free of charge and has their rounding errors, is
+/// confirmed by one application. The more steps lie between two iterates, the less the first of
+/// them disturb; so after a failure the next one is confirmed only after twice as many.
 template <class V>
 class recession_watch {
  public:
@@ -49,35 +130,46 @@ class recession_watch {
   recession_watch(V const& prototype, index n) : x_(like(prototype, n)), r_(like(prototype, n)) {}
 
   /// Forgets the iterates so far: they belong to another gradient.
-  void forget() { seen_ = 0; }
+  void forget() { seen_ = next_ = 0; }
 
   /// Looks at s.x and its gradient s.r, in multiples of s.unit. If true, s.directions.p is the
-  /// negative direction.
-  template <class Set, class State>
-  [[nodiscard]] bool found(Set const& set, State& s) {
+  /// negative direction. Scratch: φ and trial.
+  template <class QP, class State>
+  [[nodiscard]] bool found(QP const& qp, State& s) {
     using S = scalar_t<V>;
-    bool const yes = seen_ > 0 && [&] {
-      slant::local(s.φ) = slant::local(s.r) - slant::local(r_);
+    bool yes = false;
+    if (seen_ > 0 && seen_ >= next_) {
+      slant::local(s.φ) = slant::local(s.r) - (unit_ / s.unit) * slant::local(r_);
       slant::local(s.trial) = slant::local(s.x) - slant::local(x_);
       S const slope = -inner_product(s.trial, s.r);
-      return !(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
-             is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
-             !(slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
-               std::numeric_limits<S>::infinity());
-    }();
+      auto const& set = qp.set();
+      if (!(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
+          is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
+          !(slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
+            std::numeric_limits<S>::infinity())) {
+        slant::local(s.trial) *= S(1) / unit_near(norm(s.trial));
+        slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
+        ++s.work.operator_applications;
+        yes = is_endless_descent(qp, s);
+        next_ = 2 * seen_;
+      }
+    }
     if (yes) slant::local(s.directions.p) = -slant::local(s.trial);
     if ((seen_ & (seen_ - 1)) == 0) {
       slant::local(x_) = slant::local(s.x);
       slant::local(r_) = slant::local(s.r);
+      unit_ = s.unit;
     }
     ++seen_;
     return yes;
   }
 
  private:
-  V x_;             // the earlier iterate
-  V r_;             // its gradient
-  index seen_ = 0;  // comparisons so far
+  V x_;                  // the earlier iterate
+  V r_;                  // its gradient
+  scalar_t<V> unit_{1};  // of that
+  index seen_ = 0;       // comparisons so far
+  index next_ = 0;       // at which a direction is confirmed
 };
 
 }  // namespace slant

@@ -176,7 +176,12 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
   /// Where no length is accepted: the other method takes over, unless there are no digits left.
   void begin_descent(state_type& s) const {
     if (s.residual_norm <= s.rounding()) {
-      s.status = status::stalled;
+      // F(y) is known by recurrences, which a start far away has robbed of their digits.
+      if (s.reduced_gradient_norm <= s.rounding()) {
+        s.status = status::stalled;
+      } else {
+        restart(s);
+      }
       return;
     }
     scalar const goal = scalar(0.9) * std::min(s.residual_norm, s.reduced_gradient_norm);
@@ -195,12 +200,15 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
     if (s.descent.at_work() || s.status != status::running) return;
     restart(s);
     s.forcing.record(s.residual_norm);
-    s.progress = {};
+    s.progress.begin_again(s.iteration);
   }
 
+  /// KPRGP watches itself; but at the floor the two may take turns for ever.
   void note_progress(state_type& s) const {
-    if (s.status != status::running || s.descent.at_work()) return;
-    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {
+    bool const other = s.descent.at_work();
+    if (s.status != status::running || (other && !s.progress.at_floor())) return;
+    scalar const size = other ? s.reduced_gradient_norm : s.residual_norm;
+    if (s.progress.stalled(s.iteration, size, options_.patience, s.rounding())) {
       s.status = status::stalled;
     }
   }

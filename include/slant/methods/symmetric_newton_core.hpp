@@ -62,7 +62,7 @@ class symmetric_newton_core {
 
   /// r and r̃ of x; one product.
   void measure(state_type& s) const {
-    s.gradient(qp_.get());
+    static_cast<void>(s.gradient_and_unit(qp_.get()));
     s.reduce(qp_.get());
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;

@@ -57,7 +57,7 @@ struct symmetric_newton_state : gradient_point<QP> {
       case slant::status::converged:
         return "the reduced gradient is zero: x is the solution";
       case slant::status::stalled:
-        return "no step lowers the residual any further at this precision";
+        return "no step lowers the residual any further at this precision: " + this->accuracy();
       case slant::status::breakdown:
         return "a number left the range of the scalar, or A is not semidefinite";
       case slant::status::unbounded:
