@@ -69,7 +69,10 @@ TEST_CASE("from_files: a brick in space") {
   CHECK(result["setup_seconds"].get<double>() > 0);
   CHECK(result["solve_seconds"].get<double>() > 0);
   CHECK(result["factorization"].get<std::string>() != "");
-  CHECK(contains(result["reason"].get<std::string>(), "reduced gradient"));
+  CHECK(contains(result["reason"].get<std::string>(), "relative energy error"));
+  CHECK(result["energy_error"].get<double>() <= 1e-8);
+  CHECK(result["energy_error_proven"] == false);
+  CHECK(result["condition_estimate"].get<double>() > 100);
   CHECK(result["output"] == files.output().string());
   CHECK(files.files_written() == 2);
   check_against_reference(files, scene, result);
@@ -106,6 +109,38 @@ TEST_CASE("from_files: every method by its name, from zero and after a first pha
     }
   }
   CHECK(methods == 16);
+}
+
+TEST_CASE("from_files: no method says `converged` of a slender brick that it has not solved") {
+  auto const scene = fem::make_steel_brick(
+      {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(300, 1, 1)});
+  problem_files const files(scene);
+  oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};
+  auto const reference = oracle::solve_contact(data);
+  std::istringstream lines(run("from_files", "--list-methods").out);
+  int right = 0;
+  for (std::string line; std::getline(lines, line) && !line.empty();) {
+    std::string const name = line.substr(0, line.find(' '));
+    CAPTURE(name);
+    auto const ran = files.solve("--tolerance 1e-7 --max-iterations 2000 --method " + name);
+    json const result = json::parse(ran.out);
+    if (result["status"] != "converged") continue;
+    ++right;
+    CHECK(oracle::energy_error(scene.K, files.read("u.txt"), reference.u) < 1e-7);
+    CHECK(result["energy_error"].get<double>() <= 1e-7);
+    CHECK(result["kkt_residual"].get<double>() < 1e-6);
+  }
+  CHECK(right >= 8);
+}
+
+TEST_CASE("from_files: a bound that is proven") {
+  auto const files = examples_test::small_brick();
+  for (auto const* const method : {"symmetric_newton", "kprgp"}) {
+    json const result = json::parse(files.solve(std::string("--prove --method ") + method).out);
+    CHECK(result["status"] == "converged");
+    CHECK(result["energy_error_proven"] == true);
+    CHECK(contains(result["reason"].get<std::string>(), "proven"));
+  }
 }
 
 TEST_CASE("from_files: a body in the plane") {
@@ -190,7 +225,7 @@ TEST_CASE("from_files: a problem without solution is not solved") {
   one_spring const files;
   files.put("N.mtx", coordinate + "2 1 2\n1 1 1\n2 1 -1\n");
   files.put("d.txt", "0.5\n-0.6\n");
-  for (auto const* const start : {"--start zero", "--start qpc", "--start interior_point"}) {
+  for (auto const* const start : {"", "--start zero", "--start qpc", "--start interior_point"}) {
     auto const ran = files.solve(start);
     CHECK(ran.status == 1);
     REQUIRE(is_one_line(ran.out));
@@ -267,7 +302,7 @@ TEST_CASE("from_files: help and the list of methods need no folder") {
   CHECK(help.status == 0);
   CHECK(help.err == "");
   for (auto const* expected : {"--method", "--tolerance", "--start", "--max-iterations", "--output",
-                               "--list-methods", "Exit status"})
+                               "--prove", "--list-methods", "Exit status"})
     CHECK(contains(help.out, expected));
 }
 
