@@ -13,6 +13,7 @@
 #include <slant/contact/coulomb_newton.hpp>
 #include <slant/contact/coulomb_radii.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/contact/friction_blocks.hpp>
 #include <slant/contact/friction_coefficient.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
@@ -24,6 +25,7 @@
 #include <slant/contact/load_step.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/load_steps.hpp>
+#include <slant/contact/node_layout.hpp>
 #include <slant/contact/obstacle.hpp>
 #include <slant/contact/obstacle_route.hpp>
 #include <slant/contact/optimality.hpp>
