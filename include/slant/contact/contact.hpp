@@ -29,10 +29,13 @@
 #include <slant/contact/obstacle.hpp>
 #include <slant/contact/obstacle_route.hpp>
 #include <slant/contact/optimality.hpp>
+#include <slant/contact/plausibility.hpp>
+#include <slant/contact/plausibility_warning.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
 #include <slant/contact/solve_coulomb.hpp>
+#include <slant/contact/solve_floating.hpp>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>
