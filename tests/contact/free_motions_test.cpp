@@ -145,20 +145,6 @@ TEST_CASE("bodies, places not known, and what a refusal says") {
         }).ends_with("= -3, expected a symmetric positive definite matrix"));
 }
 
-TEST_CASE("layouts that do not fit") {
-  auto plate = make_plate();
-  plate.layout.axis[3] = 2;
-  CHECK(test::complaint([&] { (void)plate.sentence(); }) == "axis[3]: got 2, expected a row of x");
-  plate = make_plate();
-  plate.layout.node[1] = 12;
-  CHECK(test::complaint([&] { (void)plate.sentence(); }) ==
-        "node[1]: got 12, expected a column of x");
-  plate = make_plate();
-  plate.layout.node.pop_back();
-  CHECK(test::complaint([&] { (void)plate.sentence(); }) ==
-        "node: got 23, expected one entry per unknown, 24");
-}
-
 TEST_CASE("the name of a motion") {
   auto const plate = make_plate();
   auto const& L = plate.layout;

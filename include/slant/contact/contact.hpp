@@ -30,7 +30,6 @@
 #include <slant/contact/obstacle_route.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/plausibility.hpp>
-#include <slant/contact/plausibility_warning.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>

@@ -21,10 +21,10 @@
 
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/detail/contact_rows.hpp>
+#include <slant/contact/detail/plausibility_warning.hpp>
 #include <slant/contact/detail/plausible_normals.hpp>
 #include <slant/contact/detail/plausible_rows.hpp>
 #include <slant/contact/node_layout.hpp>
-#include <slant/contact/plausibility_warning.hpp>
 
 #include <Eigen/SparseCore>
 

@@ -11,7 +11,7 @@
 //
 // No solution. The energy falls for ever exactly along motions w = R α with N w ≤ 0 and fᵀw > Σ gᵢ
 // ‖(T w)ᵢ‖. The status `unbounded` is said of a w that has been checked so, and its name is part of
-// the reason; how far the check is from its limits is relative to ‖f‖ ‖w‖.
+// the reason. K w = 0 as R is the computed kernel of K.
 //
 // A solution is checked by contact/optimality.hpp, from the data alone: `converged` is not said
 // where its residual is more than 1000 times the tolerance, or what rounding errors of K u make.
@@ -80,27 +80,28 @@ struct floating_solution {
 
 namespace detail {
 
-/// fᵀw − Σ gᵢ‖(T w)ᵢ‖ over ‖f‖ ‖w‖: how fast the energy falls along w. Minus infinity where w leads
-/// over a bound, or slides where gᵢ is infinite.
+/// Does the energy fall for ever along w = R α: fᵀw > Σ gᵢ‖(T w)ᵢ‖, N w ≤ 0, and (T w)ᵢ = 0 where
+/// gᵢ = ∞? The last two hold up to a millionth of the first, over ‖f‖: forces that balance the load
+/// after all would add up to a million times as much as that.
 template <class S, class V>
-[[nodiscard]] S rate_of_descent(data<S> const& c, V const& w) {
+[[nodiscard]] bool falls_for_ever(data<S> const& c, V const& w) {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  constexpr S small = S(1e-6);
-  S const size = w.norm();
+  S const size = w.norm(), load = c.f.norm();
   vector_type const normal = c.N * w, slip = c.T * w;
   index const k = c.tangents();
-  S rate = c.f.dot(w);
+  S fall = c.f.dot(w), opposed(0);
   for (index i = 0; i < c.nodes(); ++i) {
-    if (slant::detail::is_finite(c.d[i]) && normal[i] > small * size)
-      return -std::numeric_limits<S>::infinity();
+    if (slant::detail::is_finite(c.d[i])) opposed = std::max<S>(opposed, normal[i]);
     if (k == 0) continue;
     S const length = slip.segment(k * i, k).norm();
     if (slant::detail::is_finite(c.g[i]))
-      rate -= c.g[i] * length;
-    else if (length > small * size)
-      return -std::numeric_limits<S>::infinity();
+      fall -= c.g[i] * length;
+    else
+      opposed = std::max<S>(opposed, length);
   }
-  return rate / (c.f.norm() * size);
+  // What fᵀw may be by rounding alone.
+  S const rounding = S(1024) * std::numeric_limits<S>::epsilon() * load * size;
+  return fall > rounding && opposed <= S(1e-6) * (fall / load);
 }
 
 /// The nearest forces of Λ: λ_ν ≥ 0, and 0 where the gap is infinite; ‖λ_t,i‖ ≤ gᵢ/unit.
@@ -149,7 +150,7 @@ template <class S>
     if (step % 16 != 0 && step != steps) continue;
     α = e - G * λ;
     w = R * α;
-    if (rate_of_descent(c, w) > S(0)) break;
+    if (falls_for_ever(c, w)) break;
   }
   return w;
 }
@@ -180,7 +181,7 @@ void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
   S const size = w.norm();
   if (size > S(0) && slant::detail::is_finite(size)) {
     w /= size;
-    if (rate_of_descent(c, w) > S(16) * std::numeric_limits<S>::epsilon()) {
+    if (falls_for_ever(c, w)) {
       r.status = slant::status::unbounded;
       r.reason = "neither contact nor friction holds the bodies under this load: " +
                  name_motion(K, w, o.layout);

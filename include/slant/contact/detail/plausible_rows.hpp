@@ -4,7 +4,7 @@
 #pragma once
 
 #include <slant/contact/detail/contact_rows.hpp>
-#include <slant/contact/plausibility_warning.hpp>
+#include <slant/contact/detail/plausibility_warning.hpp>
 
 #include <algorithm>
 #include <cmath>

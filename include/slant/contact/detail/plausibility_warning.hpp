@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A warning about contact data, see contact/plausibility.hpp.
+// Warnings about contact data: kinds, and their text. See contact/plausibility.hpp.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
