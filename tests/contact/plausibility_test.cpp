@@ -261,9 +261,10 @@ TEST_CASE("rows of N in another order than those of T") {
     CHECK(s.warnings() == "different_nodes 3 2; ");
     CHECK(check_plausibility(s.K, s.data())
               .front()
-              .text.starts_with("row 3 of N touches other nodes of the body than rows 6 and 7 of "
-                                "T, namely those of rows 22 "
-                                "and 23 of T; the same holds for 1 more rows of N. Put the rows"));
+              .text.starts_with(
+                  "row 3 of N touches other nodes of the body than rows 6 and 7 of "
+                  "T, namely those of rows 22 "
+                  "and 23 of T; the same holds for 1 more of the rows of N. Put the rows"));
   }
   for (model s : {plate(), model_of(fem::make_two_plates(3)), between(plate(), 0.5)}) {
     s.N = s.N.colwise().reverse().eval();

@@ -86,7 +86,7 @@ class suspects {
     if (count_ > 1) {
       text.append("; the same holds for ")
           .append(slant::detail::show(count_ - 1))
-          .append(" more ")
+          .append(" more of the ")
           .append(others);
     }
     text.append(". ").append(mend);
