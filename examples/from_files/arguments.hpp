@@ -27,6 +27,8 @@ struct arguments {
   bool symmetric = false;                ///< refuse a W that is not
   std::filesystem::path output{};
   bool list_methods = false;
+  bool strict = false;                  ///< warnings are refusals
+  std::filesystem::path coordinates{};  ///< of the nodes of a body; empty: not known
 };
 
 /// For files whose place is known before the computation; none if none are asked for.

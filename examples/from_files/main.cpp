@@ -12,8 +12,10 @@
 
 #include "arguments.hpp"
 #include "coulomb.hpp"
+#include "floating.hpp"
 #include "friction.hpp"
 #include "solve.hpp"
+#include "warnings.hpp"
 
 namespace {
 
@@ -40,8 +42,9 @@ int list_methods() {
 
 /// Reports and writes what came of a body.
 int deliver_solution(arguments const& a, from_files::problem const& p, std::string const& method,
-                     from_files::solution const& s,
-                     std::optional<from_files::result_files>& files) {
+                     from_files::solution const& s, from_files::warning_list const& warnings,
+                     std::optional<from_files::result_files>& files,
+                     nlohmann::ordered_json const& motions = nullptr) {
   if (!s.is_finite()) files.reset();
   if (files) files->write(s.u, s.run.λ);
   nlohmann::ordered_json json{
@@ -62,6 +65,8 @@ int deliver_solution(arguments const& a, from_files::problem const& p, std::stri
       {"contact_nodes", p.contact.nodes()},
       {"tangents_per_node", p.contact.tangents()},
       {"factorization", s.factorization}});
+  if (!motions.is_null()) json["free_motions"] = motions;
+  json["warnings"] = from_files::report_warnings(warnings);
   return from_files::deliver(a, std::move(json), s.converged() && s.is_finite(), files);
 }
 
@@ -77,8 +82,22 @@ int solve_tresca(arguments const& a) {
   from_files::with_method(method, [](auto const&) {});
   auto const problem = from_files::read_problem_folder(a.folder);
   auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
-  auto const solution = from_files::solve(problem, method, settings_of(a));
-  return deliver_solution(a, problem, method, solution, files);
+  auto const layout = from_files::read_layout(a, problem);
+  from_files::check_data(a, problem, layout);
+  try {
+    auto const solution = from_files::solve(problem, method, settings_of(a));
+    auto const warnings = from_files::warnings_about(a, problem, solution, layout);
+    return deliver_solution(a, problem, method, solution, warnings, files);
+  } catch (slant::bad_input const& refusal) {
+    auto const motions = from_files::motions_behind(refusal, problem, layout);
+    if (motions.free.empty()) throw;
+    if (!a.method.empty() || a.start != "zero")
+      throw slant::contact::with_free_motions(refusal, motions);
+  }
+  auto const [solution, motions] = from_files::solve_floating(problem, settings_of(a), layout);
+  auto const warnings = from_files::warnings_about(a, problem, solution, layout);
+  return deliver_solution(a, problem, "floating", solution, warnings, files,
+                          from_files::report_motions(motions));
 }
 
 int solve_coulomb(arguments const& a) {
@@ -90,9 +109,17 @@ int solve_coulomb(arguments const& a) {
     throw slant::bad_input("--max-iterations", "0", "at least 1, as --coulomb is given");
   auto const problem = from_files::read_coulomb_folder(a.folder, a.coefficients);
   auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
-  auto const solution = from_files::solve_coulomb(
-      problem, method.kind, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
-  return deliver_solution(a, problem.body, std::string(method.name), solution, files);
+  auto const layout = from_files::read_layout(a, problem.body);
+  from_files::check_data(a, problem.body, layout);
+  try {
+    auto const solution = from_files::solve_coulomb(
+        problem, method.kind, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
+    auto const warnings = from_files::warnings_about(a, problem.body, solution, layout);
+    return deliver_solution(a, problem.body, std::string(method.name), solution, warnings, files);
+  } catch (slant::bad_input const& refusal) {
+    throw slant::contact::with_free_motions(
+        refusal, from_files::motions_behind(refusal, problem.body, layout));
+  }
 }
 
 int solve_folder(arguments const& a) {
@@ -121,7 +148,9 @@ int main(int argc, char** argv) {
       "and\n\"kkt_residual\" is relative; both are computed from the "
       "matrices;\n\"operator_applications\" includes \"setup_applications\". For contacts "
       "\"check\" "
-      "holds the violations of the law,\ncomputed from the files and r alone.\n"
+      "holds the violations of the law,\ncomputed from the files and r alone. Bodies that "
+      "supports do not hold (\"free_motions\") are solved by a method for\nthese, unless --method "
+      "or --start is given.\n"
       "Exit status: 0 converged; 1 not converged, for the reason in the JSON object; 2 input "
       "that cannot be used or\noutput that cannot be written, named in one line on standard "
       "error; no file is written then.");
@@ -159,6 +188,13 @@ int main(int argc, char** argv) {
   app.add_option("--output", a.output,
                  "folder for u.txt and lambda.txt (normal, then tangential forces), or r.txt and "
                  "u.txt")
+      ->check(examples::expects_name());
+  app.add_flag("--strict", a.strict,
+               "refuse a body about whose data there are warnings (\"warnings\" in the JSON "
+               "object, and on standard error)");
+  app.add_option("--coordinates", a.coordinates,
+                 "file with the coordinates of the nodes of a body, D x p (Matrix Market), each "
+                 "with D consecutive\nunknowns: messages name directions, and more can be checked")
       ->check(examples::expects_name());
   app.add_flag("--list-methods", a.list_methods, "print the methods and end");
   return examples::run_program(app, argc, argv, [&] { return solve_folder(a); });

@@ -121,8 +121,16 @@ TEST_CASE("from_files refuses K that is not symmetric or not definite") {
   with_K(symmetric + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n", "K: got pivot 1 (row ");
   with_K(symmetric + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n",
          ") = -3, expected a symmetric positive definite matrix");
-  with_K(symmetric + "2 2 3\n1 1 1\n2 1 1\n2 2 1\n", "= 0, zero up to rounding");
-  with_K(symmetric + "2 2 1\n1 1 1\n", "= 0, zero up to rounding");
+  // Singular: refused where a method is named that takes no such matrix.
+  auto const singular = [&](std::string const& K, std::string const& expected) {
+    files.put("K.mtx", K);
+    check_refusal(files.solve("--method kprgp"), expected);
+    CHECK(files.files_written() == 0);
+  };
+  singular(symmetric + "2 2 3\n1 1 1\n2 1 1\n2 2 1\n",
+           "= 0, zero up to rounding: body 0 (unknowns 0 to 1) has 1 free motion, expected a "
+           "symmetric positive definite matrix, with supports that hold every body");
+  singular(symmetric + "2 2 1\n1 1 1\n", "= 0, zero up to rounding: body 1 (unknown 1) has 1 ");
   with_K(symmetric + "2 2 2\n1 1 1\n2 2 -1\n", ") = -1, expected a symmetric positive definite");
 }
 

@@ -53,10 +53,9 @@ std::string refusal(Problem const& p) {
 
 TEST_CASE("an empty interior: the block, and what to use instead") {
   std::string const words =
-      " of the set: got no point inside that f(x) tells, expected points with f(x) < 0; use "
-      "slant::point for components with one value, slant::free_components for those without "
-      "bounds, or another "
-      "method (symmetric_newton, kprgp)";
+      " of the set: got no point inside that f(x) tells, expected points with f(x) < 0, which "
+      "components with one value (a slip bound 0) or without bounds do not have; another method "
+      "takes them (symmetric_newton, kprgp)";
   problem p;
   p.g(1) = 0;
   CHECK(refusal(p) == "block 7" + words);

@@ -15,6 +15,7 @@
 #include <slant/contact/coulomb_newton.hpp>
 #include <slant/contact/coulomb_radii.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/contact/friction_blocks.hpp>
 #include <slant/contact/friction_coefficient.hpp>
 #include <slant/contact/friction_gauss_seidel.hpp>
@@ -26,14 +27,17 @@
 #include <slant/contact/load_step.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/load_steps.hpp>
+#include <slant/contact/node_layout.hpp>
 #include <slant/contact/obstacle.hpp>
 #include <slant/contact/obstacle_route.hpp>
 #include <slant/contact/optimality.hpp>
+#include <slant/contact/plausibility.hpp>
 #include <slant/contact/preconditioner.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
 #include <slant/contact/solve.hpp>
 #include <slant/contact/solve_coulomb.hpp>
+#include <slant/contact/solve_floating.hpp>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/total_feti.hpp>

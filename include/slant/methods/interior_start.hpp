@@ -84,14 +84,15 @@ template <class Block, class X>
   return sum / count;
 }
 
-/// `block`: its number, none if it is on another process.
+/// `block`: its number, none if it is on another process. In a program, sets `point` and
+/// `free_components` would do; the message also reaches users of files alone.
 [[noreturn]] inline void refuse_empty_interior(std::optional<index> block) {
-  throw bad_input(block ? "block " + show(*block) + " of the set"
-                        : std::string("a block of the set on another process"),
-                  "no point inside that f(x) tells",
-                  "points with f(x) < 0; use slant::point for components with one value, "
-                  "slant::free_components for those without bounds, or another method "
-                  "(symmetric_newton, kprgp)");
+  throw bad_input(
+      block ? "block " + show(*block) + " of the set"
+            : std::string("a block of the set on another process"),
+      "no point inside that f(x) tells",
+      "points with f(x) < 0, which components with one value (a slip bound 0) or without "
+      "bounds do not have; another method takes them (symmetric_newton, kprgp)");
 }
 
 }  // namespace detail

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// The place of each displacement unknown: a node, its coordinates, and a direction in space. The
+// solvers do without it; checks and messages say more where it is known.
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/operators/detail/matrix_entries.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace slant::contact {
+
+/// Node and direction of each of the n_u unknowns. Empty: not known.
+template <class S = double>
+struct node_layout {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+  matrix_type x{};            ///< D × p, coordinates of the nodes
+  std::vector<index> node{};  ///< n_u, a column of x for each unknown
+  std::vector<int> axis{};    ///< n_u, the direction of each unknown, from 0 to D − 1
+
+  [[nodiscard]] bool is_known() const { return !node.empty(); }
+  /// D, 0 if nothing is known.
+  [[nodiscard]] index dimension() const { return is_known() ? index(x.rows()) : 0; }
+
+  /// Throws bad_input unless nothing is known, or it is that of so many unknowns in the plane or in
+  /// space.
+  void validate(index unknowns) const {
+    using slant::detail::show;
+    if (!is_known()) return;
+    if (x.rows() != 2 && x.rows() != 3) {
+      throw bad_input("rows of x", show(index(x.rows())), "2 or 3 coordinates");
+    }
+    slant::detail::require_finite_entries("x", x);
+    slant::detail::check_size("node", static_cast<index>(node.size()), unknowns,
+                              "one entry per unknown,");
+    slant::detail::check_size("axis", static_cast<index>(axis.size()), unknowns,
+                              "one entry per unknown,");
+    for (std::size_t j = 0; j < node.size(); ++j) {
+      auto const i = static_cast<index>(j);
+      if (node[j] < 0 || node[j] >= x.cols())
+        throw bad_input("node", show(node[j]), "a column of x").at(i);
+      if (axis[j] < 0 || axis[j] >= x.rows())
+        throw bad_input("axis", show(axis[j]), "a row of x").at(i);
+    }
+  }
+};
+
+/// Unknowns D i … D i + D − 1 at node i.
+template <class M>
+[[nodiscard]] node_layout<typename M::Scalar> interleaved_layout(Eigen::MatrixBase<M> const& x) {
+  node_layout<typename M::Scalar> layout;
+  layout.x = x;
+  for (index i = 0; i < x.cols(); ++i) {
+    for (int k = 0; k < static_cast<int>(x.rows()); ++k) {
+      layout.node.push_back(i);
+      layout.axis.push_back(k);
+    }
+  }
+  return layout;
+}
+
+/// Unknowns first[i] … first[i] + D − 1 at node i, none where first[i] < 0.
+template <class M, class I>
+[[nodiscard]] node_layout<typename M::Scalar> layout_of(Eigen::MatrixBase<M> const& x,
+                                                        I const& first) {
+  slant::detail::check_size("first", static_cast<index>(first.size()), index(x.cols()),
+                            "the number of nodes,");
+  node_layout<typename M::Scalar> layout;
+  layout.x = x;
+  index count = 0;
+  for (index i = 0; i < x.cols(); ++i) {
+    if (first[i] >= 0) count = std::max<index>(count, index(first[i]) + x.rows());
+  }
+  layout.node.assign(static_cast<std::size_t>(count), -1);
+  layout.axis.assign(static_cast<std::size_t>(count), 0);
+  for (index i = 0; i < x.cols(); ++i) {
+    for (index k = 0; first[i] >= 0 && k < x.rows(); ++k) {
+      auto const at = static_cast<std::size_t>(index(first[i]) + k);
+      layout.node[at] = i;
+      layout.axis[at] = static_cast<int>(k);
+    }
+  }
+  layout.validate(count);
+  return layout;
+}
+
+}  // namespace slant::contact

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact of bodies that supports do not hold, with a singular K: contact or friction holds them,
+// or nothing does.
+//
+//     minimise   ½ uᵀK u − fᵀu + Σ gᵢ‖(T u)ᵢ‖   over   N u ≤ d,      K semidefinite with kernel R
+//
+//     frictionless   the Schur complement algorithm on u (contact/bodies.hpp), also for g = 0
+//     Tresca         Newton's method on the multipliers with K⁺ and the equilibrium of each body,
+//                    Rᵀ(f − Bᵀλ) = 0 (contact/total_feti.hpp)
+//
+// No solution. The energy falls for ever exactly along motions w = R α with N w ≤ 0 and fᵀw > Σ gᵢ
+// ‖(T w)ᵢ‖. The status `unbounded` is said of a w that has been checked so, and its name is part of
+// the reason. K w = 0 as R is the computed kernel of K.
+//
+// A solution is checked by contact/optimality.hpp, from the data alone: `converged` is not said
+// where its residual is more than 1000 times the tolerance, or what rounding errors of K u make.
+#pragma once
+
+#include <slant/contact/bodies.hpp>
+#include <slant/contact/free_motions.hpp>
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/total_feti.hpp>
+#include <slant/iteration/feasible.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/schur_contact.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace slant::contact {
+
+/// Options of solve_floating.
+template <class S = double>
+struct floating_options {
+  S tolerance = S(1e-10);       ///< relative, of the residual that the method measures
+  index max_iterations = 5000;  ///< steps at most
+  node_layout<S> layout{};      ///< gives the motions their names
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    if (!(tolerance > S(0) && tolerance < S(1))) {
+      throw bad_input("tolerance", slant::detail::show(tolerance), "a number in (0, 1)");
+    }
+    if (max_iterations < 0) {
+      throw bad_input("max_iterations", slant::detail::show(max_iterations), "a number >= 0");
+    }
+  }
+};
+
+/// What came of bodies that float.
+template <class S = double>
+struct floating_solution {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  vector_type u{};        ///< displacements; where rigid motions are left free, one of many
+  vector_type lambda{};   ///< forces of [N; T]
+  vector_type descent{};  ///< where unbounded: w, along which the energy falls for ever; else empty
+  slant::status status = slant::status::running;
+  std::string reason{};
+  std::string method{};  ///< "schur_contact" or "constrained_newton"
+  index iterations = 0;
+  slant::work work{};
+  free_motions<S> motions{};  ///< of K alone
+  S residual = S(0);          ///< of the optimality conditions, see optimality.hpp
+
+  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
+};
+
+namespace detail {
+
+/// Does the energy fall for ever along w = R α: fᵀw > Σ gᵢ‖(T w)ᵢ‖, N w ≤ 0, and (T w)ᵢ = 0 where
+/// gᵢ = ∞? The last two hold up to a millionth of the first, over ‖f‖: forces that balance the load
+/// after all would add up to a million times as much as that.
+template <class S, class V>
+[[nodiscard]] bool falls_for_ever(data<S> const& c, V const& w) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  S const size = w.norm(), load = c.f.norm();
+  vector_type const normal = c.N * w, slip = c.T * w;
+  index const k = c.tangents();
+  S fall = c.f.dot(w), opposed(0);
+  for (index i = 0; i < c.nodes(); ++i) {
+    if (slant::detail::is_finite(c.d[i])) opposed = std::max<S>(opposed, normal[i]);
+    if (k == 0) continue;
+    S const length = slip.segment(k * i, k).norm();
+    if (slant::detail::is_finite(c.g[i]))
+      fall -= c.g[i] * length;
+    else
+      opposed = std::max<S>(opposed, length);
+  }
+  // What fᵀw may be by rounding alone.
+  S const rounding = S(1024) * std::numeric_limits<S>::epsilon() * load * size;
+  return fall > rounding && opposed <= S(1e-6) * (fall / load);
+}
+
+/// The nearest forces of Λ: λ_ν ≥ 0, and 0 where the gap is infinite; ‖λ_t,i‖ ≤ gᵢ/unit.
+template <class S>
+void project_forces(data<S> const& c, S const& unit, Eigen::Matrix<S, Eigen::Dynamic, 1>& λ) {
+  index const k = c.tangents(), m = c.nodes();
+  for (index i = 0; i < m; ++i) {
+    if (!(λ[i] > S(0)) || !slant::detail::is_finite(c.d[i])) λ[i] = S(0);
+    if (k == 0) continue;
+    S const length = λ.segment(m + k * i, k).norm(), most = c.g[i] / unit;
+    if (length > most) λ.segment(m + k * i, k) *= most / length;
+  }
+}
+
+/// A motion along which the energy falls for ever, where there is one: the resultants that no
+/// forces balance, w = R α, α = e − G λ with the least ‖e − G λ‖ over λ ∈ Λ, by an accelerated
+/// gradient method with restarts [O'Donoghue, Candès 2015]. By the optimality of λ it is αᵀ(G μ − G
+/// λ) ≤ 0 for all μ ∈ Λ, so N w ≤ 0 and fᵀw − Σ gᵢ‖(T w)ᵢ‖ = ‖α‖². Ends as soon as w proves that.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> falling_motion(data<S> const& c,
+                                                                 Eigen::SparseMatrix<S> const& R,
+                                                                 index steps) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  Eigen::SparseMatrix<S> const Gt = stacked_constraints(c) * R, G = Gt.transpose();
+  vector_type e = R.transpose() * c.f;
+  S const unit = e.norm();
+  if (!(unit > S(0))) return R * e;
+  e /= unit;
+  dense_type const gram = dense_type(G * Gt);
+  S const L = Eigen::SelfAdjointEigenSolver<dense_type>(gram).eigenvalues().maxCoeff();
+  vector_type α = e, w = R * α;
+  if (!(L > S(0))) return w;
+  vector_type λ = vector_type::Zero(Gt.rows()), y = λ, next = λ;
+  S t(1);
+  for (index step = 1; step <= steps; ++step) {
+    using std::sqrt;
+    α = e - G * y;
+    next = y + Gt * α / L;
+    project_forces(c, unit, next);
+    if ((y - next).dot(next - λ) > S(0)) t = S(1);
+    S const t_next = (S(1) + sqrt(S(1) + S(4) * t * t)) / S(2);
+    y = next + ((t - S(1)) / t_next) * (next - λ);
+    t = t_next;
+    λ.swap(next);
+    if (step % 16 != 0 && step != steps) continue;
+    α = e - G * λ;
+    w = R * α;
+    if (falls_for_ever(c, w)) break;
+  }
+  return w;
+}
+
+/// R of all bodies, n_u × the number of their motions.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> kernel_of(free_motions<S> const& motions, index unknowns) {
+  std::vector<Eigen::Triplet<S>> entries;
+  index column = 0;
+  for (auto const& body : motions.free) {
+    for (index k = 0; k < body.motions.cols(); ++k, ++column) {
+      for (std::size_t j = 0; j < body.unknowns.size(); ++j) {
+        entries.emplace_back(static_cast<int>(body.unknowns[j]), static_cast<int>(column),
+                             body.motions(static_cast<index>(j), k));
+      }
+    }
+  }
+  Eigen::SparseMatrix<S> R(unknowns, column);
+  R.setFromTriplets(entries.begin(), entries.end());
+  return R;
+}
+
+/// The claim that there is no solution, with its proof w; or that it could not be proven.
+template <class S>
+void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
+                        floating_options<S> const& o, floating_solution<S>& r) {
+  auto w = falling_motion(c, kernel_of(r.motions, K.rows()), index(20000));
+  S const size = w.norm();
+  if (size > S(0) && slant::detail::is_finite(size)) {
+    w /= size;
+    if (falls_for_ever(c, w)) {
+      r.status = slant::status::unbounded;
+      r.reason = "neither contact nor friction holds the bodies under this load: " +
+                 name_motion(K, w, o.layout);
+      r.descent = std::move(w);
+      return;
+    }
+  }
+  r.status = slant::status::stalled;
+  r.reason =
+      "no forces of contact and friction were found that balance the load, and no motion along "
+      "which the energy falls for ever";
+}
+
+/// `converged` stands only beside an independent check.
+template <class S>
+void check_claim(Eigen::SparseMatrix<S> const& K, data<S> const& c, S const& tolerance,
+                 floating_solution<S>& r) {
+  r.residual = check_optimality(K, c, r.u, r.lambda).residual();
+  if (r.status != slant::status::converged) return;
+  // K u has rounding errors of ε ‖K‖ ‖u‖, however far the bodies have moved.
+  S const force = std::max<S>(c.f.norm(), (c.N.transpose() * r.lambda.head(c.nodes())).norm());
+  S const rounding =
+      S(64) * std::numeric_limits<S>::epsilon() * slant::detail::largest_row_sum(K) * r.u.norm();
+  S const allowed = S(1000) * tolerance + (force > S(0) ? S(rounding / force) : S(0));
+  if (r.residual <= allowed) return;
+  r.status = slant::status::stalled;
+  r.reason = "the method has converged (" + r.reason +
+             "), but the optimality conditions have the "
+             "residual " +
+             slant::detail::show(r.residual) + ", more than " + slant::detail::show(allowed);
+}
+
+template <class S>
+void solve_without_friction(Eigen::SparseMatrix<S> const& K, data<S> const& c,
+                            floating_options<S> const& o, floating_solution<S>& r) {
+  r.method = "schur_contact";
+  bodies<S> const problem(K, c.f, c.N, c.d);
+  auto const qp = problem.qp();
+  auto run = slant::solve(slant::schur_contact{qp}, problem.zero(),
+                          residual_below(o.tolerance) || at_most(o.max_iterations));
+  r.status = run.status;
+  r.reason = std::move(run.reason);
+  r.iterations = run.iterations();
+  r.work = run.state.work;
+  r.u = problem.displacement(run.x());
+  r.lambda.setZero(c.N.rows() + c.T.rows());
+  r.lambda.head(c.N.rows()) = run.state.multipliers();
+  if (r.status == slant::status::unbounded) conclude_unbounded(K, c, o, r);
+}
+
+/// The unknowns body after body: entry j is an unknown of K.
+[[nodiscard]] inline std::vector<index> body_order(std::vector<std::vector<index>> const& bodies) {
+  std::vector<index> order;
+  for (auto const& body : bodies) order.insert(order.end(), body.begin(), body.end());
+  return order;
+}
+
+/// The columns of B in this order.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> columns_in_order(Eigen::SparseMatrix<S> const& B,
+                                                      std::vector<index> const& order) {
+  Eigen::SparseMatrix<S> sorted(B.rows(), B.cols());
+  sorted.reserve(B.nonZeros());
+  for (index j = 0; j < B.cols(); ++j) {
+    sorted.startVec(j);
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(B, order[static_cast<std::size_t>(j)]); e;
+         ++e)
+      sorted.insertBack(e.row(), j) = e.value();
+  }
+  sorted.finalize();
+  return sorted;
+}
+
+template <class Friction, class S>
+void solve_with_friction(Friction friction, Eigen::SparseMatrix<S> const& K, data<S> const& c,
+                         floating_options<S> const& o, floating_solution<S>& r) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  r.method = "constrained_newton";
+  auto const parts = bodies_of(K);
+  auto const order = body_order(parts);
+  std::vector<index> number(order.size());
+  for (auto const& body : parts) {
+    for (std::size_t j = 0; j < body.size(); ++j)
+      number[static_cast<std::size_t>(body[j])] = static_cast<index>(j);
+  }
+  floating_bodies<S> floating;
+  auto next = r.motions.free.begin();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto const& body = parts[i];
+    floating.K.push_back(columns_of_body(K, number, body, body, true));
+    bool const is_free = next != r.motions.free.end() && next->number == static_cast<index>(i);
+    floating.R.push_back(is_free ? next->motions : dense_type(static_cast<index>(body.size()), 0));
+    if (is_free) ++next;
+  }
+  floating.B.resize(0, K.rows());
+  data<S> sorted{columns_in_order(c.N, order), columns_in_order(c.T, order), c.f, c.d, c.g};
+  for (index j = 0; j < c.f.size(); ++j) sorted.f[j] = c.f[order[static_cast<std::size_t>(j)]];
+  auto const unsorted = [&](vector_type const& v) {
+    vector_type all(v.size());
+    for (index j = 0; j < v.size(); ++j) all[order[static_cast<std::size_t>(j)]] = v[j];
+    return all;
+  };
+  r.u.setZero(K.rows());
+  r.lambda.setZero(c.N.rows() + c.T.rows());
+  try {
+    total_feti const problem(friction, floating, sorted);
+    auto const qp = problem.qp();
+    slant::constrained_newton const method{qp, problem.constraints()};
+    auto run =
+        slant::solve(method, problem.zero(),
+                     (reduced_gradient_below(o.tolerance) && feasibility_below(o.tolerance)) ||
+                         at_most(o.max_iterations));
+    r.status = run.status;
+    r.reason = std::move(run.reason);
+    r.iterations = run.iterations();
+    r.work = run.state.work;
+    r.lambda = run.x();
+    r.u = unsorted(problem.displacement(run.x(), method.multipliers(run.state)));
+    if (run.state.infeasible) conclude_unbounded(K, c, o, r);
+  } catch (bad_input const& refusal) {
+    if (!std::string_view(refusal.what()).starts_with("f: got a load that moves")) throw;
+    conclude_unbounded(K, c, o, r);
+  }
+}
+
+}  // namespace detail
+
+/// Solves the problem at the top of this file; for a definite K as well, though other methods are
+/// faster. Throws bad_input if the data are not valid (see contact::data::validate), K is not
+/// symmetric, or not semidefinite, or options are out of range; loads that nothing balances are a
+/// status.
+///
+///     auto r = slant::contact::solve_floating(K, data);
+///     if (!r.converged()) std::puts(r.reason.c_str());    // "… body 0 moves along x"
+template <class S>
+[[nodiscard]] floating_solution<S> solve_floating(Eigen::SparseMatrix<S> const& K, data<S> const& c,
+                                                  floating_options<S> const& options = {}) {
+  options.validate();
+  c.validate();
+  slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
+  floating_solution<S> r;
+  r.motions = find_free_motions(K, options.layout);
+  if (!r.motions.undetermined.empty()) {
+    throw bad_input("K",
+                    "a body, number " + slant::detail::show(r.motions.undetermined.front()) +
+                        ", whose block is not positive semidefinite up to rounding",
+                    "a symmetric positive semidefinite matrix");
+  }
+  bool const slides = c.tangents() == 0 || c.g.maxCoeff() == S(0);
+  if (slides)
+    detail::solve_without_friction(K, c, options, r);
+  else if (c.tangents() == 1)
+    detail::solve_with_friction(friction_line{}, K, c, options, r);
+  else
+    detail::solve_with_friction(friction_disc{}, K, c, options, r);
+  if (r.status != slant::status::unbounded) detail::check_claim(K, c, options.tolerance, r);
+  return r;
+}
+
+}  // namespace slant::contact

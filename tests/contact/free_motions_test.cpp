@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/free_motions.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fem/stacked_bricks.hpp>
+#include <string>
+#include <support/message.hpp>
+#include <vector>
+
+namespace free_motions_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slant::contact::factorize_stiffness;
+using slant::contact::find_free_motions;
+using slant::contact::node_layout;
+using sparse = Eigen::SparseMatrix<double>;
+
+/// K and its layout with these unknowns left out.
+struct body {
+  sparse K;
+  node_layout<double> layout;
+
+  void hold(std::vector<Eigen::Index> const& unknowns) {
+    std::vector<Eigen::Triplet<double>> kept;
+    node_layout<double> rest{layout.x, {}, {}};
+    for (Eigen::Index j = 0; j < K.rows(); ++j) {
+      bool held = false;
+      for (Eigen::Index const i : unknowns) held = held || i == j;
+      if (held) continue;
+      kept.emplace_back(int(j), int(rest.node.size()), 1);
+      rest.node.push_back(layout.node[std::size_t(j)]);
+      rest.axis.push_back(layout.axis[std::size_t(j)]);
+    }
+    sparse P(K.rows(), Eigen::Index(kept.size()));
+    P.setFromTriplets(kept.begin(), kept.end());
+    K = sparse(P.transpose() * K * P);
+    layout = rest;
+  }
+  /// The unknown of a node at a place.
+  [[nodiscard]] Eigen::Index at(VectorXd const& place, int axis) const {
+    for (std::size_t j = 0; j < layout.node.size(); ++j) {
+      if (layout.axis[j] == axis && layout.x.col(layout.node[j]) == place) return Eigen::Index(j);
+    }
+    FAIL("no node there");
+    return -1;
+  }
+  [[nodiscard]] std::string sentence() const { return find_free_motions(K, layout).sentence(); }
+};
+
+body make_brick() {
+  auto const scene = fem::make_stack({.bricks = 1, .cells = {2, 2, 2}});
+  return {scene.K, slant::contact::layout_of(scene.mesh.nodes, scene.unknowns.first)};
+}
+
+body make_plate() {
+  auto const mesh = fem::make_box_mesh<2>({3, 2}, {3, 1});
+  auto const own = fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
+  return {fem::stiffness<2>(mesh, own, fem::lame(10, 0.3)),
+          slant::contact::interleaved_layout(mesh.nodes)};
+}
+
+TEST_CASE("free motions of a brick in space, held at more and more points") {
+  std::string const name = "body 0 (unknowns 0 to ";
+  body brick = make_brick();
+  CHECK(brick.sentence() == name + "80) can move along x, y and z and turn about x, y and z");
+  body sliding = brick;
+  std::vector<Eigen::Index> floor;
+  for (std::size_t j = 0; j < brick.layout.node.size(); ++j) {
+    if (brick.layout.axis[j] == 2 && brick.layout.x(2, brick.layout.node[j]) == 0)
+      floor.push_back(Eigen::Index(j));
+  }
+  sliding.hold(floor);
+  CHECK(sliding.sentence() == name + "71) can move along x and y and turn about z");
+  body pinned = brick;
+  auto const corner = Eigen::Vector3d(2, 0, 0);
+  pinned.hold({brick.at(corner, 0), brick.at(corner, 1), brick.at(corner, 2)});
+  CHECK(pinned.sentence() == name + "77) can turn about x, y and z");
+  body hinged = brick;
+  auto const edge = Eigen::Vector3d(2, 1, 0);
+  hinged.hold({brick.at(corner, 0), brick.at(corner, 1), brick.at(corner, 2), brick.at(edge, 0),
+               brick.at(edge, 2)});
+  CHECK(hinged.sentence() == name + "75) can turn about the axis along y through (2, 0.5, 0)");
+  hinged.hold({hinged.at(Eigen::Vector3d(0, 0, 0), 2)});
+  CHECK(find_free_motions(hinged.K, hinged.layout).free.empty());
+  CHECK(factorize_stiffness(hinged.K).rows() == hinged.K.rows());
+}
+
+TEST_CASE("free motions of a plate, also in other units and directions") {
+  body plate = make_plate();
+  CHECK(plate.sentence() == "body 0 (unknowns 0 to 23) can move along x and y and turn about z");
+  auto const corner = Eigen::Vector2d(3, 0);
+  body pinned = plate;
+  pinned.hold({plate.at(corner, 0), plate.at(corner, 1)});
+  CHECK(pinned.sentence() == "body 0 (unknowns 0 to 21) can turn about the point (3, 0)");
+  body rolling = plate;
+  rolling.hold({plate.at(corner, 1), plate.at(Eigen::Vector2d(0, 0), 1)});
+  CHECK(rolling.sentence() == "body 0 (unknowns 0 to 21) can move along x");
+  for (double const unit : {1e-150, 1e-9, 1e150}) {
+    rolling.K = unit * rolling.K;
+    CHECK(rolling.sentence() == "body 0 (unknowns 0 to 21) can move along x");
+    rolling.K = rolling.K / unit;
+  }
+  // The same frame turned by 30 degrees: K' = Q K Qᵀ.
+  double const c = std::cos(0.5235987755982988), s = std::sin(0.5235987755982988);
+  body turned = plate;
+  turned.layout.x = Eigen::Matrix2d{{c, -s}, {s, c}} * plate.layout.x;
+  MatrixXd Q = MatrixXd::Zero(24, 24);
+  for (int i = 0; i < 12; ++i) Q.block<2, 2>(2 * i, 2 * i) << c, -s, s, c;
+  MatrixXd const springs = [&] {  // across the frame's own y at two nodes
+    MatrixXd k = Q * MatrixXd(plate.K) * Q.transpose();
+    for (Eigen::Index const j : {plate.at(corner, 1), plate.at(Eigen::Vector2d(0, 0), 1)})
+      k += 10 * Q.col(j) * Q.col(j).transpose();
+    return k;
+  }();
+  turned.K = MatrixXd((springs + springs.transpose()) / 2).sparseView();
+  CHECK(turned.sentence() == "body 0 (unknowns 0 to 23) can move along (0.866, 0.5)");
+}
+
+TEST_CASE("bodies, places not known, and what a refusal says") {
+  auto const stack = fem::make_stack({.bricks = 3, .cells = {2, 1, 1}});
+  auto const motions = find_free_motions(stack.K);
+  CHECK(motions.bodies == 3);
+  CHECK(motions.dimension() == 18);
+  CHECK(motions.free[2].text == "body 2 (unknowns 72 to 107) has 6 free motions");
+  CHECK((stack.K.block(72, 72, 36, 36) * motions.free[2].motions).norm() <= 1e-9 * stack.K.norm());
+  std::string const said = test::complaint([&] { (void)factorize_stiffness(stack.K); });
+  CHECK(said.starts_with("K: got pivot "));
+  CHECK(said.find("zero up to rounding: body 0 (unknowns 0 to 35) has 6 free motions; body 1") !=
+        said.npos);
+  CHECK(said.ends_with(
+      ", expected a symmetric positive definite matrix, with supports that hold every body"));
+
+  // An unknown without stiffness, a mechanism, and what is no matter of motions.
+  sparse none(2, 2);
+  none.insert(0, 0) = 1;
+  CHECK(find_free_motions(none).sentence() == "body 1 (unknown 1) has 1 free motion");
+  sparse const indefinite = MatrixXd{{1, 2}, {2, 1}}.sparseView();
+  CHECK(find_free_motions(indefinite).free.empty());
+  CHECK(find_free_motions(indefinite).undetermined == std::vector<slant::index>{0});
+  CHECK(test::complaint([&] {
+          (void)factorize_stiffness(indefinite);
+        }).ends_with("= -3, expected a symmetric positive definite matrix"));
+}
+
+TEST_CASE("the name of a motion") {
+  auto const plate = make_plate();
+  auto const& L = plate.layout;
+  VectorXd d(24), r(24);
+  for (std::size_t j = 0; j < 24; ++j) {
+    d[int(j)] = L.axis[j] == 0 ? -2 : 0;
+    r[int(j)] = L.axis[j] == 0 ? -L.x(1, L.node[j]) : L.x(0, L.node[j]);
+  }
+  CHECK(slant::contact::name_motion(plate.K, d, L) == "body 0 (unknowns 0 to 23) moves along -x");
+  CHECK(slant::contact::name_motion(plate.K, r, L) ==
+        "body 0 (unknowns 0 to 23) turns about the point (0, 0)");
+  CHECK(slant::contact::name_motion(plate.K, r) == "body 0 (unknowns 0 to 23) moves");
+}
+
+}  // namespace free_motions_test

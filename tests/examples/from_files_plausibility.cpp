@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// from_files on data that are valid and look wrong, and on bodies that supports do not hold.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "problem_files.hpp"
+
+namespace from_files_plausibility {
+namespace {
+
+using examples_test::check_refusal;
+using examples_test::contains;
+using examples_test::coordinate;
+using examples_test::is_one_line;
+using examples_test::problem_files;
+using examples_test::solved;
+using examples_test::word;
+using nlohmann::json;
+
+fem::contact_scene<3> brick() {
+  return fem::make_steel_brick({.k = 2, .load = fem::brick_load::press});
+}
+
+/// The brick without its clamp, as contact holds it: pressed and pushed, with a slip bound.
+fem::contact_scene<3> loose_brick(double push, double slip) {
+  auto scene = brick();
+  auto const mesh = fem::make_brick_mesh(1);
+  auto const own = fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
+  scene.K = fem::stiffness<3>(mesh, own, fem::lame(2.119e5, 0.277));
+  scene.mesh = mesh;
+  scene.f = Eigen::VectorXd::Zero(own.count);
+  fem::add_tractions<3>(
+      mesh, own, {{fem::brick_side::top, {0, 0, -1}}, {fem::brick_side::right, {-push, 0, 0}}},
+      scene.f);
+  auto const nodes = mesh.nodes_on(fem::brick_side::bottom);
+  auto const m = static_cast<Eigen::Index>(nodes.size());
+  scene.N = Eigen::SparseMatrix<double>(m, own.count);
+  scene.T = Eigen::SparseMatrix<double>(2 * m, own.count);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    int const first = own.first[nodes[static_cast<std::size_t>(i)]];
+    scene.N.insert(i, first + 2) = -1;
+    scene.T.insert(2 * i, first) = 1;
+    scene.T.insert(2 * i + 1, first + 1) = 1;
+  }
+  scene.d = Eigen::VectorXd::Zero(m);
+  scene.g = Eigen::VectorXd::Constant(m, slip);
+  return scene;
+}
+
+/// A file with the coordinates, and the option that names it.
+std::string put_coordinates(problem_files const& files, fem::contact_scene<3> const& scene) {
+  std::string text = "%%MatrixMarket matrix array real general\n3 " +
+                     std::to_string(scene.mesh.node_count()) + "\n";
+  for (Eigen::Index i = 0; i < scene.mesh.nodes.size(); ++i)
+    text += std::to_string(scene.mesh.nodes(i)) + "\n";
+  files.put("x.mtx", text);
+  return " --coordinates " + word((files.input() / "x.mtx").string());
+}
+
+/// Solved with one warning of this kind, refused with --strict.
+void check_warned(fem::contact_scene<3> const& scene, std::string const& kind, int index) {
+  CAPTURE(kind);
+  problem_files const files(scene);
+  auto const ran = files.solve();
+  REQUIRE(is_one_line(ran.out));
+  json const result = json::parse(ran.out);
+  REQUIRE(result["warnings"].size() == 1);
+  json const& warning = result["warnings"][0];
+  CHECK(warning["kind"] == kind);
+  CHECK(warning["index"] == index);
+  std::string const text = warning["text"].get<std::string>();
+  CHECK(ran.err == "from_files: warning: " + text + "\n");
+  problem_files const again(scene);
+  check_refusal(again, "--strict", "--strict: " + text);
+}
+
+}  // namespace
+
+TEST_CASE("from_files: warnings in the report and on standard error, refusals with --strict") {
+  problem_files const sound(brick());
+  json const result = solved(sound, "--strict");
+  CHECK(result["warnings"].empty());
+  CHECK(result["warnings"].is_array());
+
+  auto scene = brick();
+  scene.N *= 1000;
+  check_warned(scene, "other_units", 0);
+  scene = brick();
+  Eigen::MatrixXd const rows(scene.N);
+  Eigen::MatrixXd reversed = rows.colwise().reverse();
+  scene.N = reversed.sparseView();
+  check_warned(scene, "different_nodes", 0);
+  reversed = rows;
+  reversed.row(4) = reversed.row(3);
+  scene.N = reversed.sparseView();
+  problem_files const doubled(scene);
+  auto const ran = doubled.solve();
+  CHECK(contains(ran.err, "from_files: warning: row 4 of N is a positive multiple of row 3. "));
+  // Lifted off: known when it is solved, and refused then.
+  scene = brick();
+  scene.f = -scene.f;
+  check_warned(scene, "no_contact", 0);
+}
+
+TEST_CASE("from_files: a body that contact and friction hold, without supports") {
+  auto const scene = loose_brick(0.3, 0.06);
+  problem_files const files(scene);
+  json const result = solved(files, put_coordinates(files, scene));
+  CHECK(result["status"] == "converged");
+  CHECK(result["method"] == "floating");
+  CHECK(result["solved_by"] == "constrained_newton");
+  CHECK(result["kkt_residual"].get<double>() < 1e-6);
+  REQUIRE(result["free_motions"].size() == 1);
+  CHECK(result["free_motions"][0]["text"] ==
+        "body 0 (unknowns 0 to 47) can move along x, y and z and turn about x, y and z");
+  CHECK(result["free_motions"][0]["motions"] == 6);
+  CHECK(files.read("lambda.txt").head(8).sum() == doctest::Approx(3));
+  check_refusal(files.solve("--method kprgp"), ": body 0 (unknowns 0 to 47) has 6 free motions");
+
+  problem_files const sliding(loose_brick(0.3, 0.01));
+  auto const ran = sliding.solve(put_coordinates(sliding, scene));
+  CHECK(ran.status == 1);
+  json const slid = json::parse(ran.out);
+  CHECK(slid["status"] == "unbounded");
+  CHECK(slid["reason"] ==
+        "neither contact nor friction holds the bodies under this load: body 0 (unknowns 0 to 47) "
+        "moves along -x");
+  problem_files const smooth(loose_brick(0, 0.01));
+  smooth.remove("T.mtx");
+  smooth.remove("g.txt");
+  CHECK(solved(smooth)["solved_by"] == "schur_contact");
+
+  sliding.put("F.txt", "1\n1\n1\n1\n1\n1\n1\n1\n");
+  check_refusal(sliding.solve("--coulomb " + word((sliding.input() / "F.txt").string())),
+                ": body 0 (unknowns 0 to 47) has 6 free motions");
+}
+
+TEST_CASE("from_files: coordinates that do not fit, and messages without names of C++") {
+  problem_files const files(brick());
+  auto const with = [&](std::string const& text, std::string const& expected) {
+    files.put("x.mtx", text);
+    check_refusal(files.solve("--coordinates " + word((files.input() / "x.mtx").string())),
+                  expected);
+  };
+  with("%%MatrixMarket matrix array real general\n1 2\n1\n2\n",
+       "got 1, expected 2 or 3 coordinates");
+  with("%%MatrixMarket matrix array real general\n3 1\n1\n2\n3\n",
+       "got 3, expected the coordinates of a node for each of its unknowns, 162");
+  auto scene = brick();
+  scene.g[2] = 0;
+  problem_files const smooth(scene);
+  auto const ran = smooth.solve("--method interior_point");
+  check_refusal(ran, "expected points with f(x) < 0, which components with one value");
+  CHECK(!contains(ran.err, "slant::"));
+}
+
+}  // namespace from_files_plausibility
