@@ -91,7 +91,7 @@ int solve_tresca(arguments const& a) {
   } catch (slant::bad_input const& refusal) {
     auto const motions = from_files::motions_behind(refusal, problem, layout);
     if (motions.free.empty()) throw;
-    if (!a.method.empty() || a.start != "zero")
+    if (!a.method.empty() || a.start != "automatic")
       throw slant::contact::with_free_motions(refusal, motions);
   }
   auto const [solution, motions] = from_files::solve_floating(problem, settings_of(a), layout);
