@@ -56,7 +56,7 @@ int solve_friction_folder(arguments const& a) {
   if (!a.coefficients.empty())
     throw slant::bad_input("--coulomb", a.coefficients.string(),
                            "nothing, since DIR holds W.mtx, whose coefficients are in mu.txt");
-  if (a.start != "zero")
+  if (a.start != "zero" && a.start != "automatic")
     throw slant::bad_input("--start", a.start, "zero, since DIR holds W.mtx: contacts alone");
   auto const& method = method_named(friction_methods, a.method);
   auto const problem = slant::read_friction_problem(
