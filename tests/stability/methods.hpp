@@ -39,6 +39,8 @@ struct outcome {
   slant::index iterations = 0;
   slant::index applications = 0;
   Eigen::VectorXd x{};  ///< last iterate in Λ, or its projection; λ in contact
+  Eigen::Matrix<long double, Eigen::Dynamic, 1> fine_x{};  ///< x with all its digits, where those
+                                                           ///< of a double are not all
   /// What the method says of its own relative energy error, if it does.
   double claimed = std::numeric_limits<double>::quiet_NaN();
 };
@@ -102,21 +104,34 @@ class prepared {
   Eigen::SparseMatrix<double> inverse_{};
 };
 
+/// Which programs a method is made for.
+enum class scope { all, contact, dense, rounded };  ///< rounded: dense, data that a float holds
+
 struct method {
   std::string_view name;
   outcome (*run)(prepared const&, request const&);
-  bool contact_only = false;
+  scope programs = scope::all;
+  double epsilon = std::numeric_limits<double>::epsilon();  ///< of its scalar
+  /// Does it say `converged` only beside an independent check? Then no test lets it be wrong.
+  bool certified = false;
 };
 
 [[nodiscard]] std::span<method const> newton_methods();      ///< newton_methods.cpp
 [[nodiscard]] std::span<method const> active_set_methods();  ///< active_set_methods.cpp
 [[nodiscard]] std::span<method const> natural_methods();     ///< natural_methods.cpp
+[[nodiscard]] std::span<method const> scalar_methods();      ///< scalar_methods.cpp
 
 /// f(method) for all.
 template <class F>
 void for_each_method(F const& f) {
-  for (auto const methods : {newton_methods(), active_set_methods(), natural_methods()})
+  for (auto const methods :
+       {newton_methods(), active_set_methods(), natural_methods(), scalar_methods()})
     for (auto const& m : methods) f(m);
+}
+
+/// Is a program for a method? One in contact is for no other scalar than double.
+[[nodiscard]] inline bool takes(method const& m, program const& p) {
+  return m.programs == scope::all || (m.programs == scope::contact) == p.contact();
 }
 
 /// The run of a method, with exceptions caught.

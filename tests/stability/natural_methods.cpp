@@ -35,10 +35,12 @@ outcome primal_dual(prepared const& p, request const& r) {
   Eigen::VectorXd const λ0 = p.start(r.start);
   Eigen::VectorXd y0(G.cols());
   y0 << p.answer(λ0), λ0;
+  request sparse = r;  // its applications are products by a sparse matrix, where A solves with K
+  sparse.applications *= 4;
   return run_until(
       slant::semismooth_newton{G, slant::bicgstab_solver{}, slant::halving_line_search{},
                                slant::adaptive_precision{}},
-      y0, by_step(p, r), [&](Eigen::VectorXd const& y) {
+      y0, by_step(p, sparse), [&](Eigen::VectorXd const& y) {
         return Eigen::VectorXd(slant::project(p.set(), contact.multipliers(y)));
       });
 }
@@ -65,7 +67,7 @@ std::span<method const> natural_methods() {
        on_natural_residual<slant::by_laws, slant::halving_line_search, slant::eisenstat_walker>},
       {"ssn",
        on_natural_residual<slant::bicgstab_solver, slant::full_step, slant::adaptive_precision>},
-      {"ssn_primal_dual", primal_dual, true},
+      {"ssn_primal_dual", primal_dual, scope::contact},
       {"ssnm_a", on_multipliers<slant::schur_bicgstab>},
       {"ssnm_b", on_multipliers<slant::bicgstab_solver>},
       {"ssnm_c", on_multipliers<slant::schur_cg>},

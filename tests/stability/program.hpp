@@ -33,6 +33,8 @@ struct program {
   [[nodiscard]] bool contact() const { return K.rows() > 0; }
   [[nodiscard]] Eigen::Index size() const { return lower.size() + low.size() + 2 * radius.size(); }
   [[nodiscard]] std::string name() const;
+  /// The program without contact whose data are the nearest floats.
+  [[nodiscard]] program rounded() const;
 };
 
 /// Numbers that are the same on every machine: splitmix64.

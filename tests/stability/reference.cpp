@@ -368,9 +368,10 @@ quad_matrix dense(Eigen::SparseMatrix<double> const& M) {
   return d;
 }
 
-quad_vector widened(Eigen::VectorXd const& x) {
+template <class V>
+quad_vector widened(V const& x) {
   quad_vector w;
-  for (double xi : x) w.push_back(static_cast<quad>(xi));
+  for (auto const xi : x) w.push_back(static_cast<quad>(xi));
   return w;
 }
 
@@ -530,7 +531,10 @@ reference solve_in_quad(program const& p) {
   return r;
 }
 
-double relative_error(program const& p, reference const& r, Eigen::VectorXd const& x) {
+namespace {
+
+template <class V>
+double error_of(program const& p, reference const& r, V const& x) {
   if (!x.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   quad_vector e = widened(x);
   quad_vector const& exact = p.contact() ? r.u : r.x;
@@ -541,6 +545,16 @@ double relative_error(program const& p, reference const& r, Eigen::VectorXd cons
     for (std::size_t j = 0; j < e.size(); ++j)
       sum += e[i] * static_cast<quad>(p.A(static_cast<int>(i), static_cast<int>(j))) * e[j];
   return static_cast<double>(root(sum) / r.norm);
+}
+
+}  // namespace
+
+double relative_error(program const& p, reference const& r, Eigen::VectorXd const& x) {
+  return error_of(p, r, x);
+}
+double relative_error(program const& p, reference const& r,
+                      Eigen::Matrix<long double, Eigen::Dynamic, 1> const& x) {
+  return error_of(p, r, x);
 }
 
 double natural_residual(program const& p, Eigen::VectorXd const& x) {

@@ -38,6 +38,8 @@ struct reference {
 
 /// ‖u − u*‖_K/‖u*‖_K, or ‖x − x*‖_A/‖x*‖_A without contact; NaN where the numbers are.
 [[nodiscard]] double relative_error(program const& p, reference const& r, Eigen::VectorXd const& x);
+[[nodiscard]] double relative_error(program const& p, reference const& r,
+                                    Eigen::Matrix<long double, Eigen::Dynamic, 1> const& x);
 
 /// x − P(x − D²(A x − b)) in the scale of D⁻¹, over that of x, evaluated in double: what a user can
 /// check. Without contact.

@@ -202,12 +202,17 @@ program random_program(std::uint64_t seed, Eigen::Index blocks, double κ) {
   return p;
 }
 
+/// A variant is "seed", or "seed/blocks" for another size than the usual one.
 std::uint64_t seed_of(std::string const& variant) {
   return std::strtoull(variant.c_str(), nullptr, 10);
 }
+Eigen::Index blocks_of(std::string const& variant, Eigen::Index usual) {
+  auto const slash = variant.find('/');
+  return slash == std::string::npos ? usual : std::strtol(variant.c_str() + slash + 1, nullptr, 10);
+}
 
 program conditioned(double κ, std::string const& seed) {
-  return random_program(seed_of(seed), 4, κ);
+  return random_program(seed_of(seed), blocks_of(seed, 4), κ);
 }
 program tiny(double κ, std::string const& seed) {
   return random_program(1000 + seed_of(seed), 1, κ);
@@ -215,7 +220,7 @@ program tiny(double κ, std::string const& seed) {
 
 /// Each block in units of its own.
 program rescaled_blocks(double decades, std::string const& seed) {
-  program p = random_program(2000 + seed_of(seed), 4, 100);
+  program p = random_program(2000 + seed_of(seed), blocks_of(seed, 4), 100);
   dice random(seed_of(seed) + 99);
   Eigen::VectorXd s(p.size());
   Eigen::Index const first = p.lower.size(), second = first + p.low.size();
@@ -233,7 +238,7 @@ program rescaled_blocks(double decades, std::string const& seed) {
 
 /// The whole program in other units of energy.
 program units_of_energy(double exponent, std::string const& seed) {
-  program p = random_program(3000 + seed_of(seed), 3, 100);
+  program p = random_program(3000 + seed_of(seed), blocks_of(seed, 3), 100);
   double const s = std::pow(10.0, exponent);
   p.A *= s;
   p.b *= s;
@@ -242,7 +247,7 @@ program units_of_energy(double exponent, std::string const& seed) {
 
 /// Multipliers of size `parameter` on every active constraint: 0 is weak contact everywhere.
 program weakly_active(double size, std::string const& seed) {
-  program p = random_program(4000 + seed_of(seed), 3, 1000);
+  program p = random_program(4000 + seed_of(seed), blocks_of(seed, 3), 1000);
   Eigen::VectorXd x(p.size()), z = Eigen::VectorXd::Zero(p.size());
   Eigen::Index const first = p.lower.size(), second = first + p.low.size();
   dice random(seed_of(seed) + 7);
@@ -263,17 +268,17 @@ program weakly_active(double size, std::string const& seed) {
 
 /// Intervals and discs that shrink to points.
 program shrunk_sets(double size, std::string const& seed) {
-  program p = random_program(5000 + seed_of(seed), 3, 1000);
+  program p = random_program(5000 + seed_of(seed), blocks_of(seed, 3), 1000);
   p.low.setConstant(0.5);
   p.high.setConstant(0.5 + size);
-  p.radius.head(2).setConstant(size);
+  p.radius.head((p.radius.size() + 1) / 2).setConstant(size);
   return p;
 }
 
 /// A = [M M; M M + δ I] on half lines: the second half repeats the first one.
 program redundant(double δ, std::string const& seed) {
   dice random(6000 + seed_of(seed));
-  Eigen::Index const n = 6;
+  Eigen::Index const n = blocks_of(seed, 6);
   Eigen::MatrixXd M = with_condition(random, n, 100);
   program p;
   p.lower = Eigen::VectorXd::Zero(2 * n);
@@ -286,6 +291,22 @@ program redundant(double δ, std::string const& seed) {
   return p;
 }
 
+/// Programs that have been told wrong before.
+program known_case(double, std::string const& name) {
+  program p;
+  if (name == "pair") {
+    p.A = Eigen::MatrixXd{{2, 1}, {1, 2}};
+    p.b = Eigen::VectorXd{{1, 1}};
+    p.lower = Eigen::VectorXd::Zero(2);
+    return p;
+  }
+  // A disc on whose circle the solution is; the multiplier is a small part of b, or none.
+  p.A = Eigen::MatrixXd{{1, 0}, {0, 1.06}};
+  p.b = (name == "disc 1.5" ? 1.5 : 2.0) * Eigen::VectorXd{{0.6, 0.8}};
+  p.radius = Eigen::VectorXd::Ones(1);
+  return p;
+}
+
 std::vector<std::string> const loads{"press", "lift"};
 std::vector<std::string> const seeds{"1", "2", "3", "4"};
 
@@ -295,6 +316,20 @@ std::string program::name() const {
   char text[32];
   std::snprintf(text, sizeof text, "%g", parameter);
   return adversity + " " + text + " " + variant;
+}
+
+program program::rounded() const {
+  program p = *this;
+  auto const round = [](auto& data) {
+    data = data.template cast<float>().template cast<double>().eval();
+  };
+  round(p.A);
+  round(p.b);
+  round(p.lower);
+  round(p.low);
+  round(p.high);
+  round(p.radius);
+  return p;
 }
 
 std::vector<family> const& families() {
@@ -310,8 +345,8 @@ std::vector<family> const& families() {
        loads,
        sprung},
       {"rows", "decades of the units of N and T", {2, 4, 6, 8}, loads, rescaled_rows},
-      {"force", "exponent of the unit of force", {-150, -8, 8, 150}, loads, units_of_force},
-      {"length", "exponent of the unit of length", {-150, -8, 8, 150}, loads, units_of_length},
+      {"force", "exponent of the unit of force", {8, -8, 150, -150}, loads, units_of_force},
+      {"length", "exponent of the unit of length", {8, -8, 150, -150}, loads, units_of_length},
       {"gap",
        "gap, with slip bounds 0 at some nodes",
        {1e-7, 1e-6, 1e-5, 1e-4},
@@ -326,12 +361,17 @@ std::vector<family> const& families() {
       {"blocks", "decades of the units of blocks", {1, 2, 4, 8}, seeds, rescaled_blocks},
       {"energy",
        "exponent of the unit of energy",
-       {-300, -150, -8, 8, 150},
+       {8, -8, 150, -150, -300},
        seeds,
        units_of_energy},
       {"weak", "size of the multipliers", {1, 1e-4, 1e-8, 1e-12, 0}, seeds, weakly_active},
       {"points", "size of intervals and discs", {1, 1e-4, 1e-8, 1e-16, 0}, seeds, shrunk_sets},
       {"redundant", "what tells repeated rows apart", {1e-4, 1e-8, 1e-12, 0}, seeds, redundant},
+      {"cases",
+       "programs that have been told wrong before",
+       {0},
+       {"pair", "disc 2", "disc 1.5"},
+       known_case},
   };
   return all;
 }

@@ -14,10 +14,12 @@ std::string_view name_of(verdict v) {
   return names[static_cast<int>(v)];
 }
 
-judgement judge(prepared const& p, reference const& exact, request const& asked, outcome const& o) {
+judgement judge(prepared const& p, reference const& exact, method const& m, request const& asked,
+                outcome const& o) {
   double const inf = std::numeric_limits<double>::infinity();
   judgement j;
-  j.allowed = std::max(asked.tolerance, exact.floor);
+  double const floor = exact.floor * (m.epsilon / std::numeric_limits<double>::epsilon());
+  j.allowed = std::max(asked.tolerance, floor);
   j.error = j.kkt = j.ratio = inf;
   if (o.refused || o.crashed) {
     j.said = o.refused ? verdict::refused : verdict::crashed;
@@ -25,7 +27,8 @@ judgement judge(prepared const& p, reference const& exact, request const& asked,
   }
   bool const finite = o.x.size() == p.source().size() && o.x.allFinite();
   if (finite) {
-    j.error = relative_error(p.source(), exact, p.answer(o.x));
+    j.error = o.fine_x.size() > 0 ? relative_error(p.source(), exact, o.fine_x)
+                                  : relative_error(p.source(), exact, p.answer(o.x));
     j.kkt = p.kkt(o.x);
     j.ratio = j.error / j.allowed;
     if (!(j.ratio == j.ratio)) j.error = j.ratio = inf;
@@ -49,7 +52,7 @@ judgement judge(prepared const& p, reference const& exact, request const& asked,
       j.said = good ? verdict::unclaimed : verdict::breakdown;
   }
   // The reference itself is exact to a thousandth of the floor.
-  j.claim_broken = o.claimed < j.error - 1e-3 * exact.floor;
+  j.claim_broken = o.claimed < j.error - 1e-3 * floor;
   return j;
 }
 

@@ -6,7 +6,7 @@
 //     floor),
 //
 // and one threshold for all, as LAPACK's test programs have it. The floor is that of reference.hpp,
-// with ε of double.
+// with ε of the scalar that the method computes in.
 #pragma once
 
 #include <stability/methods.hpp>
@@ -42,8 +42,8 @@ struct judgement {
   bool claim_broken = false;  ///< an error was claimed that is below the true one
 };
 
-[[nodiscard]] judgement judge(prepared const& p, reference const& exact, request const& asked,
-                              outcome const& o);
+[[nodiscard]] judgement judge(prepared const& p, reference const& exact, method const& m,
+                              request const& asked, outcome const& o);
 
 /// Counts over many runs.
 struct tally {
