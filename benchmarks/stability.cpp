@@ -157,7 +157,7 @@ class bench {
     double const seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     judgement const j = judge(ready, exact, m, asked, o);
-    std::printf("%s,%g,%s,%td,%.2g,%.2g,%.2g,\"%s\",%s,%g,%s,%s,%.3g,%.3g,%.3g,%.3g,%td,%td,%.3g\n",
+    std::printf("%s,%g,%s,%td,%.2g,%.2g,%.2g,%s,%s,%g,%s,%s,%.3g,%.3g,%.3g,%.3g,%td,%td,%.3g\n",
                 p.adversity.c_str(), p.parameter, p.variant.c_str(), p.size(), exact.condition,
                 exact.plain_condition, exact.floor, m.name.data(),
                 starts[static_cast<int>(asked.start)], asked.tolerance,

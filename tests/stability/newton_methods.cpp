@@ -54,8 +54,8 @@ outcome inside(prepared const& p, request const& r) {
 std::span<method const> newton_methods() {
   static constexpr method list[]{
       {"symmetric_newton", preconditioned},
-      {"symmetric_newton, plain", plain},
-      {"symmetric_newton, equilibrated", in_equal_units},
+      {"symmetric_newton_plain", plain},
+      {"symmetric_newton_equilibrated", in_equal_units},
       {"interior_point", inside},
   };
   return list;

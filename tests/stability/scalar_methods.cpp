@@ -50,12 +50,12 @@ constexpr auto ε_long = static_cast<double>(std::numeric_limits<long double>::e
 
 std::span<method const> scalar_methods() {
   static constexpr method list[]{
-      {"symmetric_newton, float", in_scalar<float, make_newton>, scope::rounded, ε_float},
-      {"kprgp, float", in_scalar<float, make_kprgp>, scope::rounded, ε_float},
-      {"interior_point, float", in_scalar<float, make_interior>, scope::rounded, ε_float},
-      {"symmetric_newton, long double", in_scalar<long double, make_newton>, scope::dense, ε_long},
-      {"kprgp, long double", in_scalar<long double, make_kprgp>, scope::dense, ε_long},
-      {"interior_point, long double", in_scalar<long double, make_interior>, scope::dense, ε_long},
+      {"symmetric_newton_float", in_scalar<float, make_newton>, scope::rounded, ε_float},
+      {"kprgp_float", in_scalar<float, make_kprgp>, scope::rounded, ε_float},
+      {"interior_point_float", in_scalar<float, make_interior>, scope::rounded, ε_float},
+      {"symmetric_newton_long_double", in_scalar<long double, make_newton>, scope::dense, ε_long},
+      {"kprgp_long_double", in_scalar<long double, make_kprgp>, scope::dense, ε_long},
+      {"interior_point_long_double", in_scalar<long double, make_interior>, scope::dense, ε_long},
   };
   return list;
 }
