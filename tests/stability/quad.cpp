@@ -8,7 +8,8 @@ namespace stability {
 
 quad root(quad a) {
   if (!(a > 0)) return 0;
-  quad scale = 1;  // powers of two, until a double holds a
+  if (a - a != 0) return a;  // infinite
+  quad scale = 1;            // powers of two, until a double holds a
   quad const four_hundred = static_cast<quad>(std::ldexp(1.0, 400));
   while (a > four_hundred) {
     a /= four_hundred;

@@ -59,6 +59,14 @@ TEST_CASE("the reference of a program that is solved by hand") {
         doctest::Approx(1e-9 / std::sqrt(1.25)).epsilon(1e-6));
 }
 
+TEST_CASE("roots over the whole range") {
+  quad const huge = static_cast<quad>(1e300) * static_cast<quad>(1e300);
+  CHECK(static_cast<double>(root(huge) / static_cast<quad>(1e300)) == doctest::Approx(1));
+  quad const infinite = static_cast<quad>(std::numeric_limits<double>::infinity());
+  CHECK((root(infinite) == infinite));
+  CHECK((root(quad(0)) == quad(0)));
+}
+
 TEST_CASE("references prove themselves") {
   for (auto const& f : families()) {
     if (make_program(f.name, f.parameters.front(), f.variants.front()).contact()) continue;
