@@ -31,6 +31,7 @@
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks without friction, iterated on u by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
+#   stability           every method on every adversity, judged in quadruple precision
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #   friction            Coulomb friction problems of the folder $SLANT_FRICTION, each by each method
 #   friction_variants   the same with other coefficients and velocities: default, interior point
@@ -38,7 +39,7 @@
 #   growth              time and memory against the size of the brick (both: precision.sh)
 #
 # RESULTS.md shows the last two, friction.md the two before; SLANT_PUBLISH=1 copies them and the figure
-# to benchmarks/.
+# to benchmarks/, and the figure of stability to docs/.
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
 # Exit status 1 if one of them fails or misses a limit that it knows.
@@ -51,8 +52,8 @@ programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  load_steps coulomb coulomb_models multilevel multilevel_large friction friction_variants
-  precision growth)
+  load_steps coulomb coulomb_models multilevel multilevel_large stability friction
+  friction_variants precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -184,6 +185,53 @@ do for [load in "press pull lift"] {
     using (strcol(1) eq load && strcol(2) eq k ? \$9 : NaN):10 with linespoints title "k = ".k
 }
 PLOT
+}
+
+# Runs that said `converged` with an error above 30 times what is allowed make the status 1.
+run_stability() {
+  local status=0
+  "$(program stability)" >"$output/stability.csv" 2>"$output/stability.txt" || status=$?
+  cat "$output/stability.txt"
+  draw_stability
+  return "$status"
+}
+
+# The error reached against the condition number, for each tolerance.
+draw_stability() {
+  command -v gnuplot >/dev/null || return 0
+  gnuplot <<PLOT
+set terminal pngcairo size 1200,520 enhanced
+set output "$output/stability.png"
+set datafile separator ","
+set logscale xy
+set format "10^{%L}"
+set xlabel "{/Symbol k} of the equilibrated matrix"
+set ylabel "relative energy error"
+set xrange [0.8:1e15]
+set yrange [1e-17:1e3]
+set key right bottom Left reverse samplen 2
+eps = 2.0**-52
+is_at(t) = strcol(9) eq "zero" && column(10) < 1.1 * t && column(10) > 0.9 * t
+set multiplot layout 1,2
+do for [i in "8 15"] {
+  t = 10.0**(-i)
+  set title "tolerance 1e-".i.(i eq "15" ? ", below what is attainable" : "")
+  plot \
+    "$output/stability.csv" skip 1 using (is_at(t) && strcol(12) ne "right" && \
+      strcol(12) ne "wrong" && strcol(12) ne "unclaimed" ? column(5) : NaN):13 \
+      with points pt 7 ps 0.35 lc rgb "#b8b8b8" title "stopped, and said so", \
+    "" skip 1 using (is_at(t) && (strcol(12) eq "right" || \
+      strcol(12) eq "unclaimed") ? column(5) : NaN):13 \
+      with points pt 7 ps 0.35 lc rgb "#2a7f3f" title "accurate", \
+    "" skip 1 using (is_at(t) && strcol(12) eq "wrong" ? column(5) : NaN):13 \
+      with points pt 7 ps 0.45 lc rgb "#c0282d" title "converged, and wrong", \
+    eps * x with lines lc rgb "black" title "{/Symbol ek}", \
+    eps * sqrt(x) with lines dt 2 lc rgb "black" title "{/Symbol e}{/Symbol \326}{/Symbol k}", \
+    t with lines dt 3 lc rgb "black" notitle
+}
+PLOT
+  printf 'figure: %s\n' "$output/stability.png"
+  if [[ ${SLANT_PUBLISH:-0} == 1 ]]; then cp "$output/stability.png" "$root/docs/"; fi
 }
 
 # --- summary --------------------------------------------------------------------------------------

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <slant/methods/equilibrated.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/matrix.hpp>
+
+#include <stability/methods.hpp>
+#include <stability/stopping.hpp>
+
+namespace stability {
+
+namespace {
+
+auto preconditioner(prepared const& p) {
+  return slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.approximate_inverse());
+}
+
+auto options(request const& r) {
+  slant::symmetric_newton_options<double> o;
+  o.forcing.goal = r.tolerance;
+  return o;
+}
+
+Eigen::VectorXd same(Eigen::VectorXd const& x) {
+  return x;
+}
+
+outcome plain(prepared const& p, request const& r) {
+  return run_until(slant::symmetric_newton{p.qp(), options(r)}, p.start(r.start), by_gradient(p, r),
+                   same);
+}
+
+outcome preconditioned(prepared const& p, request const& r) {
+  return run_until(slant::symmetric_newton{p.qp(), preconditioner(p), options(r)}, p.start(r.start),
+                   by_gradient(p, r), same);
+}
+
+outcome in_equal_units(prepared const& p, request const& r) {
+  auto const qp = p.qp();
+  Eigen::VectorXd const diagonal = p.dense().diagonal();
+  slant::equilibrated const scaled(qp, slant::block_factors(p.set(), diagonal));
+  return run_until(slant::symmetric_newton{scaled.qp(), options(r)}, scaled.from(p.start(r.start)),
+                   by_gradient(p, r),
+                   [&](Eigen::VectorXd const& y) { return Eigen::VectorXd(scaled.back(y)); });
+}
+
+outcome inside(prepared const& p, request const& r) {
+  return run_until(slant::interior_point{p.qp(), preconditioner(p)}, p.start(r.start),
+                   by_gradient(p, r), same);
+}
+
+}  // namespace
+
+std::span<method const> newton_methods() {
+  static constexpr method list[]{
+      {"symmetric_newton", preconditioned},
+      {"symmetric_newton_plain", plain},
+      {"symmetric_newton_equilibrated", in_equal_units},
+      {"interior_point", inside},
+  };
+  return list;
+}
+
+}  // namespace stability

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// Some methods in other scalars than double, on programs without contact.
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/matrix.hpp>
+
+#include <stability/methods.hpp>
+
+namespace stability {
+
+namespace {
+
+template <class S, class Make>
+outcome in_scalar(prepared const& p, request const& r) {
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  program const& q = p.source();
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const A = q.A.cast<S>();
+  vector const b = q.b.cast<S>(), lower = q.lower.cast<S>(), low = q.low.cast<S>(),
+               high = q.high.cast<S>(), radius = q.radius.cast<S>();
+  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A),
+                               b,
+                               slant::cartesian(slant::half_lines(lower),
+                                                slant::intervals(low, high), slant::discs(radius))};
+  auto const report =
+      slant::solve(Make{}(qp), vector(p.start(r.start).cast<S>()),
+                   slant::reduced_gradient_below(S(r.tolerance)) || slant::at_most(r.steps) ||
+                       slant::at_most_applications(r.applications));
+  outcome o;
+  o.status = report.status;
+  o.reason = report.reason;
+  o.iterations = report.iterations();
+  o.applications = report.state.work.operator_applications;
+  o.x = report.state.x.template cast<double>();
+  o.fine_x = report.state.x.template cast<long double>();
+  return o;
+}
+
+using make_newton = decltype([](auto const& qp) { return slant::symmetric_newton{qp}; });
+using make_kprgp = decltype([](auto const& qp) { return slant::kprgp{qp}; });
+using make_interior = decltype([](auto const& qp) { return slant::interior_point{qp}; });
+
+constexpr double ε_float = std::numeric_limits<float>::epsilon();
+constexpr auto ε_long = static_cast<double>(std::numeric_limits<long double>::epsilon());
+
+}  // namespace
+
+std::span<method const> scalar_methods() {
+  static constexpr method list[]{
+      {"symmetric_newton_float", in_scalar<float, make_newton>, scope::rounded, ε_float},
+      {"kprgp_float", in_scalar<float, make_kprgp>, scope::rounded, ε_float},
+      {"interior_point_float", in_scalar<float, make_interior>, scope::rounded, ε_float},
+      {"symmetric_newton_long_double", in_scalar<long double, make_newton>, scope::dense, ε_long},
+      {"kprgp_long_double", in_scalar<long double, make_kprgp>, scope::dense, ε_long},
+      {"interior_point_long_double", in_scalar<long double, make_interior>, scope::dense, ε_long},
+  };
+  return list;
+}
+
+}  // namespace stability
