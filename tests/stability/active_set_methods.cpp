@@ -15,7 +15,7 @@ namespace {
 
 template <class Make>
 outcome on_dual(prepared const& p, request const& r) {
-  return run_until(Make{}(p.qp()), p.start(r.start), by_gradient(p, r),
+  return run_until(Make{}(p.qp()), p.start(r.start), p, r,
                    [](Eigen::VectorXd const& x) { return x; });
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <stability/methods.hpp>
 
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/contact/certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioner.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <exception>
 #include <stability/reference.hpp>
@@ -29,7 +32,8 @@ void program_operator::apply(Eigen::VectorXd const& x, Eigen::VectorXd& y) const
 prepared::prepared(program const& p) : p_(p), set_(make_set(p)) {
   if (p.contact()) {
     data_ = {.N = p.N, .T = p.T, .f = p.f, .d = p.d, .g = p.radius};
-    dual_.emplace(slant::contact::friction_disc{}, slant::ldlt(p.K), data_);
+    factor_.emplace(p.K);
+    dual_.emplace(slant::contact::friction_disc{}, slant::ldlt<double>(*factor_), data_);
     inverse_ = slant::contact::lumped_preconditioner(p.K, dual_->constraints()).get();
   }
   auto const n = p.size();
@@ -64,6 +68,26 @@ Eigen::VectorXd prepared::start(start_point from) const {
 
 Eigen::VectorXd prepared::answer(Eigen::VectorXd const& x) const {
   return dual_ ? dual_->displacement(x) : x;
+}
+
+slant::energy_error<double> prepared::error_of(Eigen::VectorXd const& x, double goal) const {
+  auto const M = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(inverse_);
+  auto const program = qp();
+  if (!dual_) return slant::energy_certificate(program, M)(x);
+  slant::contact::certificate<double> certificate(p_.K, data_);
+  auto const solve = [&](Eigen::VectorXd const& load, Eigen::VectorXd& u) {
+    factor_->solve(load, u);
+  };
+  auto const A = a();
+  auto wa = slant::workspace(A, x);
+  slant::dual_norm_workspace norm_workspace(M, x);
+  auto const sharper = [&](Eigen::VectorXd const& rest, double) {
+    return slant::dual_norm(A, M, rest, 12, true, wa, norm_workspace).value;
+  };
+  auto const forces = slant::cartesian(slant::half_lines(p_.lower.size()), slant::discs(p_.radius));
+  Eigen::VectorXd λ = slant::project(set_, x);
+  Eigen::VectorXd u = answer(λ);
+  return certificate(forces, λ, u, goal, solve, sharper);
 }
 
 double prepared::kkt(Eigen::VectorXd const& x) const {

@@ -5,6 +5,7 @@
 // runs are stopped is a matter of stopping.hpp alone.
 #pragma once
 
+#include <slant/certificates/energy_error.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/ldlt.hpp>
@@ -91,6 +92,9 @@ class prepared {
   [[nodiscard]] Eigen::VectorXd start(start_point from) const;
   /// u of λ, or x itself.
   [[nodiscard]] Eigen::VectorXd answer(Eigen::VectorXd const& x) const;
+  /// What a certificate says of the energy error of P_Λ(x): contact::certificate in contact, else
+  /// energy_certificate with conjugate gradients. goal: the relative error that is asked for.
+  [[nodiscard]] slant::energy_error<double> error_of(Eigen::VectorXd const& x, double goal) const;
   /// The relative residual of the optimality conditions, in plain double: check_optimality in
   /// contact, else the natural residual.
   [[nodiscard]] double kkt(Eigen::VectorXd const& x) const;
@@ -98,6 +102,7 @@ class prepared {
  private:
   program const& p_;
   slant::contact::data<double> data_{};
+  std::optional<slant::ldlt<double>> factor_{};
   std::optional<program_operator::dual_type> dual_{};
   program_set set_;
   Eigen::MatrixXd dense_{};
@@ -112,8 +117,8 @@ struct method {
   outcome (*run)(prepared const&, request const&);
   scope programs = scope::all;
   double epsilon = std::numeric_limits<double>::epsilon();  ///< of its scalar
-  /// Does it say `converged` only beside an independent check? Then no test lets it be wrong.
-  bool certified = false;
+  /// Does it say `converged` only beside a certificate? Then no test lets it be wrong.
+  bool certified = true;
 };
 
 [[nodiscard]] std::span<method const> newton_methods();      ///< newton_methods.cpp

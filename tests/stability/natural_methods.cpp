@@ -24,7 +24,7 @@ outcome on_natural_residual(prepared const& p, request const& r) {
   auto const step = slant::mean_step(A, x0, 0.5);
   auto const F = slant::natural_residual(A, p.b(), p.set(), step.length);
   return run_until(
-      slant::semismooth_newton{F, Solver{}, Search{}, Forcing{}}, x0, by_residual(p, r),
+      slant::semismooth_newton{F, Solver{}, Search{}, Forcing{}}, x0, p, r,
       [&](Eigen::VectorXd const& x) { return Eigen::VectorXd(slant::project(p.set(), x)); });
 }
 
@@ -40,7 +40,7 @@ outcome primal_dual(prepared const& p, request const& r) {
   return run_until(
       slant::semismooth_newton{G, slant::bicgstab_solver{}, slant::halving_line_search{},
                                slant::adaptive_precision{}},
-      y0, by_step(p, sparse), [&](Eigen::VectorXd const& y) {
+      y0, p, sparse, [&](Eigen::VectorXd const& y) {
         return Eigen::VectorXd(slant::project(p.set(), contact.multipliers(y)));
       });
 }
@@ -55,7 +55,7 @@ outcome on_multipliers(prepared const& p, request const& r) {
   options.precision = {.r_tol = 0.1, .c_fact = 0.5};
   options.multipliers = slant::ssnm_multipliers::estimated;
   return run_until(
-      slant::ssnm{qp, Solver{}, options}, p.start(r.start), by_step(p, r),
+      slant::ssnm{qp, Solver{}, options}, p.start(r.start), p, r,
       [&](Eigen::VectorXd const& x) { return Eigen::VectorXd(slant::project(p.set(), x)); });
 }
 

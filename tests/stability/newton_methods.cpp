@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/solve.hpp>
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/interior_point.hpp>
+#include <slant/methods/solve_program.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
 
@@ -26,13 +28,12 @@ Eigen::VectorXd same(Eigen::VectorXd const& x) {
 }
 
 outcome plain(prepared const& p, request const& r) {
-  return run_until(slant::symmetric_newton{p.qp(), options(r)}, p.start(r.start), by_gradient(p, r),
-                   same);
+  return run_until(slant::symmetric_newton{p.qp(), options(r)}, p.start(r.start), p, r, same);
 }
 
 outcome preconditioned(prepared const& p, request const& r) {
   return run_until(slant::symmetric_newton{p.qp(), preconditioner(p), options(r)}, p.start(r.start),
-                   by_gradient(p, r), same);
+                   p, r, same);
 }
 
 outcome in_equal_units(prepared const& p, request const& r) {
@@ -40,13 +41,39 @@ outcome in_equal_units(prepared const& p, request const& r) {
   Eigen::VectorXd const diagonal = p.dense().diagonal();
   slant::equilibrated const scaled(qp, slant::block_factors(p.set(), diagonal));
   return run_until(slant::symmetric_newton{scaled.qp(), options(r)}, scaled.from(p.start(r.start)),
-                   by_gradient(p, r),
-                   [&](Eigen::VectorXd const& y) { return Eigen::VectorXd(scaled.back(y)); });
+                   p, r, [&](Eigen::VectorXd const& y) { return Eigen::VectorXd(scaled.back(y)); });
 }
 
 outcome inside(prepared const& p, request const& r) {
-  return run_until(slant::interior_point{p.qp(), preconditioner(p)}, p.start(r.start),
-                   by_gradient(p, r), same);
+  return run_until(slant::interior_point{p.qp(), preconditioner(p)}, p.start(r.start), p, r, same);
+}
+
+/// slant::solve, which chooses for itself; limits of applications do not reach it.
+outcome program_door(prepared const& p, request const& r) {
+  auto const found = slant::solve(p.qp(), r.tolerance, r.steps);
+  outcome o;
+  o.status = found.status;
+  o.reason = found.reason;
+  o.iterations = found.iterations();
+  o.applications = found.work.operator_applications;
+  o.x = found.x();
+  o.claimed = found.error.relative();
+  return o;
+}
+
+outcome contact_door(prepared const& p, request const& r) {
+  slant::contact::solve_options<double> options{.tolerance = r.tolerance, .max_steps = r.steps};
+  if (r.start != start_point::zero) options.start = p.start(r.start);
+  auto const found =
+      slant::contact::solve(slant::contact::friction_disc{}, p.source().K, p.contact(), options);
+  outcome o;
+  o.status = found.status;
+  o.reason = found.reason;
+  o.iterations = found.iterations;
+  o.applications = found.work.operator_applications;
+  o.x = found.multipliers;
+  o.claimed = found.error.relative();
+  return o;
 }
 
 }  // namespace
@@ -57,6 +84,8 @@ std::span<method const> newton_methods() {
       {"symmetric_newton_plain", plain},
       {"symmetric_newton_equilibrated", in_equal_units},
       {"interior_point", inside},
+      {"solve", program_door, scope::dense},
+      {"contact_solve", contact_door, scope::contact},
   };
   return list;
 }

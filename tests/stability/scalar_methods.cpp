@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Some methods in other scalars than double, on programs without contact.
+#include <slant/certificates/energy_error_below.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/interior_point.hpp>
@@ -25,9 +26,11 @@ outcome in_scalar(prepared const& p, request const& r) {
                                b,
                                slant::cartesian(slant::half_lines(lower),
                                                 slant::intervals(low, high), slant::discs(radius))};
+  slant::energy_certificate certificate(qp);
+  auto const error_of = [&](vector const& x) { return certificate(x); };
   auto const report =
       slant::solve(Make{}(qp), vector(p.start(r.start).cast<S>()),
-                   slant::reduced_gradient_below(S(r.tolerance)) || slant::at_most(r.steps) ||
+                   slant::energy_error_below(S(r.tolerance), error_of) || slant::at_most(r.steps) ||
                        slant::at_most_applications(r.applications));
   outcome o;
   o.status = report.status;
