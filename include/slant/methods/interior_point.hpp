@@ -87,8 +87,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
     scalar const force = options_.start_force * norm(s.r) * per_entry;
     scalar const length = options_.start_length * this->first_way(s) * per_entry;
+    if (!solved) this->choose_start(s, x0);
     s.trial = s.x;
-    slant::project(qp.set(), slant::local(x0), slant::local(s.x));
     enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
                    s.barrier.per_unit());
     if (solved) {
@@ -122,7 +122,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     if (s.since_refresh == 0) return false;
     s.gradient(qp_.get());
     s.reduce(qp_.get());
-    this->set_lagrangian(s, s.r, s.multipliers);
+    this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
     s.status = status::running;
     note_progress(s);
     return true;
@@ -137,7 +137,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
   void choose_centring(state_type& s) const {
     s.centring = scalar(0);
     if (s.constraints == 0) return;
-    scalar const ξ = this->least_product(s, s.multipliers, s.slacks) / s.measure;
+    scalar const ξ = s.least / s.measure;
     scalar const q = ξ < scalar(1) ? scalar((scalar(1) - ξ) / ξ) : scalar(0);
     s.centring =
         std::min(options_.centring_most,
@@ -145,17 +145,25 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
   }
 
   /// Δx, A Δx and Δν; false if there is none.
-  bool solve_newton(state_type& s) const {
+  bool solve_newton(state_type& s, bool corrected = false) const {
     auto const& qp = qp_.get();
-    s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
+    s.pairs.scale(this->blocks(), s.x);
+    s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal, s.pairs);
     auto const z = slant::local(s.slacks).array();
     auto const ν = slant::local(s.multipliers).array();
+    auto const smooth = slant::local(s.smooth).array();
     auto& centred = slant::local(s.row_scratch);
-    centred = ((s.barrier.per_unit().array() > scalar(0)).template cast<scalar>() *
-               (s.centring * s.measure / z))
-                  .matrix();
+    scalar const aim = s.centring * s.measure;
+    if (corrected) {
+      centred = (smooth * (aim + slant::local(s.multiplier_step).array() *
+                                     slant::local(s.slack_step).array()) /
+                 z).matrix();
+    } else {
+      centred = (smooth * aim / z).matrix();
+    }
     slant::local(s.rhs) = slant::local(s.r);
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
+    s.pairs.subtract_target(this->blocks(), aim, corrected, s.rhs);
     s.barrier.keep_fixed(s.rhs);
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
     scalar const target = std::max<scalar>(s.forcing.next(options_.forcing) * norm(s.rhs),
@@ -171,9 +179,11 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
       s.status = status::breakdown;
       return false;
     }
-    s.barrier.jacobian().apply(s.step, s.multiplier_step);
-    auto& dν = slant::local(s.multiplier_step);
-    dν = (centred.array() - ν + ν / z * dν.array()).matrix();
+    s.barrier.jacobian().apply(s.step, s.slack_step);
+    slant::local(s.multiplier_step) =
+        (centred.array() + smooth * ν * (slant::local(s.slack_step).array() / z - scalar(1)))
+            .matrix();
+    s.pairs.set_step(this->blocks(), s.step);
     return true;
   }
 
@@ -204,6 +214,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     for (index i = 0; i < index(ν.size()); ++i) {
       if (dν.coeff(i) < scalar(0)) of_ν = std::min<scalar>(of_ν, -ν.coeff(i) / dν.coeff(i));
     }
+    of_ν = std::min<scalar>(of_ν, s.pairs.way_out(this->blocks()));
     to_end = std::min(to_end, slant::minimum(s.x, of_ν));
     scalar α = std::min<scalar>(scalar(1), options_.to_boundary * to_end);
     for (index j = 0; j < options_.shortenings && α > scalar(0); ++j) {
@@ -222,7 +233,9 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     std::swap(s.multipliers, s.trial_multipliers);
     std::swap(s.slacks, s.trial_slacks);
     slant::local(s.r) += α * slant::local(s.inner.image);
-    if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers);
+    s.pairs.accept(this->blocks(), α);
+    this->estimate_multipliers(s);
+    if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
     ++s.since_refresh;
     s.step_fraction = α;
     s.under_way = s.under_way || α > scalar(0.5);
