@@ -110,7 +110,21 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
       if (descends_for_ever(s)) {
         s.status = status::unbounded;
       } else {
-        shorten(s);
+        scalar α = length(s);
+        if (s.constraints > 0 && α < options_.correct_below) {
+          scalar const c = s.centring, plain = α;
+          s.centring = centring_after(α);
+          α = solve_newton(s, α * α) ? length(s) : scalar(0);
+          if (α < plain && s.status == status::running) {
+            s.centring = c;
+            α = solve_newton(s) ? length(s) : scalar(0);
+          }
+        }
+        if (α > scalar(0)) {
+          accept(s, α);
+        } else if (s.status == status::running) {
+          s.status = status::stalled;
+        }
       }
     }
     ++s.iteration;
@@ -144,8 +158,16 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
                  std::max(options_.centring_least, scalar(options_.centring_scale * (q * q * q))));
   }
 
-  /// Δx, A Δx and Δν; false if there is none.
-  bool solve_newton(state_type& s, bool corrected = false) const {
+  /// c where a step had the length α [Mehrotra].
+  [[nodiscard]] scalar centring_after(scalar const& α) const {
+    scalar const rest = scalar(1) - α;
+    return std::min(options_.centring_most,
+                    std::max<scalar>(options_.centring_least, rest * rest * rest));
+  }
+
+  /// Δx, A Δx and Δν; false if there is none. `corrected`: that much of the second-order term of
+  /// the step at hand is taken into account.
+  bool solve_newton(state_type& s, scalar const& corrected = scalar(0)) const {
     auto const& qp = qp_.get();
     s.pairs.scale(this->blocks(), s.x);
     s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal, s.pairs);
@@ -154,8 +176,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     auto const smooth = slant::local(s.smooth).array();
     auto& centred = slant::local(s.row_scratch);
     scalar const aim = s.centring * s.measure;
-    if (corrected) {
-      centred = (smooth * (aim + slant::local(s.multiplier_step).array() *
+    if (corrected > scalar(0)) {
+      centred = (smooth * (aim + corrected * slant::local(s.multiplier_step).array() *
                                      slant::local(s.slack_step).array()) /
                  z).matrix();
     } else {
@@ -166,7 +188,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     s.pairs.subtract_target(this->blocks(), aim, corrected, s.rhs);
     s.barrier.keep_fixed(s.rhs);
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
-    scalar const target = std::max<scalar>(s.forcing.next(options_.forcing) * norm(s.rhs),
+    scalar const target = std::max<scalar>(s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
                                            std::numeric_limits<scalar>::epsilon() * norm(s.r));
     auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
                                      target, options_.inner_steps, options_.warm_start, s.trace);
@@ -205,8 +227,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
            !(this->way_out(s, d) < infinity);
   }
 
-  /// The step length α and the point at its end.
-  void shorten(state_type& s) const {
+  /// The step length α, 0 if there is none; the point at its end is the trial point.
+  scalar length(state_type& s) const {
     scalar to_end = this->way_out(s, s.step);
     auto const& ν = slant::local(s.multipliers);
     auto const& dν = slant::local(s.multiplier_step);
@@ -219,13 +241,10 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     scalar α = std::min<scalar>(scalar(1), options_.to_boundary * to_end);
     for (index j = 0; j < options_.shortenings && α > scalar(0); ++j) {
       scalar const factor = this->judge(s, α);
-      if (factor == scalar(1)) {
-        accept(s, α);
-        return;
-      }
+      if (factor == scalar(1)) return α;
       α *= factor;
     }
-    s.status = status::stalled;
+    return scalar(0);
   }
 
   void accept(state_type& s, scalar const& α) const {
@@ -233,11 +252,14 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     std::swap(s.multipliers, s.trial_multipliers);
     std::swap(s.slacks, s.trial_slacks);
     slant::local(s.r) += α * slant::local(s.inner.image);
+    s.measure = s.trial_measure;
+    s.least = s.trial_least;
     s.pairs.accept(this->blocks(), α);
     this->estimate_multipliers(s);
     if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
     ++s.since_refresh;
     s.step_fraction = α;
+    s.infeasible *= scalar(1) - α;
     s.under_way = s.under_way || α > scalar(0.5);
     s.x_norm = norm(s.x);
     s.reduce(qp_.get());

@@ -129,6 +129,8 @@ class interior_point_core {
         slant::local(s.smooth).cwiseProduct((ϑ / slant::local(s.slacks).array()).matrix());
     slant::local(s.products) = ϑ * slant::local(s.counted);
     s.measure = ϑ;
+    s.first_measure = ϑ;
+    s.infeasible = scalar(1);
     s.least = ϑ;
     s.pairs.begin(blocks(), s.x, s.barrier.per_unit(), ϑ);
     estimate_multipliers(s);
@@ -162,6 +164,7 @@ class interior_point_core {
     slant::local(s.products) *= growth;
     s.pairs.raise(growth);
     s.measure *= growth;
+    s.first_measure = s.measure / s.infeasible;
     s.least *= growth;
     set_lagrangian(s, s.r, s.multipliers, scalar(0));
     ++s.raises;
@@ -243,13 +246,17 @@ class interior_point_core {
       return options_.shorten_centred;
     }
     scalar const fall = scalar(1) - α * options_.sufficient * (scalar(1) - s.centring);
-    if (!(measure <= fall * s.measure)) return options_.shorten_measure;
+    scalar const due = (scalar(1) - α) * s.infeasible * s.first_measure;
+    if (!(measure <= std::max<scalar>(fall * s.measure, options_.grow * due))) return options_.shorten_measure;
+    if (!(measure >= options_.ahead * due)) {
+      return options_.shorten_residual;
+    }
     s.barrier.linearise(blocks(), s.trial);
     slant::local(s.rhs) = slant::local(s.r) + α * slant::local(s.inner.image);
     set_lagrangian(s, s.rhs, s.trial_multipliers, α);
     if (!(s.lagrangian_norm <= s.residual_bound * measure)) return options_.shorten_residual;
-    s.measure = measure;
-    s.least = slant::minimum(s.x, least);
+    s.trial_measure = measure;
+    s.trial_least = slant::minimum(s.x, least);
     return scalar(1);
   }
 

@@ -50,6 +50,9 @@ struct interior_point_state : gradient_point<QP> {
   scalar trace{0};            ///< of A, at least its largest eigenvalue; an estimate
   scalar measure{0};          ///< ϑ = (νᵀz + Σ pᵀy) / degree, in multiples of unit
   scalar least{0};            ///< the smallest of the products, for pairs λ_min²
+  scalar infeasible{1};       ///< φ, the product of 1 − α: what steps leave of the first ∇L
+  scalar first_measure{0};    ///< ϑ of the start
+  scalar trial_measure{0}, trial_least{0};  ///< those of the trial point
   scalar lagrangian_norm{0};  ///< ‖∇L‖
   scalar residual_bound{0};   ///< β
   scalar centring{0};         ///< c of the last step

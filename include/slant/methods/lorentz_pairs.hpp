@@ -216,18 +216,18 @@ class lorentz_pairs {
 
   /// rhs ← rhs − Σ TᵀW⁻¹c for c = σμ λ⁻¹, `corrected`: less λ \ (d_p ∘ d_y) of the last step.
   template <class C, class V>
-  void subtract_target(C const& set, S const& σμ, bool corrected, V& rhs) {
+  void subtract_target(C const& set, S const& σμ, S const& corrected, V& rhs) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       using algebra = detail::lorentz_algebra<at.M, S>;
       auto const λ = detail::entries_at<at.M>(&λ_[at.first]);
       S const det = root_p_[at.number] * root_y_[at.number];
       auto c = detail::multiple_of(S(σμ / det), algebra::reflected(λ));
-      if (corrected) {
+      if (corrected > S(0)) {
         auto const second = algebra::quotient(
             algebra::product(detail::entries_at<at.M>(&dp_[at.first]),
                              detail::entries_at<at.M>(&dy_[at.first])),
             λ);
-        c = detail::combination(S(1), c, S(-1), second);
+        c = detail::combination(S(1), c, S(-corrected), second);
       }
       detail::put_entries(c, &step_[at.first]);
       subtract(block, place, unscaled<at.M>(at, c), rhs);
