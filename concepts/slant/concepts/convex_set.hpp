@@ -198,9 +198,7 @@ concept has_lorentz_form = has_inequality_form<C, V> && requires(C const& c, V c
     c.lorentz_matrix()
   } -> numbers_like<V, decltype(c.lorentz_matrix())::RowsAtCompileTime,
                     detail::dimension_of_type<C>()>;
-  {
-    c.lorentz_point(x)
-  } -> numbers_like<V, decltype(c.lorentz_matrix())::RowsAtCompileTime, 1>;
+  { c.lorentz_point(x) } -> numbers_like<V, decltype(c.lorentz_matrix())::RowsAtCompileTime, 1>;
 };
 
 namespace detail {

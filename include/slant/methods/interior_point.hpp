@@ -177,9 +177,11 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     auto& centred = slant::local(s.row_scratch);
     scalar const aim = s.centring * s.measure;
     if (corrected > scalar(0)) {
-      centred = (smooth * (aim + corrected * slant::local(s.multiplier_step).array() *
-                                     slant::local(s.slack_step).array()) /
-                 z).matrix();
+      centred = (smooth *
+                 (aim + corrected * slant::local(s.multiplier_step).array() *
+                            slant::local(s.slack_step).array()) /
+                 z)
+                    .matrix();
     } else {
       centred = (smooth * aim / z).matrix();
     }
@@ -188,8 +190,9 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     s.pairs.subtract_target(this->blocks(), aim, corrected, s.rhs);
     s.barrier.keep_fixed(s.rhs);
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
-    scalar const target = std::max<scalar>(s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
-                                           std::numeric_limits<scalar>::epsilon() * norm(s.r));
+    scalar const target = std::max<scalar>(
+        s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
+        std::numeric_limits<scalar>::epsilon() * norm(s.r));
     auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
                                      target, options_.inner_steps, options_.warm_start, s.trace);
     s.inner_iterations = inner.iterations;

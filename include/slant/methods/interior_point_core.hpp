@@ -153,7 +153,8 @@ class interior_point_core {
     slant::local(s.trial_multipliers) =
         slant::local(s.multipliers) + slant::local(s.multiplier_step);
     s.pairs.growth(blocks(), [&](index row, scalar const& factor) {
-      slant::local(s.trial_multipliers).coeffRef(row) = factor * s.multipliers.coeff(row);
+      slant::local(s.trial_multipliers).coeffRef(row) =
+          factor * slant::local(s.multipliers).coeff(row);
     });
     scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);
     if (!(growth > options_.raise_above) || !is_finite(growth) ||
@@ -247,7 +248,8 @@ class interior_point_core {
     }
     scalar const fall = scalar(1) - α * options_.sufficient * (scalar(1) - s.centring);
     scalar const due = (scalar(1) - α) * s.infeasible * s.first_measure;
-    if (!(measure <= std::max<scalar>(fall * s.measure, options_.grow * due))) return options_.shorten_measure;
+    if (!(measure <= std::max<scalar>(fall * s.measure, options_.grow * due)))
+      return options_.shorten_measure;
     if (!(measure >= options_.ahead * due)) {
       return options_.shorten_residual;
     }

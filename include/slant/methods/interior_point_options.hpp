@@ -38,8 +38,8 @@ struct interior_point_options {
   S raise_above = S(5);
   index raises = 10;  ///< at most so often in all; 0: never
 
-  /// In [0, 1]: a step shorter than this is computed again with its own second-order term [Mehrotra];
-  /// the longer of the two is made. 0: never.
+  /// In [0, 1]: a step shorter than this is computed again with its own second-order term
+  /// [Mehrotra]; the longer of the two is made. 0: never.
   S correct_below = S(0.3);
 
   S centring_least = S(0.2);      ///< c_min in [0, c_max]; 0: pure Newton steps
@@ -47,8 +47,8 @@ struct interior_point_options {
   S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
   S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
   S residual_factor = S(1e9);  ///< β₀ ≥ 1: ‖∇L‖ ≤ β ϑ with β₀ times the β of the start
-  /// ϑ⁺ ≥ ahead · φ ϑ⁰, φ = Π(1 − α) what the steps leave of the first ∇L: ϑ that falls faster brings
-  /// the iterates to the boundary at the wrong place. In [0, 1).
+  /// ϑ⁺ ≥ ahead · φ ϑ⁰, φ = Π(1 − α) what the steps leave of the first ∇L: ϑ that falls faster
+  /// brings the iterates to the boundary at the wrong place. In [0, 1).
   S ahead = S(0.1);
   /// ≥ 0: ϑ may also grow up to grow · φ ϑ⁰.
   S grow = S(10);

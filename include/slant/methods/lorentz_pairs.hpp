@@ -45,8 +45,7 @@ namespace slant {
 
 /// A block of fixed size that is a section of the Lorentz cone.
 template <class Block>
-concept lorentz_block =
-    has_static_dimension<Block> && has_lorentz_form<Block, point_t<Block>>;
+concept lorentz_block = has_static_dimension<Block> && has_lorentz_form<Block, point_t<Block>>;
 
 namespace detail {
 
@@ -223,10 +222,10 @@ class lorentz_pairs {
       S const det = root_p_[at.number] * root_y_[at.number];
       auto c = detail::multiple_of(S(σμ / det), algebra::reflected(λ));
       if (corrected > S(0)) {
-        auto const second = algebra::quotient(
-            algebra::product(detail::entries_at<at.M>(&dp_[at.first]),
-                             detail::entries_at<at.M>(&dy_[at.first])),
-            λ);
+        auto const second =
+            algebra::quotient(algebra::product(detail::entries_at<at.M>(&dp_[at.first]),
+                                               detail::entries_at<at.M>(&dy_[at.first])),
+                              λ);
         c = detail::combination(S(1), c, S(-corrected), second);
       }
       detail::put_entries(c, &step_[at.first]);
@@ -289,10 +288,10 @@ class lorentz_pairs {
       trial_root_[at.number] = b;
       auto const Δy = unscaled<at.M>(at, detail::entries_at<at.M>(&dy_[at.first]));
       auto const y = detail::combination(S(1), detail::entries_at<at.M>(&y_[at.first]), α, Δy);
-      S const pairing = algebra::pairing(over<at.M>(block.lorentz_point(here), a),
-                                         over<at.M>(y, b));
-      S const most = sqrt(S((pairing + S(1)) / S(2))) +
-                     sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
+      S const pairing =
+          algebra::pairing(over<at.M>(block.lorentz_point(here), a), over<at.M>(y, b));
+      S const most =
+          sqrt(S((pairing + S(1)) / S(2))) + sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
       out.coeffRef(at.row) = a * b * pairing;
       least = std::min<S>(least, S(a * b / most / most));
     });
@@ -390,12 +389,12 @@ class lorentz_pairs {
     }
   }
 
-  std::vector<S> y_, λ_;              // forces; scaled pairs
-  std::vector<S> frame_;              // w̄
-  std::vector<S> dp_, dy_;            // scaled steps
-  std::vector<S> step_;               // c
-  std::vector<S> root_p_, root_y_;    // √det p, √det y; 0 without a bound
-  std::vector<S> trial_root_;         // √det (y + αΔy)
+  std::vector<S> y_, λ_;            // forces; scaled pairs
+  std::vector<S> frame_;            // w̄
+  std::vector<S> dp_, dy_;          // scaled steps
+  std::vector<S> step_;             // c
+  std::vector<S> root_p_, root_y_;  // √det p, √det y; 0 without a bound
+  std::vector<S> trial_root_;       // √det (y + αΔy)
 };
 
 }  // namespace slant

@@ -159,8 +159,9 @@ class dual_cone {
         [&](int i) -> S { return i == 0 ? v.data()[0] : S(mu() * v.data()[i]); });
   }
   [[nodiscard]] matrix_type lorentz_matrix() const {
-    return detail::from_entries<matrix_type>(
-        [&](int i, int j) -> S { return i != j ? S(0) : i == 0 ? S(1) : mu(); });
+    return detail::from_entries<matrix_type>([&](int i, int j) -> S {
+      return i != j ? S(0) : i == 0 ? S(1) : mu();
+    });
   }
 
  private:

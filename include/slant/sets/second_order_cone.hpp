@@ -158,8 +158,9 @@ class second_order_cone {
     return v;
   }
   [[nodiscard]] matrix_type lorentz_matrix() const {
-    return detail::from_entries<matrix_type>(
-        [&](int i, int j) -> S { return i != j ? S(0) : i == 0 ? mu_ : S(1); });
+    return detail::from_entries<matrix_type>([&](int i, int j) -> S {
+      return i != j ? S(0) : i == 0 ? mu_ : S(1);
+    });
   }
 
  private:
