@@ -194,7 +194,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
         s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
         std::numeric_limits<scalar>::epsilon() * norm(s.r));
     auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
-                                     target, options_.inner_steps, options_.warm_start, s.trace);
+                                     target, options_.inner_steps,
+                                     options_.warm_start && s.step_fraction > scalar(0.1), s.trace);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;
