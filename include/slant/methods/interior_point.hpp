@@ -12,17 +12,23 @@
 //     raise       at the start: ν and ϑ by ‖ν + Δν‖/‖ν‖ where steps are short; solve again
 //     shorten     α: 0.999 of the way to the boundary, then until
 //                 ν_i z_i ≥ γ ϑ⁺,   ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ,   ‖∇L⁺‖ ≤ β ϑ⁺            no product
+//     correct     where α is short: solve again with the second-order term of this step [Mehrotra]
 //     accept      x ← x + α Δx, r ← r + α A Δx, ν ← ν + α Δν
 //
-// with ϑ = νᵀz / number of constraints. Where it differs from [K]: the slacks are z = −f(x), not
-// unknowns of their own. So every iterate is a point of the interior, f(x) + z = 0 always holds,
-// and W is semidefinite even for a cone, whose f is not convex (barrier.hpp). c_min is a tenth, not
-// 1e-30: with no centring the iterates run into the boundary and the next steps are short. The
-// start lies on a curve ν_i z_i = ϑ with lengths and forces taken from the data, so that units do
-// not matter; where the forces turn out too small, and steps short for that reason, they are
-// raised. Components without constraint have no multiplier, no slack and no part in ϑ.
+// with ϑ the mean of the products ν_i z_i. Where it differs from [K]: discs, ellipses and
+// second-order cones have no multiplier, but a force y of any direction in the Lorentz cone, scaled
+// with x by Nesterov and Todd (lorentz_pairs.hpp). Next to a curved boundary a multiplier along the
+// gradient leaves x no way to go: a unit disc in the plane took 1767 steps to nowhere. All other
+// inequalities keep ν_i, with the slacks z = −f(x), which are no unknowns of their own. So every
+// iterate is a point of the interior, f(x) + z = 0 always holds, and W is semidefinite even where f
+// is not convex (barrier.hpp). c_min is a fifth, not 1e-30: with no centring the iterates run into
+// the boundary and the next steps are short. ϑ may not fall much faster than the first ∇L does, for
+// the same reason. The start lies on a curve ν_i z_i = ϑ with lengths and forces taken from the
+// data, so that units do not matter, and at P_Λ(0) where q is smaller there than at P_Λ(x0); where
+// the forces turn out too small, and steps short for that reason, they are raised. Components
+// without constraint have no multiplier, no slack and no part in ϑ.
 //
-// Rejected, by measurement: a predictor and a corrector in each step. They take fewer steps but
+// Rejected, by measurement: a predictor and a corrector in every step. They take fewer steps but
 // more products, as the second right-hand side needs conjugate gradients of its own.
 #pragma once
 
@@ -72,7 +78,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
   interior_point(held<QP> qp, held<M> m, options o)
       : core(std::move(qp), std::move(m), std::move(o)) {}
 
-  /// The state of a point in the interior on the way from P_Λ(x0) to the middle of Λ. Throws
+  /// The state of a point in the interior on the way from P_Λ(x0), or P_Λ(0) where q is smaller,
+  /// to the middle of Λ. Throws
   /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
   /// interior.
   [[nodiscard]] state_type start(vector_type const& x0) const {

@@ -24,8 +24,8 @@ struct interior_point_options {
   mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
 
   /// c_z > 0: first slacks of sets without an end, in natural lengths; c_ν > 0: first multipliers,
-  /// in natural forces. On bricks 3 and 0.3 take fewer products than 1 and 1; with a tenth of these
-  /// lengths there are twice as many steps.
+  /// in natural forces. On bricks 3 and 0.6 take fewer products than 3 and 0.3; with a tenth of
+  /// these lengths there are twice as many steps.
   S start_length = S(3);
   S start_force = S(0.6);
   /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
