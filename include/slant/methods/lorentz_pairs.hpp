@@ -124,6 +124,14 @@ class lorentz_place {
   std::size_t number_ = 0;
 };
 
+namespace detail {
+
+/// The number of entries at a place. A constant, also where the place is a reference.
+template <class Place>
+inline constexpr int entries_of = std::remove_cvref_t<Place>::M;
+
+}  // namespace detail
+
 /// The pairs p, y of a set, which is handed to every member again, as barrier's is. Forces are in
 /// multiples of the unit that the caller has.
 template <scalar S>
@@ -155,7 +163,7 @@ class lorentz_pairs {
       root_p_[at.number] = bound ? S(sqrt(det)) : S(0);
       root_y_[at.number] = bound ? S(ϑ / root_p_[at.number]) : S(0);
       auto const p = block.lorentz_point(here);
-      constexpr int M = at.M;
+      constexpr int M = detail::entries_of<decltype(at)>;
       for (int i = 0; i < M; ++i) {
         S const entry = bound ? S(ϑ * (p[i] / det)) : S(0);
         y_[at.first + std::size_t(i)] = i == 0 ? entry : S(-entry);
@@ -173,18 +181,19 @@ class lorentz_pairs {
   void scale(C const& set, X const& x) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       using std::sqrt;
-      using algebra = detail::lorentz_algebra<at.M, S>;
+      using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
       using part = typename algebra::part;
       auto const here = place.value(x);
       S const a = sqrt(S(-block.inequality(here)(0)));
       S const b = root_y_[at.number];
       root_p_[at.number] = a;
-      part const p = over<at.M>(block.lorentz_point(here), a);
-      part const y = over<at.M>(detail::entries_at<at.M>(&y_[at.first]), b);
+      part const p = over<detail::entries_of<decltype(at)>>(block.lorentz_point(here), a);
+      part const y = over<detail::entries_of<decltype(at)>>(
+          detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]), b);
       S const γ = sqrt((S(1) + algebra::pairing(p, y)) / S(2));
-      detail::put_entries(
-          over<at.M>(detail::combination(S(1), p, S(1), algebra::reflected(y)), S(2) * γ),
-          &frame_[at.first]);
+      detail::put_entries(over<detail::entries_of<decltype(at)>>(
+                              detail::combination(S(1), p, S(1), algebra::reflected(y)), S(2) * γ),
+                          &frame_[at.first]);
       S const size = sqrt(a) * sqrt(b), sum = p[0] + y[0] + S(2) * γ;
       part λ = detail::combination(S((γ + y[0]) / sum), p, S((γ + p[0]) / sum), y);
       λ[0] = γ;
@@ -217,19 +226,19 @@ class lorentz_pairs {
   template <class C, class V>
   void subtract_target(C const& set, S const& σμ, S const& corrected, V& rhs) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
-      using algebra = detail::lorentz_algebra<at.M, S>;
-      auto const λ = detail::entries_at<at.M>(&λ_[at.first]);
+      using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
+      auto const λ = detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]);
       S const det = root_p_[at.number] * root_y_[at.number];
       auto c = detail::multiple_of(S(σμ / det), algebra::reflected(λ));
       if (corrected > S(0)) {
-        auto const second =
-            algebra::quotient(algebra::product(detail::entries_at<at.M>(&dp_[at.first]),
-                                               detail::entries_at<at.M>(&dy_[at.first])),
-                              λ);
+        auto const second = algebra::quotient(
+            algebra::product(detail::entries_at<detail::entries_of<decltype(at)>>(&dp_[at.first]),
+                             detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first])),
+            λ);
         c = detail::combination(S(1), c, S(-corrected), second);
       }
       detail::put_entries(c, &step_[at.first]);
-      subtract(block, place, unscaled<at.M>(at, c), rhs);
+      subtract(block, place, unscaled<detail::entries_of<decltype(at)>>(at, c), rhs);
     });
   }
 
@@ -237,7 +246,7 @@ class lorentz_pairs {
   template <class C, class X>
   void set_step(C const& set, X const& Δx) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
-      constexpr int M = at.M;
+      constexpr int M = detail::entries_of<decltype(at)>;
       auto const T = block.lorentz_matrix();
       auto const d = place.value(Δx);
       Eigen::Matrix<S, M, 1> Δp = Eigen::Matrix<S, M, 1>::Zero();
@@ -258,9 +267,11 @@ class lorentz_pairs {
   [[nodiscard]] S way_out(C const& set) const {
     S most = std::numeric_limits<S>::infinity();
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      second_order_cone<at.M, S> const L(S(1));
-      most = std::min<S>(most, L.step_to_boundary(detail::entries_at<at.M>(&λ_[at.first]),
-                                                  detail::entries_at<at.M>(&dy_[at.first])));
+      second_order_cone<detail::entries_of<decltype(at)>, S> const L(S(1));
+      most = std::min<S>(
+          most,
+          L.step_to_boundary(detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]),
+                             detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first])));
     });
     return most;
   }
@@ -273,11 +284,12 @@ class lorentz_pairs {
     bool inside = true;
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       using std::sqrt;
-      using algebra = detail::lorentz_algebra<at.M, S>;
+      using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
       auto const here = place.value(x);
       S const det_p = -block.inequality(here)(0);
-      auto const λ = detail::combination(S(1), detail::entries_at<at.M>(&λ_[at.first]), α,
-                                         detail::entries_at<at.M>(&dy_[at.first]));
+      auto const λ = detail::combination(
+          S(1), detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]), α,
+          detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
       S const det_λ = algebra::determinant(λ);
       if (!(det_p > S(0) && det_λ > S(0) && λ[0] > S(0))) {
         inside = false;
@@ -286,10 +298,13 @@ class lorentz_pairs {
       S const a = sqrt(det_p);
       S const b = sqrt(det_λ) * sqrt(S(root_y_[at.number] / root_p_[at.number]));
       trial_root_[at.number] = b;
-      auto const Δy = unscaled<at.M>(at, detail::entries_at<at.M>(&dy_[at.first]));
-      auto const y = detail::combination(S(1), detail::entries_at<at.M>(&y_[at.first]), α, Δy);
+      auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
+          at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
+      auto const y = detail::combination(
+          S(1), detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]), α, Δy);
       S const pairing =
-          algebra::pairing(over<at.M>(block.lorentz_point(here), a), over<at.M>(y, b));
+          algebra::pairing(over<detail::entries_of<decltype(at)>>(block.lorentz_point(here), a),
+                           over<detail::entries_of<decltype(at)>>(y, b));
       S const most =
           sqrt(S((pairing + S(1)) / S(2))) + sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
       out.coeffRef(at.row) = a * b * pairing;
@@ -302,9 +317,10 @@ class lorentz_pairs {
   template <class C, class V>
   void subtract_forces(C const& set, S const& α, V& lagrangian) const {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
-      auto y = detail::entries_at<at.M>(&y_[at.first]);
+      auto y = detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]);
       if (α > S(0)) {
-        auto const Δy = unscaled<at.M>(at, detail::entries_at<at.M>(&dy_[at.first]));
+        auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
+            at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
         y = detail::combination(S(1), y, α, Δy);
       }
       subtract(block, place, y, lagrangian);
@@ -315,8 +331,10 @@ class lorentz_pairs {
   template <class C>
   void accept(C const& set, S const& α) {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const Δy = unscaled<at.M>(at, detail::entries_at<at.M>(&dy_[at.first]));
-      for (int i = 0; i < at.M; ++i) y_[at.first + std::size_t(i)] += α * Δy[i];
+      auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
+          at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
+      for (int i = 0; i < detail::entries_of<decltype(at)>; ++i)
+        y_[at.first + std::size_t(i)] += α * Δy[i];
     });
     root_y_ = trial_root_;
   }
@@ -331,8 +349,9 @@ class lorentz_pairs {
   template <class C, class F>
   void growth(C const& set, F const& f) const {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const y = detail::entries_at<at.M>(&y_[at.first]);
-      auto const Δy = unscaled<at.M>(at, detail::entries_at<at.M>(&dy_[at.first]));
+      auto const y = detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]);
+      auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
+          at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
       f(at.row, S(y[0] + Δy[0]) / y[0]);
     });
   }
