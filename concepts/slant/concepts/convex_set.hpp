@@ -188,6 +188,19 @@ concept has_inequality_form = requires(C const& c, V const& x) {
   } -> numbers_like<V, detail::dimension_of_type<C>(), detail::dimension_of_type<C>()>;
 };
 
+/// The set {x : p ∈ L} with p = T x + t and the Lorentz cone L = {p : ‖p_t‖ ≤ p_0}:
+/// lorentz_point(x) = p, lorentz_matrix() = T, of fixed size. Its first inequality is
+/// ‖p_t‖² − p_0² ≤ 0.
+template <class C, class V>
+concept has_lorentz_form = has_inequality_form<C, V> && requires(C const& c, V const& x) {
+  requires decltype(c.lorentz_matrix())::RowsAtCompileTime >= 2;
+  {
+    c.lorentz_matrix()
+  } -> numbers_like<V, decltype(c.lorentz_matrix())::RowsAtCompileTime,
+                    detail::dimension_of_type<C>()>;
+  { c.lorentz_point(x) } -> numbers_like<V, decltype(c.lorentz_matrix())::RowsAtCompileTime, 1>;
+};
+
 namespace detail {
 struct visit_probe {
   template <class Block, class Place>

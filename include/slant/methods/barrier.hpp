@@ -17,6 +17,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/methods/lorentz_pairs.hpp>
 #include <slant/operators/detail/definite_inverse.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
@@ -110,6 +111,16 @@ class barrier {
   /// Σ ν_i ∇²f_i, W and P_SC⁻¹ at x, where G is, for the diagonal d of A. `unit` is that of ν.
   template <class C, class X, class M, class Z, class D>
   void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d) {
+    struct {
+    } none;
+    assemble(set, x, ν, z, unit, d, none);
+  }
+  /// The same where bounded sections of the Lorentz cone have W from their pairs.
+  template <class C, class X, class M, class Z, class D, class Pairs>
+  void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d,
+                Pairs const& pairs) {
+    constexpr bool paired = std::is_same_v<Pairs, lorentz_pairs<S>>;
+    [[maybe_unused]] lorentz_place of_pairs;
     auto const& multipliers = slant::local(ν);
     auto const& slack = slant::local(z);
     auto const& diagonal = slant::local(d);
@@ -132,6 +143,12 @@ class barrier {
           S const* const g = jacobian_.entries().data() + entry + n * i;
           for (int c = 0; c < n; ++c) {
             for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
+          }
+        }
+        if constexpr (paired && lorentz_block<block_type>) {
+          auto const at = of_pairs.template next<block_type>(row);
+          if (pairs.bound(at.number)) {
+            w = detail::multiple_of(unit, pairs.stiffness(block, at));
           }
         }
         stiffness_.template block<n>(number) = w;

@@ -97,30 +97,45 @@ class interior_point_core {
     return s.reduced_gradient_norm * (bent ? best : s.step_length);
   }
 
+  /// x, which is P_Λ(0), becomes P_Λ(x0) unless q is larger there: far from everything the method
+  /// would have to find its forces anew on the way. One product, none if the two are the same.
+  void choose_start(state_type& s, vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    slant::project(qp.set(), slant::local(x0), slant::local(s.projected));
+    slant::local(s.trial) = slant::local(s.projected) - slant::local(s.x);
+    if (norm(s.trial) == scalar(0)) return;
+    // q(P_Λ(x0)) − q(x) = dᵀ(r + ½ A d), d the way there.
+    slant::apply(qp.a(), s.trial, s.reduced, s.a_workspace);
+    ++s.work.setup_applications;
+    check_finite("A x0", s.reduced);
+    slant::local(s.reduced) = slant::local(s.r) + slant::local(s.reduced) / (scalar(2) * s.unit);
+    if (!(inner_product(s.trial, s.reduced) > scalar(0))) s.x = s.projected;
+  }
+
   /// ν_i z_i = ϑ at x.
   void begin(state_type& s, scalar const& force, scalar const& length) const {
     auto const& qp = qp_.get();
     s.gradient(qp);
     check_finite("A x0 - b", s.r);
     s.reduce(qp);
-    auto const& live = s.barrier.per_unit().array();
-    slant::local(s.row_scratch) = (live > scalar(0)).template cast<scalar>().matrix();
-    scalar const count = inner_product(s.row_scratch, s.row_scratch);
-    s.constraints = static_cast<index>(count + scalar(0.5));
     static_cast<void>(s.barrier.slacks(blocks(), s.x, s.slacks));
-    slant::local(s.trial_slacks) =
-        ((live > scalar(0)).template cast<scalar>() * slant::local(s.slacks).array().min(length))
-            .matrix();
-    scalar const ϑ = s.constraints > 0
-                         ? scalar(force * inner_product(s.trial_slacks, s.row_scratch) / count)
+    count(s);
+    slant::local(s.products) =
+        slant::local(s.counted).cwiseProduct(slant::local(s.slacks).cwiseMin(length));
+    scalar const ϑ = s.degree > scalar(0)
+                         ? scalar(force * inner_product(s.products, s.counted) / s.degree)
                          : scalar(0);
     slant::local(s.multipliers) =
-        (live > scalar(0))
-            .select(ϑ / slant::local(s.slacks).array(), column::Zero(live.size()))
-            .matrix();
-    s.barrier.linearise(blocks(), s.x);
-    set_lagrangian(s, s.r, s.multipliers);
+        slant::local(s.smooth).cwiseProduct((ϑ / slant::local(s.slacks).array()).matrix());
+    slant::local(s.products) = ϑ * slant::local(s.counted);
     s.measure = ϑ;
+    s.first_measure = ϑ;
+    s.infeasible = scalar(1);
+    s.least = ϑ;
+    s.pairs.begin(blocks(), s.x, s.barrier.per_unit(), ϑ);
+    estimate_multipliers(s);
+    s.barrier.linearise(blocks(), s.x);
+    set_lagrangian(s, s.r, s.multipliers, scalar(0));
     s.residual_bound =
         options_.residual_factor * std::max<scalar>(s.lagrangian_norm, s.gradient_scale / s.unit);
     if (s.constraints > 0) s.residual_bound /= ϑ;
@@ -137,37 +152,74 @@ class interior_point_core {
     if (s.constraints == 0 || s.under_way || s.raises == options_.raises) return false;
     slant::local(s.trial_multipliers) =
         slant::local(s.multipliers) + slant::local(s.multiplier_step);
+    s.pairs.growth(blocks(), [&](index row, scalar const& factor) {
+      slant::local(s.trial_multipliers).coeffRef(row) =
+          factor * slant::local(s.multipliers).coeff(row);
+    });
     scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);
     if (!(growth > options_.raise_above) || !is_finite(growth) ||
         options_.raise_above * way_out(s, s.step) > scalar(1)) {
       return false;
     }
     slant::local(s.multipliers) *= growth;
+    slant::local(s.products) *= growth;
+    s.pairs.raise(growth);
     s.measure *= growth;
-    set_lagrangian(s, s.r, s.multipliers);
+    s.first_measure = s.measure / s.infeasible;
+    s.least *= growth;
+    set_lagrangian(s, s.r, s.multipliers, scalar(0));
     ++s.raises;
     return true;
   }
 
-  /// ∇L = gradient + G ν, G as it stands.
-  void set_lagrangian(state_type& s, vector_type const& gradient, vector_type const& ν) const {
+  /// Which rows are counted, and which of them have a multiplier of their own.
+  void count(state_type& s) const {
+    auto& counted = slant::local(s.counted);
+    counted = (s.barrier.per_unit().array() > scalar(0)).template cast<scalar>().matrix();
+    s.constraints = static_cast<index>(inner_product(s.counted, s.counted) + scalar(0.5));
+    slant::local(s.smooth) = slant::local(s.counted);
+    s.pairs.visit(blocks(), [&](auto const& block, auto const&, auto const& at) {
+      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
+      for (int i = 0; i < k; ++i) {
+        slant::local(s.smooth).coeffRef(at.row + i) = scalar(0);
+        if (i > 0) counted.coeffRef(at.row + i) = scalar(0);
+      }
+    });
+    s.degree = inner_product(s.counted, s.counted);
+  }
+
+  /// The multipliers of the inequalities of pairs: y_0/(2 p_0) of the first, next to none of the
+  /// one that tells the two halves of a cone apart.
+  void estimate_multipliers(state_type& s) const {
+    auto& ν = slant::local(s.multipliers);
+    auto const& z = slant::local(s.slacks);
+    s.pairs.visit_bound(blocks(), [&](auto const& block, auto const& place, auto const& at) {
+      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
+      ν.coeffRef(at.row) = s.pairs.multiplier(block, place, at, s.x) / s.barrier.per_unit()(at.row);
+      for (int i = 1; i < k; ++i) ν.coeffRef(at.row + i) = s.measure / z.coeff(at.row + i);
+    });
+  }
+
+  /// ∇L = gradient + G ν − Σ Tᵀ(y + αΔy), G as it stands.
+  void set_lagrangian(state_type& s, vector_type const& gradient, vector_type const& ν,
+                      scalar const& α) const {
     slant::local(s.lagrangian) = slant::local(gradient);
-    s.barrier.jacobian().apply_adjoint_add(scalar(1), ν, s.lagrangian);
+    slant::local(s.row_scratch) = slant::local(s.smooth).cwiseProduct(slant::local(ν));
+    s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.lagrangian);
+    s.pairs.subtract_forces(blocks(), α, s.lagrangian);
     s.barrier.keep_fixed(s.lagrangian);
     s.lagrangian_norm = norm(s.lagrangian);
   }
 
-  /// min ν_i z_i over the constraints with a bound, on all processes.
-  static scalar least_product(state_type const& s, vector_type const& ν, vector_type const& z) {
+  /// The smallest of the counted products of rows without a pair, on this process.
+  static scalar least_product(state_type const& s) {
     scalar least = infinity;
-    auto const& multiplier = slant::local(ν);
-    auto const& slack = slant::local(z);
-    for (index i = 0; i < index(multiplier.size()); ++i) {
-      if (!(s.barrier.per_unit()(i) > scalar(0))) continue;
-      scalar const product = multiplier.coeff(i) * slack.coeff(i);
-      if (!(product >= least)) least = product;
+    auto const& smooth = slant::local(s.smooth);
+    for (index i = 0; i < index(smooth.size()); ++i) {
+      scalar const& product = slant::local(s.products).coeff(i);
+      if (smooth.coeff(i) > scalar(0) && !(product >= least)) least = product;
     }
-    return slant::minimum(s.x, least);
+    return least;
   }
 
   /// sup{α : x + α d ∈ Λ} on all processes.
@@ -181,22 +233,32 @@ class interior_point_core {
     slant::local(s.trial) = slant::local(s.x) + α * slant::local(s.step);
     slant::local(s.trial_multipliers) =
         slant::local(s.multipliers) + α * slant::local(s.multiplier_step);
-    bool const inside = s.barrier.slacks(blocks(), s.trial, s.trial_slacks) ||
-                        (draw_inside(s), s.barrier.slacks(blocks(), s.trial, s.trial_slacks));
+    bool inside = s.barrier.slacks(blocks(), s.trial, s.trial_slacks) ||
+                  (draw_inside(s), s.barrier.slacks(blocks(), s.trial, s.trial_slacks));
+    slant::local(s.products) = slant::local(s.smooth)
+                                   .cwiseProduct(slant::local(s.trial_multipliers))
+                                   .cwiseProduct(slant::local(s.trial_slacks));
+    scalar least = least_product(s);
+    inside = inside && s.pairs.judge(blocks(), s.trial, α, s.products, least);
     if (!slant::everywhere(s.x, inside)) return options_.shorten_centred;
     if (s.constraints == 0) return scalar(1);
-    scalar const measure =
-        inner_product(s.trial_multipliers, s.trial_slacks) / scalar(s.constraints);
-    if (!(least_product(s, s.trial_multipliers, s.trial_slacks) >= options_.closeness * measure)) {
+    scalar const measure = inner_product(s.products, s.counted) / s.degree;
+    if (!(slant::minimum(s.x, least) >= options_.closeness * measure)) {
       return options_.shorten_centred;
     }
     scalar const fall = scalar(1) - α * options_.sufficient * (scalar(1) - s.centring);
-    if (!(measure <= fall * s.measure)) return options_.shorten_measure;
+    scalar const due = (scalar(1) - α) * s.infeasible * s.first_measure;
+    if (!(measure <= std::max<scalar>(fall * s.measure, options_.grow * due)))
+      return options_.shorten_measure;
+    if (!(measure >= options_.ahead * due)) {
+      return options_.shorten_residual;
+    }
     s.barrier.linearise(blocks(), s.trial);
     slant::local(s.rhs) = slant::local(s.r) + α * slant::local(s.inner.image);
-    set_lagrangian(s, s.rhs, s.trial_multipliers);
+    set_lagrangian(s, s.rhs, s.trial_multipliers, α);
     if (!(s.lagrangian_norm <= s.residual_bound * measure)) return options_.shorten_residual;
-    s.measure = measure;
+    s.trial_measure = measure;
+    s.trial_least = slant::minimum(s.x, least);
     return scalar(1);
   }
 

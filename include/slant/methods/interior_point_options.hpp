@@ -16,6 +16,7 @@ namespace slant {
 /// the inner accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with
 /// the fewest products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples
 /// of those of the data).
+
 template <scalar S = double>
 struct interior_point_options {
   /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
@@ -23,10 +24,10 @@ struct interior_point_options {
   mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
 
   /// c_z > 0: first slacks of sets without an end, in natural lengths; c_ν > 0: first multipliers,
-  /// in natural forces. On bricks 3 and 0.3 take fewer products than 1 and 1; with a tenth of these
-  /// lengths there are twice as many steps.
+  /// in natural forces. On bricks 3 and 0.6 take fewer products than 3 and 0.3; with a tenth of
+  /// these lengths there are twice as many steps.
   S start_length = S(3);
-  S start_force = S(0.3);
+  S start_force = S(0.6);
   /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
   /// more of x0 and lies nearer to the boundary, which costs more steps than it saves.
   S start_depth = S(1);
@@ -37,11 +38,20 @@ struct interior_point_options {
   S raise_above = S(5);
   index raises = 10;  ///< at most so often in all; 0: never
 
-  S centring_least = S(0.1);      ///< c_min in [0, c_max]; 0: pure Newton steps
+  /// In [0, 1]: a step shorter than this is computed again with its own second-order term
+  /// [Mehrotra]; the longer of the two is made. 0: never.
+  S correct_below = S(0.3);
+
+  S centring_least = S(0.2);      ///< c_min in [0, c_max]; 0: pure Newton steps
   S centring_most = S(0.5);       ///< c_max in (0, 1)
   S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
   S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
   S residual_factor = S(1e9);  ///< β₀ ≥ 1: ‖∇L‖ ≤ β ϑ with β₀ times the β of the start
+  /// ϑ⁺ ≥ ahead · φ ϑ⁰, φ = Π(1 − α) what the steps leave of the first ∇L: ϑ that falls faster
+  /// brings the iterates to the boundary at the wrong place. In [0, 1).
+  S ahead = S(0.1);
+  /// ≥ 0: ϑ may also grow up to grow · φ ϑ⁰.
+  S grow = S(10);
   S sufficient = S(0.1);        ///< ω in (0, 1): ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
   S to_boundary = S(0.999);     ///< δ in (0, 1): at most so much of the way to the boundary
   S shorten_centred = S(0.9);   ///< ρ₁ in (0, 1): shortens α until ν_i z_i ≥ γ ϑ
@@ -78,6 +88,15 @@ struct interior_point_options {
       throw bad_input("residual_factor", detail::show(residual_factor), "a number >= 1");
     }
     fraction("sufficient", sufficient);
+    if (!(correct_below >= S(0) && correct_below <= S(1))) {
+      throw bad_input("correct_below", detail::show(correct_below), "a number in [0, 1]");
+    }
+    if (!(ahead >= S(0) && ahead < S(1))) {
+      throw bad_input("ahead", detail::show(ahead), "a number in [0, 1)");
+    }
+    if (!(grow >= S(0)) || !detail::is_finite(grow)) {
+      throw bad_input("grow", detail::show(grow), "a number >= 0");
+    }
     fraction("to_boundary", to_boundary);
     fraction("shorten_centred", shorten_centred);
     fraction("shorten_measure", shorten_measure);

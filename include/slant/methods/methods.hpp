@@ -32,6 +32,7 @@
 #include <slant/methods/kkt_vector.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
+#include <slant/methods/lorentz_pairs.hpp>
 #include <slant/methods/modified_newton.hpp>
 #include <slant/methods/modified_newton_options.hpp>
 #include <slant/methods/modified_newton_parts.hpp>

@@ -164,6 +164,17 @@ class ball {
     return hessian;
   }
 
+  /// (g, x) ∈ L.
+  [[nodiscard]] Eigen::Matrix<S, N + 1, 1> lorentz_point(auto const& x) const {
+    vector_type const v = x;
+    return detail::from_entries<Eigen::Matrix<S, N + 1, 1>>(
+        [&](int i) -> S { return i == 0 ? radius_ : v.data()[i - 1]; });
+  }
+  [[nodiscard]] Eigen::Matrix<S, N + 1, N> lorentz_matrix() const {
+    return detail::from_entries<Eigen::Matrix<S, N + 1, N>>(
+        [](int i, int j) { return S(i == j + 1 ? 1 : 0); });
+  }
+
  private:
   /// g x/‖x‖ where g/‖x‖ would underflow.
   [[nodiscard]] vector_type far_projection(vector_type const& v,

@@ -152,6 +152,18 @@ class dual_cone {
     return hessian;
   }
 
+  /// (x_n, μ x_t) ∈ L.
+  [[nodiscard]] vector_type lorentz_point(auto const& x) const {
+    vector_type const v = x;
+    return detail::from_entries<vector_type>(
+        [&](int i) -> S { return i == 0 ? v.data()[0] : S(mu() * v.data()[i]); });
+  }
+  [[nodiscard]] matrix_type lorentz_matrix() const {
+    return detail::from_entries<matrix_type>([&](int i, int j) -> S {
+      return i != j ? S(0) : i == 0 ? S(1) : mu();
+    });
+  }
+
  private:
   /// μ‖x_t‖ <= factor · x_n, with one unit of the smallest numbers allowed for every component:
   /// there rounding is no longer relative. None for the plane that bounds a half space.

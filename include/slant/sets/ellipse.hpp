@@ -174,6 +174,16 @@ class ellipse {
     return vector_type(S(2) * (ν / a_) / a_, S(2) * (ν / b_) / b_).asDiagonal();
   }
 
+  /// (1, x₁/a, x₂/b) ∈ L; needs a, b > 0.
+  [[nodiscard]] Eigen::Matrix<S, 3, 1> lorentz_point(auto const& x) const {
+    vector_type const v = x;
+    return {S(1), v(0) / a_, v(1) / b_};
+  }
+  [[nodiscard]] Eigen::Matrix<S, 3, 2> lorentz_matrix() const {
+    return detail::from_entries<Eigen::Matrix<S, 3, 2>>(
+        [&](int i, int j) -> S { return i == j + 1 ? S(S(1) / axis(j)) : S(0); });
+  }
+
  private:
   [[nodiscard]] static S band() { return S(2) * detail::rounding_band<S>(); }
   [[nodiscard]] S const& axis(int i) const { return i == 0 ? a_ : b_; }

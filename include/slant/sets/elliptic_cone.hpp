@@ -160,6 +160,19 @@ class elliptic_cone {
     return vector_type(S(2) * multipliers(0) * weights()).asDiagonal();
   }
 
+  /// (√(μ₁μ₂) x_n, √(μ₂/μ₁) x₁, √(μ₁/μ₂) x₂) ∈ L; needs μ₁, μ₂ > 0.
+  [[nodiscard]] vector_type lorentz_point(auto const& x) const {
+    vector_type v = x;
+    vector_type const factors = lorentz_factors();
+    for (int i = 0; i < 3; ++i) v.data()[i] *= factors.data()[i];
+    return v;
+  }
+  [[nodiscard]] matrix_type lorentz_matrix() const {
+    vector_type const factors = lorentz_factors();
+    return detail::from_entries<matrix_type>(
+        [&](int i, int j) -> S { return i == j ? factors.data()[i] : S(0); });
+  }
+
  private:
   static void require(char const* name, S const& mu) {
     // Beyond, powers of μ that the projection needs are no numbers of the format.
@@ -175,6 +188,12 @@ class elliptic_cone {
   [[nodiscard]] static S band() { return S(2) * detail::rounding_band<S>(); }
   [[nodiscard]] vector_type weights() const {
     return {-(mu_(0) * mu_(1)), mu_(1) / mu_(0), mu_(0) / mu_(1)};
+  }
+
+  [[nodiscard]] vector_type lorentz_factors() const {
+    using std::sqrt;
+    return {S(sqrt(mu_(0)) * sqrt(mu_(1))), S(sqrt(S(mu_(1) / mu_(0)))),
+            S(sqrt(S(mu_(0) / mu_(1))))};
   }
 
   [[nodiscard]] bool flat() const { return mu_(0) == S(0) || mu_(1) == S(0); }

@@ -130,6 +130,18 @@ class image_block : public detail::inequality_count<Part> {
     return map_.push_hessian(part_.inequality_hessian(map_.pull(x), multipliers));
   }
 
+  template <class X>
+  [[nodiscard]] auto lorentz_point(X const& x) const
+    requires has_lorentz_form<Part, vector_type>
+  {
+    return part_.lorentz_point(map_.pull(x));
+  }
+  [[nodiscard]] auto lorentz_matrix() const
+    requires has_lorentz_form<Part, vector_type>
+  {
+    return map_.push_gradient(part_.lorentz_matrix().transpose().eval()).transpose().eval();
+  }
+
   [[nodiscard]] index block_count() const {
     return Map::separable ? slant::block_count(part_) : index{1};
   }

@@ -51,6 +51,9 @@ class plane_cone : public second_order_cone<2, S> {
   [[nodiscard]] matrix_type inequality_hessian(auto const&, auto const&) const {
     return matrix_type::Zero();
   }
+
+  /// It has flat sides, and f is linear.
+  void lorentz_point(auto const& x) const = delete;
 };
 
 }  // namespace slant

@@ -151,6 +151,18 @@ class second_order_cone {
     });
   }
 
+  /// (μ x_n, x_t) ∈ L; needs μ > 0.
+  [[nodiscard]] vector_type lorentz_point(auto const& x) const {
+    vector_type v = x;
+    v.data()[0] *= mu_;
+    return v;
+  }
+  [[nodiscard]] matrix_type lorentz_matrix() const {
+    return detail::from_entries<matrix_type>([&](int i, int j) -> S {
+      return i != j ? S(0) : i == 0 ? mu_ : S(1);
+    });
+  }
+
  private:
   /// ‖x_t‖ <= factor · μ x_n and x_n >= 0, with one unit of the smallest numbers allowed for every
   /// component: there rounding is no longer relative.
