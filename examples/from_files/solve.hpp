@@ -112,9 +112,7 @@ template <class Friction>
   auto const factor = slant::factorize(p.K);
   slant::contact::dual const dual(friction, factor, p.contact);
   slant::contact::certificate<double> error_of(p.K, p.contact);
-  auto const solve_with_K = [&](Eigen::VectorXd const& load, Eigen::VectorXd& u) {
-    factor.solve(load, u);
-  };
+  auto const solve_with_K = slant::contact::solver(factor);
   if (s.prove) error_of.prove(solve_with_K, [](auto const& K) { (void)slant::factorize(K); });
   Eigen::VectorXd λ, u;
   auto const M = slant::contact::lumped_preconditioner(p.K, dual.constraints());

@@ -33,9 +33,7 @@ struct certified_scene {
         reference(test::reference(scene.K, data)),
         set(slant::cartesian(slant::half_lines(data.nodes()), slant::discs(data.g))) {}
 
-  auto solver() const {
-    return [this](VectorXd const& load, VectorXd& u) { factor.solve(load, u); };
-  }
+  auto solver() const { return contact::solver(factor); }
   bool prove() {
     return certificate.prove(solver(), [](auto const& K) { (void)slant::factorize(K); });
   }
@@ -43,7 +41,7 @@ struct certified_scene {
     VectorXd load = data.f - data.N.transpose() * λ.head(data.nodes()) -
                     data.T.transpose() * λ.tail(data.T.rows());
     VectorXd u(load.size());
-    factor.solve(load, u);
+    solver()(load, u);
     return u;
   }
   slant::energy_error<double> operator()(VectorXd λ, VectorXd& u, double goal = 1e-8) {
@@ -81,7 +79,7 @@ TEST_CASE("a proven bound is never below the error, and not far above it") {
     // λ_min(K) by the power method on K⁻¹ from the other side.
     VectorXd x = VectorXd::Ones(s.data.f.size()), y(x.size());
     for (int k = 0; k < 60; ++k) {
-      s.factor.solve(x, y);
+      s.solver()(x, y);
       x = y / y.norm();
     }
     double const smallest = x.dot(s.scene.K * x);
@@ -119,7 +117,7 @@ TEST_CASE("u is refined where the solve with K is too rough for the goal, and on
   CHECK(s.certificate.solves() == 1);
   // A solver with four digits.
   auto const rough = [&](VectorXd const& load, VectorXd& x) {
-    s.factor.solve(load, x);
+    s.solver()(load, x);
     for (slant::index i = 0; i < x.size(); ++i) x(i) *= 1 + 1e-4 * double(i % 3 - 1);
   };
   VectorXd v(u.size()), μ = λ;
@@ -137,7 +135,7 @@ TEST_CASE("nothing is called proven that is not: dependent rows, sets by project
   auto scene = fem::make_steel_brick({.k = 1, .load = fem::brick_load::press});
   auto data = test::contact_data(scene);
   auto const factor = slant::factorize(scene.K);
-  auto const solve = [&](VectorXd const& load, VectorXd& u) { factor.solve(load, u); };
+  auto const solve = contact::solver(factor);
   auto const prove = [&](contact::certificate<double>& c) {
     return c.prove(solve, [](auto const& K) { (void)slant::factorize(K); });
   };

@@ -75,9 +75,7 @@ slant::energy_error<double> prepared::error_of(Eigen::VectorXd const& x, double 
   auto const program = qp();
   if (!dual_) return slant::energy_certificate(program, M)(x);
   slant::contact::certificate<double> certificate(p_.K, data_);
-  auto const solve = [&](Eigen::VectorXd const& load, Eigen::VectorXd& u) {
-    factor_->solve(load, u);
-  };
+  auto const solve = slant::contact::solver(*factor_);
   auto const A = a();
   auto wa = slant::workspace(A, x);
   slant::dual_norm_workspace norm_workspace(M, x);

@@ -30,9 +30,11 @@
 
 #include <slant/certificates/energy_error.hpp>
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/factorization.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/operators/inverse.hpp>
 #include <slant/sets/detail/double_word.hpp>
 
 #include <Eigen/SparseCore>
@@ -71,6 +73,20 @@ template <class S, class V>
 }
 
 }  // namespace detail
+
+/// solve(b, x) of a factorisation, as the certificate takes it. Refers to it.
+template <class Factorization>
+[[nodiscard]] auto solver(Factorization const& factor) {
+  return [&factor]<class V>(V const& b, V& x) {
+    if constexpr (has_plain_solve<Factorization, V>) {
+      factor.solve(b, x);
+    } else {
+      slant::apply(inverse(factor), b, x);
+    }
+  };
+}
+template <class Factorization>
+auto solver(Factorization const&&) = delete;
 
 /// A bound λ ≤ λ_min(K), proven by a factorisation: where K − c I has a Cholesky factor in floating
 /// point, λ_min(K) ≥ c − γ tr(K), γ = (n + 2)ε/(1 − (n + 2)ε) [Rump, BIT 46 (2006) 433–452,

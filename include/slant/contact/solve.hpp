@@ -137,8 +137,7 @@ class certified_run {
     }
     if (result_.scaled) C_ = sparse_type(d_.asDiagonal() * C_);
     if (o.prove) {
-      auto const solve = [&](vector_type const& load, vector_type& u) { factor_.solve(load, u); };
-      certificate_.prove(solve, [&](sparse_type const& matrix) {
+      certificate_.prove(solver(factor_), [&](sparse_type const& matrix) {
         ++result_.work.factorizations;
         static_cast<void>(factorize(matrix));
       });
@@ -236,7 +235,6 @@ class certified_run {
     result_.multipliers = d_.cwiseProduct(x);
     result_.u = dual_.displacement(result_.multipliers);
     ++result_.solves;
-    auto const solve = [&](vector_type const& load, vector_type& u) { factor_.solve(load, u); };
     auto const sharper = [&](vector_type const& rest, S const& by_zero) {
       // The extension by zero is rarely off by more than 30, and this is not the last word.
       if (!is_last && by_zero > S(64) * options_.tolerance) return S(-1);
@@ -246,7 +244,7 @@ class certified_run {
       return norm.value;
     };
     result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
-                                 solve, sharper);
+                                 solver(factor_), sharper);
   }
 
   void finish(slant::detail::ending& end, bool is_enough) {
