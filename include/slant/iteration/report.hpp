@@ -16,6 +16,13 @@ struct work {
   index inner_iterations = 0;       ///< steps of an inner solver
   index factorizations = 0;         ///< matrices factored
 
+  work& operator+=(work const& other) {
+    operator_applications += other.operator_applications;
+    setup_applications += other.setup_applications;
+    inner_iterations += other.inner_iterations;
+    factorizations += other.factorizations;
+    return *this;
+  }
   friend bool operator==(work const&, work const&) = default;
 };
 

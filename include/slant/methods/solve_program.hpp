@@ -10,6 +10,7 @@
 //                where A gives its diagonal
 //     solve      symmetric_newton to a reduced gradient of a tenth of the tolerance
 //     certify    the energy error by energy_certificate; while that is too large, a smaller one
+//     otherwise  where 300 steps do not do, interior_point goes first, and Newton's method again
 //
 // The certificate estimates ‖·‖_{A⁻¹} by conjugate gradients, in up to 200 applications of A. Give
 // `solve(method, x0, energy_error_below(tolerance, certificate))` a bound where one is known.
@@ -18,6 +19,7 @@
 #include <slant/certificates/energy_error.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/equilibrated.hpp>
+#include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/identity.hpp>
 
@@ -49,15 +51,13 @@ struct certified_point {
 
 namespace detail {
 
-/// Newton's method under the control of certificates; x = d ∘ y where the problem is scaled.
-template <class QP, class M>
-[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::scalar tolerance,
-                                   index most) -> certified_point<typename QP::vector_type> {
+/// Newton's method from x0 under the control of certificates, in at most `most` steps.
+template <class QP, class M, class Certificate>
+[[nodiscard]] auto newton_certified(QP const& qp, M const& m, typename QP::vector_type const& x0,
+                                    Certificate& certificate, typename QP::scalar tolerance,
+                                    index most) -> certified_point<typename QP::vector_type> {
   using V = typename QP::vector_type;
   using S = typename QP::scalar;
-  V x0 = like(qp.b(), qp.size());
-  slant::local(x0).setZero();
-  energy_certificate certificate(qp, m);
   S threshold = tolerance / S(10), best = std::numeric_limits<S>::infinity();
   auto const method = [&] {
     symmetric_newton_options<S> o;
@@ -101,6 +101,59 @@ template <class QP, class M>
   slant::local(result.point) = slant::local(state.x);
   result.steps = state.iteration;
   result.work = state.work;
+  return result;
+}
+
+/// A point from within the set for Newton's method to start from; whether there is one. Sets
+/// without an interior have none.
+template <class QP>
+[[nodiscard]] bool start_inside(QP const& qp, typename QP::vector_type& x, work& spent) {
+  using S = typename QP::scalar;
+  if constexpr (interior_point_problem<QP>) {
+    try {
+      auto const run = slant::solve(interior_point{qp}, x,
+                                    reduced_gradient_below(S(1e-9)) || slant::at_most(150));
+      spent.operator_applications += run.state.work.operator_applications;
+      spent.setup_applications += run.state.work.setup_applications;
+      if (run.status == status::breakdown || run.status == status::unbounded) return false;
+      slant::local(x) = slant::local(run.x());
+      return is_finite(slant::norm(x));
+    } catch (bad_input const&) {
+      return false;
+    }
+  }
+  return false;
+}
+
+/// Newton's method; where 300 of its steps do not do, an interior-point method and Newton's again.
+template <class QP, class M>
+[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::scalar tolerance,
+                                   index most) -> certified_point<typename QP::vector_type> {
+  using V = typename QP::vector_type;
+  V x = like(qp.b(), qp.size());
+  slant::local(x).setZero();
+  energy_certificate certificate(qp, m);
+  index const first = std::min<index>(most, 300);
+  auto result = newton_certified(qp, m, x, certificate, tolerance, first);
+  bool const is_open = result.status == status::stalled || result.status == status::breakdown ||
+                       result.status == status::iteration_limit;
+  if (is_open && result.steps < most && result.error.relative() > tolerance) {
+    work spent{};
+    bool const has_start = start_inside(qp, x, spent);
+    if (!has_start) slant::local(x) = slant::local(result.point);
+    if (has_start || result.status == status::iteration_limit) {
+      auto again = newton_certified(qp, m, x, certificate, tolerance, most - result.steps);
+      again.steps += result.steps;
+      spent += again.work;
+      spent += result.work;
+      if (again.error.relative() < result.error.relative()) {
+        result = std::move(again);
+      } else {
+        result.steps = again.steps;
+      }
+      result.work = spent;
+    }
+  }
   result.work.operator_applications += certificate.applications();
   return result;
 }
