@@ -112,7 +112,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     if (s.status != status::running) return;
     choose_centring(s);
     bool solved = solve_newton(s);
-    while (solved && this->raise(s)) solved = solve_newton(s);
+    while (solved && this->raise(s)) solved = solve_newton(s, true);
     if (solved) {
       if (descends_for_ever(s)) {
         s.status = status::unbounded;
@@ -121,10 +121,10 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
         if (s.constraints > 0 && α < options_.correct_below) {
           scalar const c = s.centring, plain = α;
           s.centring = centring_after(α);
-          α = solve_newton(s, α * α) ? length(s) : scalar(0);
+          α = solve_newton(s, true, α * α) ? length(s) : scalar(0);
           if (α < plain && s.status == status::running) {
             s.centring = c;
-            α = solve_newton(s) ? length(s) : scalar(0);
+            α = solve_newton(s, true) ? length(s) : scalar(0);
           }
         }
         if (α > scalar(0)) {
@@ -172,9 +172,9 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
                     std::max<scalar>(options_.centring_least, rest * rest * rest));
   }
 
-  /// Δx, A Δx and Δν; false if there is none. `corrected`: that much of the second-order term of
-  /// the step at hand is taken into account.
-  bool solve_newton(state_type& s, scalar const& corrected = scalar(0)) const {
+  /// Δx, A Δx and Δν; false if there is none. `again`: in place of the step at hand; `corrected`:
+  /// that much of its second-order term is taken into account.
+  bool solve_newton(state_type& s, bool again = false, scalar const& corrected = scalar(0)) const {
     auto const& qp = qp_.get();
     s.pairs.scale(this->blocks(), s.x);
     s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal, s.pairs);
@@ -200,9 +200,10 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     scalar const target = std::max<scalar>(
         s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
         std::numeric_limits<scalar>::epsilon() * norm(s.r));
+    // A step that was cut short says little about the next one.
+    bool const warm = options_.warm_start && (again || s.step_fraction > scalar(0.1));
     auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
-                                     target, options_.inner_steps,
-                                     options_.warm_start && s.step_fraction > scalar(0.1), s.trace);
+                                     target, options_.inner_steps, warm, s.trace);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;

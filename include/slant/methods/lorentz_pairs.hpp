@@ -20,6 +20,14 @@
 // TᵀW⁻²T and the force TᵀW⁻¹c. The formulas are those of Vandenberghe ("The CVXOPT linear and
 // quadratic cone program solvers", 2010, §4).
 //
+// Next to a curved boundary, W is a boost along w̄_t, and p and y lose the parts (1 − σ)/2 (1, ∓w̄_t)
+// of λ ≈ √μ e, w̄_t taken of length 1, whatever else they do. So the part λ_⊥ of λ across w̄_t, by
+// which p and y differ in direction, is left with d_p ∘ d_y = −(1 − σ)/2 √μ (d_p + d_y)_⊥: of the
+// linear step (1 − σ)/2 of it in every step, and of A x − b along the boundary as much, however
+// fast μ falls. That second-order term is known before the step is: with c_⊥ = −λ_⊥ for −σλ_⊥
+// nothing is left. Where W is no boost, y vanishes as a whole and −σλ_⊥ is right; |w̄_t|²/w̄_0² leads
+// from the one to the other.
+//
 // Near the boundary p_0 − ‖p_t‖ has no digits left. det p = p_0² − ‖p_t‖² comes from the inequality
 // of the block, which is accurate there; det y goes from step to step, as that of λ + α d_y, which
 // is well inside.
@@ -222,20 +230,24 @@ class lorentz_pairs {
     });
   }
 
-  /// rhs ← rhs − Σ TᵀW⁻¹c for c = σμ λ⁻¹, `corrected`: less λ \ (d_p ∘ d_y) of the last step.
+  /// rhs ← rhs − Σ TᵀW⁻¹c for c = σμ λ⁻¹ turned as at the top of this file; `corrected`: not
+  /// turned, less λ \ (d_p ∘ d_y) of the last step.
   template <class C, class V>
   void subtract_target(C const& set, S const& σμ, S const& corrected, V& rhs) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
       auto const λ = detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]);
       S const det = root_p_[at.number] * root_y_[at.number];
-      auto c = detail::multiple_of(S(σμ / det), algebra::reflected(λ));
+      S const next = σμ / det;
+      auto c = detail::multiple_of(next, algebra::reflected(λ));
       if (corrected > S(0)) {
         auto const second = algebra::quotient(
             algebra::product(detail::entries_at<detail::entries_of<decltype(at)>>(&dp_[at.first]),
                              detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first])),
             λ);
         c = detail::combination(S(1), c, S(-corrected), second);
+      } else if (next < S(1)) {
+        turn(at, S(S(1) - next), λ, c);
       }
       detail::put_entries(c, &step_[at.first]);
       subtract(block, place, unscaled<detail::entries_of<decltype(at)>>(at, c), rhs);
@@ -395,6 +407,18 @@ class lorentz_pairs {
     S const along = detail::dot_of(v, x) / v[0];
     S const per_β = sqrt(S(root_y_[at.number] / root_p_[at.number]));
     return detail::combination(S(per_β * along), v, S(-per_β), algebra::reflected(x));
+  }
+  /// c ← c − f λ_⊥ |w̄_t|²/w̄_0², λ_⊥ the part of λ_t across w̄_t.
+  template <class At, class Part>
+  void turn(At const& at, S const& f, Part const& λ, Part& c) const {
+    constexpr int M = At::M;
+    auto const w = detail::entries_at<M>(&frame_[at.first]);
+    S const along = detail::sum_of<M - 1>([&](int i) -> S { return (w[i + 1] / w[0]) * λ[i + 1]; });
+    S const square = detail::sum_of<M - 1>([&](int i) -> S {
+      S const ratio = w[i + 1] / w[0];
+      return ratio * ratio;
+    });
+    for (int i = 1; i < M; ++i) c[i] -= f * (square * λ[i] - along * (w[i] / w[0]));
   }
   /// to ← to − Tᵀy.
   template <class Block, class Place, class Y, class V>
