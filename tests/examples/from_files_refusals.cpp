@@ -120,7 +120,7 @@ TEST_CASE("from_files refuses K that is not symmetric or not definite") {
   // The eigenvalues are 3 and −1; the second pivot is 1 − 2²/1 = −3.
   with_K(symmetric + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n", "K: got pivot 1 (row ");
   with_K(symmetric + "2 2 3\n1 1 1\n2 1 2\n2 2 1\n",
-         ") = -3, expected a symmetric positive definite matrix");
+         ", expected a symmetric positive definite matrix");
   // Singular: refused where a method is named that takes no such matrix.
   auto const singular = [&](std::string const& K, std::string const& expected) {
     files.put("K.mtx", K);
@@ -199,7 +199,8 @@ TEST_CASE("from_files refuses options that make no sense") {
   with("--tolerance 1e-4000", "expected a relative accuracy in [0, 1), within the range of double");
   with("--method newton",
        "--method: got newton, expected one of symmetric_newton, interior_point, ");
-  with("--start somewhere", "--start: got somewhere, expected zero, qpc or interior_point");
+  with("--start somewhere",
+       "--start: got somewhere, expected automatic, zero, qpc or interior_point");
   with("--no-such-option", "argument: got --no-such-option, expected one of those that --help");
   with("another_folder", "argument: got another_folder, expected one of those that --help lists");
   with("--tolerance 1e-3 --tolerance 1e-4", "--tolerance: got 2 values, expected one");

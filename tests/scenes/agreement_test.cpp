@@ -128,7 +128,7 @@ constexpr std::array demands{
     demand{"symmetric_newton", symmetric_newton, 20, 350, 250},
     demand{"symmetric_newton with a preconditioner", preconditioned_newton, 20, 350, 250},
     demand{"semismooth_newton", semismooth_newton, 20, 400, 350},
-    demand{"interior_point", interior_point, 20, 800, 400},
+    demand{"interior_point", interior_point, 20, 850, 400},
     demand{"interior_point then symmetric_newton", interior_then_newton, 20, 650, 300},
     demand{"kprgp", kprgp, 50, 1100, 9000},
     demand{"as_s", as_s, 50, 1100, 9000},

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <slant/certificates/energy_error.hpp>
+#include <slant/iteration/solve.hpp>
 #include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>
 
@@ -46,6 +47,7 @@ class energy_error_below : public rule {
     S const measure = watched(s);
     bool const at_rest = s.status != status::running;
     if (!at_rest && !(measure <= threshold_)) return status::running;
+    if (s.status == status::unbounded) return s.status;  // its direction has been confirmed
     error_ = certificate_(s.x);
     S const relative = error_.relative();
     if (relative <= tolerance_) return status::converged;
@@ -57,7 +59,8 @@ class energy_error_below : public rule {
     return status::running;
   }
   template <class State>
-  std::string reason(State const&) const {
+  std::string reason(State const& s) const {
+    if (s.status == status::unbounded) return detail::own_words(s);
     return error_.sentence() + (error_.relative() <= tolerance_ ? ", at most " : "; asked was ") +
            detail::show(tolerance_);
   }

@@ -201,7 +201,8 @@ class certificate {
     e.bound = bound(δ_zero);
     if (e.relative() > goal) {
       S const δ = sharper(std::as_const(rest_), δ_zero / e.size);
-      S const sharp = δ >= S(0) ? bound(δ) : e.bound;
+      // What no force of the contacts can move is in no range of A.
+      S const sharp = δ >= S(0) ? bound(δ + tail_norm()) : e.bound;
       if (sharp < e.bound) {
         e.bound = sharp;
         e.proven = false;
@@ -210,31 +211,24 @@ class certificate {
     return e;
   }
 
-  /// ‖v‖_K of v = Bᵀ(BBᵀ)⁻¹d, an upper bound of ‖d‖_{A⁻¹}; ∞ where d acts on an empty row.
+  /// ‖v‖_K of the shortest v with B v = d, an upper bound of ‖d‖_{A⁻¹}; ∞ where d acts on an empty
+  /// row. What is left of d where rows depend on each other is counted as moved by its nodes alone:
+  /// an estimate.
   [[nodiscard]] S extension_by_zero(vector_type const& d) {
-    vector_type left = d;
-    v_.setZero(K_->rows());
-    // Once if the rows are orthogonal; else Richardson's iteration for BBᵀ.
-    index const passes = is_orthogonal_ ? 1 : 30;
-    S const size = d.stableNorm();
-    S rest(0);
-    for (index k = 0; k < passes; ++k) {
-      for (index i = 0; i < d.size(); ++i) {
-        S const amount = damping_ * inverse_squares_(i) * left(i);
-        if (amount == S(0)) {
-          if (left(i) != S(0)) return std::numeric_limits<S>::infinity();
-          continue;
-        }
-        for (typename sparse_type::InnerIterator e(rows_, i); e; ++e)
-          v_(e.row()) += amount * e.value();
-      }
-      for (index i = 0; i < d.size(); ++i) {
-        left(i) = detail::minus_column<S>(rows_, i, v_, d(i)).hi;
-      }
-      rest = left.stableNorm();
-      if (!(rest > S(1e-3) * size)) break;
+    for (index i = 0; i < d.size(); ++i) {
+      if (inverse_squares_(i) == S(0) && d(i) != S(0)) return std::numeric_limits<S>::infinity();
     }
-    return norm_on_contact(v_) + tail_norm(rest);
+    v_.setZero(K_->rows());
+    if (is_orthogonal_) {
+      add_forces(vector_type(inverse_squares_.cwiseProduct(d)), v_);
+    } else {
+      least_squares(d);
+    }
+    vector_type left(d.size());
+    for (index i = 0; i < d.size(); ++i) left(i) = detail::minus_column<S>(rows_, i, v_, d(i)).hi;
+    // In units in which every row has the length 1.
+    rest_size_ = left.cwiseProduct(inverse_squares_.cwiseSqrt()).stableNorm();
+    return norm_on_contact(v_) + tail_norm();
   }
 
   /// √(vᵀK v).
@@ -268,23 +262,19 @@ class certificate {
     for (index i = 0; i < n; ++i) {
       if (squares(i) > S(0)) inverse_squares_(i) = S(1) / squares(i);
     }
-    // BBᵀ: orthogonal rows have nothing but rounding off the diagonal; its largest scaled row sum
-    // bounds what Richardson's iteration amplifies.
+    // BBᵀ: orthogonal rows have nothing but rounding off the diagonal.
     sparse_type const gram = B_ * rows_;
-    S widest(1);
     for (index j = 0; j < gram.outerSize(); ++j) {
-      S sum(0);
       for (typename sparse_type::InnerIterator e(gram, j); e; ++e) {
         using std::abs;
-        S const scaled = abs(e.value()) * inverse_squares_(j);
-        sum += scaled;
-        if (e.row() != j && scaled > S(8) * std::numeric_limits<S>::epsilon()) {
+        using std::sqrt;
+        S const cosine =
+            abs(e.value()) * sqrt(inverse_squares_(j)) * sqrt(inverse_squares_(e.row()));
+        if (e.row() != j && cosine > S(8) * std::numeric_limits<S>::epsilon()) {
           is_orthogonal_ = false;
         }
       }
-      widest = std::max<S>(widest, sum);
     }
-    damping_ = is_orthogonal_ ? S(1) : S(S(1.5) / widest);
     // m_i = diag of D B K BᵀD.
     v_.setZero(m);
     for (index i = 0; i < n; ++i) {
@@ -319,11 +309,48 @@ class certificate {
     sum += S(256) * std::numeric_limits<S>::epsilon() * lost * (largest_ / unit_of_K);
     return sqrt(sum > S(0) ? sum : S(0)) * unit * sqrt(unit_of_K);
   }
-  /// ‖v‖_K for the shortest v with ‖B v‖ ≤ rest.
-  [[nodiscard]] S tail_norm(S const& rest) const {
+  /// ‖v‖_K for what extension_by_zero has left.
+  [[nodiscard]] S tail_norm() const {
     using std::sqrt;
-    if (!(rest > S(0))) return S(0);
-    return S(2) * rest * sqrt(largest_) * sqrt(inverse_squares_.maxCoeff());
+    return rest_size_ > S(0) ? S(S(2) * rest_size_ * sqrt(largest_)) : S(0);
+  }
+
+  /// v ← v + Bᵀf.
+  void add_forces(vector_type const& f, vector_type& v) const {
+    for (index i = 0; i < f.size(); ++i) {
+      for (typename sparse_type::InnerIterator e(rows_, i); e; ++e) v(e.row()) += f(i) * e.value();
+    }
+  }
+
+  /// v_ of least length among those with the least ‖D(B v − d)‖, D B with rows of length 1:
+  /// conjugate gradients for the normal equations, which need no independent rows.
+  void least_squares(vector_type const& d) {
+    vector_type const scale = inverse_squares_.cwiseSqrt();
+    S const unit = unit_near(S(d.stableNorm()));
+    vector_type r = (d / unit).cwiseProduct(scale), q(d.size());
+    vector_type s = vector_type::Zero(v_.size()), p;
+    add_forces(vector_type(r.cwiseProduct(scale)), s);
+    p = s;
+    S size = s.squaredNorm();
+    S const enough = S(1e-16) * size;
+    for (index k = 0; k < 200 && size > enough; ++k) {
+      for (index i = 0; i < q.size(); ++i) {
+        S sum(0);
+        for (typename sparse_type::InnerIterator e(rows_, i); e; ++e) sum += e.value() * p(e.row());
+        q(i) = scale(i) * sum;
+      }
+      S const bend = q.squaredNorm();
+      if (!(bend > S(0))) break;
+      S const α = size / bend;
+      v_ += α * p;
+      r -= α * q;
+      s.setZero();
+      add_forces(vector_type(r.cwiseProduct(scale)), s);
+      S const next = s.squaredNorm();
+      p = s + (next / size) * p;
+      size = next;
+    }
+    v_ *= unit;
   }
 
   /// ε of u, which is refined where that pays; ρ in doubled precision.
@@ -388,7 +415,7 @@ class certificate {
   sparse_type B_, rows_;  // B and Bᵀ
   vector_type inverse_squares_, stiffness_;
   std::vector<index> touched_;
-  S largest_{0}, smallest_{0}, quotient_{0}, damping_{1};
+  S largest_{0}, smallest_{0}, quotient_{0}, rest_size_{0};
   bool is_orthogonal_ = true, is_proven_ = false;
   index solves_ = 0;
   vector_type residual_, second_, w_, v_, g_, rest_, image_;

@@ -181,7 +181,7 @@ class certified_run {
         certify(qp, M, state.x, wa, norm_workspace, true);
         error = result_.error.relative();
       }
-      bool const is_enough = error <= options_.tolerance && slant::detail::is_finite(error);
+      bool const is_enough = error <= options_.tolerance && end.how != status::unbounded;
       if (is_enough || !goes_on) {
         finish(end, is_enough);
         break;

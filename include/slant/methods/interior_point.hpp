@@ -92,7 +92,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     slant::local(origin).setZero();
     bool const solved = s.begin(qp, origin);
     scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
-    scalar const force = options_.start_force * norm(s.r) * per_entry;
+    scalar const start_force = options_.start_force.value_or(scalar(s.pairs.empty() ? 0.3 : 0.6));
+    scalar const force = start_force * norm(s.r) * per_entry;
     scalar const length = options_.start_length * this->first_way(s) * per_entry;
     if (!solved) this->choose_start(s, x0);
     s.trial = s.x;
@@ -118,9 +119,9 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
         s.status = status::unbounded;
       } else {
         scalar α = length(s);
-        if (s.constraints > 0 && α < options_.correct_below) {
+        if (s.constraints > 0 && α < correct_below(s)) {
           scalar const c = s.centring, plain = α;
-          s.centring = centring_after(α);
+          s.centring = centring_after(s, α);
           α = solve_newton(s, true, α * α) ? length(s) : scalar(0);
           if (α < plain && s.status == status::running) {
             s.centring = c;
@@ -162,14 +163,21 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     scalar const q = ξ < scalar(1) ? scalar((scalar(1) - ξ) / ξ) : scalar(0);
     s.centring =
         std::min(options_.centring_most,
-                 std::max(options_.centring_least, scalar(options_.centring_scale * (q * q * q))));
+                 std::max(least_centring(s), scalar(options_.centring_scale * (q * q * q))));
+  }
+
+  [[nodiscard]] scalar correct_below(state_type const& s) const {
+    return options_.correct_below.value_or(scalar(s.pairs.empty() ? 0 : 0.3));
+  }
+  [[nodiscard]] scalar least_centring(state_type const& s) const {
+    return options_.centring_least.value_or(scalar(s.pairs.empty() ? 0.1 : 0.2));
   }
 
   /// c where a step had the length α [Mehrotra].
-  [[nodiscard]] scalar centring_after(scalar const& α) const {
+  [[nodiscard]] scalar centring_after(state_type const& s, scalar const& α) const {
     scalar const rest = scalar(1) - α;
     return std::min(options_.centring_most,
-                    std::max<scalar>(options_.centring_least, rest * rest * rest));
+                    std::max<scalar>(least_centring(s), rest * rest * rest));
   }
 
   /// Δx, A Δx and Δν; false if there is none. `again`: in place of the step at hand; `corrected`:

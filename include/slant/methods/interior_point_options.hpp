@@ -27,7 +27,8 @@ struct interior_point_options {
   /// in natural forces. On bricks 3 and 0.6 take fewer products than 3 and 0.3; with a tenth of
   /// these lengths there are twice as many steps.
   S start_length = S(3);
-  S start_force = S(0.6);
+  /// None: 0.6 where the set has discs or cones, else 0.3.
+  std::optional<S> start_force{};
   /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
   /// more of x0 and lies nearer to the boundary, which costs more steps than it saves.
   S start_depth = S(1);
@@ -40,9 +41,12 @@ struct interior_point_options {
 
   /// In [0, 1]: a step shorter than this is computed again with its own second-order term
   /// [Mehrotra]; the longer of the two is made. 0: never.
-  S correct_below = S(0.3);
+  /// None: 0.3 where the set has discs or cones, else 0.
+  std::optional<S> correct_below{};
 
-  S centring_least = S(0.2);      ///< c_min in [0, c_max]; 0: pure Newton steps
+  /// c_min in [0, c_max]; 0: pure Newton steps. None: 0.2 where the set has discs or cones, on
+  /// which force and point turn into line at the rate of ϑ, else 0.1.
+  std::optional<S> centring_least{};
   S centring_most = S(0.5);       ///< c_max in (0, 1)
   S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
   S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
@@ -69,7 +73,7 @@ struct interior_point_options {
   void validate() const {
     if (step_length) positive("step_length", *step_length);
     positive("start_length", start_length);
-    positive("start_force", start_force);
+    if (start_force) positive("start_force", *start_force);
     if (!(start_depth > S(0) && start_depth <= S(1))) {
       throw bad_input("start_depth", detail::show(start_depth), "a number in (0, 1]");
     }
@@ -78,8 +82,8 @@ struct interior_point_options {
     }
     if (raises < 0) throw bad_input("raises", detail::show(raises), "a number >= 0");
     fraction("centring_most", centring_most);
-    if (!(centring_least >= S(0) && centring_least <= centring_most)) {
-      throw bad_input("centring_least", detail::show(centring_least),
+    if (centring_least && !(*centring_least >= S(0) && *centring_least <= centring_most)) {
+      throw bad_input("centring_least", detail::show(*centring_least),
                       "a number in [0, centring_most]");
     }
     positive("centring_scale", centring_scale);
@@ -88,8 +92,8 @@ struct interior_point_options {
       throw bad_input("residual_factor", detail::show(residual_factor), "a number >= 1");
     }
     fraction("sufficient", sufficient);
-    if (!(correct_below >= S(0) && correct_below <= S(1))) {
-      throw bad_input("correct_below", detail::show(correct_below), "a number in [0, 1]");
+    if (correct_below && !(*correct_below >= S(0) && *correct_below <= S(1))) {
+      throw bad_input("correct_below", detail::show(*correct_below), "a number in [0, 1]");
     }
     if (!(ahead >= S(0) && ahead < S(1))) {
       throw bad_input("ahead", detail::show(ahead), "a number in [0, 1)");

@@ -390,6 +390,8 @@ class lorentz_pairs {
     });
   }
   [[nodiscard]] bool bound(std::size_t number) const { return root_y_[number] > S(0); }
+  /// There is no such block in the set.
+  [[nodiscard]] bool empty() const { return root_y_.empty(); }
 
  private:
   template <int M>

@@ -77,7 +77,7 @@ template <class QP, class M, class Certificate>
     result.error = certificate(state.x);
     S const error = result.error.relative();
     result.status = end.how;
-    bool const is_enough = error <= tolerance;
+    bool const is_enough = error <= tolerance && end.how != status::unbounded;
     bool const can_go_on = end.how == status::converged && error < best / S(1.5) &&
                            threshold > S(0) && state.reduced_gradient_norm > S(0);
     if (is_enough || !can_go_on) {
