@@ -59,4 +59,18 @@ TEST_CASE(
   CHECK(slant::dual_norm(A, M, zero, 10, true, wa, w).value == 0);
 }
 
+TEST_CASE("dual norm: directions that A or M does not see are not counted as nothing") {
+  VectorXd a = VectorXd::Ones(4), m = VectorXd::Ones(4);
+  m(3) = 0;
+  auto const A = slant::diagonal(a), M = slant::diagonal(m);
+  auto wa = slant::workspace(A, a);
+  slant::dual_norm_workspace w(M, a);
+  VectorXd const hidden = VectorXd::Unit(4, 3), both = VectorXd::Ones(4);
+  CHECK(std::isinf(slant::dual_norm(A, M, hidden, 9, false, wa, w).value));
+  CHECK(std::isinf(slant::dual_norm(A, M, both, 9, false, wa, w).value));
+  auto wm = slant::workspace(M, a);
+  slant::dual_norm_workspace w2(A, a);
+  CHECK(std::isinf(slant::dual_norm(M, A, hidden, 9, false, wm, w2).value));
+}
+
 }  // namespace dual_norm_test

@@ -20,6 +20,7 @@
 #include <slant/krylov/unit.hpp>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace slant {
@@ -59,7 +60,7 @@ template <class A, class M, class V, class WA>
     slant::apply(a, w.p, w.image, of_a);
     ++k;
     S const bend = slant::inner_product(w.p, w.image);
-    if (!(bend > S(0))) break;
+    if (!(bend > S(0))) return {std::numeric_limits<S>::infinity(), k};  // no bound from here
     S const α = rz / bend, term = α * rz;
     energy += term;
     recent = recent / S(2) + term;
@@ -70,6 +71,8 @@ template <class A, class M, class V, class WA>
     rz = next;
     if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) break;
   }
+  // M vanishes along what is left of d, or is not semidefinite: nothing is known of it.
+  if (!(rz > S(0)) && slant::norm(w.r) > S(0)) return {std::numeric_limits<S>::infinity(), k};
   S const rest = dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }
