@@ -111,16 +111,13 @@ class barrier {
   /// Σ ν_i ∇²f_i, W and P_SC⁻¹ at x, where G is, for the diagonal d of A. `unit` is that of ν.
   template <class C, class X, class M, class Z, class D>
   void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d) {
-    struct {
-    } none;
-    assemble(set, x, ν, z, unit, d, none);
+    assemble(set, x, ν, z, unit, d, no_pairs{});
   }
   /// The same where bounded sections of the Lorentz cone have W from their pairs.
   template <class C, class X, class M, class Z, class D, class Pairs>
   void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d,
                 Pairs const& pairs) {
-    constexpr bool paired = std::is_same_v<Pairs, lorentz_pairs<S>>;
-    [[maybe_unused]] lorentz_place of_pairs;
+    lorentz_place of_pairs;
     auto const& multipliers = slant::local(ν);
     auto const& slack = slant::local(z);
     auto const& diagonal = slant::local(d);
@@ -145,12 +142,7 @@ class barrier {
             for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
           }
         }
-        if constexpr (paired && lorentz_block<block_type>) {
-          auto const at = of_pairs.template next<block_type>(row);
-          if (pairs.bound(at.number)) {
-            w = detail::multiple_of(unit, pairs.stiffness(block, at));
-          }
-        }
+        replace_by_pairs(block, pairs, of_pairs, row, unit, w);
         stiffness_.template block<n>(number) = w;
         for (int j = 0; j < n; ++j) w.data()[j + n * j] += diagonal.coeff(place.component(j));
         preconditioner_.template block<n>(number) = detail::definite_inverse(w);
@@ -172,6 +164,18 @@ class barrier {
   }
 
  private:
+  struct no_pairs {};
+
+  /// W of a block from its pairs, where it has some.
+  template <class B, class Pairs, class W>
+  static void replace_by_pairs(B const& block, Pairs const& pairs, lorentz_place& of_pairs,
+                               index row, S const& unit, W& w) {
+    if constexpr (std::is_same_v<Pairs, lorentz_pairs<S>> && lorentz_block<B>) {
+      auto const at = of_pairs.template next<B>(row);
+      if (pairs.bound(at.number)) w = detail::multiple_of(unit, pairs.stiffness(block, at));
+    }
+  }
+
   std::shared_ptr<detail::inequality_layout const> layout_;
   inequality_jacobian<S> jacobian_;
   curvature_operator curvature_;
