@@ -10,17 +10,25 @@
 // remainder is at most √(rᵀM r) and the result an upper bound, up to the rounding of A y. Otherwise
 // it is an estimate: the terms of the last steps stand for the remainder [Strakoš, Tichý 2002].
 //
+// Where A is only semidefinite, d belongs to the range of A up to rounding. What rounding leaves of
+// d outside of it has no dual norm; it is known by the size of the numbers that d was computed
+// from, see gradient_size, and by directions p along which A has no more curvature than rounding of
+// A p.
+//
 // Cost: one application of A and one of M a step, until the remainder is a tenth or the limit is
 // met.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/unit.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace slant {
@@ -42,25 +50,49 @@ struct dual_norm_result {
   index applications;  ///< of A
 };
 
-/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. NaN where A or M is not definite on
-/// what d needs.
+/// What d = A x − b was computed from: rounding may leave some ε(λ‖x‖ + ‖b‖) of it, λ = ‖A‖.
+template <class S>
+struct gradient_size {
+  S point;  ///< ‖x‖
+  S load;   ///< ‖b‖
+};
+
+/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. Infinite where A or M shows no
+/// curvature along what is left of d; with `sizes`, for a semidefinite A, only if that is more than
+/// rounding.
 template <class A, class M, class V, class WA>
 [[nodiscard]] auto dual_norm(A const& a, M const& m, V const& d, index most, bool dominates,
-                             WA& of_a, dual_norm_workspace<V, M>& w)
+                             WA& of_a, dual_norm_workspace<V, M>& w,
+                             std::optional<gradient_size<scalar_t<V>>> sizes = {})
     -> dual_norm_result<scalar_t<V>> {
   using S = scalar_t<V>;
   using std::sqrt;
+  S const ε = std::numeric_limits<S>::epsilon();
+  S const room = S(4) * sqrt(S(slant::global_size(d)));
   S const unit = unit_near(slant::norm(d));
   slant::local(w.r) = slant::local(d) / unit;
   slant::apply(m, w.r, w.z, w.of_m);
   slant::local(w.p) = slant::local(w.z);
-  S rz = slant::inner_product(w.r, w.z), energy(0), recent(0);
+  S rz = slant::inner_product(w.r, w.z), energy(0), recent(0), stiffest(0);
   index k = 0;
+  // ‖r‖ is no more than rounding.
+  auto const is_rounding = [&] {
+    return sizes &&
+           slant::norm(w.r) <= room * ε * (stiffest * (sizes->point / unit) + sizes->load / unit);
+  };
   while (k < most && rz > S(0)) {
     slant::apply(a, w.p, w.image, of_a);
     ++k;
     S const bend = slant::inner_product(w.p, w.image);
-    if (!(bend > S(0))) return {std::numeric_limits<S>::infinity(), k};  // no bound from here
+    S flat(0);
+    if (sizes) {
+      S const length = slant::inner_product(w.p, w.p);
+      stiffest = std::max<S>(stiffest, bend / length);
+      flat = room * ε * stiffest * length;
+    }
+    if (!(bend > flat)) {  // no bound from here
+      return {is_rounding() ? S(unit * sqrt(energy)) : std::numeric_limits<S>::infinity(), k};
+    }
     S const α = rz / bend, term = α * rz;
     energy += term;
     recent = recent / S(2) + term;
@@ -69,10 +101,12 @@ template <class A, class M, class V, class WA>
     S const next = slant::inner_product(w.r, w.z);
     slant::local(w.p) = (next / rz) * slant::local(w.p) + slant::local(w.z);
     rz = next;
+    if (is_rounding()) break;
     if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) break;
   }
   // M vanishes along what is left of d, or is not semidefinite: nothing is known of it.
-  if (!(rz > S(0)) && slant::norm(w.r) > S(0)) return {std::numeric_limits<S>::infinity(), k};
+  if (!(rz > S(0)) && slant::norm(w.r) > S(0) && !is_rounding())
+    return {std::numeric_limits<S>::infinity(), k};
   S const rest = dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }

@@ -22,10 +22,12 @@
 // M} find δ by conjugate gradients (dual_norm.hpp), which see A⁻¹ only from below: an estimate.
 //
 // Where A is only semidefinite the same inequalities hold for d = g − s in the range of A; x* is
-// then any solution.
+// then any solution. What rounding leaves of d outside of the range is not counted: the error is
+// that of a program whose b differs by as much.
 #pragma once
 
 #include <slant/certificates/dual_norm.hpp>
+#include <slant/certificates/face_correction.hpp>
 #include <slant/certificates/normal_part.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/checks.hpp>
@@ -33,11 +35,15 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/methods/detail/block_slants.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/sets/curved_face.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -151,23 +157,21 @@ class energy_certificate {
     energy_error<scalar> e;
     e.size = root_of(x_, g_);
     slant::local(g_) -= slant::local(qp_->b());
-    auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
-    scalar δ(0);
     if (dominates_) {
+      auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
       slant::apply(m_, g_, norm_.z, norm_.of_m);
-      δ = root_of(g_, norm_.z);
+      e.bound = error_bound<scalar>(root_of(g_, norm_.z), balanced.gap);
     } else {
-      auto const estimate = dual_norm(qp_->a(), m_, g_, most_, false, a_workspace_, norm_);
-      applications_ += estimate.applications;
-      δ = estimate.value;
+      e.bound = estimate();
     }
-    e.bound = error_bound<scalar>(δ, balanced.gap);
     return e;
   }
   /// Applications of A so far.
   [[nodiscard]] index applications() const { return applications_; }
 
  private:
+  static constexpr bool has_faces = has_block_slants<typename QP::set_type, local_t<vector_type>>;
+
   energy_certificate(QP const& qp, M const& m, bool dominates)
       : qp_(&qp),
         m_(m),
@@ -177,9 +181,74 @@ class energy_certificate {
         g_(like(qp.b(), qp.size())),
         stiffness_(like(qp.b(), qp.size())),
         a_workspace_(workspace(qp.a(), qp.b())),
-        norm_(m_, qp.b()) {
+        norm_(m_, qp.b()),
+        face_(qp.set()),
+        correction_(x_, m_),
+        rest_(like(qp.b(), qp.size())) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     set_stiffness();
+  }
+
+  /// What A x − b was computed from, for an A that may be singular.
+  [[nodiscard]] std::optional<gradient_size<scalar>> sizes() const {
+    if constexpr (declares_positive_definite<typename QP::operator_type>) return {};
+    return gradient_size<scalar>{slant::norm(x_), slant::norm(qp_->b())};
+  }
+
+  [[nodiscard]] scalar norm_of(vector_type const& d) {
+    if (!(slant::norm(d) > scalar(0))) return slant::norm(d);
+    auto const e = dual_norm(qp_->a(), m_, d, most_, false, a_workspace_, norm_, sizes());
+    applications_ += e.applications;
+    return e.value;
+  }
+
+  /// From x and g. With s = (g + A t) balanced, t the step on the face, the rest of g − s is −A t.
+  [[nodiscard]] scalar estimate() {
+    if constexpr (has_faces) {
+      scalar const ρ = typical_;
+      norm_.p = x_;
+      slant::local(norm_.p) -= ρ * slant::local(g_);
+      face_.assign(qp_->set(), slant::local(norm_.p), scalar(1));
+      applications_ +=
+          correction_.compute(qp_->a(), a_workspace_, m_, g_, face_, ρ, ρ, most_, sizes());
+      if (correction_.found && detail::is_finite(correction_.energy)) return after_correction();
+    }
+    auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
+    return error_bound<scalar>(norm_of(g_), balanced.gap);
+  }
+
+  /// e ≤ ½(δ + √(δ² + 4γ)), δ = ‖t‖_A + ‖rest‖_{A⁻¹}, where g + A t is balanced up to rest and γ.
+  /// Of two ways to balance curved blocks, with a part of the gradient or by the gap alone, the one
+  /// that the diagonal of A says is better.
+  [[nodiscard]] scalar after_correction() {
+    using std::sqrt;
+    slant::local(g_) += slant::local(correction_.image);
+    scalar best = std::numeric_limits<scalar>::infinity(), gap(0);
+    for (scalar const factor : {scalar(1), scalar(0x1p27)}) {
+      auto& m = norm_.z;
+      auto& rest = norm_.p;
+      m = stiffness_;
+      face_.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
+      auto const balanced = balance(qp_->set(), x_, g_, m, rest);
+      slant::local(rest) -= slant::local(correction_.remainder);
+      // By the gap alone, nothing to speak of is left there.
+      if (factor > scalar(1)) {
+        face_.curved_components([&](index i) { slant::local(rest).coeffRef(i) = scalar(0); });
+      }
+      scalar const γ = std::max<scalar>(balanced.gap, correction_.curvature / scalar(2));
+      slant::local(m) = slant::local(stiffness_).cwiseProduct(slant::local(rest));
+      scalar const δ = correction_.energy + root_of(rest, m);
+      scalar const bound = error_bound<scalar>(δ, γ);
+      if (!(bound < best)) continue;
+      best = bound;
+      gap = γ;
+      rest_ = rest;
+    }
+    if (!detail::is_finite(best)) return std::numeric_limits<scalar>::infinity();
+    scalar const δ =
+        sqrt(correction_.energy * correction_.energy + correction_.missing * correction_.missing) +
+        norm_of(rest_);
+    return error_bound<scalar>(δ, gap);
   }
 
   /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
@@ -187,13 +256,13 @@ class energy_certificate {
     using A = typename QP::operator_type;
     auto const mean = mean_diagonal(qp_->a(), qp_->b());
     applications_ += mean.applications;
-    scalar const typical = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    slant::local(stiffness_).setConstant(typical);
+    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
+    slant::local(stiffness_).setConstant(typical_);
     if constexpr (has_diagonal<A, vector_type>) {
       qp_->a().diagonal(stiffness_);
       for (index i = 0; i < slant::local(stiffness_).size(); ++i) {
         auto& entry = slant::local(stiffness_).coeffRef(i);
-        entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical;
+        entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical_;
       }
     }
   }
@@ -214,6 +283,10 @@ class energy_certificate {
   vector_type x_, g_, stiffness_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   dual_norm_workspace<vector_type, M> norm_;
+  curved_face<scalar> face_;
+  face_correction<vector_type, M> correction_;
+  vector_type rest_;
+  scalar typical_{1};  ///< 1/mean(diag A)
 };
 
 template <class QP>

@@ -93,7 +93,7 @@ template <class Method, class V, class Rule, class... Observers>
 
 /// Arguments that lack something end here and are told so.
 template <class Method, class V, class Rule, class... Observers>
-  requires(!detail::solvable<Method, V, Rule, Observers...> && !scalar<V>)
+  requires(!detail::solvable<Method, V, Rule, Observers...> && !scalar<V> && !scalar<Rule>)
 [[nodiscard]] auto solve(Method&&, V const&, Rule, Observers&&...) -> detail::refused_report<V> {
   static_assert(
       iterative_method<Method, V>,

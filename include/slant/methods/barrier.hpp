@@ -53,9 +53,7 @@ class barrier {
         outside_(column::Zero(layout_->cols())) {
     slant::visit_blocks(set, [this](auto const& block, auto const& place) {
       using block_type = std::remove_cvref_t<decltype(block)>;
-      if constexpr (single_point<block_type>) {
-        for (index j = 0; j < place.size(); ++j) fixed_.push_back(place.component(j));
-      }
+      if constexpr (single_point<block_type>) hold(place);
       if constexpr (detail::inequalities_of<block_type> > 0) {
         index const stride = place.size() > 1 ? place.component(1) - place.component(0) : 1;
         curvature_.append(place.size(), place.component(0), stride);
@@ -156,6 +154,11 @@ class barrier {
     preconditioner_.assign_outside(outside_);
   }
 
+  /// Counts the components of a block as those of a single point.
+  template <class Place>
+  void hold(Place const& place) {
+    for (index j = 0; j < place.size(); ++j) fixed_.push_back(place.component(j));
+  }
   /// Zero on the components of single points.
   template <class V>
   void keep_fixed(V& v) const {

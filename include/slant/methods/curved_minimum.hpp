@@ -11,19 +11,13 @@
 // A t comes along, so whoever takes the step knows the gradient r + A t at its end: one product by
 // A a step and none besides.
 //
-// Preconditioner. Where the boundary is flat (C = 0), M ≈ A⁻¹ is the one to use; where its
-// curvature outweighs A, (C/ρ)⁻¹. With s = mean(diag M) ≈ 1/mean(diag A) and W = (I + (s/ρ) C)⁻¹
-//
-//     z = W M W g + s W (I − W) g
-//
-// is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
-// leaves z = s W g. An M that knows the inverse on a face (preconditions_faces) is asked for that
-// where all is flat.
+// Preconditioner: methods/face_preconditioner.hpp.
 #pragma once
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/methods/face_preconditioner.hpp>
 #include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/identity.hpp>
 
@@ -81,7 +75,7 @@ class curved_minimum {
     bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
-      precondition(m, face, s);
+      precondition_on_face(m, face, s, g_, z_, weighed_, m_workspace_);
       scalar const next = inner_product(g_, z_);
       finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
@@ -118,26 +112,6 @@ class curved_minimum {
 
  private:
   static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
-
-  /// z = W M W g + s W (I − W) g.
-  template <class Face>
-  void precondition(M const& m, Face const& face, scalar const& s) {
-    if constexpr (preconditions_faces<M, V, Face>) {
-      if (face.curved_count() == 0) {
-        m.apply_on_face(g_, z_, m_workspace_);
-        return;
-      }
-    }
-    face.weigh(g_, z_);
-    if constexpr (preconditioned) {
-      slant::apply(m, z_, weighed_, m_workspace_);
-      slant::local(weighed_) += s * (slant::local(g_) - slant::local(z_));
-      face.weigh(weighed_, z_);
-    } else {
-      static_cast<void>(m);
-      static_cast<void>(s);
-    }
-  }
 
   V g_;        // Π r + H t
   V p_;        // direction

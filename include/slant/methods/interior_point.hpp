@@ -98,7 +98,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     if (!solved) this->choose_start(s, x0);
     s.trial = s.x;
     enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
-                   s.barrier.per_unit());
+                   s.barrier.per_unit(), [&](auto const& place) { s.barrier.hold(place); });
     if (solved) {
       s.x = s.trial;
       s.status = status::converged;

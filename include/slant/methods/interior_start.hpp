@@ -84,26 +84,38 @@ template <class Block, class X>
   return sum / count;
 }
 
-/// `block`: its number, none if it is on another process. In a program, sets `point` and
-/// `free_components` would do; the message also reaches users of files alone.
+/// Whether the block is the point x alone: e and −e of every axis are normal to it there.
+template <class Block, class X>
+[[nodiscard]] bool is_single_point(Block const& block, X const& x, typename X::Scalar const& δ) {
+  for (index j = 0; j < index(x.size()); ++j) {
+    X const axis = δ * X::Unit(x.size(), j);
+    if (X(block.project(X(x + axis))) != x || X(block.project(X(x - axis))) != x) return false;
+  }
+  return true;
+}
+
+/// `block`: its number, none if it is on another process. The message also reaches users of files
+/// alone.
 [[noreturn]] inline void refuse_empty_interior(std::optional<index> block) {
   throw bad_input(
       block ? "block " + show(*block) + " of the set"
             : std::string("a block of the set on another process"),
       "no point inside that f(x) tells",
-      "points with f(x) < 0, which components with one value (a slip bound 0) or without "
-      "bounds do not have; another method takes them (symmetric_newton, kprgp)");
+      "points with f(x) < 0, which a cone with friction coefficient 0 does not have; another "
+      "method takes it (symmetric_newton, kprgp)");
 }
 
 }  // namespace detail
 
 /// x ∈ Λ moves the fraction `pull` of the way to the interior; the middle it moves towards goes to
 /// `centre`, and 1/σ of every inequality, 0 for those without a bound, to per_unit (see
-/// barrier.hpp). Throws bad_input, on all processes, naming a block that has no interior: none that
-/// a number can tell, also a ball of a radius whose square leaves the range of the numbers.
-template <class C, class V, class R>
+/// barrier.hpp). Blocks that are a single point, a ball of radius 0 or an interval with equal ends,
+/// keep it, count as without a bound and are told to hold(place).
+/// Throws bad_input, on all processes, naming another block that has no interior: none that a
+/// number can tell, also a ball of a radius whose square leaves the range of the numbers.
+template <class C, class V, class R, class Hold>
 void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull, V& x, V& centre,
-                    R& per_unit) {
+                    R& per_unit, Hold hold) {
   using S = scalar_t<V>;
   index row = 0;
   std::optional<index> empty;
@@ -118,6 +130,12 @@ void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull
         c = detail::centre_by_chords(block, detail::mean_of_projections(block, start, δ), δ);
       }
       auto const f = block.inequality(c.point).eval();
+      if (!(f.maxCoeff() < S(0)) && detail::is_single_point(block, start, δ)) {
+        for (int i = 0; i < k; ++i) per_unit(row + i) = S(0);
+        row += k;
+        hold(place);
+        return;
+      }
       for (int i = 0; i < k; ++i) {
         S const depth = -f(i);
         if (!(depth > S(0)) && !empty) empty = place.index();

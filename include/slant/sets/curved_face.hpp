@@ -69,6 +69,12 @@ class curved_face {
   [[nodiscard]] index curved_count() const { return static_cast<index>(blocks_.size()); }
   [[nodiscard]] index fixed_count() const { return fixed_; }
 
+  /// f(component) for those of the blocks with some, but not every motion left.
+  template <class F>
+  void curved_components(F f) const {
+    for (index const component : components_) f(component);
+  }
+
   /// y = Π x, the orthogonal projection onto range(G).
   template <class X, class Y>
   void keep(X const& x, Y& y) const {

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+//
+// The Newton step from x on its face, as a measure of how far the solution is:
+//
+//     t = argmin  gᵀt + ½ tᵀ(A + C/ρ) t   over   t ∈ range(G)             sets/curved_face.hpp
+//
+// with its image A t, by preconditioned conjugate gradients. Near a solution x + t is the next
+// iterate of Newton's method, so that ‖t‖_A is the error of x up to a factor that tends to 1.
+// Unlike ‖·‖_{A⁻¹} of the reduced gradient it charges nothing to what the constraints can take, and
+// it needs A to be definite only on the face.
+//
+// Iterations end where the terms of the last steps are a hundredth of ‖t‖²_H, H = Π A Π + C/ρ: the
+// sum of these terms approaches ‖t‖²_H from below [Hestenes, Stiefel 1952; Strakoš, Tichý 2002].
+#pragma once
+
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/methods/face_preconditioner.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace slant {
+
+/// t and what is known of it. V: vectors, M: preconditioner.
+template <class V, class M>
+class face_correction {
+ public:
+  using scalar = scalar_t<V>;
+
+  V t;                  ///< the step
+  V image;              ///< A t
+  V remainder;          ///< Π g + H t
+  scalar energy{0};     ///< ‖t‖_A
+  scalar curvature{0};  ///< tᵀ(C/ρ)t
+  scalar missing{0};    ///< estimate of the energy norm that more iterations would add to t
+  bool found = false;   ///< false: along what is left of g the face has no curvature, or M vanishes
+
+  face_correction(V const& prototype, M const& m)
+      : t(prototype),
+        image(prototype),
+        remainder(prototype),
+        p_(prototype),
+        Ap_(prototype),
+        z_(prototype),
+        weighed_(prototype),
+        m_workspace_(workspace(m, prototype)) {}
+
+  /// The step for the gradient g in at most `most` iterations; returns how many. 1/ρ ≈ ‖A‖ up to a
+  /// factor, s = mean(diag M). `sizes`, for a semidefinite A, as in dual_norm.
+  template <class A, class WA, class Face>
+  index compute(A const& a, WA& of_a, M const& m, V const& g, Face const& face, scalar const& ρ,
+                scalar const& s, index most, std::optional<gradient_size<scalar>> const& sizes) {
+    using std::sqrt;
+    scalar const ε = std::numeric_limits<scalar>::epsilon();
+    scalar const room = scalar(4) * sqrt(scalar(slant::global_size(g)));
+    slant::local(t).setZero();
+    slant::local(image).setZero();
+    energy = curvature = missing = scalar(0);
+    // Twice: g may be nearly normal to the face, and what rounding leaves of that is no residual.
+    face.keep(g, z_);
+    face.keep(z_, remainder);
+    scalar const unit = unit_near(slant::norm(remainder));
+    slant::local(remainder) /= unit;
+    if constexpr (preconditions_faces<M, V, Face>) {
+      if (face.curved_count() == 0) m.enter(face, m_workspace_);
+    }
+    scalar gz(0), sum(0), recent(0), stiffest(0);
+    auto const is_rounding = [&] {
+      return sizes && slant::norm(remainder) <=
+                          room * ε * (stiffest * (sizes->point / unit) + sizes->load / unit);
+    };
+    index k = 0;
+    found = slant::norm(remainder) == scalar(0);
+    while (!found && k < most) {
+      precondition_on_face(m, face, s, remainder, z_, weighed_, m_workspace_);
+      scalar const next = slant::inner_product(remainder, z_);
+      if (!(next > scalar(0))) break;
+      if (k == 0) {
+        slant::local(p_) = -slant::local(z_);
+      } else {
+        slant::local(p_) = (next / gz) * slant::local(p_) - slant::local(z_);
+      }
+      gz = next;
+      slant::apply(a, p_, Ap_, of_a);
+      ++k;
+      face.keep(Ap_, z_);
+      face.add_curvature(scalar(1) / ρ, p_, z_);
+      scalar const bend = slant::inner_product(p_, z_);
+      scalar flat(0);
+      if (sizes) {
+        scalar const length = slant::inner_product(p_, p_);
+        stiffest = std::max<scalar>(stiffest, bend / length);
+        flat = room * ε * stiffest * length;
+      }
+      if (!(bend > flat)) break;
+      scalar const α = gz / bend, term = α * gz;
+      slant::local(t) += α * slant::local(p_);
+      slant::local(image) += α * slant::local(Ap_);
+      slant::local(remainder) += α * slant::local(z_);
+      sum += term;
+      recent = recent / scalar(2) + term;
+      found = is_rounding() || slant::norm(remainder) == scalar(0) ||
+              (k > 4 && scalar(100) * recent < sum);
+    }
+    found = found || is_rounding() || (k == most && k > 4);
+    slant::local(z_).setZero();
+    face.add_curvature(scalar(1) / ρ, t, z_);
+    curvature = unit * slant::inner_product(t, z_) * unit;
+    scalar const squared = slant::inner_product(t, image);
+    energy = squared > scalar(0)  ? scalar(unit * sqrt(squared))
+             : squared == squared ? scalar(0)
+                                  : squared;
+    missing = unit * sqrt(recent);
+    slant::local(t) *= unit;
+    slant::local(image) *= unit;
+    slant::local(remainder) *= unit;
+    return k;
+  }
+
+ private:
+  V p_, Ap_, z_, weighed_;
+  workspace_t<M, V> m_workspace_;
+};
+
+}  // namespace slant
