@@ -162,7 +162,7 @@ class energy_certificate {
       slant::apply(m_, g_, norm_.z, norm_.of_m);
       e.bound = error_bound<scalar>(root_of(g_, norm_.z), balanced.gap);
     } else {
-      e.bound = estimate();
+      e.bound = estimate() + rounding();
     }
     return e;
   }
@@ -184,7 +184,11 @@ class energy_certificate {
         norm_(m_, qp.b()),
         face_(qp.set()),
         correction_(x_, m_),
-        rest_(like(qp.b(), qp.size())) {
+        projected_(x_),
+        step_(x_),
+        image_(x_),
+        balanced_(x_),
+        rest_(x_) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     set_stiffness();
   }
@@ -202,53 +206,93 @@ class energy_certificate {
     return e.value;
   }
 
-  /// From x and g. With s = (g + A t) balanced, t the step on the face, the rest of g − s is −A t.
+  /// What rounding the entries of x is worth, of which g knows nothing.
+  [[nodiscard]] scalar rounding() const {
+    scalar sum(0);
+    scalar const unit = unit_near(slant::norm(x_));
+    for (index i = 0; i < slant::local(x_).size(); ++i) {
+      scalar const entry = slant::local(x_).coeff(i) / unit;
+      sum += entry * entry / slant::local(stiffness_).coeff(i);
+    }
+    using std::sqrt;
+    return unit * (std::numeric_limits<scalar>::epsilon() / scalar(2)) * sqrt(sum);
+  }
+
+  /// From x and g. The Newton step D = (x₁ − x) + t goes to x₁ = P_Λ(x − ρ g) and from there on the
+  /// face of x₁. With s the balanced part of g + A D, the rest of g − s is −A D.
   [[nodiscard]] scalar estimate() {
     if constexpr (has_faces) {
       scalar const ρ = typical_;
-      norm_.p = x_;
-      slant::local(norm_.p) -= ρ * slant::local(g_);
-      face_.assign(qp_->set(), slant::local(norm_.p), scalar(1));
+      auto& z = norm_.p;
+      slant::local(z) = slant::local(x_) - ρ * slant::local(g_);
+      slant::project(qp_->set(), slant::local(z), slant::local(projected_));
+      face_.assign(qp_->set(), slant::local(z), scalar(1));
+      slant::local(step_) = slant::local(projected_) - slant::local(x_);
+      slant::local(image_).setZero();
+      if (slant::norm(step_) > scalar(0)) {
+        slant::apply(qp_->a(), step_, image_, a_workspace_);
+        ++applications_;
+      }
+      slant::local(rest_) = slant::local(g_) + slant::local(image_);
       applications_ +=
-          correction_.compute(qp_->a(), a_workspace_, m_, g_, face_, ρ, ρ, most_, sizes());
-      if (correction_.found && detail::is_finite(correction_.energy)) return after_correction();
+          correction_.compute(qp_->a(), a_workspace_, m_, rest_, face_, ρ, ρ, most_, sizes());
+      if (correction_.found && detail::is_finite(correction_.energy)) {
+        scalar const bound = after_correction();
+        if (detail::is_finite(bound)) return bound;
+      }
     }
     auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
     return error_bound<scalar>(norm_of(g_), balanced.gap);
   }
 
-  /// e ≤ ½(δ + √(δ² + 4γ)), δ = ‖t‖_A + ‖rest‖_{A⁻¹}, where g + A t is balanced up to rest and γ.
-  /// Of two ways to balance curved blocks, with a part of the gradient or by the gap alone, the one
-  /// that the diagonal of A says is better.
+  /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
+  /// top.
+  struct split {
+    scalar bound = std::numeric_limits<scalar>::infinity();
+    scalar moved{0}, gap{0}, above{0};
+  };
+
+  /// The bound for x from s balanced at x, or for x₁ from s balanced there and ‖x₁ − x‖_A on top: a
+  /// point inside Λ has a gap of the first order that x₁ has not. Curved blocks are balanced with a
+  /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
   [[nodiscard]] scalar after_correction() {
     using std::sqrt;
-    slant::local(g_) += slant::local(correction_.image);
-    scalar best = std::numeric_limits<scalar>::infinity(), gap(0);
+    slant::local(image_) += slant::local(correction_.image);
+    slant::local(balanced_) = slant::local(g_) + slant::local(image_);
+    slant::local(image_) -= slant::local(correction_.image);
+    scalar const way = root_of(step_, image_);
+    split best;
+    consider(best, projected_, correction_.energy, correction_.curvature, way);
+    slant::local(step_) += slant::local(correction_.t);
+    slant::local(image_) += slant::local(correction_.image);
+    slant::local(norm_.p).setZero();
+    face_.add_curvature(scalar(1) / typical_, step_, norm_.p);
+    consider(best, x_, root_of(step_, image_), slant::inner_product(step_, norm_.p), scalar(0));
+    if (!detail::is_finite(best.bound)) return best.bound;
+    scalar const δ =
+        sqrt(best.moved * best.moved + correction_.missing * correction_.missing) + norm_of(rest_);
+    return error_bound<scalar>(δ, best.gap) + best.above;
+  }
+  void consider(split& best, vector_type const& x, scalar const& moved, scalar const& curvature,
+                scalar const& above) {
     for (scalar const factor : {scalar(1), scalar(0x1p27)}) {
       auto& m = norm_.z;
-      auto& rest = norm_.p;
-      m = stiffness_;
+      auto& rest = norm_.r;
+      slant::local(m) = slant::local(stiffness_);
       face_.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
-      auto const balanced = balance(qp_->set(), x_, g_, m, rest);
+      auto const balanced = balance(qp_->set(), x, balanced_, m, rest);
       slant::local(rest) -= slant::local(correction_.remainder);
       // By the gap alone, nothing to speak of is left there.
       if (factor > scalar(1)) {
         face_.curved_components([&](index i) { slant::local(rest).coeffRef(i) = scalar(0); });
       }
-      scalar const γ = std::max<scalar>(balanced.gap, correction_.curvature / scalar(2));
+      scalar const γ = std::max<scalar>(balanced.gap, curvature / scalar(2));
       slant::local(m) = slant::local(stiffness_).cwiseProduct(slant::local(rest));
-      scalar const δ = correction_.energy + root_of(rest, m);
-      scalar const bound = error_bound<scalar>(δ, γ);
-      if (!(bound < best)) continue;
-      best = bound;
-      gap = γ;
-      rest_ = rest;
+      scalar const bound = error_bound<scalar>(moved + root_of(rest, m), γ) + above;
+      if (!(bound < best.bound)) continue;
+      best = {bound, moved, γ, above};
+      slant::local(rest_) = slant::local(rest);
     }
-    if (!detail::is_finite(best)) return std::numeric_limits<scalar>::infinity();
-    scalar const δ =
-        sqrt(correction_.energy * correction_.energy + correction_.missing * correction_.missing) +
-        norm_of(rest_);
-    return error_bound<scalar>(δ, gap);
   }
 
   /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
@@ -285,7 +329,7 @@ class energy_certificate {
   dual_norm_workspace<vector_type, M> norm_;
   curved_face<scalar> face_;
   face_correction<vector_type, M> correction_;
-  vector_type rest_;
+  vector_type projected_, step_, image_, balanced_, rest_;
   scalar typical_{1};  ///< 1/mean(diag A)
 };
 

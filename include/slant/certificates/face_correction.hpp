@@ -105,7 +105,7 @@ class face_correction {
       slant::local(remainder) += α * slant::local(z_);
       sum += term;
       recent = recent / scalar(2) + term;
-      found = is_rounding() || slant::norm(remainder) == scalar(0) ||
+      found = is_rounding() || slant::norm(remainder) <= room * ε ||
               (k > 4 && scalar(100) * recent < sum);
     }
     found = found || is_rounding() || (k == most && k > 4);
