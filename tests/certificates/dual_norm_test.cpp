@@ -3,6 +3,7 @@
 
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>
@@ -71,6 +72,28 @@ TEST_CASE("dual norm: directions that A or M does not see are not counted as not
   auto wm = slant::workspace(M, a);
   slant::dual_norm_workspace w2(A, a);
   CHECK(std::isinf(slant::dual_norm(M, A, hidden, 9, false, wm, w2).value));
+}
+
+TEST_CASE("dual norm, A singular: what rounding leaves of d in the kernel does not count") {
+  VectorXd a = VectorXd::LinSpaced(6, 1, 2);
+  a(5) = 0;
+  auto const A = slant::diagonal(a);
+  auto wa = slant::workspace(A, a);
+  auto const I = slant::identity(6);
+  slant::dual_norm_workspace w(I, a);
+  VectorXd d = VectorXd::Ones(6);
+  double const exact = std::sqrt(a.head(5).cwiseInverse().sum());
+  slant::gradient_size<double> const sizes{1.0, 1.0};
+  for (double const unit : {1.0, 0x1p-400}) {
+    slant::gradient_size<double> const scaled{unit * sizes.point, unit * sizes.load};
+    d(5) = 1e-16;
+    VectorXd const noisy = unit * d;
+    CHECK(slant::dual_norm(A, I, noisy, 50, false, wa, w, scaled).value ==
+          doctest::Approx(unit * exact));
+    d(5) = 1e-6;
+    VectorXd const more = unit * d;
+    CHECK(std::isinf(slant::dual_norm(A, I, more, 50, false, wa, w, scaled).value));
+  }
 }
 
 }  // namespace dual_norm_test

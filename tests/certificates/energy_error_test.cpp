@@ -4,6 +4,7 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/separable_qp.hpp>
+#include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
@@ -128,9 +129,57 @@ TEST_CASE("without A⁻¹ conjugate gradients estimate the same") {
     auto const bound = by_inverse(x), estimate = by_cg(x);
     CHECK_FALSE(estimate.proven);
     CHECK(estimate.bound <= 2 * bound.bound);
-    CHECK(bound.bound <= 2 * estimate.bound);
+    VectorXd const nearest = slant::project(qp.set(), x);
+    CHECK(estimate.bound >= 0.5 * energy_norm(p.A, nearest - p.solution));
     CHECK(estimate.size == doctest::Approx(bound.size).epsilon(1e-12));
   }
+}
+
+TEST_CASE("at the end of a run the estimate is the error, whatever the tolerance was") {
+  std::mt19937 random(3);
+  int sharp = 0, all = 0;
+  for (int run = 0; run < 40; ++run) {
+    made const p = make(2 + run % 4, 6.0 * (run % 7) / 6, random);
+    auto const qp = program(p);
+    slant::energy_certificate certificate(qp);
+    for (double const tolerance : {1e-2, 1e-4, 1e-6, 1e-9}) {
+      auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(p.b.size())),
+                                  slant::reduced_gradient_below(tolerance) || slant::at_most(300));
+      double const error = energy_norm(p.A, r.x() - p.solution);
+      if (!(error > 100 * p.lost)) continue;
+      auto const e = certificate(r.x());
+      CHECK(e.bound >= 0.4 * error);
+      if (tolerance > 1e-4) continue;  // before, the face may be another one
+      ++all;
+      sharp += e.bound <= 3 * error ? 1 : 0;
+    }
+  }
+  CHECK(all > 20);
+  CHECK(sharp >= 0.95 * all);
+}
+
+TEST_CASE("A singular: the error is known where the constraints hold what A does not") {
+  // Two springs between three points, the first at most at 1, the last at least at 0.
+  MatrixXd const A{{1.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 1.0}};
+  VectorXd const b{{2.0, -1.0, -1.0}};
+  VectorXd const lower{{-10.0, -10.0, 0.0}};
+  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A),
+                               b, slant::half_lines(lower)};
+  // b sums to 0: every x* = (3, 1, 0) + c with c ≥ 0 is a solution, at the same energy.
+  VectorXd const solution{{3.0, 1.0, 0.0}};
+  slant::energy_certificate certificate(qp);
+  for (double const δ : {1e-3, 1e-6, 1e-10}) {
+    VectorXd const x = solution + δ * VectorXd{{1.0, -2.0, 0.5}} + VectorXd::Constant(3, 0.7);
+    double const error = energy_norm(A, x - solution);
+    auto const e = certificate(x);
+    CHECK(e.bound >= 0.9 * error);
+    CHECK(e.bound <= 2 * error);
+  }
+  CHECK(certificate(solution).bound <= 1e-14);
+  // A b that no constraint holds: there is no solution, and nothing is claimed.
+  VectorXd const pulled{{2.0, -1.0, 0.0}};
+  slant::separable_qp const endless{qp.a(), pulled, slant::half_lines(lower)};
+  CHECK(std::isinf(slant::energy_certificate(endless)(solution).bound));
 }
 
 TEST_CASE("relative errors: of a solution that is zero, of one about which nothing is known") {

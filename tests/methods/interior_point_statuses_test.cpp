@@ -53,20 +53,30 @@ std::string refusal(Problem const& p) {
 
 TEST_CASE("an empty interior: the block, and what to use instead") {
   std::string const words =
-      " of the set: got no point inside that f(x) tells, expected points with f(x) < 0, which "
-      "components with one value (a slip bound 0) or without bounds do not have; another method "
-      "takes them (symmetric_newton, kprgp)";
+      " of the set: got no point inside that f(x) tells, expected points with f(x) < 0, which an "
+      "interval between neighbouring numbers or a cone with friction coefficient 0 does not have; "
+      "another method takes it (symmetric_newton, kprgp)";
   problem p;
-  p.g(1) = 0;
-  CHECK(refusal(p) == "block 7" + words);
-  p.g(1) = 1;
-  p.above(1) = p.below(1);
-  CHECK(refusal(p) == "block 4" + words);
   p.above(1) = std::nextafter(p.below(1), 1.0);  // two numbers, none between them
   CHECK(refusal(p) == "block 4" + words);
   p.above(1) = infinity;
   p.below(1) = -infinity;
   CHECK(refusal(p) == "nothing thrown");
+}
+
+TEST_CASE("a slip bound 0 and an interval with equal ends are held") {
+  problem p;
+  p.g(1) = 0;
+  p.above(1) = p.below(1);
+  auto const qp = p.qp();
+  auto const r = slant::solve(slant::interior_point{qp}, zero(),
+                              slant::reduced_gradient_below(1e-9) || slant::at_most(60));
+  auto const exact = slant::solve(slant::symmetric_newton{qp}, zero(),
+                                  slant::reduced_gradient_below(1e-13) || slant::at_most(100));
+  CHECK(r.converged());
+  CHECK((r.x() - exact.x()).norm() <= 1e-7 * exact.x().norm());
+  CHECK(r.x()(4) == p.below(1));
+  CHECK(r.x().segment<2>(8).norm() == 0);
 }
 
 TEST_CASE("a nearly empty interior: the same solution as another method's") {

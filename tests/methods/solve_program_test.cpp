@@ -9,8 +9,12 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <oracle/random_programs.hpp>
 #include <string>
+#include <support/program_sets.hpp>
 
 namespace solve_program_test {
 
@@ -91,6 +95,31 @@ TEST_CASE("solve(qp, M, tolerance): a preconditioner saves applications") {
   CHECK(run.converged());
   CHECK(p.error(run.x()) <= 1e-10);
   CHECK(run.work.operator_applications <= slant::solve(qp, 1e-10).work.operator_applications);
+}
+
+TEST_CASE("solve(qp, 1e-8): hard programs, degenerate and singular ones, tiny ones") {
+  for (auto const suite : {oracle::program_suite::nasty, oracle::program_suite::degenerate,
+                           oracle::program_suite::tiny}) {
+    for (std::uint64_t k = 0; k < 40; ++k) {
+      CAPTURE(int(suite));
+      CAPTURE(k);
+      auto const p = oracle::make_program(suite, k);
+      auto const set = test::set_of(p);
+      auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A);
+      slant::separable_qp const qp{A, p.b, set};
+      auto const run = slant::solve(qp, 1e-8);
+      CHECK(run.converged());
+      auto const exact = p.definite ? oracle::exact_solution(p) : std::nullopt;
+      if (exact) {
+        double const error = oracle::energy_error(p, run.x(), *exact);
+        CHECK(error <= 2e-8);
+        CHECK(error <= 5 * run.error.relative() + 1e-13);
+      } else {
+        CHECK(std::min(oracle::relative_residual(p, run.x()) / 1e-8,
+                       oracle::floors_above(p, run.x()) / 10) <= 30);
+      }
+    }
+  }
 }
 
 TEST_CASE("solve(qp, 0): the digits that there are, as `stalled`") {

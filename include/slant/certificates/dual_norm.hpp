@@ -80,6 +80,8 @@ template <class A, class M, class V, class WA>
     return sizes &&
            slant::norm(w.r) <= room * ε * (stiffest * (sizes->point / unit) + sizes->load / unit);
   };
+  // Once it is: its norm then, and the energy up to there, for if the rest is in the kernel.
+  S noise(-1), without_noise(0);
   while (k < most && rz > S(0)) {
     slant::apply(a, w.p, w.image, of_a);
     ++k;
@@ -90,7 +92,8 @@ template <class A, class M, class V, class WA>
       stiffest = std::max<S>(stiffest, bend / length);
       flat = room * ε * stiffest * length;
     }
-    if (!(bend > flat)) {  // no bound from here
+    if (!(bend > flat)) {
+      if (noise >= S(0)) return {unit * sqrt(without_noise), k};
       return {is_rounding() ? S(unit * sqrt(energy)) : std::numeric_limits<S>::infinity(), k};
     }
     S const α = rz / bend, term = α * rz;
@@ -101,13 +104,20 @@ template <class A, class M, class V, class WA>
     S const next = slant::inner_product(w.r, w.z);
     slant::local(w.p) = (next / rz) * slant::local(w.p) + slant::local(w.z);
     rz = next;
-    if (is_rounding()) break;
-    if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) break;
+    if (noise < S(0) && is_rounding()) {
+      noise = slant::norm(w.r);
+      without_noise = energy;
+    }
+    if (noise >= S(0)) {
+      if (slant::norm(w.r) <= noise / S(10)) break;
+    } else if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) {
+      break;
+    }
   }
   // M vanishes along what is left of d, or is not semidefinite: nothing is known of it.
   if (!(rz > S(0)) && slant::norm(w.r) > S(0) && !is_rounding())
     return {std::numeric_limits<S>::infinity(), k};
-  S const rest = dominates ? rz : recent;
+  S const rest = noise >= S(0) ? S(0) : dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }
 

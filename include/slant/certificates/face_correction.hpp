@@ -45,6 +45,7 @@ class face_correction {
       : t(prototype),
         image(prototype),
         remainder(prototype),
+        r_(prototype),
         p_(prototype),
         Ap_(prototype),
         z_(prototype),
@@ -64,22 +65,26 @@ class face_correction {
     energy = curvature = missing = scalar(0);
     // Twice: g may be nearly normal to the face, and what rounding leaves of that is no residual.
     face.keep(g, z_);
-    face.keep(z_, remainder);
-    scalar const unit = unit_near(slant::norm(remainder));
-    slant::local(remainder) /= unit;
+    face.keep(z_, r_);
+    scalar const unit = unit_near(slant::norm(r_));
+    slant::local(r_) /= unit;
     if constexpr (preconditions_faces<M, V, Face>) {
       if (face.curved_count() == 0) m.enter(face, m_workspace_);
     }
     scalar gz(0), sum(0), recent(0), stiffest(0);
     auto const is_rounding = [&] {
-      return sizes && slant::norm(remainder) <=
-                          room * ε * (stiffest * (sizes->point / unit) + sizes->load / unit);
+      return sizes &&
+             slant::norm(r_) <= room * ε * (stiffest * (sizes->point / unit) + sizes->load / unit);
     };
+    // Once it is, t stays. What the residual then was, and what more iterations would add: nothing
+    // if they find no curvature, because what is left is of the kernel.
+    scalar noise(-1), beyond(0);
     index k = 0;
-    found = slant::norm(remainder) == scalar(0);
+    found = slant::norm(r_) == scalar(0);
+    slant::local(remainder) = slant::local(r_);
     while (!found && k < most) {
-      precondition_on_face(m, face, s, remainder, z_, weighed_, m_workspace_);
-      scalar const next = slant::inner_product(remainder, z_);
+      precondition_on_face(m, face, s, r_, z_, weighed_, m_workspace_);
+      scalar const next = slant::inner_product(r_, z_);
       if (!(next > scalar(0))) break;
       if (k == 0) {
         slant::local(p_) = -slant::local(z_);
@@ -98,17 +103,29 @@ class face_correction {
         stiffest = std::max<scalar>(stiffest, bend / length);
         flat = room * ε * stiffest * length;
       }
-      if (!(bend > flat)) break;
+      if (!(bend > flat)) {
+        beyond = scalar(0);
+        break;
+      }
       scalar const α = gz / bend, term = α * gz;
+      slant::local(r_) += α * slant::local(z_);
+      sum += term;
+      if (noise >= scalar(0)) {
+        beyond += term;
+        found = slant::norm(r_) <= noise / scalar(10);
+        continue;
+      }
       slant::local(t) += α * slant::local(p_);
       slant::local(image) += α * slant::local(Ap_);
-      slant::local(remainder) += α * slant::local(z_);
-      sum += term;
+      slant::local(remainder) = slant::local(r_);
       recent = recent / scalar(2) + term;
-      found = is_rounding() || slant::norm(remainder) <= room * ε ||
-              (k > 4 && scalar(100) * recent < sum);
+      bool const is_exact = slant::norm(r_) <= room * ε;
+      if (is_exact) recent = scalar(0);
+      found = is_exact || (k > 4 && scalar(100) * recent < sum);
+      if (!found && is_rounding()) noise = slant::norm(r_);
     }
-    found = found || is_rounding() || (k == most && k > 4);
+    found = found || noise >= scalar(0) || is_rounding() || (k == most && k > 4);
+    missing = unit * sqrt(noise >= scalar(0) ? beyond : recent);
     slant::local(z_).setZero();
     face.add_curvature(scalar(1) / ρ, t, z_);
     curvature = unit * slant::inner_product(t, z_) * unit;
@@ -116,7 +133,6 @@ class face_correction {
     energy = squared > scalar(0)  ? scalar(unit * sqrt(squared))
              : squared == squared ? scalar(0)
                                   : squared;
-    missing = unit * sqrt(recent);
     slant::local(t) *= unit;
     slant::local(image) *= unit;
     slant::local(remainder) *= unit;
@@ -124,7 +140,7 @@ class face_correction {
   }
 
  private:
-  V p_, Ap_, z_, weighed_;
+  V r_, p_, Ap_, z_, weighed_;
   workspace_t<M, V> m_workspace_;
 };
 

@@ -101,8 +101,8 @@ template <class Block, class X>
       block ? "block " + show(*block) + " of the set"
             : std::string("a block of the set on another process"),
       "no point inside that f(x) tells",
-      "points with f(x) < 0, which a cone with friction coefficient 0 does not have; another "
-      "method takes it (symmetric_newton, kprgp)");
+      "points with f(x) < 0, which an interval between neighbouring numbers or a cone with "
+      "friction coefficient 0 does not have; another method takes it (symmetric_newton, kprgp)");
 }
 
 }  // namespace detail
