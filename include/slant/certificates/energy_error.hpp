@@ -18,8 +18,13 @@
 // for δ.
 //
 // δ needs A⁻¹ or something above it. energy_certificate{qp, dominates_inverse(M)} takes an operator
-// M ⪰ A⁻¹: the result is a bound, up to the rounding of a few sums. energy_certificate{qp} and {qp,
-// M} find δ by conjugate gradients (dual_norm.hpp), which see A⁻¹ only from below: an estimate.
+// M ⪰ A⁻¹: the result is a bound, up to the rounding of a few sums.
+//
+// energy_certificate{qp} and {qp, M} estimate. For any D, s may be the balanced part of g + A D:
+// then g − s = −A D + rest and δ ≤ ‖D‖_A + ‖rest‖_{A⁻¹}. D is the Newton step
+// (face_correction.hpp): next to the solution it is x* − x, the rest vanishes, and so does what is
+// estimated too high. ‖rest‖_{A⁻¹} comes from conjugate gradients (dual_norm.hpp), which see A⁻¹
+// only from below.
 //
 // Where A is only semidefinite the same inequalities hold for d = g − s in the range of A; x* is
 // then any solution. What rounding leaves of d outside of the range is not counted: the error is
