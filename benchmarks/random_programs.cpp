@@ -99,8 +99,8 @@ class bench {
   void visit(char const* suite, int number, oracle::random_program const& p) {
     reference const exact = solve_in_quad(p);
     prepared const ready(p);
-    for (auto const methods :
-         {newton_methods(), active_set_methods(), modified_methods(), natural_methods()}) {
+    for (auto const methods : {newton_methods(), active_set_methods(), modified_methods(),
+                               natural_methods(), multiplier_methods()}) {
       for (auto const& m : methods) {
         if (!method_.empty() && method_ != m.name) continue;
         for (double const asked : asked_) measure(suite, number, ready, exact, m, asked);

@@ -59,6 +59,7 @@ struct method {
 [[nodiscard]] std::span<method const> modified_methods();    ///< modified_methods.cpp
 [[nodiscard]] std::span<method const> newton_methods();      ///< newton_methods.cpp
 [[nodiscard]] std::span<method const> natural_methods();     ///< natural_methods.cpp
+[[nodiscard]] std::span<method const> multiplier_methods();  ///< multiplier_methods.cpp
 
 /// The run of a method from y0; back(y) is the point that an iterate stands for.
 template <class Method, class Back>
