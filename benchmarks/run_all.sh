@@ -199,6 +199,7 @@ run_stability() {
 }
 run_random_programs() {
   local status=0
+  rm -f "$output"/random_programs_*.csv
   "$(program random_programs)" >"$output/random_programs.csv" 2>"$output/random_programs.txt" ||
     status=$?
   tabulate_stability || status=$?

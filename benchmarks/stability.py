@@ -4,7 +4,7 @@
 
     stability.py FOLDER [PAGE]
 
-reads stability*.csv and random_programs.csv in FOLDER, those that are there, and prints the tables
+reads stability*.csv and random_programs*.csv in FOLDER, those that are there, and prints the tables
 and the summary lines. A run that stands in several files counts as the last file has it, so that a
 part can be measured again: bench_stability --method kprgp > FOLDER/stability_kprgp.csv. With PAGE,
 the tables replace what stands there between <!-- NAME --> and <!-- end of NAME -->.
@@ -42,19 +42,24 @@ class Run:
         return judged and 2 * self.claimed + self.floor < self.error
 
 
+def rows_of(folder, name):
+    """Rows of NAME.csv and then of NAME_*.csv."""
+    paths = glob.glob(os.path.join(folder, f"{name}.csv"))
+    paths += sorted(glob.glob(os.path.join(folder, f"{name}_*.csv")))
+    for path in paths:
+        with open(path, encoding="utf-8", newline="") as text:
+            yield from csv.DictReader(text)
+
+
 def read_runs(folder):
     """Runs by what was asked, and the programs without a reference."""
     runs, inexact = {}, set()
-    paths = glob.glob(os.path.join(folder, "stability*.csv"))
-    for path in sorted(paths, key=lambda p: (os.path.basename(p) != "stability.csv", p)):
-        with open(path, encoding="utf-8", newline="") as text:
-            for cells in csv.DictReader(text):
-                program = (cells["adversity"], cells["parameter"], cells["variant"])
-                if cells["verdict"] == "inexact":
-                    inexact.add(program)
-                    continue
-                key = (*program, cells["method"], cells["start"], cells["tolerance"])
-                runs[key] = Run(cells)
+    for cells in rows_of(folder, "stability"):
+        program = (cells["adversity"], cells["parameter"], cells["variant"])
+        if cells["verdict"] == "inexact":
+            inexact.add(program)
+            continue
+        runs[(*program, cells["method"], cells["start"], cells["tolerance"])] = Run(cells)
     return list(runs.values()), inexact
 
 
@@ -112,12 +117,15 @@ def stability_tables(runs):
     }
 
 
-def random_table(path):
-    """solved to the floor is of the runs below what is attainable, the rest of those at 1e-8."""
+def random_table(folder):
+    """What ended at the floor is counted of the runs below what is attainable, the rest at 1e-8."""
+    rows = {(c["suite"], c["number"], c["method"], c["asked"]): c
+            for c in rows_of(folder, "random_programs")}
     groups = {}
-    with open(path, encoding="utf-8", newline="") as text:
-        for cells in csv.DictReader(text):
-            groups.setdefault((cells["suite"], cells["method"]), []).append(cells)
+    for cells in rows.values():
+        groups.setdefault((cells["suite"], cells["method"]), []).append(cells)
+    if not groups:
+        return None
     suites = list(dict.fromkeys(suite for suite, _ in groups))
     head = ["suite", "method", "programs", "at the floor", "right", "wrong", "unclaimed", "stalled",
             "limit", "unbounded", "breakdown", "NaN", "refused"]
@@ -157,9 +165,9 @@ def main():
     folder = sys.argv[1]
     runs, inexact = read_runs(folder)
     parts = stability_tables(runs) if runs else {}
-    random_programs = os.path.join(folder, "random_programs.csv")
-    if os.path.exists(random_programs):
-        parts["random programs"] = random_table(random_programs)
+    random_programs = random_table(folder)
+    if random_programs:
+        parts["random programs"] = random_programs
     for name, part in parts.items():
         print(f"{name}\n\n{part}")
     if inexact:
