@@ -71,8 +71,9 @@ template <class A, class M, class V, class WA>
     rz = next;
     if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) break;
   }
-  // M vanishes along what is left of d, or is not semidefinite: nothing is known of it.
-  if (!(rz > S(0)) && slant::norm(w.r) > S(0)) return {std::numeric_limits<S>::infinity(), k};
+  // M vanishes along what is left of d, or is not semidefinite, or d is not finite: nothing is
+  // known of it.
+  if (!(rz > S(0)) && !(slant::norm(w.r) == S(0))) return {std::numeric_limits<S>::infinity(), k};
   S const rest = dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }

@@ -29,10 +29,12 @@
 #include <slant/certificates/normal_part.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/unit.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <cmath>
@@ -67,13 +69,13 @@ struct energy_error {
   }
 };
 
-/// ½ (δ + √(δ² + 4γ)), rounded upwards.
+/// ½ (δ + √(δ² + 4γ)), rounded upwards; NaN if δ or γ is.
 template <class S>
 [[nodiscard]] S error_bound(S const& δ, S const& γ) {
   using std::sqrt;
   S const root = S(2) * sqrt(γ);
   S const larger = δ > root ? δ : root, smaller = δ > root ? root : δ;
-  if (!(larger > S(0))) return larger;
+  if (!(larger > S(0))) return δ + γ;
   S const ratio = smaller / larger;
   return (δ + larger * sqrt(S(1) + ratio * ratio)) / S(2) *
          (S(1) + S(8) * std::numeric_limits<S>::epsilon());
@@ -130,7 +132,9 @@ dominating_inverse<M> dominates_inverse(M const&&) = delete;
 
 /// certificate(x) → energy_error of P_Λ(x). Refers to the problem and to M. One application of A
 /// and one of M with `dominates_inverse(M)`, which gives a bound up to rounding; else some 10 of
-/// each, for conjugate gradients preconditioned by M, and an estimate.
+/// each, for conjugate gradients preconditioned by M, and an estimate. Without M they are
+/// preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
+/// applications: unknowns in units of their own would else hide the error from the estimate.
 template <class QP, class M = identity_operator>
 class energy_certificate {
  public:
@@ -159,7 +163,8 @@ class energy_certificate {
       slant::apply(m_, g_, norm_.z, norm_.of_m);
       δ = root_of(g_, norm_.z);
     } else {
-      auto const estimate = dual_norm(qp_->a(), m_, g_, most_, false, a_workspace_, norm_);
+      auto const estimate =
+          dual_norm(qp_->a(), preconditioner(), g_, most_, false, a_workspace_, norm_);
       applications_ += estimate.applications;
       δ = estimate.value;
     }
@@ -179,9 +184,22 @@ class energy_certificate {
         g_(like(qp.b(), qp.size())),
         stiffness_(like(qp.b(), qp.size())),
         a_workspace_(workspace(qp.a(), qp.b())),
-        norm_(m_, qp.b()) {
+        norm_(preconditioner(), qp.b()) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     set_stiffness();
+  }
+
+  static constexpr bool is_plain = std::same_as<M, identity_operator>;
+  using diagonal_inverse = diagonal_operator<vector_type const&>;
+  using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
+
+  /// M, or diag(stiffness) in its place.
+  [[nodiscard]] decltype(auto) preconditioner() const {
+    if constexpr (is_plain) {
+      return diagonal_inverse(held<vector_type const&>(stiffness_));
+    } else {
+      return (m_);
+    }
   }
 
   /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
@@ -190,13 +208,27 @@ class energy_certificate {
     auto const mean = mean_diagonal(qp_->a(), qp_->b());
     applications_ += mean.applications;
     scalar const typical = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    slant::local(stiffness_).setConstant(typical);
-    if constexpr (has_diagonal<A, vector_type>) {
-      qp_->a().diagonal(stiffness_);
+    auto const invert = [&] {
       for (index i = 0; i < slant::local(stiffness_).size(); ++i) {
         auto& entry = slant::local(stiffness_).coeffRef(i);
         entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical;
       }
+    };
+    slant::local(stiffness_).setConstant(typical);
+    if constexpr (has_diagonal<A, vector_type>) {
+      qp_->a().diagonal(stiffness_);
+      invert();
+    } else if constexpr (is_plain) {
+      index const n = slant::local(stiffness_).size();
+      if (!slant::everywhere(stiffness_, n == slant::global_size(stiffness_) && n <= 64)) return;
+      for (index i = 0; i < n; ++i) {
+        slant::local(x_).setZero();
+        slant::local(x_).coeffRef(i) = scalar(1);
+        slant::apply(qp_->a(), x_, g_, a_workspace_);
+        slant::local(stiffness_).coeffRef(i) = slant::local(g_).coeff(i);
+      }
+      applications_ += n;
+      invert();
     }
   }
   /// √(xᵀy) for a product that is ≥ 0 but for rounding.
@@ -215,7 +247,7 @@ class energy_certificate {
   index applications_ = 0;
   vector_type x_, g_, stiffness_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
-  dual_norm_workspace<vector_type, M> norm_;
+  dual_norm_workspace<vector_type, preconditioner_type> norm_;
 };
 
 template <class QP>
