@@ -32,6 +32,7 @@
 #   multilevel          bricks without friction, iterated on u by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
 #   stability           every method on every adversity, judged in quadruple precision
+#   random_programs     every method on 3300 random programs, judged in quadruple precision
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
 #   friction            Coulomb friction problems of the folder $SLANT_FRICTION, each by each method
 #   friction_variants   the same with other coefficients and velocities: default, interior point
@@ -39,7 +40,7 @@
 #   growth              time and memory against the size of the brick (both: precision.sh)
 #
 # RESULTS.md shows the last two, friction.md the two before; SLANT_PUBLISH=1 copies them and the figure
-# to benchmarks/, and the figure of stability to docs/.
+# to benchmarks/, and the figure and the tables of stability and random_programs to docs/.
 #
 # FOLDER is out/bench. Each writes NAME.csv into it; summary.md shows all tables that are there.
 # Exit status 1 if one of them fails or misses a limit that it knows.
@@ -52,8 +53,8 @@ programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  load_steps coulomb coulomb_models multilevel multilevel_large stability friction
-  friction_variants precision growth)
+  load_steps coulomb coulomb_models multilevel multilevel_large stability
+  random_programs friction friction_variants precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
@@ -190,10 +191,26 @@ PLOT
 # Runs that said `converged` with an error above 30 times what is allowed make the status 1.
 run_stability() {
   local status=0
+  rm -f "$output"/stability_*.csv  # parts of another run
   "$(program stability)" >"$output/stability.csv" 2>"$output/stability.txt" || status=$?
-  cat "$output/stability.txt"
+  tabulate_stability || status=$?
   draw_stability
   return "$status"
+}
+run_random_programs() {
+  local status=0
+  rm -f "$output"/random_programs_*.csv
+  "$(program random_programs)" >"$output/random_programs.csv" 2>"$output/random_programs.txt" ||
+    status=$?
+  tabulate_stability || status=$?
+  return "$status"
+}
+
+# Tables and summary line of what of the two is there.
+tabulate_stability() {
+  local page=()
+  if [[ ${SLANT_PUBLISH:-0} == 1 ]]; then page=("$root/docs/stability.md"); fi
+  python3 "$here/stability.py" "$output" ${page[@]+"${page[@]}"}
 }
 
 # The error reached against the condition number, for each tolerance.
@@ -211,7 +228,8 @@ set xrange [0.8:1e15]
 set yrange [1e-17:1e3]
 set key right bottom Left reverse samplen 2
 eps = 2.0**-52
-is_at(t) = strcol(9) eq "zero" && column(10) < 1.1 * t && column(10) > 0.9 * t
+is_double(method) = !strstrt(method, "float") && !strstrt(method, "long_double")
+is_at(t) = strcol(9) eq "zero" && column(10) < 1.1 * t && column(10) > 0.9 * t && is_double(strcol(8))
 set multiplot layout 1,2
 do for [i in "8 15"] {
   t = 10.0**(-i)

@@ -184,8 +184,11 @@ TEST_CASE("A singular: the error is known where the constraints hold what A does
 
 TEST_CASE("relative errors: of a solution that is zero, of one about which nothing is known") {
   CHECK(slant::energy_error<double>{.bound = 0, .size = 0}.relative() == 0);
-  CHECK(slant::energy_error<double>{.bound = 1, .size = 3}.relative() == 0.5);
+  CHECK(slant::energy_error<double>{.bound = 1, .size = 3, .proven = true}.relative() == 0.5);
+  CHECK(slant::energy_error<double>{.bound = 1, .size = 3}.relative() == 1);
   CHECK(std::isinf(slant::energy_error<double>{.bound = 2, .size = 1}.relative()));
+  // An estimate just below the size at a point 1e13 solutions away: nothing is known.
+  CHECK(std::isinf(slant::energy_error<double>{.bound = 1 - 1e-6, .size = 1}.relative()));
   CHECK(std::isinf(slant::energy_error<double>{}.relative()));
   CHECK(slant::error_bound(0.0, 0.0) == 0);
   CHECK(slant::error_bound(2.0, 0.0) == doctest::Approx(2));

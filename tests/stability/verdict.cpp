@@ -18,8 +18,8 @@ judgement judge(prepared const& p, reference const& exact, method const& m, requ
                 outcome const& o) {
   double const inf = std::numeric_limits<double>::infinity();
   judgement j;
-  double const floor = exact.floor * (m.epsilon / std::numeric_limits<double>::epsilon());
-  j.allowed = std::max(asked.tolerance, floor);
+  j.floor = exact.floor * (m.epsilon / std::numeric_limits<double>::epsilon());
+  j.allowed = std::max(asked.tolerance, j.floor);
   j.error = j.kkt = j.ratio = inf;
   if (o.refused || o.crashed) {
     j.said = o.refused ? verdict::refused : verdict::crashed;
@@ -53,7 +53,7 @@ judgement judge(prepared const& p, reference const& exact, method const& m, requ
   }
   // Claims are estimates: at the floor they do not see the rounding of the gradient, and conjugate
   // gradients see the norm from below. More than that, or than a factor of two, is none of it.
-  j.claim_broken = 2 * o.claimed + floor < j.error;
+  j.claim_broken = 2 * o.claimed + j.floor < j.error;
   return j;
 }
 

@@ -35,6 +35,7 @@ inline constexpr int verdict_count = 9;
 struct judgement {
   verdict said = verdict::crashed;
   double error = 0;    ///< relative energy error
+  double floor = 0;    ///< attainable relative energy error in the scalar of the method
   double allowed = 0;  ///< max(tolerance, floor)
   double ratio = 0;
   double kkt = 0;  ///< relative residual of the optimality conditions, from the data alone

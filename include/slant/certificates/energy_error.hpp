@@ -36,11 +36,13 @@
 #include <slant/certificates/normal_part.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/detail/block_slants.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/sets/curved_face.hpp>
 
@@ -62,11 +64,13 @@ struct energy_error {
   S size{0};            ///< ‖x‖_A, what the error is relative to up to the error itself
   bool proven = false;  ///< a bound in floating point; else an estimate
 
-  /// The bound over the energy norm of the solution, of which size − bound is a lower bound; ∞ if
-  /// nothing of the solution is known, 0 if it is 0.
+  /// The bound over the energy norm of the solution, of which size − bound is a lower bound, and
+  /// size − 2 bound where the bound is estimated: far from the solution the two terms nearly agree,
+  /// and an estimate a trifle too small would leave a difference that means nothing. ∞ if nothing
+  /// of the solution is known, 0 if the bound is 0.
   [[nodiscard]] S relative() const {
     if (bound == S(0)) return S(0);
-    S const least = size - bound;
+    S const least = proven ? S(size - bound) : S(size - S(2) * bound);
     return least > S(0) ? S(bound / least) : std::numeric_limits<S>::infinity();
   }
   /// "energy error at most 3e-10 (proven)".
@@ -76,13 +80,13 @@ struct energy_error {
   }
 };
 
-/// ½ (δ + √(δ² + 4γ)), rounded upwards.
+/// ½ (δ + √(δ² + 4γ)), rounded upwards; NaN if δ or γ is.
 template <class S>
 [[nodiscard]] S error_bound(S const& δ, S const& γ) {
   using std::sqrt;
   S const root = S(2) * sqrt(γ);
   S const larger = δ > root ? δ : root, smaller = δ > root ? root : δ;
-  if (!(larger > S(0))) return larger;
+  if (!(larger > S(0))) return δ + γ;
   S const ratio = smaller / larger;
   return (δ + larger * sqrt(S(1) + ratio * ratio)) / S(2) *
          (S(1) + S(8) * std::numeric_limits<S>::epsilon());
@@ -139,7 +143,9 @@ dominating_inverse<M> dominates_inverse(M const&&) = delete;
 
 /// certificate(x) → energy_error of P_Λ(x). Refers to the problem and to M. One application of A
 /// and one of M with `dominates_inverse(M)`, which gives a bound up to rounding; else some 10 of
-/// each, for conjugate gradients preconditioned by M, and an estimate.
+/// each, for conjugate gradients preconditioned by M, and an estimate. Without M they are
+/// preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
+/// applications: unknowns in units of their own would else hide the error from the estimate.
 template <class QP, class M = identity_operator>
 class energy_certificate {
  public:
@@ -186,9 +192,9 @@ class energy_certificate {
         g_(like(qp.b(), qp.size())),
         stiffness_(like(qp.b(), qp.size())),
         a_workspace_(workspace(qp.a(), qp.b())),
-        norm_(m_, qp.b()),
+        norm_(preconditioner(), qp.b()),
         face_(qp.set()),
-        correction_(x_, m_),
+        correction_(x_, preconditioner()),
         projected_(x_),
         step_(x_),
         image_(x_),
@@ -196,6 +202,19 @@ class energy_certificate {
         rest_(x_) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     set_stiffness();
+  }
+
+  static constexpr bool is_plain = std::same_as<M, identity_operator>;
+  using diagonal_inverse = diagonal_operator<vector_type const&>;
+  using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
+
+  /// M, or diag(stiffness) in its place.
+  [[nodiscard]] decltype(auto) preconditioner() const {
+    if constexpr (is_plain) {
+      return diagonal_inverse(held<vector_type const&>(stiffness_));
+    } else {
+      return (m_);
+    }
   }
 
   /// What A x − b was computed from, for an A that may be singular.
@@ -206,7 +225,8 @@ class energy_certificate {
 
   [[nodiscard]] scalar norm_of(vector_type const& d) {
     if (!(slant::norm(d) > scalar(0))) return slant::norm(d);
-    auto const e = dual_norm(qp_->a(), m_, d, most_, false, a_workspace_, norm_, sizes());
+    auto const e =
+        dual_norm(qp_->a(), preconditioner(), d, most_, false, a_workspace_, norm_, sizes());
     applications_ += e.applications;
     return e.value;
   }
@@ -239,8 +259,8 @@ class energy_certificate {
         ++applications_;
       }
       slant::local(rest_) = slant::local(g_) + slant::local(image_);
-      applications_ +=
-          correction_.compute(qp_->a(), a_workspace_, m_, rest_, face_, ρ, ρ, most_, sizes());
+      applications_ += correction_.compute(qp_->a(), a_workspace_, preconditioner(), rest_, face_,
+                                           ρ, ρ, most_, sizes());
       if (correction_.found && detail::is_finite(correction_.energy)) {
         scalar const bound = after_correction();
         if (detail::is_finite(bound)) return bound;
@@ -306,13 +326,27 @@ class energy_certificate {
     auto const mean = mean_diagonal(qp_->a(), qp_->b());
     applications_ += mean.applications;
     typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    slant::local(stiffness_).setConstant(typical_);
-    if constexpr (has_diagonal<A, vector_type>) {
-      qp_->a().diagonal(stiffness_);
+    auto const invert = [&] {
       for (index i = 0; i < slant::local(stiffness_).size(); ++i) {
         auto& entry = slant::local(stiffness_).coeffRef(i);
         entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical_;
       }
+    };
+    slant::local(stiffness_).setConstant(typical_);
+    if constexpr (has_diagonal<A, vector_type>) {
+      qp_->a().diagonal(stiffness_);
+      invert();
+    } else if constexpr (is_plain) {
+      index const n = slant::local(stiffness_).size();
+      if (!slant::everywhere(stiffness_, n == slant::global_size(stiffness_) && n <= 64)) return;
+      for (index i = 0; i < n; ++i) {
+        slant::local(x_).setZero();
+        slant::local(x_).coeffRef(i) = scalar(1);
+        slant::apply(qp_->a(), x_, g_, a_workspace_);
+        slant::local(stiffness_).coeffRef(i) = slant::local(g_).coeff(i);
+      }
+      applications_ += n;
+      invert();
     }
   }
   /// √(xᵀy) for a product that is ≥ 0 but for rounding.
@@ -331,9 +365,9 @@ class energy_certificate {
   index applications_ = 0;
   vector_type x_, g_, stiffness_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
-  dual_norm_workspace<vector_type, M> norm_;
+  dual_norm_workspace<vector_type, preconditioner_type> norm_;
   curved_face<scalar> face_;
-  face_correction<vector_type, M> correction_;
+  face_correction<vector_type, preconditioner_type> correction_;
   vector_type projected_, step_, image_, balanced_, rest_;
   scalar typical_{1};  ///< 1/mean(diag A)
 };

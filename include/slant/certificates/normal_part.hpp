@@ -17,7 +17,8 @@
 // normal, m → 0, it is the reduced gradient alone. This choice is between the two, block by block.)
 //
 // Half lines, intervals, balls, points and free blocks evaluate γ without cancellation. x counts as
-// the point of the boundary next to it where it lies there up to rounding: off by less than 9 ε‖x‖.
+// the point of the boundary next to it where it lies there up to rounding: off by less than 9 ε‖x‖,
+// of which what no projection leaves, above 2 ε‖x‖, stays in d as the energy of the way there.
 // Any other set with a projection gets γ = sᵀ(x − p), where the rounding errors of P remain.
 #pragma once
 
@@ -100,6 +101,8 @@ template <class S, int N>
   if (!(t > S(0))) return part;
   point const direction = z / size;  // −s = (R/ρ) t direction
   part.rest = (R / ρ) * (h + t * direction);
+  S const off = length - S(1), rounding = S(2) * std::numeric_limits<S>::epsilon();
+  if (on_sphere && abs(off) > rounding) part.rest += (R / ρ) * (off / S(2)) * n;
   // γ = (R²/ρ) t (1 − nᵀz/‖z‖); on the sphere the bracket is sin²/(1 + cos) of the angle, which
   // comes from the tangential part of h.
   S const cosine = n.dot(direction);
