@@ -118,6 +118,7 @@ template <class A, class M, class V, class WA>
   // known of it.
   if (!(rz > S(0)) && !(slant::norm(w.r) == S(0)) && !is_rounding())
     return {std::numeric_limits<S>::infinity(), k};
+  S const rest = noise >= S(0) ? S(0) : dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }
 
