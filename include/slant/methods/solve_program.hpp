@@ -107,12 +107,15 @@ template <class QP, class M, class Certificate>
 /// A point from within the set for Newton's method to start from; whether there is one. Sets
 /// without an interior have none.
 template <class QP>
-[[nodiscard]] bool start_inside(QP const& qp, typename QP::vector_type& x, work& spent) {
+[[nodiscard]] bool start_inside(QP const& qp, typename QP::vector_type& x,
+                                typename QP::scalar tolerance, work& spent) {
   using S = typename QP::scalar;
   if constexpr (interior_point_problem<QP>) {
     try {
-      auto const run = slant::solve(interior_point{qp}, x,
-                                    reduced_gradient_below(S(1e-9)) || slant::at_most(150));
+      // Where Newton's method needs help, a small reduced gradient may leave a large error.
+      S const goal = std::max<S>(S(16) * std::numeric_limits<S>::epsilon(), S(1e-4) * tolerance);
+      auto const run =
+          slant::solve(interior_point{qp}, x, reduced_gradient_below(goal) || slant::at_most(150));
       spent.operator_applications += run.state.work.operator_applications;
       spent.setup_applications += run.state.work.setup_applications;
       if (run.status == status::breakdown || run.status == status::unbounded) return false;
@@ -139,7 +142,7 @@ template <class QP, class M>
                        result.status == status::iteration_limit;
   if (is_open && result.steps < most && result.error.relative() > tolerance) {
     work spent{};
-    bool const has_start = start_inside(qp, x, spent);
+    bool const has_start = start_inside(qp, x, tolerance, spent);
     if (!has_start) slant::local(x) = slant::local(result.point);
     if (has_start || result.status == status::iteration_limit) {
       auto again = newton_certified(qp, m, x, certificate, tolerance, most - result.steps);
