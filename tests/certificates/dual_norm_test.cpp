@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <limits>
 
 namespace dual_norm_test {
 
@@ -71,6 +72,19 @@ TEST_CASE("dual norm: directions that A or M does not see are not counted as not
   auto wm = slant::workspace(M, a);
   slant::dual_norm_workspace w2(A, a);
   CHECK(std::isinf(slant::dual_norm(M, A, hidden, 9, false, wm, w2).value));
+}
+
+TEST_CASE("of a vector that is not finite nothing is known") {
+  VectorXd const a = VectorXd::LinSpaced(5, 1, 5);
+  auto const A = spd(a);
+  for (double const bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    VectorXd d = VectorXd::Ones(5);
+    d(2) = bad;
+    auto wa = slant::workspace(A, d);
+    slant::dual_norm_workspace w(A, d);
+    CHECK_FALSE(slant::dual_norm(A, A, d, 10, false, wa, w).value <= 1e300);
+  }
 }
 
 }  // namespace dual_norm_test
