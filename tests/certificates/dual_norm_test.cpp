@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <limits>
 
 namespace dual_norm_test {
 
@@ -93,6 +94,19 @@ TEST_CASE("dual norm, A singular: what rounding leaves of d in the kernel does n
     d(5) = 1e-6;
     VectorXd const more = unit * d;
     CHECK(std::isinf(slant::dual_norm(A, I, more, 50, false, wa, w, scaled).value));
+  }
+}
+
+TEST_CASE("of a vector that is not finite nothing is known") {
+  VectorXd const a = VectorXd::LinSpaced(5, 1, 5);
+  auto const A = spd(a);
+  for (double const bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    VectorXd d = VectorXd::Ones(5);
+    d(2) = bad;
+    auto wa = slant::workspace(A, d);
+    slant::dual_norm_workspace w(A, d);
+    CHECK_FALSE(slant::dual_norm(A, A, d, 10, false, wa, w).value <= 1e300);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace energy_error_test {
@@ -190,6 +191,9 @@ TEST_CASE("relative errors: of a solution that is zero, of one about which nothi
   // An estimate just below the size at a point 1e13 solutions away: nothing is known.
   CHECK(std::isinf(slant::energy_error<double>{.bound = 1 - 1e-6, .size = 1}.relative()));
   CHECK(std::isinf(slant::energy_error<double>{}.relative()));
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(slant::error_bound(nan, 0.0)));
+  CHECK(std::isnan(slant::error_bound(0.0, nan)));
   CHECK(slant::error_bound(0.0, 0.0) == 0);
   CHECK(slant::error_bound(2.0, 0.0) == doctest::Approx(2));
   CHECK(slant::error_bound(0.0, 4.0) == doctest::Approx(2));
@@ -230,6 +234,41 @@ TEST_CASE("energy_error_below: what the certificate denies is no success") {
   CHECK(run.status != slant::status::converged);
   CHECK_THROWS_AS(slant::energy_error_below(-1.0, hopeless), slant::bad_input);
   CHECK_THROWS_AS(slant::energy_error_below(1.5, hopeless), slant::bad_input);
+}
+
+/// A matrix that gives no entries.
+struct opaque {
+  using scalar = double;
+  static constexpr slant::law_set laws =
+      slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+  MatrixXd const* a;
+  [[nodiscard]] slant::index rows() const { return a->rows(); }
+  [[nodiscard]] slant::index cols() const { return a->cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = *a * x; }
+};
+
+TEST_CASE("unknowns in units of their own, 1e8 to either side, do not hide the error") {
+  int const n = 12;
+  VectorXd units(n);
+  MatrixXd A(n, n);
+  for (int i = 0; i < n; ++i) units(i) = std::pow(10.0, 8.0 * std::sin(1.7 * i));
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      A(i, j) = units(i) * units(j) * ((i == j ? 1 : 0) + 0.3 / (1 + std::abs(i - j)));
+  VectorXd const solution = units.cwiseInverse(), b = A * solution;
+  VectorXd const error = 1e-3 * solution.cwiseProduct(VectorXd::LinSpaced(n, -1, 1));
+  double const truth = std::sqrt(error.dot(A * error));
+  auto const free = slant::free_components<double>(n);
+  auto const M = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A);
+  slant::separable_qp const known(M, b, free);
+  slant::separable_qp const hidden(opaque{&A}, b, free);
+  slant::energy_certificate of_known(known);
+  slant::energy_certificate of_hidden(hidden);
+  CHECK(of_known(solution + error).bound == doctest::Approx(truth).epsilon(0.2));
+  CHECK(of_hidden(solution + error).bound == doctest::Approx(truth).epsilon(0.2));
+  VectorXd nowhere = solution;
+  nowhere(3) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isinf(of_known(nowhere).relative()));
 }
 
 }  // namespace energy_error_test

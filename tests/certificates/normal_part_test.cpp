@@ -105,6 +105,20 @@ TEST_CASE("disc: near the solution the gap has all its digits, where its definit
   }
 }
 
+TEST_CASE("disc: what x is off the circle counts, as far as no projection leaves it there") {
+  constexpr double ε = std::numeric_limits<double>::epsilon();
+  double const ρ = 0.5;
+  vec2 const n(0, 1), g = -n;
+  for (double const off : {-8 * ε, -4 * ε, 4 * ε, 8 * ε}) {
+    vec2 const x = (1 + off) * n;
+    auto const part = split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(1.0), x, g, ρ);
+    CHECK(part.rest.norm() >= 0.9 * std::abs(off));  // of 1/(2ρ) = 1 in the units of the gradient
+    CHECK(part.rest.norm() <= 3 * std::abs(off));
+  }
+  auto const part = split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(1.0), n, g, ρ);
+  CHECK(part.rest.norm() == 0);
+}
+
 TEST_CASE("radius 0 and ∞, points, free blocks") {
   vec2 const x(0, 0), g(3, 4);
   auto const none = split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(0.0), x, g, 1.0);
