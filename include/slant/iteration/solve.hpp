@@ -67,9 +67,10 @@ template <class Method, class State, class Rule, class... Observers>
     }
     // Convergence takes precedence over any other reason to stop in the same step.
     if (verdict == status::converged) return {verdict, stop.reason(state)};
-    // A rule that has looked at the error may deny what the method believes.
-    bool const is_denied = state.status == status::converged && verdict == status::stalled;
-    if (is_denied) return {verdict, stop.reason(state)};
+    // A rule that has looked at the error may deny what the method believes, and knows more of it.
+    bool const is_success = state.status == status::converged;
+    if ((is_success || state.status == status::stalled) && verdict == status::stalled)
+      return {verdict, stop.reason(state)};
     if (state.status != status::running) return {state.status, own_words(state)};
     if (verdict != status::running) return {verdict, stop.reason(state)};
     method.step(state);
