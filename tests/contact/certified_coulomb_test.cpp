@@ -11,6 +11,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace certified_coulomb_test {
 
@@ -115,6 +116,27 @@ TEST_CASE("certified_coulomb: rows of a contact in any units, the cone unchanged
     CHECK_FALSE(unscaled.scaled);
     CHECK(unscaled.work.operator_applications > 2 * r.work.operator_applications);
     if (unscaled.converged()) CHECK((unscaled.u - reference.u).norm() <= 1e-6 * reference.u.norm());
+  }
+}
+
+TEST_CASE("certified_coulomb: any units of stiffness and load") {
+  auto const s = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
+  auto const given = test::contact_data(s);
+  VectorXd const F = VectorXd::Constant(given.nodes(), 0.3);
+  auto const reference = solve(s.K, given, F);
+  REQUIRE(reference.converged());
+  for (auto const& [stiffness, load] :
+       {std::pair{0, 480}, {0, -480}, {300, -100}, {-300, 100}, {480, 480}, {-480, -480}}) {
+    CAPTURE(stiffness);
+    CAPTURE(load);
+    auto c = given;
+    c.f *= std::ldexp(1.0, load);
+    c.d *= std::ldexp(1.0, load - stiffness);
+    auto const r = solve(Eigen::SparseMatrix<double>(std::ldexp(1.0, stiffness) * s.K), c, F);
+    CAPTURE(r.reason);
+    CHECK(r.converged());
+    VectorXd const u = std::ldexp(1.0, stiffness - load) * r.u;
+    CHECK((u - reference.u).norm() <= 1e-7 * reference.u.norm());
   }
 }
 

@@ -7,9 +7,8 @@
 //     scale       contacts so that each is about equally stiff: one power of two for the rows of N
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
 //     solve       Newton's method, and radii where that fails, or cones  contact/solve_coulomb
-//     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm Tresca's
-//     problem
-//                 with the slip bounds F λ_ν contact/coulomb_certificate
+//     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm the problem
+//                 of Tresca with the slip bounds F λ_ν             contact/coulomb_certificate
 //
 // `converged` only if both are at most the tolerance. Where the certificate contradicts the method
 // it goes on to a smaller residual; where that is of no use the run ends `stalled`, and the reason

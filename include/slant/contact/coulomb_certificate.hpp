@@ -18,8 +18,8 @@
 // open, sticking and slipping.
 //
 //     contact::coulomb_certificate certificate(problem, factor, K, data, F, 1e-8);
-//     auto const e = certificate(λ);        // e.relative(), e.sentence();
-//     certificate.displacement()
+//     auto const e = certificate(λ);
+//     if (e.relative() <= 1e-8) use(certificate.displacement());
 //
 // Cost: three solves with K, one of them only where λ has to be put on its face; conjugate
 // gradients (12 applications of A at most) where the cheap norm does not show the goal.
