@@ -20,6 +20,10 @@
 //     rounding            of the error, by the checker: an error below says nothing unless this is
 //                         below as well
 //     penetration         the largest −u_n over |q|: where μ is large the error sees little of it
+//     unit_free_error     natural map with ρ = 1/w at each contact, w the size of its block of W:
+//     the
+//                         measure of the method's own verdict, whatever the units
+//     unit_free_rounding  of that
 //     sweeps              passes over the contacts, at most a product by W each
 //     products            by W, besides
 //     newton_steps        interior_steps included, the steps of the interior-point method
@@ -97,13 +101,15 @@ bool measure(std::string const& name, variant const& v, benchmarks::arguments co
   for (auto const& method : from_files::friction_methods) {
     if (!given.wants(std::string(method.name), 1)) continue;
     auto const r = run(p, method, tolerance, limit);
-    std::printf("%s,%s,%td,%td,%td,%s,%.0e,%.0e,%g,%s,%s,%s,%s,%s,%s,%s", name.c_str(),
+    std::printf("%s,%s,%td,%td,%td,%s,%.0e,%.0e,%g,%s,%s,%s,%s,%s,%s,%s,%s,%s", name.c_str(),
                 v.name.c_str(), p.dimension(), p.contacts(), p.q.size(),
                 benchmarks::cell("%.0f", double(rank)).c_str(), slant::contact::asymmetry(p.W),
                 zero_error, tolerance, std::string(method.name).c_str(), r.solved_by.c_str(),
                 r.status.c_str(), benchmarks::cell("%.1e", r.error).c_str(),
                 benchmarks::cell("%.0e", r.rounding).c_str(),
                 benchmarks::cell("%.1e", r.penetration).c_str(),
+                benchmarks::cell("%.1e", r.unit_free_error).c_str(),
+                benchmarks::cell("%.0e", r.unit_free_rounding).c_str(),
                 benchmarks::cell("%.3g", r.seconds).c_str());
     for (double const count : r.counts) std::printf(",%s", benchmarks::cell("%.0f", count).c_str());
     std::printf("\n");
@@ -123,8 +129,8 @@ int measure(benchmarks::arguments const& given) {
 
   std::printf(
       "problem,variant,dimension,contacts,unknowns,rank,asymmetry,zero_error,tolerance,method,"
-      "solved_by,status,error,rounding,penetration,seconds,sweeps,products,newton_steps,"
-      "proximal_steps,interior_steps,factorizations\n");
+      "solved_by,status,error,rounding,penetration,unit_free_error,unit_free_rounding,seconds,"
+      "sweeps,products,newton_steps,proximal_steps,interior_steps,factorizations\n");
   bool good = true;
   for (auto const& folder : benchmarks::friction_folders(given.words()[0])) {
     auto const name = folder.filename().string();

@@ -33,6 +33,8 @@ struct friction_row {
   double error = NAN;                          ///< natural map over ‖q‖
   double rounding = NAN;                       ///< of the error
   double penetration = NAN;                    ///< the largest, over ‖q‖
+  double unit_free_error = NAN;                ///< the same in units of each contact
+  double unit_free_rounding = NAN;             ///< of that
   double seconds = NAN;
   std::vector<double> counts{};
 
@@ -57,7 +59,8 @@ template <class Method>
     double const seconds = cpu_seconds() - start;
     auto const check = slant::contact::verify(p, out.r);
     std::vector<double> numbers{check.relative_natural_map, check.relative_rounding,
-                                check.penetration.relative, seconds};
+                                check.penetration.relative, check.unit_free_map,
+                                check.unit_free_rounding,   seconds};
     numbers.insert(numbers.end(), out.counts.begin(), out.counts.end());
     // Two words behind the numbers, a character in each.
     for (char const c : out.status + '\n' + out.solved_by) numbers.push_back(double(c));
@@ -65,13 +68,15 @@ template <class Method>
   });
   if (child.how == ending::time_limit) row.status = "time_limit";
   auto const& n = child.numbers;
-  std::size_t const words_from = 4 + counts;
+  std::size_t const words_from = 6 + counts;
   if (child.how != ending::finished || n.size() <= words_from) return row;
   row.error = n[0];
   row.rounding = n[1];
   row.penetration = n[2];
-  row.seconds = n[3];
-  std::copy_n(n.begin() + 4, counts, row.counts.begin());
+  row.unit_free_error = n[3];
+  row.unit_free_rounding = n[4];
+  row.seconds = n[5];
+  std::copy_n(n.begin() + 6, counts, row.counts.begin());
   std::string words;
   for (std::size_t i = words_from; i < n.size(); ++i) words.push_back(static_cast<char>(n[i]));
   auto const end = words.find('\n');

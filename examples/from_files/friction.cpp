@@ -18,9 +18,14 @@ namespace contact = slant::contact;
   return {{"value", worst.value}, {"relative", worst.relative}, {"contact", worst.contact}};
 }
 
-/// What the checker says, in the units of the data.
+/// What the checker says: first what the verdict is based on, then what depends on the units of the
+/// data.
 [[nodiscard]] nlohmann::ordered_json figures(contact::friction_check<double> const& check) {
-  return {{"natural_map", check.natural_map},
+  return {{"unit_free_map", check.unit_free_map},
+          {"unit_free_rounding", check.unit_free_rounding},
+          {"unit_free_penetration", check.unit_free_penetration},
+          {"worst", figures(check.worst)},
+          {"natural_map", check.natural_map},
           {"relative_natural_map", check.relative_natural_map},
           {"rounding", check.rounding},
           {"relative_rounding", check.relative_rounding},

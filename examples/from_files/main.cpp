@@ -161,10 +161,9 @@ int main(int argc, char** argv) {
   app.add_option(
          "--tolerance", a.tolerance,
          "bodies with Tresca friction: relative error in the energy norm, estimated or, with "
-         "--prove, proven;\nwith Coulomb friction: relative norm of the residual; contacts: of the "
-         "natural map over |q|; 0: as far\nas rounding allows, with exit status 1: for a body "
-         "mostly "
-         "status \"stalled\"")
+         "--prove, proven;\nwith Coulomb friction: of that, for the slip bounds F lambda_n, and of "
+         "the violation of the law;\ncontacts: of the natural map in units of each contact; 0: as "
+         "far as rounding allows, with exit\nstatus 1: for a body mostly status \"stalled\"")
       ->capture_default_str()
       ->check(examples::expects_tolerance());
   app.add_option("--start", a.start,

@@ -38,6 +38,12 @@ void check_report(problem_files const& files, test::friction_problem const& p, j
   CHECK((u - (p.W * r + p.q)).norm() <= 1e-15 * p.q.norm());
   auto const check = slant::contact::verify(p, r);
   json const& said = result["check"];
+  CHECK(said["unit_free_map"] == check.unit_free_map);
+  CHECK(said["unit_free_rounding"] == check.unit_free_rounding);
+  CHECK(said["unit_free_penetration"] == check.unit_free_penetration);
+  CHECK(said["worst"]["contact"] == check.worst.contact);
+  CHECK(check.unit_free_map <= 1e-8);
+  CHECK(result["reason"].get<std::string>().starts_with("unit-free natural map "));
   CHECK(said["relative_natural_map"] == check.relative_natural_map);
   CHECK(said["outside_cone"]["value"] == check.outside_cone.value);
   CHECK(said["outside_dual"]["relative"] == check.outside_dual.relative);

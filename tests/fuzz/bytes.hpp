@@ -31,9 +31,9 @@ class bytes {
   double finite() {
     int const kind = byte();
     if (kind < 192) return (kind % 32 - 16) / 4.0;
-    if (kind < 224) return (below(2) == 0 ? 1.0 : -1.0) * std::ldexp(1.0, 4 * (below(256) - 128));
+    if (kind < 224) return (below(2) == 0 ? 1.0 : -1.0) * std::ldexp(1.0, 8 * (below(256) - 128));
     if (kind < 248) return (kind - 236) / 3.0;
-    static constexpr double extremes[] = {1e150, -1e150, 1e-150, 1e16, -1e16, -0.0, 1e8, -1e-8};
+    static constexpr double extremes[] = {1e150, -1e300, 1e-150, 1e16, -1e16, -0.0, 1e300, -1e-300};
     return extremes[kind - 248];
   }
   /// Any number, of any eight bytes too: NaN, infinite, subnormal.

@@ -2,9 +2,11 @@
 //
 // Any bytes as the data of a contact scene: they are refused by bad_input, or the dual problem can
 // be set up, evaluated and given another load step, without friction, in the plane and in space.
+// And as contacts in local coordinates, whose law is evaluated at any forces, or they are refused.
 #include "bytes.hpp"
 
 #include <slant/contact/tresca.hpp>
+#include <slant/contact/verify.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 
 namespace {
@@ -90,6 +92,26 @@ void set_up(Friction friction, slant::index tangents, data const& c, fuzz::bytes
   }
 }
 
+void evaluate_contacts(fuzz::bytes in) {
+  if (in.below(8) == 0) return;
+  slant::index const contacts = in.below(4), d = 2 + in.below(2);
+  slant::contact::friction_problem<double> p;
+  p.W = any_matrix(in, nearly(in, contacts * d), nearly(in, contacts * d));
+  p.q = any_vector(in, nearly(in, contacts * d));
+  p.mu = any_vector(in, nearly(in, contacts));
+  vector const r = any_vector(in, nearly(in, p.q.size()));
+  try {
+    auto const found = slant::contact::verify(p, r);
+    fuzz::demand(found.open + found.stick + found.slip == p.contacts(), "each contact has a state");
+    fuzz::demand(p.q.allFinite() && p.mu.allFinite() && (p.mu.array() >= 0).all() &&
+                     Eigen::MatrixXd(p.W).allFinite(),
+                 "numbers that are none are refused");
+    fuzz::demand(r.allFinite() || !(found.unit_free_map == 0), "what is no force is no solution");
+  } catch (slant::bad_input const& refusal) {
+    fuzz::demand_message(refusal.what());
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* bytes, std::size_t size) {
@@ -102,6 +124,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* bytes, std::size_t siz
   c.f = any_vector(in, nearly(in, n));
   c.d = any_vector(in, nearly(in, m));
   c.g = any_vector(in, nearly(in, tangents == 0 ? 0 : m));
+  evaluate_contacts(in);
   if (tangents == 0) set_up(slant::contact::frictionless{}, 0, c, in);
   if (tangents == 1) set_up(slant::contact::friction_line{}, 1, c, in);
   if (tangents == 2) set_up(slant::contact::friction_disc{}, 2, c, in);

@@ -56,7 +56,7 @@ problem read(fuzz::bytes& in) {
   vector D(n);
   for (double& entry : D) entry = std::ldexp(1.0, spread == 0 ? 0 : in.below(2 * spread) - spread);
   int const unit = in.below(4) == 0 ? in.below(256) - 128 : 0;
-  p.A = std::ldexp(1.0, 2 * unit) * (D.asDiagonal() * p.A * D.asDiagonal());
+  p.A = std::ldexp(1.0, 7 * unit) * (D.asDiagonal() * p.A * D.asDiagonal());
   p.definite = c > 0 && spread == 0;
   auto const fill = [&](vector& x, int size) {
     x.resize(size);

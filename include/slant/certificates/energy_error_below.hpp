@@ -31,6 +31,35 @@ concept certifies = requires(Certificate& c, V const& x) {
   { c(x).relative() <= c(x).bound };
 };
 
+namespace detail {
+
+/// The quantity that the method watches anyway, relative; 0 if it has none.
+template <class S, class State>
+[[nodiscard]] S watched_measure(State const& s) {
+  auto const ratio = [](auto const& size, auto const& scale) {
+    return scale > std::remove_cvref_t<decltype(scale)>(0) ? S(size / scale) : S(0);
+  };
+  if constexpr (has_reduced_gradient_norm<State>) {
+    return ratio(s.reduced_gradient_norm, s.gradient_scale);
+  } else if constexpr (has_residual_norm<State>) {
+    return ratio(s.residual_norm, s.residual_scale);
+  } else if constexpr (has_step_norm<State>) {
+    return ratio(s.step_norm, s.x_norm);
+  } else {
+    return S(0);
+  }
+}
+
+/// By what factor that should fall after an error that is too large. Not beyond a hundredth: far
+/// from the solution the two have little to do with each other.
+template <class S>
+[[nodiscard]] S missing_factor(S const& tolerance, S const& error) {
+  S const missing = tolerance / error;
+  return missing > S(0.01) ? S(missing / S(2)) : S(0.01);
+}
+
+}  // namespace detail
+
 /// The rule at the top of this file; the certificate is kept as the library keeps parts. The
 /// relative error is that of the last certificate: `error()`.
 template <class S, class Certificate>
@@ -44,7 +73,7 @@ class energy_error_below : public rule {
   template <class State>
     requires certifies<Certificate, std::remove_cvref_t<decltype(std::declval<State>().x)>>
   status operator()(State const& s) {
-    S const measure = watched(s);
+    S const measure = detail::watched_measure<S>(s);
     bool const at_rest = s.status != status::running;
     if (!at_rest && !(measure <= threshold_)) return status::running;
     if (s.status == status::unbounded) return s.status;  // its direction has been confirmed
@@ -52,10 +81,7 @@ class energy_error_below : public rule {
     S const relative = error_.relative();
     if (relative <= tolerance_) return status::converged;
     if (at_rest) return s.status == status::converged ? status::stalled : s.status;
-    // Not beyond a hundredth: far from the solution the two have little to do with each other.
-    S const missing = tolerance_ / relative;
-    S const factor = missing > S(0.01) ? S(missing / S(2)) : S(0.01);
-    threshold_ = factor * measure;
+    threshold_ = measure * detail::missing_factor<S>(tolerance_, relative);
     return status::running;
   }
   template <class State>
@@ -68,23 +94,6 @@ class energy_error_below : public rule {
   [[nodiscard]] energy_error<S> const& error() const { return error_; }
 
  private:
-  template <class State>
-  [[nodiscard]] static S watched(State const& s) {
-    if constexpr (has_reduced_gradient_norm<State>) {
-      return ratio(s.reduced_gradient_norm, s.gradient_scale);
-    } else if constexpr (has_residual_norm<State>) {
-      return ratio(s.residual_norm, s.residual_scale);
-    } else if constexpr (has_step_norm<State>) {
-      return ratio(s.step_norm, s.x_norm);
-    } else {
-      return S(0);
-    }
-  }
-  template <class N>
-  [[nodiscard]] static S ratio(N const& size, N const& scale) {
-    return scale > N(0) ? S(size / scale) : S(0);
-  }
-
   S tolerance_;
   S threshold_;
   Certificate certificate_;

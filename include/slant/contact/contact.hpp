@@ -7,11 +7,14 @@
 #include <slant/contact/asymmetry.hpp>
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/certificate.hpp>
+#include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/coulomb.hpp>
+#include <slant/contact/coulomb_certificate.hpp>
 #include <slant/contact/coulomb_check.hpp>
 #include <slant/contact/coulomb_cones.hpp>
+#include <slant/contact/coulomb_error_below.hpp>
 #include <slant/contact/coulomb_newton.hpp>
 #include <slant/contact/coulomb_radii.hpp>
 #include <slant/contact/dirichlet_preconditioner.hpp>

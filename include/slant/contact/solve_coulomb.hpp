@@ -13,6 +13,9 @@
 // with a tolerance that is smaller by as much, as long as this helps; where it does not, the run
 // ends `stalled` with what the check finds.
 //
+// From matrices, with the error in the energy norm as the check and contacts of unequal stiffness
+// scaled: contact/certified_coulomb.hpp.
+//
 //     contact::dual problem(contact::friction_disc{}, slant::factorize(K), data);
 //     auto const r = contact::solve_coulomb(problem, F, {.tolerance = 1e-10});
 //     if (r.converged()) u = problem.displacement(r.λ);

@@ -67,9 +67,12 @@ template <class Method, class State, class Rule, class... Observers>
     }
     // Convergence takes precedence over any other reason to stop in the same step.
     if (verdict == status::converged) return {verdict, stop.reason(state)};
-    // A rule that has looked at the error may deny what the method believes.
-    bool const is_denied = state.status == status::converged && verdict == status::stalled;
-    if (is_denied) return {verdict, stop.reason(state)};
+    // A rule that has looked at the error may deny what the method believes, and adds to what it
+    // says of its end.
+    if (verdict == status::stalled && state.status == status::converged)
+      return {verdict, stop.reason(state)};
+    if (verdict == status::stalled && state.status == status::stalled)
+      return {verdict, stop.reason(state) + "; " + own_words(state)};
     if (state.status != status::running) return {state.status, own_words(state)};
     if (verdict != status::running) return {verdict, stop.reason(state)};
     method.step(state);

@@ -86,7 +86,11 @@ class descent_takeover {
   template <class State>
   void copy(QP const& qp, State& s) {
     slant::local(s.x) = slant::local(state_->x);
-    slant::local(s.r) = (state_->unit / s.unit) * slant::local(state_->r);
+    slant::local(s.r) = slant::local(state_->r);
+    // In that of a start far away it might vanish.
+    if (s.unit != state_->unit) s.progress.forget_energy();
+    s.unit = state_->unit;
+    s.size_of_b = state_->size_of_b;
     s.since_refresh = state_->since_refresh;
     s.reduce(qp);
   }

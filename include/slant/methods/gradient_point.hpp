@@ -89,30 +89,25 @@ struct gradient_point {
 
   /// r = (A x − b) / unit; one application, none at x = 0.
   void gradient(QP const& qp) {
-    since_refresh = 0;
-    scalar const per_unit = scalar(1) / unit;
-    if (norm(x) == scalar(0)) {
-      slant::local(r) = -per_unit * slant::local(qp.b());
-      return;
-    }
-    slant::apply(qp.a(), x, r, a_workspace);
-    ++work.operator_applications;
-    slant::local(r) = per_unit * (slant::local(r) - slant::local(qp.b()));
+    gradient_as_given(qp);
+    slant::local(r) *= scalar(1) / unit;
   }
 
   /// The same in a smaller unit, where that of a start far away is so large that products of r
-  /// would vanish in it. True if the unit is another one from now on.
+  /// would vanish in it, or r itself: so the unit is chosen before r is brought into it. True if it
+  /// is another one from now on.
   bool gradient_and_unit(QP const& qp) {
-    gradient(qp);
+    gradient_as_given(qp);
     using std::sqrt;
-    scalar const size = std::max<scalar>(size_of_b, norm(r));
-    if (!(size < sqrt(std::numeric_limits<scalar>::epsilon()) && size > scalar(0))) return false;
-    scalar const next = unit * unit_near(size);
-    if (!(next > scalar(0))) return false;
-    slant::local(r) *= unit / next;
-    size_of_b = norm(qp.b()) / next;
-    unit = next;
-    return true;
+    bool const keeps_digits = size_of_b >= std::numeric_limits<scalar>::min();
+    scalar const length_of_b = keeps_digits ? size_of_b * unit : norm(qp.b());
+    scalar const size = std::max<scalar>(length_of_b, norm(r));
+    bool const is_small = size < sqrt(std::numeric_limits<scalar>::epsilon()) * unit;
+    bool const is_other = is_small && size > scalar(0);
+    if (is_other) unit = unit_near(size);
+    size_of_b = length_of_b / unit;
+    slant::local(r) *= scalar(1) / unit;
+    return is_other;
   }
 
   /// P_Λ(x − α̃ r) and r̃.
@@ -142,6 +137,17 @@ struct gradient_point {
   }
 
  private:
+  /// r = A x − b.
+  void gradient_as_given(QP const& qp) {
+    since_refresh = 0;
+    if (norm(x) == scalar(0)) {
+      slant::local(r) = -slant::local(qp.b());
+      return;
+    }
+    slant::apply(qp.a(), x, r, a_workspace);
+    ++work.operator_applications;
+    slant::local(r) -= slant::local(qp.b());
+  }
   /// x = P_Λ(y) with its r and r̃.
   void place(QP const& qp, vector_type const& y) {
     slant::project(qp.set(), slant::local(y), slant::local(x));

@@ -117,9 +117,15 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
     begin_newton(s, s.begin_again(qp_.get(), x0));
   }
 
-  /// r from x where KPRGP has been updating it; whether it has. One product.
+  /// r from x where KPRGP has been updating it, also in the point that it has handed back; whether
+  /// it has. One product.
   bool refresh(state_type& s) const {
-    return s.descent.at_work() && s.descent.refresh(qp_.get(), options_.descent, s);
+    if (s.descent.at_work()) return s.descent.refresh(qp_.get(), options_.descent, s);
+    if (s.since_refresh == 0) return false;
+    s.status = status::running;
+    measure(s);
+    restart(s);
+    return true;
   }
 
  private:

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact with Coulomb friction from matrices to displacements, with a verdict that no method gives
+// itself:
+//
+//     factor      K                                                     factorizations/factorize
+//     scale       contacts so that each is about equally stiff: one power of two for the rows of N
+//                 and T of a contact, which keeps its cone; not at all where they are alike already
+//     solve       Newton's method, and radii where that fails, or cones  contact/solve_coulomb
+//     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm the problem
+//                 of Tresca with the slip bounds F λ_ν             contact/coulomb_certificate
+//
+// `converged` only if both are at most the tolerance. Where the certificate contradicts the method
+// it goes on to a smaller residual; where that is of no use the run ends `stalled`, and the reason
+// says what the certificate finds, at which contact, and how ill-conditioned K is.
+//
+//     auto const r = contact::certified_coulomb(contact::friction_disc{}, K, data, F);
+//     if (r.converged()) use(r.u, r.λ);
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/contact/coulomb_certificate.hpp>
+#include <slant/contact/solve_coulomb.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/krylov/unit.hpp>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace slant::contact {
+
+/// What certified_coulomb solves with.
+enum class coulomb_method {
+  automatic,  ///< Newton's method, and radii where that fails
+  newton,     ///< of Alart and Curnier's residual
+  radii,      ///< successive approximations, coulomb_radii
+  cones       ///< successive approximations, coulomb_cones
+};
+
+/// Options of certified_coulomb.
+struct certified_coulomb_options {
+  double tolerance = 1e-8;  ///< of what the certificate finds, in [0, 1); 0: as far as possible
+  coulomb_method method = coulomb_method::automatic;
+  index newton_steps = 60;  ///< of Newton's method at most
+  index outer_steps = 300;  ///< of successive approximations at most
+  bool scale = true;        ///< whether rows of B may be scaled
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    slant::detail::checked_tolerance(tolerance);
+    if (newton_steps < 1) {
+      throw bad_input("newton_steps", slant::detail::show(newton_steps), "at least 1");
+    }
+    if (outer_steps < 1) {
+      throw bad_input("outer_steps", slant::detail::show(outer_steps), "at least 1");
+    }
+  }
+};
+
+/// What certified_coulomb found.
+template <class V>
+struct certified_coulomb_result {
+  V λ;                                 ///< (λ_ν, λ_t)
+  V u{};                               ///< displacements
+  coulomb_error<scalar_t<V>> error{};  ///< of (λ, u)
+  slant::status status = status::running;
+  std::string reason{};         ///< the status as a sentence
+  std::string_view method{};    ///< "Newton", "successive approximations", or "cones"
+  index steps = 0;              ///< of that method
+  slant::work work{};           ///< of all methods and the certificate
+  scalar_t<V> condition{0};     ///< estimate of the condition number of K
+  bool scaled = false;          ///< whether rows of B were scaled
+  std::string factorization{};  ///< what factored K
+
+  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
+};
+
+namespace detail {
+
+/// A power of two for each contact node, next to the square root of the mean stiffness that acts on
+/// its multipliers: then D A D has a diagonal of the order 1. Empty if these are alike.
+template <class V>
+[[nodiscard]] V contact_factors(V const& stiffness, index nodes) {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  index const k = nodes > 0 ? index(stiffness.size()) / nodes - 1 : 0;
+  V factors(nodes);
+  S least = std::numeric_limits<S>::infinity(), most(0);
+  for (index i = 0; i < nodes; ++i) {
+    S sum = stiffness(i);
+    for (index j = 0; j < k; ++j) sum += stiffness(nodes + k * i + j);
+    S const mean = sum / S(k + 1);
+    bool const acts = mean > S(0) && slant::detail::is_finite(mean);
+    factors(i) = acts ? unit_near(S(sqrt(mean))) : S(1);
+    if (!acts) continue;
+    least = mean < least ? mean : least;
+    most = mean > most ? mean : most;
+  }
+  return most > S(64) * least ? factors : V();
+}
+
+/// One entry for each row of B.
+template <class V>
+[[nodiscard]] V by_rows(V const& factors, index rows) {
+  index const m = factors.size(), k = m > 0 ? rows / m - 1 : 0;
+  V all(rows);
+  all.head(m) = factors;
+  for (index row = m; row < rows; ++row) all(row) = factors((row - m) / k);
+  return all;
+}
+
+/// By cones, under the control of check(λ, u).
+template <class Dual, class V, class Check>
+[[nodiscard]] coulomb_result<V> solve_by_cones(Dual& problem, V const& F, double tolerance,
+                                               index steps, Check const& check) {
+  coulomb_result<V> r{problem.zero()};
+  coulomb_cones cones(problem, F);
+  auto const start = unconstrained_start(cones.qp());
+  r.work.setup_applications = start.applications;
+  identity_operator const I(problem.b().size());
+  auto const judged = [&] { detail::judge(problem, F, check, r); };
+  detail::settle(
+      r, start.x, tolerance, steps,
+      [&](V const& x, double goal, index most) {
+        return slant::solve(coulomb(cones, I, {.goal = goal}), x,
+                            reduced_gradient_below(scalar_t<V>(goal)) || at_most(most));
+      },
+      [&](auto const& report) {
+        detail::take_answer(r, report, "cones", cones.by_directions(report.x()));
+      },
+      judged);
+  if (r.u.size() == 0) judged();
+  return r;
+}
+
+}  // namespace detail
+
+/// Solves the problem at the top of this file; the slip bounds of the data have no meaning here. F
+/// has a coefficient for every contact node. Throws bad_input if K is not symmetric positive
+/// definite or data do not fit, if a coefficient is negative or not finite, or for options out of
+/// range.
+template <class Friction, class S>
+[[nodiscard]] auto certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c,
+                                     Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
+                                     certified_coulomb_options const& o = {})
+    -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+  o.validate();
+  c.g = vector_type::Zero(c.nodes());
+  detail::validated(friction, c, K.rows());
+  auto const factor = factorize(K);
+  using dual_type = decltype(dual(friction, factor, c));
+  dual_type given(friction, factor, c);
+  coulomb_certificate certificate(given, factor, K, c, F, S(o.tolerance));
+  certified_coulomb_result<vector_type> result{given.zero()};
+  result.factorization = std::string(factor.name());
+
+  vector_type const factors =
+      o.scale ? detail::contact_factors(certificate.stiffness(), c.nodes()) : vector_type();
+  result.scaled = factors.size() > 0;
+  vector_type d;
+  std::optional<dual_type> scaled;
+  if (result.scaled) {
+    d = detail::by_rows(factors, given.b().size());
+    c.N = sparse_type(factors.asDiagonal() * c.N);
+    c.T = sparse_type(d.tail(c.T.rows()).asDiagonal() * c.T);
+    c.d = c.d.cwiseProduct(factors);
+    scaled.emplace(friction, factor, c);
+  }
+  dual_type& problem = result.scaled ? *scaled : given;
+
+  // The point with the smallest error is the one that the run ends with: it is kept on its face.
+  S least = std::numeric_limits<S>::infinity();
+  auto const check = [&](vector_type const& λ, vector_type const& u) {
+    auto const e = certificate(result.scaled ? vector_type(d.cwiseProduct(λ)) : λ, u);
+    S const error = e.relative();
+    if (error < least || result.u.size() == 0) {
+      least = error < least ? error : least;
+      result.error = e;
+      result.λ = certificate.multipliers();
+      result.u = certificate.displacement();
+    }
+    return error;
+  };
+  // solve_coulomb allows a hundred times its tolerance.
+  double const asked = o.tolerance > 0 ? o.tolerance / 100 : std::numeric_limits<double>::min();
+  bool const by_newton =
+      o.method == coulomb_method::automatic || o.method == coulomb_method::newton;
+  auto r =
+      o.method == coulomb_method::cones
+          ? detail::solve_by_cones(problem, F, asked, o.outer_steps, check)
+          : solve_coulomb(problem, F,
+                          {.tolerance = asked,
+                           .newton_steps = by_newton ? o.newton_steps : 0,
+                           .outer_steps = o.method == coulomb_method::newton ? 0 : o.outer_steps},
+                          check);
+  result.method = r.method;
+  result.steps = r.steps;
+  result.work = r.work;
+  result.work.operator_applications += certificate.applications();
+  ++result.work.factorizations;
+  result.condition = certificate.condition();
+  bool const is_enough = result.error.relative() <= S(o.tolerance);
+  result.status = is_enough                       ? status::converged
+                  : r.status == status::converged ? status::stalled
+                                                  : r.status;
+  result.reason = result.error.sentence();
+  if (is_enough) {
+    result.reason += ", at most " + slant::detail::show(o.tolerance);
+  } else {
+    result.reason += "; asked was " + slant::detail::show(o.tolerance) + " (condition of K about " +
+                     slant::detail::show(result.condition) + "); " + r.reason;
+  }
+  return result;
+}
+
+}  // namespace slant::contact
