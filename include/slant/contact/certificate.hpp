@@ -164,6 +164,9 @@ class certificate {
   /// correction of u says.
   [[nodiscard]] vector_type const& gradient() const { return g_; }
 
+  /// Tangential positions w from now on, as in load_step: friction opposes T u − w. Empty: 0.
+  void set_positions(vector_type w) { positions_ = std::move(w); }
+
   /// Bounds ‖u − u*‖_K. λ ← P_Λ(λ); u ← K⁻¹(f − Bᵀλ), refined as far as `goal`, a relative error,
   /// needs it. solve(b, x) solves K x = b.
   template <class Set, class Solve>
@@ -186,9 +189,7 @@ class certificate {
     if (!slant::detail::is_finite(ε) || !slant::detail::is_finite(e.size)) return e;
     g_.resize(B_.rows());
     for (index i = 0; i < g_.size(); ++i) {
-      slant::detail::double_word<S> const start =
-          i < data_->nodes() && slant::detail::is_finite(data_->d(i)) ? data_->d(i) : S(0);
-      g_(i) = detail::minus_column<S>(rows_, i, u, start).hi;
+      g_(i) = detail::minus_column<S>(rows_, i, u, position(i)).hi;
     }
     rest_ = g_;
     auto const balanced = balance(set, λ, g_, stiffness_, rest_);
@@ -239,6 +240,13 @@ class certificate {
   }
 
  private:
+  /// c_i: the gap, or the tangential position; 0 where the gap is infinite.
+  [[nodiscard]] S position(index i) const {
+    index const m = data_->nodes();
+    if (i >= m) return positions_.size() > 0 ? S(positions_(i - m)) : S(0);
+    return slant::detail::is_finite(data_->d(i)) ? S(data_->d(i)) : S(0);
+  }
+
   void prepare() {
     index const n = B_.rows(), m = K_->rows();
     inverse_squares_.setZero(n);
@@ -413,7 +421,7 @@ class certificate {
   sparse_type const* K_;
   data<S> const* data_;
   sparse_type B_, rows_;  // B and Bᵀ
-  vector_type inverse_squares_, stiffness_;
+  vector_type inverse_squares_, stiffness_, positions_;
   std::vector<index> touched_;
   S largest_{0}, smallest_{0}, quotient_{0}, rest_size_{0};
   bool is_orthogonal_ = true, is_proven_ = false;
