@@ -47,7 +47,7 @@ template <class Friction, class S, class... Observers>
   try {
     return run(K, c, o).run(observers...);
   } catch (bad_input const& refusal) {
-    motions = detail::motions_behind(refusal, K, o.layout);
+    motions = motions_behind(refusal, K, o.layout);
     if (motions.free.empty()) throw;
   }
   return detail::spring_supports<run, S>(K, c, o, std::move(motions)).run(observers...);

@@ -39,23 +39,10 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace slant::contact::detail {
-
-/// The free motions that made a factorisation refuse K; none if that has another reason.
-template <class S>
-[[nodiscard]] free_motions<S> motions_behind(bad_input const& refusal,
-                                             Eigen::SparseMatrix<S> const& K,
-                                             node_layout<S> const& layout) {
-  if (!std::string_view(refusal.what()).starts_with("K: got pivot")) return {};
-  auto motions = find_free_motions(K, layout);
-  // A matrix that is indefinite as well is no matter of supports.
-  if (!motions.undetermined.empty()) return {};
-  return motions;
-}
 
 /// The unknowns that hold all bodies if they are fixed.
 template <class S>
