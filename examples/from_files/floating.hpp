@@ -7,26 +7,14 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/free_motions.hpp>
 
-#include "outcome.hpp"
 #include "problem_folder.hpp"
-#include "solution.hpp"
 
 namespace from_files {
-
-/// A solution, and what K leaves free.
-struct floating_result {
-  solution body{};
-  slant::contact::free_motions<double> motions{};
-};
 
 /// The free motions that made a factorisation refuse K; none if that has another reason.
 [[nodiscard]] slant::contact::free_motions<double> motions_behind(
     slant::bad_input const& refusal, problem const& p,
     slant::contact::node_layout<double> const& layout);
-
-/// Solves with a method for floating bodies.
-[[nodiscard]] floating_result solve_floating(problem const& p, settings const& s,
-                                             slant::contact::node_layout<double> const& layout);
 
 /// What the report says of free motions.
 [[nodiscard]] nlohmann::ordered_json report_motions(

@@ -43,8 +43,7 @@ int list_methods() {
 /// Reports and writes what came of a body.
 int deliver_solution(arguments const& a, from_files::problem const& p, std::string const& method,
                      from_files::solution const& s, from_files::warning_list const& warnings,
-                     std::optional<from_files::result_files>& files,
-                     nlohmann::ordered_json const& motions = nullptr) {
+                     std::optional<from_files::result_files>& files) {
   if (!s.is_finite()) files.reset();
   if (files) files->write(s.u, s.run.λ);
   nlohmann::ordered_json json{
@@ -65,7 +64,7 @@ int deliver_solution(arguments const& a, from_files::problem const& p, std::stri
       {"contact_nodes", p.contact.nodes()},
       {"tangents_per_node", p.contact.tangents()},
       {"factorization", s.factorization}});
-  if (!motions.is_null()) json["free_motions"] = motions;
+  if (!s.motions.free.empty()) json["free_motions"] = from_files::report_motions(s.motions);
   json["warnings"] = from_files::report_warnings(warnings);
   return from_files::deliver(a, std::move(json), s.converged() && s.is_finite(), files);
 }
@@ -84,20 +83,17 @@ int solve_tresca(arguments const& a) {
   auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
   auto const layout = from_files::read_layout(a, problem);
   from_files::check_data(a, problem, layout);
+  auto settings = settings_of(a);
+  settings.layout = layout;
   try {
-    auto const solution = from_files::solve(problem, method, settings_of(a));
+    auto const solution = from_files::solve(problem, method, settings);
     auto const warnings = from_files::warnings_about(a, problem, solution, layout);
-    return deliver_solution(a, problem, method, solution, warnings, files);
+    return deliver_solution(a, problem, solution.motions.free.empty() ? method : "floating",
+                            solution, warnings, files);
   } catch (slant::bad_input const& refusal) {
-    auto const motions = from_files::motions_behind(refusal, problem, layout);
-    if (motions.free.empty()) throw;
-    if (!a.method.empty() || a.start != "automatic")
-      throw slant::contact::with_free_motions(refusal, motions);
+    throw slant::contact::with_free_motions(refusal,
+                                            from_files::motions_behind(refusal, problem, layout));
   }
-  auto const [solution, motions] = from_files::solve_floating(problem, settings_of(a), layout);
-  auto const warnings = from_files::warnings_about(a, problem, solution, layout);
-  return deliver_solution(a, problem, "floating", solution, warnings, files,
-                          from_files::report_motions(motions));
 }
 
 int solve_coulomb(arguments const& a) {
@@ -149,8 +145,7 @@ int main(int argc, char** argv) {
       "matrices;\n\"operator_applications\" includes \"setup_applications\". For contacts "
       "\"check\" "
       "holds the violations of the law,\ncomputed from the files and r alone. Bodies that "
-      "supports do not hold (\"free_motions\") are solved by a method for\nthese, unless --method "
-      "or --start is given.\n"
+      "supports do not hold (\"free_motions\") are solved by the\nrecommended method.\n"
       "Exit status: 0 converged; 1 not converged, for the reason in the JSON object; 2 input "
       "that cannot be used or\noutput that cannot be written, named in one line on standard "
       "error; no file is written then.");

@@ -8,6 +8,7 @@
 #include <functional>
 #include <slant/certificates/energy_error_below.hpp>
 #include <slant/concepts/convex_set.hpp>
+#include <slant/contact/node_layout.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <string>
@@ -31,7 +32,8 @@ struct settings {
   start_point start = start_point::automatic;
   bool prove = false;        ///< the bound of the error is to be proven
   bool stops_early = false;  ///< a first phase: at this relative reduced gradient
-  certificate error_of{};    ///< of the multipliers; set when the problem is known
+  slant::contact::node_layout<double> layout{};  ///< gives free motions their names
+  certificate error_of{};  ///< of the multipliers; set when the problem is known
 };
 
 /// What came of it.

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <slant/certificates/energy_error.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <string>
 
 #include "outcome.hpp"
@@ -19,6 +20,7 @@ struct solution {
   std::string factorization{};  ///< what factored K
   slant::energy_error<double> error{};  ///< what is known of the error in the energy norm
   double condition = 0;                 ///< estimate of that of K; 0: none
+  slant::contact::free_motions<double> motions{};  ///< what K leaves free
   double setup_seconds = 0;  ///< factorisation, right-hand side, what the method prepares
   double solve_seconds = 0;  ///< iteration and recovery of u
   double kkt_residual = 0;   ///< relative; NaN if the run broke down

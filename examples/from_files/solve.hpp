@@ -67,6 +67,7 @@ template <class Friction>
   auto const begin = clock::now();
   slant::contact::solve_options<double> o{
       .tolerance = s.tolerance, .prove = s.prove, .max_steps = s.max_iterations};
+  o.layout = s.layout;
   solution result;
   outcome start{.status = slant::status::converged,
                 .reason = {},
@@ -100,6 +101,8 @@ template <class Friction>
   result.error = found.error;
   result.condition = found.condition;
   result.factorization = std::move(found.factorization);
+  result.motions = std::move(found.motions);
+  if (!result.motions.free.empty()) result.solved_by = "proximal_point";
   result.take_times(begin);
   return result;
 }
@@ -161,7 +164,9 @@ template <class Friction>
                                   settings const& s) {
   solution result = method == recommended_method ? solve_recommended(friction, p, s)
                                                  : solve_by_name(friction, p, method, s);
-  if (result.run.status == slant::status::unbounded) result.run.reason = contradiction(p.contact);
+  if (result.run.status == slant::status::unbounded && result.motions.free.empty()) {
+    result.run.reason = contradiction(p.contact);
+  }
   result.kkt_residual =
       slant::contact::check_optimality(p.K, p.contact, result.u, result.run.λ).residual();
   return result;
@@ -171,7 +176,8 @@ template <class Friction>
 
 /// Solves with the method of that name. The friction law is that of T: no disc is compiled into a
 /// frictionless solver. Throws slant::bad_input if K is not symmetric positive definite (naming the
-/// entry or the pivot) or if there is no such method.
+/// entry or the pivot; the recommended method takes a K that is singular by free motions) or if
+/// there is no such method.
 [[nodiscard]] inline solution solve(problem const& p, std::string_view method, settings const& s) {
   switch (p.contact.tangents()) {
     case 0:

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "loose_brick.hpp"
 #include "scenes.hpp"
 
+#include <slant/contact/optimality.hpp>
 #include <slant/contact/solve.hpp>
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <support/message.hpp>
+#include <vector>
 
 namespace solve_test {
 
@@ -149,6 +154,142 @@ TEST_CASE("contact::solve: limits, starts, bad input") {
   far.d.setConstant(-1);
   far.N.setZero();
   CHECK_THROWS_AS((void)solve(scene.K, far), slant::bad_input);
+}
+
+contact::solution<double> solve(test::loose_brick const& b, contact::solve_options<double> o = {}) {
+  o.layout = contact::interleaved_layout(b.mesh.nodes);
+  return solve(b.K, b.data, o);
+}
+
+TEST_CASE("contact::solve: bodies without supports that contact or friction holds") {
+  struct push {
+    char const* by;
+    Eigen::Vector3d end;
+    double slip, press = 1;
+  };
+  double const infinity = std::numeric_limits<double>::infinity();
+  // 3 is the area of the top: the pressure 1 presses with 3; 12 nodes.
+  for (push const& p : {push{"contact alone", {0, 0, 0}, 0}, push{"friction", {-0.3, 0, 0}, 0.05},
+                        push{"friction, nearly all of it", {-0.59, 0, 0}, 0.05},
+                        push{"sticking", {-0.3, 0.1, 0}, infinity},
+                        push{"contact, one end up", {0, 0, 1.2}, 0.05}}) {
+    CAPTURE(p.by);
+    test::loose_brick const brick(p.press, p.end, p.slip);
+    auto const r = solve(brick);
+    CAPTURE(r.reason);
+    REQUIRE(r.converged());
+    CHECK(r.error.relative() <= 1e-8);
+    CHECK_FALSE(r.error.proven);
+    CHECK(r.motions.sentence() ==
+          "body 0 (unknowns 0 to 107) can move along x, y and z and turn about x, y and z");
+    CHECK(r.work.factorizations == 1);
+    // Judged by the data alone, and by another run to more digits.
+    CHECK(contact::check_optimality(brick.K, brick.data, r.u, r.multipliers).residual() <= 1e-8);
+    CHECK(r.multipliers.head(12).sum() == doctest::Approx(3 - p.end.z()));
+    auto const sharp = solve(brick, {.tolerance = 1e-12});
+    CHECK(sharp.error.relative() <= 1e-11);
+    CHECK(true_error(brick.K, r.u, sharp.u) <= r.error.relative() + sharp.error.relative());
+  }
+  test::loose_brick far(1, {-0.3, 0, 0}, 0.05);
+  far.data.d.setConstant(0.1);
+  auto const r = solve(far);
+  CAPTURE(r.reason);
+  CHECK(r.converged());
+  CHECK((far.data.N * r.u - far.data.d).maxCoeff() <= 1e-12);
+}
+
+TEST_CASE("contact::solve: bodies that nothing holds, and those that are unfit") {
+  struct push {
+    double press, along, slip;
+    char const* motion;
+  };
+  for (push const& p : {push{1, -0.3, 0.01, "moves along -x"}, push{1, -0.3, 0, "moves along -x"},
+                        push{-1, 0, 0.05, "moves along z"}}) {
+    test::loose_brick const brick(p.press, {p.along, 0, 0}, p.slip);
+    auto const r = solve(brick);
+    CHECK(r.status == slant::status::unbounded);
+    CHECK(r.reason ==
+          "neither contact nor friction holds the bodies under this load: body 0 (unknowns 0 to "
+          "107) " +
+              std::string(p.motion));
+    CHECK(r.motions.dimension() == 6);
+    REQUIRE(r.descent.size() == r.u.size());
+    CHECK((brick.K * r.descent).norm() <= 1e-12 * brick.K.norm());
+    CHECK((brick.data.N * r.descent).maxCoeff() <= 1e-6);
+    CHECK(brick.data.f.dot(r.descent) > 0);
+  }
+  test::loose_brick brick(1, {-0.3, 0, 0}, 0.05);
+  auto const early = solve(brick, {.max_steps = 2});
+  CHECK(early.status == slant::status::iteration_limit);
+  CHECK(early.iterations == 2);
+  CHECK(early.reason.find("can move along x") != std::string::npos);
+  auto const last = solve(brick, {.tolerance = 0});
+  CHECK(last.status == slant::status::stalled);
+  CHECK(last.error.relative() <= 1e-11);
+  brick.K.coeffRef(0, 0) *= -1;
+  CHECK(test::complaint([&] { (void)solve(brick); }).starts_with("K: got pivot"));
+}
+
+TEST_CASE("contact::solve: some motions of one of three bodies, and their names") {
+  test::loose_brick const one(1, {0, 0, 0}, 0.05);
+  auto const n = one.K.rows();
+  // Bodies 0 and 1 clamped at x = 0; body 2 held along z there and at the other end, along y at one
+  // node.
+  std::vector<slant::index> kept;
+  for (slant::index body = 0; body < 3; ++body) {
+    for (slant::index i = 0; i < n; ++i) {
+      bool const at_end = one.mesh.nodes(0, i / 3) == 0 || one.mesh.nodes(0, i / 3) == 3;
+      bool const clamped = one.mesh.nodes(0, i / 3) == 0;
+      bool const held = body < 2 ? clamped : (i % 3 == 2 && at_end) || i == 1;
+      if (!held) kept.push_back(body * n + i);
+    }
+  }
+  std::vector<Eigen::Triplet<double>> entries, normal, tangential, places;
+  for (int body = 0; body < 3; ++body) {
+    auto const append = [&](auto const& M, int rows, auto& list) {
+      for (int j = 0; j < M.outerSize(); ++j) {
+        for (Eigen::SparseMatrix<double>::InnerIterator e(M, j); e; ++e)
+          list.emplace_back(body * rows + int(e.row()), body * int(n) + j, e.value());
+      }
+    };
+    append(one.K, int(n), entries);
+    append(one.data.N, 12, normal);
+    append(one.data.T, 24, tangential);
+  }
+  for (std::size_t j = 0; j < kept.size(); ++j) places.emplace_back(int(kept[j]), int(j), 1);
+  Eigen::SparseMatrix<double> K(3 * n, 3 * n), N(36, 3 * n), T(72, 3 * n),
+      P(3 * n, slant::index(kept.size()));
+  K.setFromTriplets(entries.begin(), entries.end());
+  N.setFromTriplets(normal.begin(), normal.end());
+  T.setFromTriplets(tangential.begin(), tangential.end());
+  P.setFromTriplets(places.begin(), places.end());
+  Eigen::SparseMatrix<double> const Pt = P.transpose(), own = Pt * K * P;
+  contact::data<double> data{N * P, T * P, Pt * one.data.f.replicate(3, 1), VectorXd::Zero(36),
+                             VectorXd::Constant(36, 0.05)};
+  contact::solve_options<double> o;
+  Eigen::MatrixXd nodes(3, 3 * one.mesh.nodes.cols());
+  nodes << one.mesh.nodes, one.mesh.nodes, one.mesh.nodes;
+  auto const all = contact::interleaved_layout(nodes);
+  o.layout.x = all.x;
+  for (auto const j : kept) {
+    o.layout.node.push_back(all.node[std::size_t(j)]);
+    o.layout.axis.push_back(all.axis[std::size_t(j)]);
+  }
+  auto const r = solve(own, data, o);
+  CAPTURE(r.reason);
+  CHECK(r.converged());
+  REQUIRE(r.motions.free.size() == 1);
+  CHECK(r.motions.free[0].number == 2);
+  CHECK(r.motions.dimension() == 2);
+  CHECK(r.motions.sentence() == "body 2 (unknowns 162 to 250) can move along x and turn about z");
+  // The load pulls all along x: only the last one gives way.
+  for (slant::index j = 0; j < own.rows(); ++j) {
+    if (o.layout.axis[std::size_t(j)] == 0) data.f(j) += 0.05;
+  }
+  auto const pulled = solve(own, data, o);
+  CHECK(pulled.status == slant::status::unbounded);
+  CHECK(pulled.reason.find("body 2") != std::string::npos);
+  CHECK(pulled.reason.ends_with("moves along x"));
 }
 
 }  // namespace solve_test

@@ -111,7 +111,9 @@ TEST_CASE("from_files: a body that contact and friction hold, without supports")
   json const result = solved(files, put_coordinates(files, scene));
   CHECK(result["status"] == "converged");
   CHECK(result["method"] == "floating");
-  CHECK(result["solved_by"] == "constrained_newton");
+  CHECK(result["solved_by"] == "proximal_point");
+  CHECK(result["energy_error"].get<double>() <= 1e-8);
+  CHECK(result["energy_error_proven"] == false);
   CHECK(result["kkt_residual"].get<double>() < 1e-6);
   REQUIRE(result["free_motions"].size() == 1);
   CHECK(result["free_motions"][0]["text"] ==
@@ -131,7 +133,7 @@ TEST_CASE("from_files: a body that contact and friction hold, without supports")
   problem_files const smooth(loose_brick(0, 0.01));
   smooth.remove("T.mtx");
   smooth.remove("g.txt");
-  CHECK(solved(smooth)["solved_by"] == "schur_contact");
+  CHECK(solved(smooth)["energy_error"].get<double>() <= 1e-8);
 
   sliding.put("F.txt", "1\n1\n1\n1\n1\n1\n1\n1\n");
   check_refusal(sliding.solve("--coulomb " + word((sliding.input() / "F.txt").string())),

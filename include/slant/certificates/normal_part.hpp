@@ -16,15 +16,20 @@
 // (With s = g, the duality gap, the bound is the root of a difference of energies; with the nearest
 // normal, m → 0, it is the reduced gradient alone. This choice is between the two, block by block.)
 //
-// Half lines, intervals, balls, points and free blocks evaluate γ without cancellation. x counts as
-// the point of the boundary next to it where it lies there up to rounding: off by less than 9 ε‖x‖,
-// of which what no projection leaves, above 2 ε‖x‖, stays in d as the energy of the way there.
-// Any other set with a projection gets γ = sᵀ(x − p), where the rounding errors of P remain.
+// Half lines, intervals, balls, points and free blocks evaluate γ without cancellation: s = g − d
+// is exact for the computed d on the line, where γ has a relative error of 3ε. On a ball let s be
+// the exact multiple, by the computed t, of the exact −z/‖z‖: then d is off by at most 20 ε|g|, and
+// the sine between x and z, or 1 − cos inside, by rounding that is added to it. x counts as the
+// point of the boundary next to it where it lies there up to rounding: off by less than 9 ε‖x‖,
+// of which what no projection leaves, above 2 ε‖x‖, stays in d as the energy of the way there. Any
+// other set with a projection gets γ = sᵀ(x − p), where the rounding errors of P remain.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
+#include <slant/krylov/unit.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/detail/double_word.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/symmetric_interval.hpp>
@@ -67,12 +72,18 @@ template <class S>
   return part;
 }
 
+/// Does x count as a point of the sphere ‖x‖ = R?
+template <class S, int N>
+[[nodiscard]] bool is_on_sphere(Eigen::Matrix<S, N, 1> const& x, S const& R) {
+  using std::abs;
+  Eigen::Matrix<S, N, 1> const e = x / R;
+  return abs(S(e.stableNorm()) - S(1)) <= S(9) * std::numeric_limits<S>::epsilon();
+}
+
 /// g on the ball ‖x‖ ≤ R.
 template <class S, int N>
 [[nodiscard]] normal_part<S, N> in_ball(Eigen::Matrix<S, N, 1> const& x,
                                         Eigen::Matrix<S, N, 1> const& g, S const& R, S const& ρ) {
-  using std::abs;
-  using std::sqrt;
   using point = Eigen::Matrix<S, N, 1>;
   normal_part<S, N> part;
   part.rest = g;
@@ -90,7 +101,7 @@ template <class S, int N>
   // In units of R and of R/ρ, in which no square leaves the range.
   point const e = x / R, h = g * (ρ / R);
   S const length = e.stableNorm();
-  bool const on_sphere = abs(length - S(1)) <= S(9) * std::numeric_limits<S>::epsilon();
+  bool const on_sphere = is_on_sphere<S, N>(x, R);
   point const n = on_sphere ? point(e / length) : e;
   point const z = n - h;
   S const size = z.stableNorm();
@@ -106,9 +117,10 @@ template <class S, int N>
   // γ = (R²/ρ) t (1 − nᵀz/‖z‖); on the sphere the bracket is sin²/(1 + cos) of the angle, which
   // comes from the tangential part of h.
   S const cosine = n.dot(direction);
-  S bracket = S(1) - cosine;
+  S const eps = std::numeric_limits<S>::epsilon();
+  S bracket = S(1) - cosine + S(8) * eps;
   if (on_sphere && cosine > S(0)) {
-    S const sine = (h - n.dot(h) * n).stableNorm() / size;
+    S const sine = ((h - n.dot(h) * n).stableNorm() + S(16) * eps * h.stableNorm()) / size;
     bracket = sine * sine / (S(1) + cosine);
   }
   part.gap = bracket > S(0) ? S(R * ((R / ρ) * t) * bracket) : S(0);
@@ -116,6 +128,22 @@ template <class S, int N>
 }
 
 }  // namespace detail
+
+/// x̂ − x for the point x̂ of the sphere ‖x̂‖ = R that x counts as, to a relative accuracy of some ε;
+/// 0 for points inside, and on intervals, which have exact ends.
+template <class S, int N>
+[[nodiscard]] Eigen::Matrix<S, N, 1> to_sphere(Eigen::Matrix<S, N, 1> const& x, S const& R) {
+  using point = Eigen::Matrix<S, N, 1>;
+  if (N == 1 || !(R > S(0)) || !detail::is_finite(R) || !detail::is_on_sphere<S, N>(x, R)) {
+    return point::Zero(x.size());
+  }
+  S const unit = unit_near(R), r = R / unit;
+  point const e = x / unit;
+  detail::double_word<S> missing = detail::exact_product<S>(r, r);
+  for (index i = 0; i < e.size(); ++i) missing = missing - detail::exact_product<S>(e(i), e(i));
+  S const length = e.stableNorm();
+  return x * (missing.hi / (length * (r + length)));
+}
 
 /// Blocks whose gap is evaluated without cancellation, so that a bound made of it is one.
 template <class Block>

@@ -20,12 +20,29 @@
 // the remainder that a few conjugate gradient steps y for A y = d leave is extended by zero, and
 // ‖d‖_{A⁻¹} ≤ ‖y‖_A + ‖d − A y‖_{A⁻¹}: the harmonic extension, up to a tenth.
 //
-// Residuals are computed in doubled precision. `proven` is said if λ is a proven lower bound
-// (smallest_eigenvalue_bound), the rows of B are orthogonal or empty, the gaps of the set are exact
-// and the extension was by zero or by a solve with K; sums are then enlarged by their rounding
-// errors. Else the result is an estimate: λ from solves at hand, A y as applied by the method.
+// `proven` is said if λ is a proven lower bound (smallest_eigenvalue_bound), the rows of B are
+// orthogonal or empty, the gaps of the set are exact and the extension was by zero. Then no sum is
+// taken for what it should be (without underflow; ε = 2u, γ_k = k ε):
 //
-// Cost: one solve with K and two sparse products; one solve more for each refinement of u.
+//     ρ, c − B u   in doubled precision, rounded once: off by ε|ρ| + 8 (k + 4) ε² (|f| + |Bᵀ||λ| +
+//                  |K||u|) for rows of k entries; |K||u| has at most the length ‖K‖_∞ ‖u‖
+//     ρ − K w      in plain precision: off by γ_{k+4} (|ρ| + |K||w|)
+//     ‖v‖²_K       the computed sum of p products in rows of k entries is off by γ_{p+k+8}
+//     |v|ᵀ|K||v|,
+//                  which is summed as well: added where ‖v‖_K is a part of the bound, subtracted
+//                  where it is the size that the bound is divided by
+//     λ ∈ Λ        a computed projection is off by some ε of the radius; what leads to the point λ̂
+//     of
+//                  the sphere is computed from R² − ‖λ_t‖² in doubled precision and enters ρ
+//     s            exactly normal up to γ as in certificates/normal_part.hpp; d = g − s is off by
+//                  at most 24 ε|g|, a vector r; ‖r‖_{A⁻¹} ≤ 2 √‖K‖ ‖D r‖, D⁻¹ the lengths of rows
+//     γ, ‖·‖₂      positive sums of n terms: all is enlarged by 1 + 8 (n + 64) ε
+//
+// Without a proof, λ is an estimate from solves at hand, and a sharper norm has A y as the method
+// applies it; the same terms are added, so that nothing is said of digits that rounding has taken.
+//
+// Cost: one solve with K, one product with K in doubled precision and one in plain one; as much
+// again for each refinement of u.
 #pragma once
 
 #include <slant/certificates/energy_error.hpp>
@@ -48,18 +65,6 @@
 namespace slant::contact {
 
 namespace detail {
-
-/// √(Σ xᵢyᵢ) for a sum that is positive but for rounding; no product leaves the range.
-template <class V>
-[[nodiscard]] scalar_t<V> root_of_product(V const& x, V const& y) {
-  using S = scalar_t<V>;
-  using std::sqrt;
-  S const ux = unit_near(S(x.stableNorm())), uy = unit_near(S(y.stableNorm()));
-  S sum(0);
-  for (index i = 0; i < x.size(); ++i) sum += (x(i) / ux) * (y(i) / uy);
-  if (!(sum > S(0))) return sum == sum ? S(0) : sum;
-  return sqrt(sum) * sqrt(ux) * sqrt(uy);
-}
 
 /// start − Σᵢ M_ij xᵢ in doubled precision, M column by column.
 template <class S, class V>
@@ -164,6 +169,9 @@ class certificate {
   /// correction of u says.
   [[nodiscard]] vector_type const& gradient() const { return g_; }
 
+  /// Tangential positions w from now on, as in load_step: friction opposes T u − w. Empty: 0.
+  void set_positions(vector_type w) { positions_ = std::move(w); }
+
   /// Bounds ‖u − u*‖_K. λ ← P_Λ(λ); u ← K⁻¹(f − Bᵀλ), refined as far as `goal`, a relative error,
   /// needs it. solve(b, x) solves K x = b.
   template <class Set, class Solve>
@@ -180,22 +188,38 @@ class certificate {
     slant::detail::check_size("lambda", λ.size(), B_.rows());
     slant::detail::check_size("u", u.size(), K_->rows());
     slant::project(set, λ, λ);
+    outward_.setZero(λ.size());
+    slant::visit_blocks(set, [&](auto const& block, auto const& p) {
+      if constexpr (requires { block.radius(); }) {
+        p.put(outward_, to_sphere<S>(p.value(λ), block.radius()));
+      }
+    });
     energy_error<S> e;
     S const ε = recover(λ, u, goal, solve);
-    e.size = energy_norm(u);
+    e.size = size_;
     if (!slant::detail::is_finite(ε) || !slant::detail::is_finite(e.size)) return e;
     g_.resize(B_.rows());
+    lost_.resize(B_.rows());
+    S const eps = std::numeric_limits<S>::epsilon();
+    S const length = u.stableNorm();
     for (index i = 0; i < g_.size(); ++i) {
-      slant::detail::double_word<S> const start =
-          i < data_->nodes() && slant::detail::is_finite(data_->d(i)) ? data_->d(i) : S(0);
+      S const start = position(i);
       g_(i) = detail::minus_column<S>(rows_, i, u, start).hi;
+      using std::abs;
+      using std::sqrt;
+      // |c| + |B||u| ≤ |c| + ‖row‖ ‖u‖; in units in which every row has the length 1.
+      S const unit = sqrt(inverse_squares_(i));
+      lost_(i) = unit * (S(24) * eps * abs(g_(i)) + tiny_ * abs(start)) +
+                 (unit > S(0) ? S(tiny_ * length) : S(0));
     }
     rest_ = g_;
     auto const balanced = balance(set, λ, g_, stiffness_, rest_);
     e.proven = is_proven_ && balanced.exact && is_orthogonal_;
-    S const grown = S(1) + S(8 * (K_->rows() + 64)) * std::numeric_limits<S>::epsilon();
+    using std::sqrt;
+    S const grown = S(1) + S(8 * (K_->rows() + 64)) * eps;
+    S const lost = S(2) * sqrt(largest_) * lost_.stableNorm();
     auto const bound = [&](S const& δ) {
-      return (error_bound<S>(δ + ε, balanced.gap) + ε) * grown;
+      return (error_bound<S>(δ + lost + ε, balanced.gap) + ε) * grown;
     };
     S const δ_zero = extension_by_zero(rest_);
     e.bound = bound(δ_zero);
@@ -226,31 +250,42 @@ class certificate {
     }
     vector_type left(d.size());
     for (index i = 0; i < d.size(); ++i) left(i) = detail::minus_column<S>(rows_, i, v_, d(i)).hi;
-    // In units in which every row has the length 1.
-    rest_size_ = left.cwiseProduct(inverse_squares_.cwiseSqrt()).stableNorm();
-    return norm_on_contact(v_) + tail_norm();
+    // In units in which every row has the length 1; with the rounding of B v.
+    S const eps = std::numeric_limits<S>::epsilon();
+    rest_size_ = left.cwiseProduct(inverse_squares_.cwiseSqrt()).stableNorm() * (S(1) + S(4) * eps);
+    using std::sqrt;
+    rest_size_ += tiny_ * sqrt(S(static_cast<double>(d.size()))) * v_.stableNorm();
+    return most_energy(v_, touched_) + tail_norm();
   }
 
   /// √(vᵀK v).
-  [[nodiscard]] S energy_norm(vector_type const& v) {
-    image_.resize(v.size());
-    image_.noalias() = *K_ * v;
-    return detail::root_of_product(v, image_);
+  [[nodiscard]] S energy_norm(vector_type const& v) const {
+    auto const q = energy(v, all_, [](index, S const&) {});
+    return root(q.sum, q);
   }
 
  private:
+  /// c_i: the gap, or the tangential position; 0 where the gap is infinite.
+  [[nodiscard]] S position(index i) const {
+    index const m = data_->nodes();
+    if (i >= m) return positions_.size() > 0 ? S(positions_(i - m)) : S(0);
+    return slant::detail::is_finite(data_->d(i)) ? S(data_->d(i)) : S(0);
+  }
+
   void prepare() {
     index const n = B_.rows(), m = K_->rows();
     inverse_squares_.setZero(n);
     stiffness_.setConstant(n, std::numeric_limits<S>::infinity());
-    vector_type squares = vector_type::Zero(n), row_sums = vector_type::Zero(m);
-    touched_.clear();
+    vector_type squares = vector_type::Zero(n);
     for (index j = 0; j < m; ++j) {
       S sum(0);
-      for (typename sparse_type::InnerIterator e(*K_, j); e; ++e) {
+      index entries = 0;
+      for (typename sparse_type::InnerIterator e(*K_, j); e; ++e, ++entries) {
         using std::abs;
         sum += abs(e.value());
       }
+      all_.push_back(j);
+      longest_ = std::max<index>(longest_, entries);
       largest_ = std::max<S>(largest_, sum);
       bool is_touched = false;
       for (typename sparse_type::InnerIterator e(B_, j); e; ++e) {
@@ -261,13 +296,20 @@ class certificate {
     }
     for (index i = 0; i < n; ++i) {
       if (squares(i) > S(0)) inverse_squares_(i) = S(1) / squares(i);
+      longest_ = std::max<index>(longest_, rows_.col(i).nonZeros());
+      size_of_B_ = std::max<S>(size_of_B_, squares(i));
     }
+    using std::sqrt;
+    S const eps = std::numeric_limits<S>::epsilon();
+    tiny_ = S(8 * (longest_ + 4)) * eps * eps;
+    largest_ *= S(1) + S(4 * (longest_ + 4)) * eps;
+    // ‖B‖₂ ≤ ‖B‖_F, and here twice the longest row where rows are orthogonal.
+    size_of_B_ = S(2) * sqrt(size_of_B_);
     // BBᵀ: orthogonal rows have nothing but rounding off the diagonal.
     sparse_type const gram = B_ * rows_;
     for (index j = 0; j < gram.outerSize(); ++j) {
       for (typename sparse_type::InnerIterator e(gram, j); e; ++e) {
         using std::abs;
-        using std::sqrt;
         S const cosine =
             abs(e.value()) * sqrt(inverse_squares_(j)) * sqrt(inverse_squares_(e.row()));
         if (e.row() != j && cosine > S(8) * std::numeric_limits<S>::epsilon()) {
@@ -291,23 +333,65 @@ class certificate {
     }
   }
 
-  /// √(vᵀK v) of a v that is zero off the contact unknowns.
-  [[nodiscard]] S norm_on_contact(vector_type const& v) const {
-    S const unit = unit_near(S(v.stableNorm())), unit_of_K = unit_near(largest_);
-    using std::sqrt;
-    S sum(0);
-    for (index j : touched_) {
-      S column(0);
+  /// vᵀK v in units of its own, and what rounding may have taken from it.
+  struct square {
+    S sum{0}, lost{0}, unit{1}, unit_of_K{1};
+  };
+  /// v is zero but at these unknowns; note(j, (K v)_j) is called for them.
+  template <class Note>
+  [[nodiscard]] square energy(vector_type const& v, std::vector<index> const& unknowns,
+                              Note const& note) const {
+    using std::abs;
+    square q;
+    q.unit = unit_near(S(v.stableNorm()));
+    q.unit_of_K = unit_near(largest_);
+    S const scale = S(1) / q.unit, scale_of_K = S(1) / q.unit_of_K;
+    S part(0), moduli(0);
+    constexpr index length_of_part = 256;
+    index count = 0;
+    for (index j : unknowns) {
+      S column(0), size(0);
       for (typename sparse_type::InnerIterator e(*K_, j); e; ++e) {
-        column += (e.value() / unit_of_K) * (v(e.row()) / unit);
+        S const term = (e.value() * scale_of_K) * (v(e.row()) * scale);
+        column += term;
+        size += abs(term);
       }
-      sum += column * (v(j) / unit);
+      note(j, S(column * q.unit * q.unit_of_K));
+      part += column * (v(j) * scale);
+      moduli += size * abs(v(j) * scale);
+      if (++count % length_of_part != 0) continue;
+      q.sum += part;
+      part = S(0);
     }
-    // What the sum may have lost to cancellation.
-    S lost(0);
-    for (index j : touched_) lost += (v(j) / unit) * (v(j) / unit);
-    sum += S(256) * std::numeric_limits<S>::epsilon() * lost * (largest_ / unit_of_K);
-    return sqrt(sum > S(0) ? sum : S(0)) * unit * sqrt(unit_of_K);
+    q.sum += part;
+    index const terms = length_of_part + count / length_of_part + longest_ + 8;
+    q.lost = S(2 * terms) * std::numeric_limits<S>::epsilon() * moduli;
+    return q;
+  }
+  [[nodiscard]] static S root(S const& sum, square const& q) {
+    using std::sqrt;
+    if (!(sum > S(0))) return sum == sum ? S(0) : sum;
+    return sqrt(sum) * q.unit * sqrt(q.unit_of_K);
+  }
+  /// ‖v‖_K from above.
+  [[nodiscard]] S most_energy(vector_type const& v, std::vector<index> const& unknowns) const {
+    auto const q = energy(v, unknowns, [](index, S const&) {});
+    return root(S(q.sum + q.lost), q);
+  }
+  /// ‖u‖_K from K u = t − ρ, both in doubled precision; from below where a proof was asked for.
+  [[nodiscard]] S size_of(vector_type const& u) const {
+    using std::abs;
+    square q;
+    q.unit = unit_near(S(u.stableNorm()));
+    q.unit_of_K = unit_near(S((load_ - residual_).stableNorm() / q.unit));
+    S moduli(0);
+    for (index j = 0; j < u.size(); ++j) {
+      S const term = (u(j) / q.unit) * ((load_(j) - residual_(j)) / q.unit / q.unit_of_K);
+      q.sum += term;
+      moduli += abs(term) + abs(u(j) / q.unit) * abs(load_(j) / q.unit / q.unit_of_K);
+    }
+    if (is_proven_) q.sum -= S(2 * (u.size() + 8)) * std::numeric_limits<S>::epsilon() * moduli;
+    return root(q.sum, q);
   }
   /// ‖v‖_K for what extension_by_zero has left.
   [[nodiscard]] S tail_norm() const {
@@ -353,26 +437,38 @@ class certificate {
     v_ *= unit;
   }
 
-  /// ε of u, which is refined where that pays; ρ in doubled precision.
+  /// ε of u, which is refined where that pays; ρ in doubled precision. Sets size_.
   template <class Solve>
   [[nodiscard]] S recover(vector_type const& λ, vector_type& u, S const& goal, Solve const& solve) {
     using std::sqrt;
+    S const eps = std::numeric_limits<S>::epsilon();
     S last = std::numeric_limits<S>::infinity();
     for (index pass = 0;; ++pass) {
       residual(λ, u);
       w_.setZero(u.size());
       solve(residual_, w_);
       ++solves_;
-      note_quotient(residual_.stableNorm(), w_.stableNorm());
-      S const correction = energy_norm(w_);
-      // ρ − K w, of second order.
-      second_.resize(u.size());
-      for (index j = 0; j < u.size(); ++j) {
-        second_(j) = detail::minus_column<S>(*K_, j, w_, residual_(j)).hi;
+      S const load = residual_.stableNorm();
+      note_quotient(load, w_.stableNorm());
+      size_ = size_of(u);
+      image_.resize(u.size());
+      auto const energy_of_w =
+          energy(w_, all_, [&](index j, S const& value) { image_(j) = value; });
+      S const correction = root(S(energy_of_w.sum + energy_of_w.lost), energy_of_w);
+      // ρ − K w, of second order, with what rounding has taken from ρ and from itself.
+      S const root_of_smallest = sqrt(smallest());
+      S plain = S(2 * (longest_ + 8)) * eps * (load + largest_ * w_.stableNorm());
+      second_ = residual_ - image_;
+      if (plain > S(0.1) * correction * root_of_smallest) {
+        for (index j = 0; j < u.size(); ++j) {
+          second_(j) = detail::minus_column<S>(*K_, j, w_, residual_(j)).hi;
+        }
+        plain = tiny_ * (load + largest_ * w_.stableNorm());
       }
-      S const second = second_.stableNorm() / sqrt(smallest());
-      S const size = energy_norm(u);
-      bool const enough = correction + second <= S(0.02) * goal * size;
+      S const doubled = tiny_ * (data_->f.stableNorm() + S(2) * size_of_B_ * λ.stableNorm() +
+                                 largest_ * u.stableNorm());
+      S const second = (second_.stableNorm() + plain + doubled + eps * load) / root_of_smallest;
+      bool const enough = correction + second <= S(0.02) * goal * size_;
       if (enough || pass >= 4 || !(correction < last / S(2)) ||
           !slant::detail::is_finite(correction)) {
         return correction + second;
@@ -385,15 +481,21 @@ class certificate {
         u(j) = sum.hi;
         w_(j) = sum.lo;
       }
-      S const rounded = energy_norm(w_);
-      if (second + rounded <= S(0.02) * goal * size || pass == 3) return second + rounded;
+      S const rounded = most_energy(w_, all_);
+      if (second + rounded <= S(0.02) * goal * size_ || pass == 3) {
+        size_ = size_ > correction ? S(size_ - correction) : S(0);
+        return second + rounded;
+      }
     }
   }
 
   void residual(vector_type const& λ, vector_type const& u) {
     residual_.resize(u.size());
+    load_.resize(u.size());
     for (index j = 0; j < u.size(); ++j) {
-      auto const sum = detail::minus_column<S>(B_, j, λ, data_->f(j));
+      auto sum = detail::minus_column<S>(B_, j, λ, data_->f(j));
+      sum = detail::minus_column<S>(B_, j, outward_, sum);
+      load_(j) = sum.hi;
       residual_(j) = detail::minus_column<S>(*K_, j, u, sum).hi;
     }
   }
@@ -413,12 +515,14 @@ class certificate {
   sparse_type const* K_;
   data<S> const* data_;
   sparse_type B_, rows_;  // B and Bᵀ
-  vector_type inverse_squares_, stiffness_;
-  std::vector<index> touched_;
+  vector_type inverse_squares_, stiffness_, positions_;
+  std::vector<index> touched_{}, all_{};  // unknowns of B; all
+  index longest_ = 0;                     // entries in a row of K or of B
+  S size_of_B_{0}, size_{0}, tiny_{0};
   S largest_{0}, smallest_{0}, quotient_{0}, rest_size_{0};
   bool is_orthogonal_ = true, is_proven_ = false;
   index solves_ = 0;
-  vector_type residual_, second_, w_, v_, g_, rest_, image_;
+  vector_type residual_, load_, second_, w_, v_, g_, rest_, image_, lost_, outward_;
 };
 
 }  // namespace slant::contact

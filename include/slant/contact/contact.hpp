@@ -43,6 +43,7 @@
 #include <slant/contact/solve_floating.hpp>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>
+#include <slant/contact/solve_options.hpp>
 #include <slant/contact/total_feti.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/contact/verify.hpp>

@@ -117,6 +117,18 @@ template <class S, class V>
          detail::motion_text(layout, body, own);
 }
 
+/// The free motions that made a factorisation refuse K; none if that has another reason.
+template <class S>
+[[nodiscard]] free_motions<S> motions_behind(bad_input const& refusal,
+                                             Eigen::SparseMatrix<S> const& K,
+                                             node_layout<S> const& layout) {
+  if (!std::string_view(refusal.what()).starts_with("K: got pivot")) return {};
+  auto motions = find_free_motions(K, layout);
+  // A matrix that is indefinite as well is no matter of supports.
+  if (!motions.undetermined.empty()) return {};
+  return motions;
+}
+
 /// The refusal of a factorisation of K, with the free motions of K if these are its cause.
 template <class S>
 [[nodiscard]] bad_input with_free_motions(bad_input const& refusal,

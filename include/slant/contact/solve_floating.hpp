@@ -18,6 +18,7 @@
 #pragma once
 
 #include <slant/contact/bodies.hpp>
+#include <slant/contact/detail/falling_motion.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/total_feti.hpp>
@@ -27,7 +28,6 @@
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/schur_contact.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -80,132 +80,13 @@ struct floating_solution {
 
 namespace detail {
 
-/// Does the energy fall for ever along w = R α: fᵀw > Σ gᵢ‖(T w)ᵢ‖, N w ≤ 0, and (T w)ᵢ = 0 where
-/// gᵢ = ∞? The last two hold up to a millionth of the first, over ‖f‖: forces that balance the load
-/// after all would add up to a million times as much as that.
-template <class S, class V>
-[[nodiscard]] bool falls_for_ever(data<S> const& c, V const& w) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  S const size = w.norm(), load = c.f.norm();
-  vector_type const normal = c.N * w, slip = c.T * w;
-  index const k = c.tangents();
-  S fall = c.f.dot(w), opposed(0);
-  for (index i = 0; i < c.nodes(); ++i) {
-    if (slant::detail::is_finite(c.d[i])) opposed = std::max<S>(opposed, normal[i]);
-    if (k == 0) continue;
-    S const length = slip.segment(k * i, k).norm();
-    if (slant::detail::is_finite(c.g[i]))
-      fall -= c.g[i] * length;
-    else
-      opposed = std::max<S>(opposed, length);
-  }
-  // What fᵀw may be by rounding alone.
-  S const rounding = S(1024) * std::numeric_limits<S>::epsilon() * load * size;
-  return fall > rounding && opposed <= S(1e-6) * (fall / load);
-}
-
-/// The nearest forces of Λ: λ_ν ≥ 0, and 0 where the gap is infinite; ‖λ_t,i‖ ≤ gᵢ/unit.
-template <class S>
-void project_forces(data<S> const& c, S const& unit, Eigen::Matrix<S, Eigen::Dynamic, 1>& λ) {
-  index const k = c.tangents(), m = c.nodes();
-  for (index i = 0; i < m; ++i) {
-    if (!(λ[i] > S(0)) || !slant::detail::is_finite(c.d[i])) λ[i] = S(0);
-    if (k == 0) continue;
-    S const length = λ.segment(m + k * i, k).norm(), most = c.g[i] / unit;
-    if (length > most) λ.segment(m + k * i, k) *= most / length;
-  }
-}
-
-/// A motion along which the energy falls for ever, where there is one: the resultants that no
-/// forces balance, w = R α, α = e − G λ with the least ‖e − G λ‖ over λ ∈ Λ, by an accelerated
-/// gradient method with restarts [O'Donoghue, Candès 2015]. By the optimality of λ it is αᵀ(G μ − G
-/// λ) ≤ 0 for all μ ∈ Λ, so N w ≤ 0 and fᵀw − Σ gᵢ‖(T w)ᵢ‖ = ‖α‖². Ends as soon as w proves that.
-template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> falling_motion(data<S> const& c,
-                                                                 Eigen::SparseMatrix<S> const& R,
-                                                                 index steps) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  Eigen::SparseMatrix<S> const Gt = stacked_constraints(c) * R, G = Gt.transpose();
-  vector_type e = R.transpose() * c.f;
-  S const unit = e.norm();
-  if (!(unit > S(0))) return R * e;
-  e /= unit;
-  dense_type const gram = dense_type(G * Gt);
-  S const L = Eigen::SelfAdjointEigenSolver<dense_type>(gram).eigenvalues().maxCoeff();
-  vector_type α = e, w = R * α;
-  if (!(L > S(0))) return w;
-  vector_type λ = vector_type::Zero(Gt.rows()), y = λ, next = λ;
-  S t(1);
-  for (index step = 1; step <= steps; ++step) {
-    using std::sqrt;
-    α = e - G * y;
-    next = y + Gt * α / L;
-    project_forces(c, unit, next);
-    if ((y - next).dot(next - λ) > S(0)) t = S(1);
-    S const t_next = (S(1) + sqrt(S(1) + S(4) * t * t)) / S(2);
-    y = next + ((t - S(1)) / t_next) * (next - λ);
-    t = t_next;
-    λ.swap(next);
-    if (step % 16 != 0 && step != steps) continue;
-    α = e - G * λ;
-    w = R * α;
-    if (falls_for_ever(c, w)) break;
-  }
-  return w;
-}
-
-/// R of all bodies, n_u × the number of their motions.
-template <class S>
-[[nodiscard]] Eigen::SparseMatrix<S> kernel_of(free_motions<S> const& motions, index unknowns) {
-  std::vector<Eigen::Triplet<S>> entries;
-  index column = 0;
-  for (auto const& body : motions.free) {
-    for (index k = 0; k < body.motions.cols(); ++k, ++column) {
-      for (std::size_t j = 0; j < body.unknowns.size(); ++j) {
-        entries.emplace_back(static_cast<int>(body.unknowns[j]), static_cast<int>(column),
-                             body.motions(static_cast<index>(j), k));
-      }
-    }
-  }
-  Eigen::SparseMatrix<S> R(unknowns, column);
-  R.setFromTriplets(entries.begin(), entries.end());
-  return R;
-}
-
-/// The claim that there is no solution, with its proof w; or that it could not be proven.
-template <class S>
-void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
-                        floating_options<S> const& o, floating_solution<S>& r) {
-  auto w = falling_motion(c, kernel_of(r.motions, K.rows()), index(20000));
-  S const size = w.norm();
-  if (size > S(0) && slant::detail::is_finite(size)) {
-    w /= size;
-    if (falls_for_ever(c, w)) {
-      r.status = slant::status::unbounded;
-      r.reason = "neither contact nor friction holds the bodies under this load: " +
-                 name_motion(K, w, o.layout);
-      r.descent = std::move(w);
-      return;
-    }
-  }
-  r.status = slant::status::stalled;
-  r.reason =
-      "no forces of contact and friction were found that balance the load, and no motion along "
-      "which the energy falls for ever";
-}
-
 /// `converged` stands only beside an independent check.
 template <class S>
 void check_claim(Eigen::SparseMatrix<S> const& K, data<S> const& c, S const& tolerance,
                  floating_solution<S>& r) {
   r.residual = check_optimality(K, c, r.u, r.lambda).residual();
   if (r.status != slant::status::converged) return;
-  // K u has rounding errors of ε ‖K‖ ‖u‖, however far the bodies have moved.
-  S const force = std::max<S>(c.f.norm(), (c.N.transpose() * r.lambda.head(c.nodes())).norm());
-  S const rounding =
-      S(64) * std::numeric_limits<S>::epsilon() * slant::detail::largest_row_sum(K) * r.u.norm();
-  S const allowed = S(1000) * tolerance + (force > S(0) ? S(rounding / force) : S(0));
+  S const allowed = allowed_residual(K, c, tolerance, r.u, r.lambda);
   if (r.residual <= allowed) return;
   r.status = slant::status::stalled;
   r.reason = "the method has converged (" + r.reason +
@@ -229,7 +110,7 @@ void solve_without_friction(Eigen::SparseMatrix<S> const& K, data<S> const& c,
   r.u = problem.displacement(run.x());
   r.lambda.setZero(c.N.rows() + c.T.rows());
   r.lambda.head(c.N.rows()) = run.state.multipliers();
-  if (r.status == slant::status::unbounded) conclude_unbounded(K, c, o, r);
+  if (r.status == slant::status::unbounded) conclude_unbounded(K, c, o.layout, r);
 }
 
 /// The unknowns body after body: entry j is an unknown of K.
@@ -301,10 +182,10 @@ void solve_with_friction(Friction friction, Eigen::SparseMatrix<S> const& K, dat
     r.work = run.state.work;
     r.lambda = run.x();
     r.u = unsorted(problem.displacement(run.x(), method.multipliers(run.state)));
-    if (run.state.infeasible) conclude_unbounded(K, c, o, r);
+    if (run.state.infeasible) conclude_unbounded(K, c, o.layout, r);
   } catch (bad_input const& refusal) {
     if (!std::string_view(refusal.what()).starts_with("f: got a load that moves")) throw;
-    conclude_unbounded(K, c, o, r);
+    conclude_unbounded(K, c, o.layout, r);
   }
 }
 

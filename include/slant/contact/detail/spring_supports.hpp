@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact of bodies that supports do not hold, by springs that give way: the proximal point method
+//
+//     u⁺ = argmin { q(u) + ½ ‖u − u⁻‖²_D },     D = σ diag(K)  at the fixing rows of the kernel of
+//     K,
+//                                                   0          elsewhere.
+//
+// Springs at as many unknowns as there are free motions make K + D definite, so that each step is a
+// problem of bodies that supports hold, with one factorisation for all. q(u) = ½ uᵀK u − fᵀu + … on
+// the admissible u has a minimum u*, or not:
+//
+//     it has   the forces D (u⁻ − u⁺) of the springs go to 0 [Rockafellar 1976]: by about a factor
+//     σ
+//              a step where contact holds the bodies as firmly as K itself does. D (u⁻ − u⁺) is a
+//              subgradient of q at u⁺ and q is strongly convex in ‖·‖_K, so that
+//
+//                  ‖u⁺ − u*‖²_K ≤ (u⁻ − u⁺)ᵀD (u⁺ − u*) ≤ t ‖u⁺ − u*‖_D,    t = ‖u⁺ − u⁻‖_D,
+//
+//              with ‖u⁺ − u*‖_D ≈ t θ/(1 − θ), θ the factor by which t falls: an estimate
+//     not      u⁺ − u⁻ tends to a motion along which the energy falls for ever [Brézis, Reich]; it
+//              is checked (falling_motion.hpp) and is the proof
+//
+// Cost: one factorisation of the size of K, and 2 to 4 problems, all but the first of which begin
+// at the solution of the one before.
+#pragma once
+
+#include <slant/contact/detail/falling_motion.hpp>
+#include <slant/contact/free_motions.hpp>
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/solve_options.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::contact::detail {
+
+/// The unknowns that hold all bodies if they are fixed.
+template <class S>
+[[nodiscard]] std::vector<index> fixing_unknowns(free_motions<S> const& motions) {
+  std::vector<index> list;
+  for (auto const& body : motions.free) {
+    for (index const row : fixing_rows(body.motions)) {
+      list.push_back(body.unknowns[static_cast<std::size_t>(row)]);
+    }
+  }
+  return list;
+}
+
+/// √(vᵀK v), from the products with K.
+template <class S, class V>
+[[nodiscard]] S elastic_norm(Eigen::SparseMatrix<S> const& K, V const& v) {
+  using std::sqrt;
+  S const size = v.stableNorm();
+  if (!(size > S(0))) return size;
+  V const unit = v / size;
+  S const unit_of_K = slant::detail::largest_row_sum(K);
+  S const square = unit.dot(V(K * unit)) / unit_of_K;
+  return square > S(0) ? S(size * sqrt(square) * sqrt(unit_of_K)) : S(0);
+}
+
+/// The method at the top of this file; Run(K + D, data, options) is certified_run.
+template <class Run, class S>
+class spring_supports {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  spring_supports(sparse_type const& K, data<S> const& c, solve_options<S> const& o,
+                  free_motions<S> motions)
+      : K_(&K), original_(&c), data_(c), options_(o), R_(kernel_of(motions, K.rows())) {
+    for (index const j : fixing_unknowns(motions)) places_.push_back(j);
+    sum_.motions = std::move(motions);
+    anchor_.setZero(K.rows());
+  }
+  spring_supports(spring_supports const&) = delete;
+  spring_supports& operator=(spring_supports const&) = delete;
+
+  template <class... Observers>
+  [[nodiscard]] solution<S> run(Observers&... observers) {
+    if (options_.start) λ_ = *options_.start;
+    for (S soft = S(0x1p-16);; soft *= S(0x1p-10)) {
+      // Stiff springs make good systems; soft ones cover distances, for which three digits do.
+      if (run_with_springs(S(0x1p-6), false, observers...)) break;
+      if (soft < S(0x1p-40)) {
+        conclude_unbounded(*K_, *original_, options_.layout, sum_);
+        break;
+      }
+      if (run_with_springs(soft, true, observers...)) break;
+    }
+    if (!sum_.converged() && sum_.status != status::unbounded) {
+      sum_.reason += " (" + sum_.motions.sentence() + ")";
+    }
+    return std::move(sum_);
+  }
+
+ private:
+  void set_springs(S const& σ) {
+    S const typical = slant::detail::largest_row_sum(*K_);
+    sparse_type springs(K_->rows(), K_->cols());
+    std::vector<Eigen::Triplet<S>> entries;
+    stiffness_.clear();
+    for (index const j : places_) {
+      S const own = K_->coeff(j, j);
+      stiffness_.push_back(σ * (own > S(0) ? own : typical > S(0) ? typical : S(1)));
+      entries.emplace_back(static_cast<int>(j), static_cast<int>(j), stiffness_.back());
+    }
+    springs.setFromTriplets(entries.begin(), entries.end());
+    supported_ = *K_ + springs;
+    supported_.makeCompressed();
+  }
+
+  /// ‖v‖_D.
+  [[nodiscard]] S spring_norm(vector_type const& v) const {
+    using std::sqrt;
+    vector_type part(static_cast<index>(places_.size()));
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      part(static_cast<index>(i)) = sqrt(stiffness_[i]) * v(places_[i]);
+    }
+    return part.stableNorm();
+  }
+
+  /// The load and the data as seen from r, the rigid part of the anchor.
+  void move_origin() {
+    origin_ = R_ * vector_type(R_.transpose() * anchor_);
+    vector_type const image = *K_ * origin_;
+    data_.f = original_->f - image;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      data_.f(places_[i]) += stiffness_[i] * (anchor_(places_[i]) - origin_(places_[i]));
+    }
+    data_.d = original_->d - original_->N * origin_;
+    positions_ = -(original_->T * origin_);
+  }
+
+  /// Whether there is a verdict; none where the springs are too stiff, or after a few steps with
+  /// soft ones.
+  template <class... Observers>
+  [[nodiscard]] bool run_with_springs(S const& σ, bool is_soft, Observers&... observers) {
+    using std::sqrt;
+    S t_before = std::numeric_limits<S>::infinity(), θ(0.5);
+    S goal = is_soft ? S(1e-3) : S(S(0.3) * options_.tolerance);
+    S tolerance = std::max<S>(goal, S(1e-3));
+    int const steps = is_soft ? 3 : 100;
+    std::optional<Run> method;
+    set_springs(σ);
+    for (int step = 0, slow = 0; step < steps && slow < 4; ++step) {
+      index const left = options_.max_steps - sum_.iterations;
+      index const budget = is_soft ? std::min<index>(left, 200) : left;
+      if (!method) {
+        auto o = options_;
+        o.prove = false;
+        o.tolerance = tolerance;
+        o.max_steps = budget;
+        if (λ_.size() > 0) o.start = λ_;
+        data_.d = original_->d;
+        method.emplace(supported_, data_, o);
+      }
+      if (sum_.springs > 0) {
+        move_origin();
+        method->reload(λ_, positions_, tolerance, budget);
+      }
+      auto found = method->run(observers...);
+      S const supported_size = found.error.size, inner = found.error.bound;
+      if (origin_.size() > 0) found.u += origin_;
+      vector_type moved = found.u - anchor_;
+      S const t = spring_norm(moved);
+      take(found);
+      bool const is_over = sum_.status == status::unbounded ||
+                           (sum_.status == status::iteration_limit && budget == left);
+      // The rigid part of the motion, if it goes on like that.
+      moved = R_ * vector_type(R_.transpose() * moved);
+      S const length = moved.norm();
+      if (!is_over && step > 0 && length > S(0) && slant::detail::is_finite(length) &&
+          falls_for_ever(*original_, vector_type(moved / length))) {
+        // The shortest such motion has the simplest name.
+        conclude_unbounded(*K_, *original_, options_.layout, sum_);
+        if (sum_.status != status::unbounded) {
+          conclude_unbounded(*K_, *original_, options_.layout, std::move(moved), sum_);
+        }
+        return true;
+      }
+      bool const at_rest = !(t > S(4) * inner);
+      if (step > 0 && !at_rest) {
+        S const factor = t / t_before;
+        θ = std::clamp<S>(factor, S(0x1p-12), S(0.999));
+        slow = factor > S(0.5) ? slow + 1 : 0;
+      }
+      t_before = t;
+      S const spring = t > S(0) ? S((t + inner) * sqrt(θ / (S(1) - θ))) : S(0);
+      sum_.error.bound = inner + spring;
+      sum_.error.size = elastic_norm(*K_, sum_.u);
+      sum_.error.proven = false;
+      if (is_over) return true;  // also where no u satisfies the constraints
+      if ((step > 0 || t == S(0)) && sum_.error.relative() <= options_.tolerance) {
+        finish(status::converged);
+        return true;
+      }
+      if (at_rest && step > 1 && found.status == status::stalled) {
+        finish(status::stalled);
+        return true;
+      }
+      anchor_ = sum_.u;
+      if (at_rest) goal *= S(0.3);  // the rest is what the inner tolerance leaves
+      // What the springs store is no part of the elastic energy that the tolerance is relative to.
+      S const share = supported_size > S(0) ? S(sum_.error.size / supported_size) : S(1);
+      S const next = std::max<S>(S(0.1) * θ * tolerance, goal);
+      tolerance = next * std::min<S>(S(1), share);
+    }
+    return false;
+  }
+
+  void take(solution<S>& found) {
+    sum_.u = std::move(found.u);
+    λ_ = found.multipliers;
+    sum_.multipliers = std::move(found.multipliers);
+    sum_.status = found.status;
+    sum_.reason = std::move(found.reason);
+    sum_.error = found.error;
+    sum_.condition = found.condition;
+    sum_.iterations += found.iterations;
+    sum_.work.operator_applications += found.work.operator_applications;
+    sum_.work.setup_applications += found.work.setup_applications;
+    sum_.work.inner_iterations += found.work.inner_iterations;
+    sum_.work.factorizations += found.work.factorizations;
+    sum_.solves += found.solves;
+    sum_.corrections += found.corrections;
+    sum_.scaled = found.scaled;
+    sum_.factorization = std::move(found.factorization);
+    ++sum_.springs;
+  }
+
+  /// The verdict, beside an independent check.
+  void finish(slant::status verdict) {
+    auto const known = sum_.error.sentence();
+    sum_.status = verdict;
+    if (verdict == status::converged) {
+      S const residual = check_optimality(*K_, *original_, sum_.u, sum_.multipliers).residual();
+      S const allowed =
+          allowed_residual(*K_, *original_, options_.tolerance, sum_.u, sum_.multipliers);
+      sum_.reason = known + ", at most " + slant::detail::show(options_.tolerance);
+      if (residual <= allowed) return;
+      sum_.status = status::stalled;
+      sum_.reason = known + ", but the optimality conditions have the residual " +
+                    slant::detail::show(residual) + ", more than " + slant::detail::show(allowed);
+    } else {
+      sum_.reason = known + ": rounding errors allow no more";
+    }
+  }
+
+  sparse_type const* K_;
+  data<S> const* original_;
+  data<S> data_;  // with the forces of the springs
+  solve_options<S> options_;
+  sparse_type R_, supported_{};
+  std::vector<index> places_{};
+  std::vector<S> stiffness_{};
+  vector_type anchor_{}, origin_{}, positions_{}, λ_{};
+  solution<S> sum_{};
+};
+
+}  // namespace slant::contact::detail

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// Options and result of contact::solve.
+#pragma once
+
+#include <slant/certificates/energy_error.hpp>
+#include <slant/concepts/checks.hpp>
+#include <slant/contact/free_motions.hpp>
+#include <slant/contact/node_layout.hpp>
+#include <slant/factorizations/condensation_options.hpp>
+#include <slant/iteration/iteration.hpp>
+#include <slant/iteration/stopping.hpp>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+
+namespace slant::contact {
+
+/// Options of contact::solve.
+template <class S = double>
+struct solve_options {
+  S tolerance = S(1e-8);   ///< relative error in the energy norm, in [0, 1); 0: as far as possible
+  bool prove = false;      ///< prove the bound: one more factorisation of the size of K
+  index max_steps = 5000;  ///< of Newton's method, and of its fallback, in all
+  bool scale = true;       ///< whether rows of B may be scaled
+  condensation_options condensation{};
+  /// λ to start from; none: conjugate gradients without the constraints.
+  std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
+  node_layout<S> layout{};  ///< gives motions of bodies without supports their names
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  void validate() const {
+    slant::detail::checked_tolerance(tolerance);
+    if (max_steps < 0) throw bad_input("max_steps", slant::detail::show(max_steps), "at least 0");
+    condensation.validate();
+  }
+};
+
+/// What contact::solve found.
+template <class S = double>
+struct solution {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  vector_type u;            ///< displacements, n_u
+  vector_type multipliers;  ///< (λ_ν, λ_t): forces of the contact nodes, in Λ
+  slant::status status = slant::status::running;
+  std::string reason;       ///< the status as a sentence
+  energy_error<S> error{};  ///< what is known of ‖u − u*‖_K
+  S condition{0};           ///< estimate of the condition number of K
+  index iterations = 0;     ///< steps of the method
+  slant::work work{};       ///< applications of A, factorisations
+  index solves = 0;         ///< solves with K
+  index springs = 0;        ///< problems with springs that were solved for bodies without supports
+  index corrections = 0;    ///< how often b was corrected
+  bool scaled = false;      ///< whether rows of B were scaled
+  std::string factorization;  ///< what factored K, and how
+  free_motions<S> motions{};  ///< what K leaves free; empty if supports hold all bodies
+  vector_type descent{};      ///< where unbounded by a free motion: that motion
+
+  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
+};
+
+}  // namespace slant::contact
