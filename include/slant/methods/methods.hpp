@@ -22,6 +22,7 @@
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
+#include <slant/methods/face_preconditioner.hpp>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/gradient_point.hpp>
 #include <slant/methods/imssn.hpp>
