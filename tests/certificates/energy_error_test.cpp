@@ -249,15 +249,18 @@ struct opaque {
 
 TEST_CASE("unknowns in units of their own, 1e8 to either side, do not hide the error") {
   int const n = 12;
-  VectorXd units(n);
-  MatrixXd A(n, n);
-  for (int i = 0; i < n; ++i) units(i) = std::pow(10.0, 8.0 * std::sin(1.7 * i));
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      A(i, j) = units(i) * units(j) * ((i == j ? 1 : 0) + 0.3 / (1 + std::abs(i - j)));
+  VectorXd units(n), rest(n);
+  MatrixXd alike(n, n);
+  for (int i = 0; i < n; ++i) {
+    units(i) = std::pow(10.0, 8.0 * std::sin(1.7 * i));
+    // Small where the gradient is in large units, as methods leave it that look at its norm.
+    rest(i) = units(i) > 1 ? 1e-10 : 1e-3;
+    for (int j = 0; j < n; ++j) alike(i, j) = (i == j ? 1 : 0) + 0.3 / (1 + std::abs(i - j));
+  }
+  MatrixXd const A = units.asDiagonal() * alike * units.asDiagonal();
   VectorXd const solution = units.cwiseInverse(), b = A * solution;
-  VectorXd const error = 1e-3 * solution.cwiseProduct(VectorXd::LinSpaced(n, -1, 1));
-  double const truth = std::sqrt(error.dot(A * error));
+  VectorXd const scaled = alike.ldlt().solve(rest), error = scaled.cwiseQuotient(units);
+  double const truth = std::sqrt(scaled.dot(rest));
   auto const free = slant::free_components<double>(n);
   auto const M = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A);
   slant::separable_qp const known(M, b, free);
