@@ -42,11 +42,13 @@ struct dual_norm_result {
   index applications;  ///< of A
 };
 
-/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. NaN where A or M is not definite on
-/// what d needs.
+/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. `enough`, if positive: ends as soon as
+/// the value is known to be below or, since it only grows, above. NaN where A or M is not definite
+/// on what d needs.
 template <class A, class M, class V, class WA>
 [[nodiscard]] auto dual_norm(A const& a, M const& m, V const& d, index most, bool dominates,
-                             WA& of_a, dual_norm_workspace<V, M>& w)
+                             WA& of_a, dual_norm_workspace<V, M>& w,
+                             scalar_t<V> const& enough = scalar_t<V>(0))
     -> dual_norm_result<scalar_t<V>> {
   using S = scalar_t<V>;
   using std::sqrt;
@@ -69,6 +71,10 @@ template <class A, class M, class V, class WA>
     S const next = slant::inner_product(w.r, w.z);
     slant::local(w.p) = (next / rz) * slant::local(w.p) + slant::local(w.z);
     rz = next;
+    if (enough > S(0) && dominates) {
+      S const limit = enough / unit, least = sqrt(energy);
+      if (least > limit || least + sqrt(rz > S(0) ? rz : S(0)) <= limit) break;
+    }
     if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) break;
   }
   // M vanishes along what is left of d, or is not semidefinite: nothing is known of it.
