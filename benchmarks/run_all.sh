@@ -26,6 +26,8 @@
 #   projector_threads   seconds with one and with two threads (with OpenMP), and whether bits agree
 #   total_feti          Total-FETI: outer and inner steps on 2 to 64 subdomains
 #   condensation        a frictional contact problem over one linear solve, brick k = 8, 12, 16, 24
+#   certificates        claimed over true error, what a certificate costs, and contact::solve beside
+#                       the lines of an expert: bricks k = 4, 6, 8, 12; generic programs
 #   load_steps          twenty load steps against the first one and against cold solves
 #   coulomb             Coulomb friction on the brick against Tresca's problem at its slip bounds
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
@@ -53,7 +55,7 @@ programs=$tree/benchmarks
 all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  load_steps coulomb coulomb_models multilevel multilevel_large stability
+  certificates load_steps coulomb coulomb_models multilevel multilevel_large stability
   random_programs friction friction_variants precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
@@ -127,6 +129,9 @@ run_projector_threads() {  # threads that wait must not keep a core from those t
 run_active_sets() { "$(program active_set_products)" brick >"$output/active_sets.csv"; }
 run_condensation() {  # nor has CHOLMOD any use of its four threads beside it
   OMP_THREAD_LIMIT=1 "$(program condensation)" 8 12 16 24 >"$output/condensation.csv"
+}
+run_certificates() {
+  OMP_THREAD_LIMIT=1 "$(program certificates)" >"$output/certificates.csv"
 }
 run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
 run_coulomb() { "$(program coulomb)" brick >"$output/coulomb.csv"; }
@@ -345,6 +350,7 @@ write_summary() {
   section active_sets "Products of the published active set methods"
   section total_feti "Total-FETI, H/h = 4, relative accuracy 1e-10"
   section condensation "Contact with friction over one linear solve: brick, relative energy error at most 1e-8"
+  section certificates "Certificates: claimed over true error, share of a solve, and an expert's lines"
   section load_steps "Twenty load steps, relative energy error 1e-8"
   section coulomb "Coulomb friction 0.3: products until the relative energy error is at most 1e-8"
   section coulomb_models "The same on two bricks and two plates"

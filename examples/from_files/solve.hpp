@@ -122,7 +122,7 @@ template <class Friction>
   auto const A = dual.a();
   auto wa = slant::workspace(A, dual.b());
   slant::dual_norm_workspace norm_workspace(M, dual.b());
-  auto const sharper = [&](Eigen::VectorXd const& rest, double) {
+  auto const sharper = [&](Eigen::VectorXd const& rest, double, double) {
     return slant::dual_norm(A, M, rest, 12, true, wa, norm_workspace).value;
   };
   s.error_of = [&](Eigen::VectorXd const& forces) {

@@ -145,6 +145,20 @@ TEST_CASE("any set with a projection: an ellipse that is a disc splits as the di
   }
 }
 
+TEST_CASE("what leads from a rounded point to the sphere") {
+  for (int i = 1; i < 200; ++i) {
+    double const R = 0.1 * i;
+    vec2 const x(R * std::cos(0.7 * i), R * std::sin(0.7 * i));
+    vec2 const off = slant::to_sphere<double>(x, R);
+    CHECK(off.norm() <= 1e-15 * R);
+    long double const a = static_cast<long double>(x(0)) + off(0),
+                      b = static_cast<long double>(x(1)) + off(1);
+    CHECK(std::abs(double(std::sqrt(a * a + b * b) / R - 1)) <= 1e-18);
+  }
+  CHECK(slant::to_sphere<double>(vec2(0.5, 0), 1.0) == vec2(0, 0));
+  CHECK(slant::to_sphere<double>(vec2(0, 0), 0.0) == vec2(0, 0));
+}
+
 TEST_CASE("units: powers of two change nothing but the exponent") {
   vec2 const x(1.2, 1.6), g(-2, -1);
   auto const one = split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(2.0), x, g, 0.25);

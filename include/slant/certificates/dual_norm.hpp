@@ -57,12 +57,14 @@ struct gradient_size {
   S load;   ///< ‖b‖
 };
 
-/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. Infinite where A or M shows no
+/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. `enough`, if positive: ends as soon as
+/// the value is known to be below or, since it only grows, above. Infinite where A or M shows no
 /// curvature along what is left of d; with `sizes`, for a semidefinite A, only if that is more than
 /// rounding.
 template <class A, class M, class V, class WA>
 [[nodiscard]] auto dual_norm(A const& a, M const& m, V const& d, index most, bool dominates,
                              WA& of_a, dual_norm_workspace<V, M>& w,
+                             scalar_t<V> const& enough = scalar_t<V>(0),
                              std::optional<gradient_size<scalar_t<V>>> sizes = {})
     -> dual_norm_result<scalar_t<V>> {
   using S = scalar_t<V>;
@@ -107,6 +109,10 @@ template <class A, class M, class V, class WA>
     if (noise < S(0) && is_rounding()) {
       noise = slant::norm(w.r);
       without_noise = energy;
+    }
+    if (enough > S(0) && dominates) {
+      S const limit = enough / unit, least = sqrt(energy);
+      if (least > limit || least + sqrt(rz > S(0) ? rz : S(0)) <= limit) break;
     }
     if (noise >= S(0)) {
       if (slant::norm(w.r) <= noise / S(10)) break;

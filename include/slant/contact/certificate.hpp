@@ -25,7 +25,8 @@
 // taken for what it should be (without underflow; ε = 2u, γ_k = k ε):
 //
 //     ρ, c − B u   in doubled precision, rounded once: off by ε|ρ| + 8 (k + 4) ε² (|f| + |Bᵀ||λ| +
-//                  |K||u|) for rows of k entries; |K||u| has at most the length ‖K‖_∞ ‖u‖
+//                  |K||u|) for rows of k entries; |K||u| has at most the length ‖K‖_∞ ‖u‖. ρ in
+//                  extended precision (long double) while that shows the goal: 2 (k + 4) ε' for ε²
 //     ρ − K w      in plain precision: off by γ_{k+4} (|ρ| + |K||w|)
 //     ‖v‖²_K       the computed sum of p products in rows of k entries is off by γ_{p+k+8}
 //     |v|ᵀ|K||v|,
@@ -59,6 +60,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -177,10 +179,11 @@ class certificate {
   template <class Set, class Solve>
   [[nodiscard]] energy_error<S> operator()(Set const& set, vector_type& λ, vector_type& u,
                                            S const& goal, Solve const& solve) {
-    return (*this)(set, λ, u, goal, solve, [](vector_type const&, S const&) { return S(-1); });
+    return (*this)(set, λ, u, goal, solve,
+                   [](vector_type const&, S const&, S const&) { return S(-1); });
   }
-  /// The same where sharper(d, δ) → a bound or estimate of ‖d‖_{A⁻¹}, negative: none, is asked if
-  /// δ, from the extension by zero, does not show the goal.
+  /// The same where sharper(d, δ, enough) → a bound or estimate of ‖d‖_{A⁻¹}, negative: none, is
+  /// asked if δ, from the extension by zero, does not show the goal; `enough` would, if positive.
   template <class Set, class Solve, class Sharper>
   [[nodiscard]] energy_error<S> operator()(Set const& set, vector_type& λ, vector_type& u,
                                            S const& goal, Solve const& solve,
@@ -224,7 +227,9 @@ class certificate {
     S const δ_zero = extension_by_zero(rest_);
     e.bound = bound(δ_zero);
     if (e.relative() > goal) {
-      S const δ = sharper(std::as_const(rest_), δ_zero / e.size);
+      S const wanted = goal / (S(1) + goal) * e.size / grown - ε;
+      S const enough = wanted - balanced.gap / wanted - lost - ε - tail_norm();
+      S const δ = sharper(std::as_const(rest_), δ_zero, enough);
       // What no force of the contacts can move is in no range of A.
       S const sharp = δ >= S(0) ? bound(δ + tail_norm()) : e.bound;
       if (sharp < e.bound) {
@@ -259,7 +264,7 @@ class certificate {
   }
 
   /// √(vᵀK v).
-  [[nodiscard]] S energy_norm(vector_type const& v) const {
+  [[nodiscard]] S energy_norm(vector_type const& v) {
     auto const q = energy(v, all_, [](index, S const&) {});
     return root(q.sum, q);
   }
@@ -340,25 +345,26 @@ class certificate {
   /// v is zero but at these unknowns; note(j, (K v)_j) is called for them.
   template <class Note>
   [[nodiscard]] square energy(vector_type const& v, std::vector<index> const& unknowns,
-                              Note const& note) const {
+                              Note const& note) {
     using std::abs;
     square q;
     q.unit = unit_near(S(v.stableNorm()));
     q.unit_of_K = unit_near(largest_);
-    S const scale = S(1) / q.unit, scale_of_K = S(1) / q.unit_of_K;
+    S const scale_of_K = S(1) / q.unit_of_K;
+    scaled_ = v / q.unit;
     S part(0), moduli(0);
     constexpr index length_of_part = 256;
     index count = 0;
     for (index j : unknowns) {
       S column(0), size(0);
       for (typename sparse_type::InnerIterator e(*K_, j); e; ++e) {
-        S const term = (e.value() * scale_of_K) * (v(e.row()) * scale);
+        S const term = (e.value() * scale_of_K) * scaled_(e.row());
         column += term;
         size += abs(term);
       }
       note(j, S(column * q.unit * q.unit_of_K));
-      part += column * (v(j) * scale);
-      moduli += size * abs(v(j) * scale);
+      part += column * scaled_(j);
+      moduli += size * abs(scaled_(j));
       if (++count % length_of_part != 0) continue;
       q.sum += part;
       part = S(0);
@@ -374,7 +380,7 @@ class certificate {
     return sqrt(sum) * q.unit * sqrt(q.unit_of_K);
   }
   /// ‖v‖_K from above.
-  [[nodiscard]] S most_energy(vector_type const& v, std::vector<index> const& unknowns) const {
+  [[nodiscard]] S most_energy(vector_type const& v, std::vector<index> const& unknowns) {
     auto const q = energy(v, unknowns, [](index, S const&) {});
     return root(S(q.sum + q.lost), q);
   }
@@ -443,8 +449,11 @@ class certificate {
     using std::sqrt;
     S const eps = std::numeric_limits<S>::epsilon();
     S last = std::numeric_limits<S>::infinity();
+    auto const finer = static_cast<S>(std::numeric_limits<extended>::epsilon());
+    // Where the goal is not far, extended precision may do, which is ten times as fast.
+    bool is_doubled = !(S(1024) * finer < eps) || goal < S(0x1p22) * eps;
     for (index pass = 0;; ++pass) {
-      residual(λ, u);
+      is_doubled ? residual(λ, u) : extended_residual(λ, u);
       w_.setZero(u.size());
       solve(residual_, w_);
       ++solves_;
@@ -465,9 +474,14 @@ class certificate {
         }
         plain = tiny_ * (load + largest_ * w_.stableNorm());
       }
-      S const doubled = tiny_ * (data_->f.stableNorm() + S(2) * size_of_B_ * λ.stableNorm() +
-                                 largest_ * u.stableNorm());
-      S const second = (second_.stableNorm() + plain + doubled + eps * load) / root_of_smallest;
+      S const unit_of_sums = is_doubled ? tiny_ : S(S(2 * (longest_ + 4)) * finer);
+      S const sums = unit_of_sums * (data_->f.stableNorm() + S(2) * size_of_B_ * λ.stableNorm() +
+                                     largest_ * u.stableNorm());
+      S const second = (second_.stableNorm() + plain + sums + eps * load) / root_of_smallest;
+      if (!is_doubled && correction + second > S(0.02) * goal * size_) {
+        is_doubled = true;
+        continue;
+      }
       bool const enough = correction + second <= S(0.02) * goal * size_;
       if (enough || pass >= 4 || !(correction < last / S(2)) ||
           !slant::detail::is_finite(correction)) {
@@ -499,6 +513,24 @@ class certificate {
       residual_(j) = detail::minus_column<S>(*K_, j, u, sum).hi;
     }
   }
+  /// The same in extended precision.
+  void extended_residual(vector_type const& λ, vector_type const& u) {
+    residual_.resize(u.size());
+    load_.resize(u.size());
+    for (index j = 0; j < u.size(); ++j) {
+      auto sum = static_cast<extended>(data_->f(j));
+      for (typename sparse_type::InnerIterator e(B_, j); e; ++e) {
+        auto const force =
+            static_cast<extended>(λ(e.row())) + static_cast<extended>(outward_(e.row()));
+        sum -= static_cast<extended>(e.value()) * force;
+      }
+      load_(j) = static_cast<S>(sum);
+      for (typename sparse_type::InnerIterator e(*K_, j); e; ++e) {
+        sum -= static_cast<extended>(e.value()) * static_cast<extended>(u(e.row()));
+      }
+      residual_(j) = static_cast<S>(sum);
+    }
+  }
 
   /// λ_min(K) ≤ ‖K x‖/‖x‖ for every x.
   void note_quotient(S const& load, S const& response) {
@@ -512,6 +544,9 @@ class certificate {
     return smallest_ > S(0) ? smallest_ : quotient_ > S(0) ? S(quotient_ / S(1024)) : largest_;
   }
 
+  /// The next larger type, if there is one.
+  using extended = std::conditional_t<(sizeof(S) < sizeof(double)), double, long double>;
+
   sparse_type const* K_;
   data<S> const* data_;
   sparse_type B_, rows_;  // B and Bᵀ
@@ -522,7 +557,7 @@ class certificate {
   S largest_{0}, smallest_{0}, quotient_{0}, rest_size_{0};
   bool is_orthogonal_ = true, is_proven_ = false;
   index solves_ = 0;
-  vector_type residual_, load_, second_, w_, v_, g_, rest_, image_, lost_, outward_;
+  vector_type residual_, load_, second_, w_, v_, g_, rest_, image_, lost_, outward_, scaled_;
 };
 
 }  // namespace slant::contact

@@ -112,8 +112,9 @@ class certified_run {
     separable_qp const qp{dual_.a(C_), b_, set};
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
     vector_type const x0 = start(qp, M);
-    // The reduced gradient is some 3 to 10 times smaller than the error that goes with it.
-    S threshold = S(0.06) * options_.tolerance;
+    // The reduced gradient is some 3 to 10 times smaller than the error that goes with it, and the
+    // bound some 2 to 10 times larger. A few products more are less than a second phase.
+    S threshold = S(0.02) * options_.tolerance;
     index budget = options_.max_steps;
     auto const method = [&] {
       symmetric_newton_options<S> o;
@@ -194,11 +195,12 @@ class certified_run {
     result_.multipliers = d_.cwiseProduct(x);
     result_.u = dual_.displacement(result_.multipliers);
     ++result_.solves;
-    auto const sharper = [&](vector_type const& rest, S const& by_zero) {
+    auto const sharper = [&](vector_type const& rest, S const& by_zero, S const& enough) {
       // The extension by zero is rarely off by more than 30, and this is not the last word.
-      if (!is_last && by_zero > S(64) * options_.tolerance) return S(-1);
+      if (!is_last && by_zero > S(64) * enough) return S(-1);
       vector_type const scaled = rest.cwiseProduct(d_);
-      auto const norm = dual_norm(qp.a(), m, scaled, 12, true, wa, norm_workspace);
+      auto const norm =
+          dual_norm(qp.a(), m, scaled, 12, true, wa, norm_workspace, is_last ? S(0) : enough);
       result_.work.operator_applications += norm.applications;
       return norm.value;
     };
