@@ -117,7 +117,7 @@ class coulomb_certificate {
     data_.g = F_.cwiseProduct(λ_.head(F_.size()).cwiseMax(scalar(0)));
     auto const set = detail::feasible_set(typename Dual::friction_type{}, data_.nodes(), data_.g);
     if (shift_.size() > 0) u_ -= shift_;
-    auto const sharper = [&](vector_type const& rest, scalar const&) {
+    auto const sharper = [&](vector_type const& rest, scalar const&, scalar const&) {
       auto const norm = dual_norm(problem_->a(), M_, rest, 12, true, of_a_, of_norm_);
       applications_ += norm.applications;
       return norm.value;
