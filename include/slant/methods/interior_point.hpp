@@ -92,7 +92,8 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     slant::local(origin).setZero();
     bool const solved = s.begin(qp, origin);
     scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
-    scalar const start_force = options_.start_force.value_or(scalar(s.pairs.empty() ? 0.3 : 0.6));
+    scalar const start_force =
+        detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
     scalar const force = start_force * norm(s.r) * per_entry;
     scalar const length = options_.start_length * this->first_way(s) * per_entry;
     if (!solved) this->choose_start(s, x0);
@@ -167,10 +168,10 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
   }
 
   [[nodiscard]] scalar correct_below(state_type const& s) const {
-    return options_.correct_below.value_or(scalar(s.pairs.empty() ? 0 : 0.3));
+    return detail::set_or(options_.correct_below, scalar(s.pairs.empty() ? 0 : 0.3));
   }
   [[nodiscard]] scalar least_centring(state_type const& s) const {
-    return options_.centring_least.value_or(scalar(s.pairs.empty() ? 0.1 : 0.2));
+    return detail::set_or(options_.centring_least, scalar(s.pairs.empty() ? 0.1 : 0.2));
   }
 
   /// c where a step had the length α [Mehrotra].

@@ -12,6 +12,16 @@
 
 namespace slant {
 
+namespace detail {
+
+/// The option if it is set. Not inlined: g++ 12 would see a value read where there is none.
+template <class S>
+[[nodiscard, gnu::noinline]] S set_or(std::optional<S> const& option, S const& otherwise) {
+  return option ? *option : otherwise;
+}
+
+}  // namespace detail
+
 /// Options of interior_point. Defaults are the constants of [K §3.2.4] but for c_min (1e-30 there),
 /// the inner accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with
 /// the fewest products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples
