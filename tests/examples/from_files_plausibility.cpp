@@ -140,7 +140,8 @@ TEST_CASE("from_files: a body that contact and friction hold, without supports")
                 ": body 0 (unknowns 0 to 47) has 6 free motions");
 }
 
-TEST_CASE("from_files: coordinates that do not fit, and messages without names of C++") {
+TEST_CASE(
+    "from_files: coordinates that do not fit; the interior-point method with a slip bound 0") {
   problem_files const files(brick());
   auto const with = [&](std::string const& text, std::string const& expected) {
     files.put("x.mtx", text);
@@ -155,8 +156,8 @@ TEST_CASE("from_files: coordinates that do not fit, and messages without names o
   scene.g[2] = 0;
   problem_files const smooth(scene);
   auto const ran = smooth.solve("--method interior_point");
-  check_refusal(ran, "expected points with f(x) < 0, which components with one value");
-  CHECK(!contains(ran.err, "slant::"));
+  CHECK(ran.status == 0);
+  CHECK(contains(ran.out, "\"status\":\"converged\""));
 }
 
 }  // namespace from_files_plausibility

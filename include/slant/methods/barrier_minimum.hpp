@@ -124,6 +124,7 @@ class barrier_minimum {
       slant::local(far_) = slant::local(d).cwiseProduct(slant::local(z_));
       barrier.stiffness().apply_add(scalar(1), near_, far_);
       slant::apply(barrier.preconditioner(), far_, z_);
+      barrier.keep_fixed(z_);
     } else {
       static_cast<void>(m);
       static_cast<void>(d);
