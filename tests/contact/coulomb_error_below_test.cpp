@@ -12,6 +12,7 @@
 #include <slant/iteration/solve.hpp>
 
 #include <doctest/doctest.h>
+#include <support/optimised.hpp>
 
 #include <string>
 
@@ -87,19 +88,22 @@ void check_scene(Eigen::SparseMatrix<double> const& K, contact::data<double> con
   });
 }
 
-TEST_CASE("a slender brick, by each method alone: converged is true") {
+TEST_CASE("a slender brick, by each method alone: converged is true" *
+          doctest::skip(!test::is_optimised)) {
   auto const s = fem::make_steel_brick(
       {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(300, 1, 1)});
   check_scene(s.K, test::contact_data(s), 1e-4, true);
 }
 
-TEST_CASE("a thin brick: more than rounding allows is asked for, and no method says that it is") {
+TEST_CASE("a thin brick: more than rounding allows is asked for, and no method says that it is" *
+          doctest::skip(!test::is_optimised)) {
   auto const s = fem::make_steel_brick(
       {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(3, 1, 1e-4)});
   check_scene(s.K, test::contact_data(s), 1e-5, false);
 }
 
-TEST_CASE("a block that hardly anything holds: not every method solves it, none says so wrongly") {
+TEST_CASE("a block that hardly anything holds: not every method solves it, none says so wrongly" *
+          doctest::skip(!test::is_optimised)) {
   auto const s = test::spring_block<3>(1, 1e-6);
   int solved = 0;
   with_each_method(s.K, s.contact, 1e-8,

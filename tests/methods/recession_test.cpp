@@ -92,7 +92,8 @@ TEST_CASE("no direction: the set is in the way, the way is not flat, or it does 
 TEST_CASE("a direction that looks flat and is not is confirmed only now and then") {
   slant::recession_watch<VectorXd> watch(VectorXd(2), 2);
   slant::index spent = 0;
-  auto const qp = program(slant::half_lines(2), 1e-9);
+  auto const set = slant::half_lines(2);
+  auto const qp = program(set, 1e-9);
   for (int k = 0; k < 1000; ++k) {
     auto s = at(1, k);
     CHECK_FALSE(watch.found(qp, s));
