@@ -319,6 +319,15 @@ TEST_CASE("verify: bad input, NaN and nothing at all") {
   CHECK(check.outside_cone.contact == 1);
   CHECK(std::isnan(check.complementarity.relative));
 
+  // Where nothing moves (W = 0, q = 0) every force is a solution; an infinite one is no force.
+  auto unmoved = p;
+  unmoved.W.setZero();
+  unmoved.q.setZero();
+  CHECK(verify(unmoved, test::numbers({1, 0.5})).unit_free_map == 0);
+  double const infinity = std::numeric_limits<double>::infinity();
+  CHECK(std::isnan(verify(unmoved, test::numbers({infinity, 0})).unit_free_map));
+  CHECK(std::isnan(verify(unmoved, test::numbers({infinity, 0})).relative_natural_map));
+
   friction_problem<> const empty;
   auto const nothing = verify(empty, Eigen::VectorXd());
   CHECK(nothing.natural_map == 0);

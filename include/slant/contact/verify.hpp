@@ -100,6 +100,13 @@ template <class S>
   return μ <= S(1) ? S(sqrt(S(1) + μ * μ)) : S(μ * sqrt(S(1) + S(1) / μ / μ));
 }
 
+/// Whether the components are finite.
+template <class S>
+[[nodiscard]] bool is_force(contact_vector<S> const& r) {
+  using slant::detail::is_finite;
+  return is_finite(r[0]) && is_finite(r[1]) && is_finite(r[2]);
+}
+
 /// r − P_K(r − v) of one contact, and which of the three faces of K the projection is on.
 template <class S>
 [[nodiscard]] contact_vector<S> natural_map(contact_vector<S> const& r, contact_vector<S> const& v,
@@ -207,7 +214,7 @@ void take_larger(violation<S>& worst, S const& value, index contact) {
 }  // namespace detail
 
 /// Evaluates the law at the forces r of a problem, contact by contact as its q. ρ > 0 is a force
-/// over a velocity. A NaN in r shows in the figures. Throws bad_input for a problem that is not
+/// over a velocity. A force that is not finite gives NaN as its maps. Throws bad_input for a problem that is not
 /// valid, and for a size of r or a ρ that does not fit.
 template <class S>
 [[nodiscard]] friction_check<S> verify(friction_problem<S> const& p,
@@ -244,7 +251,7 @@ template <class S>
     block v = slant::detail::multiple_of(ρ, ui);
     v[0] += μ * detail::tangential_length(v);
     auto& c = all.contacts[static_cast<std::size_t>(i)];
-    block const F = detail::natural_map(ri, v, μ, c.state);
+    block F = detail::natural_map(ri, v, μ, c.state);
     // The same in units of the contact: forces times √w, velocities over it.
     contact_state ignored{};
     block const own = slant::detail::multiple_of(root[i], ri);
@@ -258,7 +265,12 @@ template <class S>
                             : μ;
     bool const forceless = own[0] == S(0) && own[1] == S(0) && own[2] == S(0);
     y[0] += sliding_μ * detail::tangential_length(y);
-    block const E = detail::natural_map(own, y, μ, ignored);
+    block E = detail::natural_map(own, y, μ, ignored);
+    // Where nothing depends on a force (W = 0, say) an infinite one would pass.
+    if (!detail::is_force(ri)) {
+      F.setConstant(std::numeric_limits<S>::quiet_NaN());
+      E = F;
+    }
     c.unit_free_map = slant::detail::length_of(E);
     detail::take_larger(all.worst, c.unit_free_map, i);
     for (index k = 0; k < d; ++k) {
