@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-#   cmake -DPROGRAM=… -DTARGET=small_qp -DINPUTS=tests/fuzz -DOUTPUT=folder -DSECONDS=10 -P run.cmake
+#   cmake -DPROGRAM=… -DTARGET=small_qp -DINPUTS=tests/fuzz -DOUTPUT=folder -DRUNS=10000 -P run.cmake
 #
-# All inputs that are kept, one run of the program, then new ones for so many seconds. An input that
-# fails is in OUTPUT/failed: once mended it belongs into tests/fuzz/found/<target>/.
+# All inputs that are kept, one run of the program, then so many new ones, the same ones every time
+# (on a slow machine as many as a minute allows). An input that fails is in OUTPUT/failed: once
+# mended it belongs into tests/fuzz/found/<target>/.
 file(REMOVE_RECURSE "${OUTPUT}")
 file(MAKE_DIRECTORY "${OUTPUT}/new" "${OUTPUT}/failed")
 file(GLOB kept "${INPUTS}/corpus/${TARGET}/*" "${INPUTS}/found/${TARGET}/*")
@@ -13,8 +14,8 @@ if(NOT status EQUAL 0)
   message(FATAL_ERROR "an input of ${INPUTS}/{corpus,found}/${TARGET} fails\n${said}")
 endif()
 execute_process(
-  COMMAND "${PROGRAM}" ${limits} -seed=1 -max_len=1024 -max_total_time=${SECONDS}
-          -print_final_stats=1 "${OUTPUT}/new" "${INPUTS}/corpus/${TARGET}"
+  COMMAND "${PROGRAM}" ${limits} -seed=1 -reload=0 -max_len=1024 -runs=${RUNS}
+          -max_total_time=60 -print_final_stats=1 "${OUTPUT}/new" "${INPUTS}/corpus/${TARGET}"
   RESULT_VARIABLE status ERROR_VARIABLE said)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "a new input fails; it is in ${OUTPUT}/failed\n${said}")
