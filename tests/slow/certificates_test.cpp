@@ -2,7 +2,7 @@
 //
 // A hundred thousand certificates of random, degenerate and ill-conditioned programs against
 // solutions in quadruple precision: none below the error, and how far above at the end of a run.
-#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/separable_qp.hpp>

@@ -79,13 +79,13 @@ slant::energy_error<double> prepared::error_of(Eigen::VectorXd const& x, double 
   auto const A = a();
   auto wa = slant::workspace(A, x);
   slant::dual_norm_workspace norm_workspace(M, x);
-  auto const sharper = [&](Eigen::VectorXd const& rest, double, double) {
-    return slant::dual_norm(A, M, rest, 12, true, wa, norm_workspace).value;
-  };
   auto const forces = slant::cartesian(slant::half_lines(p_.lower.size()), slant::discs(p_.radius));
   Eigen::VectorXd λ = slant::project(set_, x);
   Eigen::VectorXd u = answer(λ);
-  return certificate(forces, λ, u, goal, solve, sharper);
+  auto const error = certificate(forces, λ, u, goal, solve);
+  if (!(error.relative() > goal)) return error;
+  return certificate.sharpened(
+      slant::dual_norm(A, M, certificate.rest(), 12, true, wa, norm_workspace).value);
 }
 
 double prepared::kkt(Eigen::VectorXd const& x) const {

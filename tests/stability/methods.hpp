@@ -5,7 +5,7 @@
 // runs are stopped is a matter of stopping.hpp alone.
 #pragma once
 
-#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/ldlt.hpp>

@@ -14,7 +14,7 @@
 // with the error reached in the reason.
 #pragma once
 
-#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>

@@ -117,12 +117,13 @@ class coulomb_certificate {
     data_.g = F_.cwiseProduct(λ_.head(F_.size()).cwiseMax(scalar(0)));
     auto const set = detail::feasible_set(typename Dual::friction_type{}, data_.nodes(), data_.g);
     if (shift_.size() > 0) u_ -= shift_;
-    auto const sharper = [&](vector_type const& rest, scalar const&, scalar const&) {
-      auto const norm = dual_norm(problem_->a(), M_, rest, 12, true, of_a_, of_norm_);
+    e.frozen = certificate_(set, λ_, u_, goal_, solver(*factor_));
+    if (e.frozen.relative() > goal_) {
+      auto const norm =
+          dual_norm(problem_->a(), M_, certificate_.rest(), 12, true, of_a_, of_norm_);
       applications_ += norm.applications;
-      return norm.value;
-    };
-    e.frozen = certificate_(set, λ_, u_, goal_, solver(*factor_), sharper);
+      e.frozen = certificate_.sharpened(norm.value);
+    }
     if (shift_.size() > 0) {
       u_ += shift_;
       e.frozen.size = certificate_.energy_norm(u_);

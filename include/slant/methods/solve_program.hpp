@@ -16,7 +16,7 @@
 // `solve(method, x0, energy_error_below(tolerance, certificate))` a bound where one is known.
 #pragma once
 
-#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/interior_point.hpp>

@@ -3,7 +3,7 @@
 // The method of contact/solve.hpp for bodies that supports hold.
 #pragma once
 
-#include <slant/certificates/dual_norm.hpp>
+#include <slant/certificates/newton_estimate.hpp>
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/contact_unknowns.hpp>
 #include <slant/contact/preconditioner.hpp>
@@ -19,7 +19,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant::contact::detail {
@@ -78,6 +80,15 @@ class certified_run {
       for (index i = 0; i < c.nodes(); ++i) g_(i) /= d_(c.nodes() + i * c.tangents());
     }
     if (result_.scaled) C_ = sparse_type(d_.asDiagonal() * C_);
+    // About 1/diag A of the scaled problem; an empty row is held by nothing and asked for nothing.
+    inverse_diagonal_ = certificate_.stiffness().cwiseQuotient(d_).cwiseQuotient(d_);
+    S sum(0);
+    for (S& entry : inverse_diagonal_) {
+      if (!slant::detail::is_finite(entry)) entry = S(1);
+      sum += S(1) / entry;
+    }
+    // A short step: from a long one Newton's step would have to come back.
+    if (sum > S(0)) step_ = S(static_cast<double>(b_.size())) / sum / S(1024);
     ++result_.work.factorizations;
     if (o.prove) {
       certificate_.prove(solver(factor_), [&](sparse_type const& matrix) {
@@ -125,7 +136,9 @@ class certified_run {
     image_.resize(b_.size());
     S best = std::numeric_limits<S>::infinity();
     auto wa = workspace(qp.a(), state.x);
-    dual_norm_workspace norm_workspace(M, state.x);
+    std::optional<
+        newton_estimate<std::remove_const_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
+        newton_error;
     while (true) {
       auto newton = method();
       auto stop = reduced_gradient_below(threshold) || at_most(budget);
@@ -134,12 +147,12 @@ class certified_run {
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
       bool const can_go_on = end.how == status::converged || end.how == status::stalled;
-      certify(qp, M, state.x, wa, norm_workspace, !can_go_on);
+      certify(qp, M, state.x, wa, newton_error, !can_go_on);
       S error = result_.error.relative();
       bool const progresses = error < best / S(2) || end.how == status::converged;
       bool const goes_on = can_go_on && progresses && result_.corrections < 20;
       if (error > options_.tolerance && !goes_on) {
-        certify(qp, M, state.x, wa, norm_workspace, true);
+        certify(qp, M, state.x, wa, newton_error, true);
         error = result_.error.relative();
       }
       bool const is_enough = error <= options_.tolerance && end.how != status::unbounded;
@@ -191,21 +204,29 @@ class certified_run {
   /// The error at x, u and λ with it.
   template <class QP, class M, class W>
   void certify(QP const& qp, M const& m, vector_type const& x, W& wa,
-               dual_norm_workspace<vector_type, M>& norm_workspace, bool is_last) {
+               std::optional<newton_estimate<QP, M>>& newton, bool is_last) {
     result_.multipliers = d_.cwiseProduct(x);
     result_.u = dual_.displacement(result_.multipliers);
     ++result_.solves;
-    auto const sharper = [&](vector_type const& rest, S const& by_zero, S const& enough) {
-      // The extension by zero is rarely off by more than 30, and this is not the last word.
-      if (!is_last && by_zero > S(64) * enough) return S(-1);
-      vector_type const scaled = rest.cwiseProduct(d_);
-      auto const norm =
-          dual_norm(qp.a(), m, scaled, 12, true, wa, norm_workspace, is_last ? S(0) : enough);
-      result_.work.operator_applications += norm.applications;
-      return norm.value;
+    S const goal = options_.tolerance;
+    result_.error =
+        certificate_(dual_.set(), result_.multipliers, result_.u, goal, solver(factor_));
+    // The bound is rarely off by more than 30, and this is not the last word.
+    S const error = result_.error.relative();
+    if (!(error > goal) || (!is_last && error > S(64) * goal)) return;
+    if (!certificate_.gradient().allFinite()) return;
+    if (!newton) newton.emplace(qp, m);
+    index const before = newton->applications();
+    vector_type const at = result_.multipliers.cwiseQuotient(d_);
+    vector_type const gradient = certificate_.gradient().cwiseProduct(d_);
+    auto const norm = [&](vector_type const& d) {
+      return certificate_.extended_norm(d.cwiseQuotient(d_));
     };
-    result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
-                                 solver(factor_), sharper);
+    S const distance = (*newton)({at, gradient, inverse_diagonal_, step_, 12,
+                                  gradient_size<S>{slant::norm(at), slant::norm(b_)}},
+                                 m, wa, norm);
+    result_.work.operator_applications += newton->applications() - before;
+    result_.error = certificate_.estimated(distance);
   }
 
   void finish(slant::detail::ending& end, bool is_enough) {
@@ -234,7 +255,8 @@ class certified_run {
   certificate<S> certificate_;
   vector_type b_;
   sparse_type C_;
-  vector_type d_{}, g_{}, image_{};
+  vector_type d_{}, g_{}, image_{}, inverse_diagonal_{};
+  S step_{1};
   solution<S> result_{};
   index solves_before_ = 0;
 };

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+//
+// The error of a point as the solution of a quadratic program min ½ xᵀA x − bᵀx over x ∈ Λ, in the
+// energy norm, by the inequality of energy_error.hpp:
+//
+//     energy_certificate{qp, dominates_inverse(M)}    a bound, up to the rounding of a few sums: δ
+//                                                     from an operator M ⪰ A⁻¹
+//     energy_certificate{qp}, {qp, M}                 an estimate: newton_estimate.hpp, with
+//                                                     ‖rest‖_{A⁻¹} from conjugate gradients
+//                                                     (dual_norm.hpp), which see A⁻¹ from below
+#pragma once
+
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/newton_estimate.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/distributed.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/methods/detail/block_slants.hpp>
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+namespace slant {
+
+/// An operator M ⪰ A⁻¹, with that promise.
+template <class M>
+struct dominating_inverse {
+  M const* inverse;
+};
+template <class M>
+[[nodiscard]] dominating_inverse<M> dominates_inverse(M const& m) {
+  return {&m};
+}
+template <class M>
+dominating_inverse<M> dominates_inverse(M const&&) = delete;
+
+/// certificate(x) → energy_error of P_Λ(x). Refers to the problem and to M. One application of A
+/// and one of M with `dominates_inverse(M)`, which gives a bound up to rounding; else some 10 of
+/// each, for conjugate gradients preconditioned by M, and an estimate. Without M they are
+/// preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
+/// applications: unknowns in units of their own would else hide the error from the estimate.
+template <class QP, class M = identity_operator>
+class energy_certificate {
+ public:
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+
+  /// Without a preconditioner.
+  explicit energy_certificate(QP const& qp)
+    requires std::same_as<M, identity_operator>
+      : energy_certificate(qp, identity_operator(qp.size()), false) {}
+  energy_certificate(QP const& qp, M const& m) : energy_certificate(qp, m, false) {}
+  energy_certificate(QP const& qp, dominating_inverse<M> m)
+      : energy_certificate(qp, *m.inverse, true) {}
+  energy_certificate(QP const&&, M const&) = delete;
+
+  [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {
+    slant::project(qp_->set(), slant::local(x0), slant::local(x_));
+    slant::apply(qp_->a(), x_, g_, a_workspace_);
+    ++applications_;
+    energy_error<scalar> e;
+    e.size = detail::root_of_product(x_, g_);
+    slant::local(g_) -= slant::local(qp_->b());
+    if (dominates_) {
+      auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
+      slant::apply(m_, g_, norm_.z, norm_.of_m);
+      e.bound = error_bound<scalar>(detail::root_of_product(g_, norm_.z), balanced.gap);
+    } else {
+      e.bound = estimate() + rounding();
+    }
+    return e;
+  }
+  /// Applications of A so far.
+  [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }
+
+ private:
+  static constexpr bool has_faces = has_block_slants<typename QP::set_type, local_t<vector_type>>;
+
+  energy_certificate(QP const& qp, M const& m, bool dominates)
+      : qp_(&qp),
+        m_(m),
+        dominates_(dominates),
+        most_(qp.size() < 200 ? qp.size() + 8 : index(200)),
+        x_(like(qp.b(), qp.size())),
+        g_(like(qp.b(), qp.size())),
+        stiffness_(like(qp.b(), qp.size())),
+        a_workspace_(workspace(qp.a(), qp.b())),
+        norm_(preconditioner(), qp.b()),
+        newton_(qp, preconditioner()) {
+    detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
+    set_stiffness();
+  }
+
+  static constexpr bool is_plain = std::same_as<M, identity_operator>;
+  using diagonal_inverse = diagonal_operator<vector_type const&>;
+  using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
+
+  /// Of a set without faces nothing but the gap and the gradient is known.
+  struct no_newton {
+    no_newton(QP const&, preconditioner_type const&) {}
+    [[nodiscard]] index applications() const { return 0; }
+  };
+  using newton_type =
+      typename std::conditional_t<has_faces,
+                                  std::type_identity<newton_estimate<QP, preconditioner_type>>,
+                                  std::type_identity<no_newton>>::type;
+
+  /// M, or diag(stiffness) in its place.
+  [[nodiscard]] decltype(auto) preconditioner() const {
+    if constexpr (is_plain) {
+      return diagonal_inverse(held<vector_type const&>(stiffness_));
+    } else {
+      return (m_);
+    }
+  }
+
+  /// What A x − b was computed from, for an A that may be singular.
+  [[nodiscard]] std::optional<gradient_size<scalar>> sizes() const {
+    if constexpr (declares_positive_definite<typename QP::operator_type>) return {};
+    return gradient_size<scalar>{slant::norm(x_), slant::norm(qp_->b())};
+  }
+
+  [[nodiscard]] scalar norm_of(vector_type const& d) {
+    if (!(slant::norm(d) > scalar(0))) return slant::norm(d);
+    auto const e = dual_norm(qp_->a(), preconditioner(), d, most_, false, a_workspace_, norm_,
+                             scalar(0), sizes());
+    applications_ += e.applications;
+    return e.value;
+  }
+
+  /// What rounding the entries of x is worth, of which g knows nothing.
+  [[nodiscard]] scalar rounding() const {
+    scalar sum(0);
+    scalar const unit = unit_near(slant::norm(x_));
+    for (index i = 0; i < slant::local(x_).size(); ++i) {
+      scalar const entry = slant::local(x_).coeff(i) / unit;
+      sum += entry * entry / slant::local(stiffness_).coeff(i);
+    }
+    using std::sqrt;
+    return unit * (std::numeric_limits<scalar>::epsilon() / scalar(2)) * sqrt(sum);
+  }
+
+  /// From x and g.
+  [[nodiscard]] scalar estimate() {
+    if constexpr (has_faces) {
+      scalar const bound = newton_({x_, g_, stiffness_, typical_, most_, sizes()}, preconditioner(),
+                                   a_workspace_, [&](vector_type const& d) { return norm_of(d); });
+      if (detail::is_finite(bound)) return bound;
+    }
+    auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
+    return error_bound<scalar>(norm_of(g_), balanced.gap);
+  }
+
+  /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
+  void set_stiffness() {
+    using A = typename QP::operator_type;
+    auto const mean = mean_diagonal(qp_->a(), qp_->b());
+    applications_ += mean.applications;
+    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
+    auto const invert = [&] {
+      for (index i = 0; i < slant::local(stiffness_).size(); ++i) {
+        auto& entry = slant::local(stiffness_).coeffRef(i);
+        entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical_;
+      }
+    };
+    slant::local(stiffness_).setConstant(typical_);
+    if constexpr (has_diagonal<A, vector_type>) {
+      qp_->a().diagonal(stiffness_);
+      invert();
+    } else if constexpr (is_plain) {
+      index const n = slant::local(stiffness_).size();
+      if (!slant::everywhere(stiffness_, n == slant::global_size(stiffness_) && n <= 64)) return;
+      for (index i = 0; i < n; ++i) {
+        slant::local(x_).setZero();
+        slant::local(x_).coeffRef(i) = scalar(1);
+        slant::apply(qp_->a(), x_, g_, a_workspace_);
+        slant::local(stiffness_).coeffRef(i) = slant::local(g_).coeff(i);
+      }
+      applications_ += n;
+      invert();
+    }
+  }
+  QP const* qp_;
+  M m_;
+  bool dominates_;
+  index most_;
+  index applications_ = 0;
+  vector_type x_, g_, stiffness_;
+  workspace_t<typename QP::operator_type, vector_type> a_workspace_;
+  dual_norm_workspace<vector_type, preconditioner_type> norm_;
+  newton_type newton_;
+  scalar typical_{1};  ///< 1/mean(diag A)
+};
+
+template <class QP>
+energy_certificate(QP const&) -> energy_certificate<QP, identity_operator>;
+template <class QP, class M>
+energy_certificate(QP const&, M const&) -> energy_certificate<QP, M>;
+template <class QP, class M>
+energy_certificate(QP const&, dominating_inverse<M>) -> energy_certificate<QP, M>;
+
+}  // namespace slant

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+//
+// An estimate of ‖x − x*‖_A from the gradient g = A x − b at x ∈ Λ, by a Newton step. In the bound
+//
+//     e ≤ ½ (δ + √(δ² + 4γ)),     δ = ‖g − s‖_{A⁻¹} certificates/energy_error.hpp
+//
+// s may be the balanced part of g + A D for any D: then g − s = −A D + rest, and
+//
+//     δ ≤ ‖D‖_A + ‖rest‖_{A⁻¹}.
+//
+// D is the Newton step: next to the solution it is x* − x, the rest vanishes, and so does what is
+// estimated too high. It goes to x₁ = P_Λ(x − ρ g) and from there on the face of x₁ by conjugate
+// gradients (face_correction.hpp). The inequality holds for every D; estimated are what more of
+// these iterations would add, and ‖rest‖_{A⁻¹} unless the caller has a bound of it.
+//
+// Cost: one application of A, and one for each iteration, some 10.
+#pragma once
+
+#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/face_correction.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/krylov/unit.hpp>
+#include <slant/methods/detail/block_slants.hpp>
+#include <slant/sets/curved_face.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace slant {
+
+namespace detail {
+
+/// √(xᵀy) for a product that is ≥ 0 but for rounding.
+template <class V>
+[[nodiscard]] scalar_t<V> root_of_product(V const& x, V const& y) {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  S const ux = unit_near(slant::norm(x)), uy = unit_near(slant::norm(y));
+  S const product = (slant::local(x) / ux).dot(slant::local(y) / uy);
+  if (!(product > S(0))) return product == product ? S(0) : product;
+  return S(sqrt(product)) * S(sqrt(ux)) * S(sqrt(uy));
+}
+
+}  // namespace detail
+
+/// Where x is, and what the estimate may use.
+template <class V>
+struct estimated_point {
+  using scalar = scalar_t<V>;
+
+  V const& x;          ///< of Λ
+  V const& gradient;   ///< A x − b
+  V const& stiffness;  ///< of the size of diag(A)⁻¹
+  scalar ρ;            ///< its size as one number, the step of the projection
+  index most;          ///< iterations
+  /// For an A that may be singular: what the gradient was computed from.
+  std::optional<gradient_size<scalar>> sizes;
+};
+
+/// The estimate at the top of this file for programs qp with a preconditioner like m. Refers to qp.
+template <class QP, class M>
+class newton_estimate {
+ public:
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+
+  newton_estimate(QP const& qp, M const& m)
+      : qp_(&qp),
+        face_(qp.set()),
+        correction_(qp.b(), m),
+        projected_(qp.b()),
+        step_(qp.b()),
+        image_(qp.b()),
+        balanced_(qp.b()),
+        rest_(qp.b()),
+        trial_(qp.b()),
+        weight_(qp.b()) {}
+
+  /// Infinite where nothing is known: A shows no curvature along the gradient on the face.
+  /// norm_of(d) → ‖d‖_{A⁻¹}, asked once at most.
+  template <class WA, class Norm>
+  [[nodiscard]] scalar operator()(estimated_point<vector_type> const& at, M const& m, WA& of_a,
+                                  Norm const& norm_of) {
+    slant::local(trial_) = slant::local(at.x) - at.ρ * slant::local(at.gradient);
+    slant::project(qp_->set(), slant::local(trial_), slant::local(projected_));
+    face_.assign(qp_->set(), slant::local(trial_), scalar(1));
+    slant::local(step_) = slant::local(projected_) - slant::local(at.x);
+    slant::local(image_).setZero();
+    if (slant::norm(step_) > scalar(0)) {
+      slant::apply(qp_->a(), step_, image_, of_a);
+      ++applications_;
+    }
+    slant::local(rest_) = slant::local(at.gradient) + slant::local(image_);
+    applications_ +=
+        correction_.compute(qp_->a(), of_a, m, rest_, face_, at.ρ, at.ρ, at.most, at.sizes);
+    if (!correction_.found || !detail::is_finite(correction_.energy)) {
+      return std::numeric_limits<scalar>::infinity();
+    }
+    return put_together(at, norm_of);
+  }
+  /// Applications of A so far.
+  [[nodiscard]] index applications() const { return applications_; }
+
+ private:
+  /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
+  /// top.
+  struct split {
+    scalar bound = std::numeric_limits<scalar>::infinity();
+    scalar moved{0}, gap{0}, above{0};
+  };
+
+  /// The bound for x from s balanced at x, or for x₁ from s balanced there and ‖x₁ − x‖_A on top: a
+  /// point inside Λ has a gap of the first order that x₁ has not. Curved blocks are balanced with a
+  /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
+  template <class Norm>
+  [[nodiscard]] scalar put_together(estimated_point<vector_type> const& at, Norm const& norm_of) {
+    using std::sqrt;
+    slant::local(image_) += slant::local(correction_.image);
+    slant::local(balanced_) = slant::local(at.gradient) + slant::local(image_);
+    slant::local(image_) -= slant::local(correction_.image);
+    scalar const way = detail::root_of_product(step_, image_);
+    split best;
+    consider(best, at, projected_, correction_.energy, correction_.curvature, way);
+    slant::local(step_) += slant::local(correction_.t);
+    slant::local(image_) += slant::local(correction_.image);
+    slant::local(trial_).setZero();
+    face_.add_curvature(scalar(1) / at.ρ, step_, trial_);
+    consider(best, at, at.x, detail::root_of_product(step_, image_),
+             slant::inner_product(step_, trial_), scalar(0));
+    if (!detail::is_finite(best.bound)) return best.bound;
+    scalar const δ =
+        sqrt(best.moved * best.moved + correction_.missing * correction_.missing) + norm_of(rest_);
+    return error_bound<scalar>(δ, best.gap) + best.above;
+  }
+
+  void consider(split& best, estimated_point<vector_type> const& at, vector_type const& x,
+                scalar const& moved, scalar const& curvature, scalar const& above) {
+    for (scalar const factor : {scalar(1), scalar(0x1p27)}) {
+      slant::local(weight_) = slant::local(at.stiffness);
+      face_.curved_components([&](index i) { slant::local(weight_).coeffRef(i) *= factor; });
+      auto const balanced = balance(qp_->set(), x, balanced_, weight_, trial_);
+      slant::local(trial_) -= slant::local(correction_.remainder);
+      // By the gap alone, nothing to speak of is left there.
+      if (factor > scalar(1)) {
+        face_.curved_components([&](index i) { slant::local(trial_).coeffRef(i) = scalar(0); });
+      }
+      scalar const γ = std::max<scalar>(balanced.gap, curvature / scalar(2));
+      slant::local(weight_) = slant::local(at.stiffness).cwiseProduct(slant::local(trial_));
+      scalar const bound =
+          error_bound<scalar>(moved + detail::root_of_product(trial_, weight_), γ) + above;
+      if (!(bound < best.bound)) continue;
+      best = {bound, moved, γ, above};
+      slant::local(rest_) = slant::local(trial_);
+    }
+  }
+
+  QP const* qp_;
+  index applications_ = 0;
+  curved_face<scalar> face_;
+  face_correction<vector_type, M> correction_;
+  vector_type projected_, step_, image_, balanced_, rest_, trial_, weight_;
+};
+
+}  // namespace slant

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "made_programs.hpp"
+
+#include <slant/certificates/energy_certificate.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace energy_certificate_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+TEST_CASE("with A⁻¹ itself the bound is never below the error, and near the solution close to it") {
+  std::mt19937 random(2026);
+  std::normal_distribution<double> gauss;
+  int close = 0, all = 0;
+  for (int run = 0; run < 60; ++run) {
+    auto const p = test::make_program(1 + run % 5, 8.0 * (run % 7) / 6, random);
+    auto const qp = test::program(p);
+    auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
+    slant::energy_certificate certificate(qp, slant::dominates_inverse(M));
+    for (double δ = 1; δ > 1e-13; δ /= 100) {
+      VectorXd x = p.solution;
+      for (double& entry : x) entry += δ * gauss(random);
+      // Steps of the projected gradient method, which put the point on its face.
+      for (int step = 0; step < 3; ++step)
+        x = slant::project(qp.set(), VectorXd(x - p.A * x + p.b));
+      VectorXd const y = slant::project(qp.set(), x);
+      double const error = test::energy_norm(p.A, y - p.solution);
+      auto const known = certificate(x);
+      CHECK(known.bound * (1 + 1e-9) + 2 * p.lost >= error);
+      // With larger condition numbers three steps do not find the face.
+      if (run % 7 <= 2 && δ < 1e-3 && error > 100 * p.lost) {
+        ++all;
+        close += known.bound <= 30 * error ? 1 : 0;
+      }
+    }
+  }
+  CHECK(all > 50);
+  CHECK(close >= 0.9 * all);
+}
+
+TEST_CASE("without A⁻¹ conjugate gradients estimate the same") {
+  std::mt19937 random(11);
+  std::normal_distribution<double> gauss;
+  for (int run = 0; run < 20; ++run) {
+    auto const p = test::make_program(2 + run % 3, 4.0 * (run % 4) / 3, random);
+    auto const qp = test::program(p);
+    auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
+    slant::energy_certificate by_inverse(qp, slant::dominates_inverse(M));
+    slant::energy_certificate by_cg(qp);
+    VectorXd x = p.solution;
+    for (double& entry : x) entry += 1e-3 * gauss(random);
+    auto const bound = by_inverse(x), estimate = by_cg(x);
+    CHECK_FALSE(estimate.proven);
+    CHECK(estimate.bound <= 2 * bound.bound);
+    VectorXd const nearest = slant::project(qp.set(), x);
+    CHECK(estimate.bound >= 0.5 * test::energy_norm(p.A, nearest - p.solution));
+    CHECK(estimate.size == doctest::Approx(bound.size).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("at the end of a run the estimate is the error, whatever the tolerance was") {
+  std::mt19937 random(3);
+  int sharp = 0, all = 0;
+  for (int run = 0; run < 40; ++run) {
+    auto const p = test::make_program(2 + run % 4, 6.0 * (run % 7) / 6, random);
+    auto const qp = test::program(p);
+    slant::energy_certificate certificate(qp);
+    for (double const tolerance : {1e-2, 1e-4, 1e-6, 1e-9}) {
+      auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(p.b.size())),
+                                  slant::reduced_gradient_below(tolerance) || slant::at_most(300));
+      double const error = test::energy_norm(p.A, r.x() - p.solution);
+      if (!(error > 100 * p.lost)) continue;
+      auto const e = certificate(r.x());
+      CHECK(e.bound >= 0.4 * error);
+      if (tolerance > 1e-4) continue;  // before, the face may be another one
+      ++all;
+      sharp += e.bound <= 3 * error ? 1 : 0;
+    }
+  }
+  CHECK(all > 20);
+  CHECK(sharp >= 0.95 * all);
+}
+
+TEST_CASE("A singular: the error is known where the constraints hold what A does not") {
+  // Two springs between three points, the first at most at 1, the last at least at 0.
+  MatrixXd const A{{1.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 1.0}};
+  VectorXd const b{{2.0, -1.0, -1.0}};
+  VectorXd const lower{{-10.0, -10.0, 0.0}};
+  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A),
+                               b, slant::half_lines(lower)};
+  // b sums to 0: every x* = (3, 1, 0) + c with c ≥ 0 is a solution, at the same energy.
+  VectorXd const solution{{3.0, 1.0, 0.0}};
+  slant::energy_certificate certificate(qp);
+  for (double const δ : {1e-3, 1e-6, 1e-10}) {
+    VectorXd const x = solution + δ * VectorXd{{1.0, -2.0, 0.5}} + VectorXd::Constant(3, 0.7);
+    double const error = test::energy_norm(A, x - solution);
+    auto const e = certificate(x);
+    CHECK(e.bound >= 0.9 * error);
+    CHECK(e.bound <= 2 * error);
+  }
+  CHECK(certificate(solution).bound <= 1e-14);
+  // A b that no constraint holds: there is no solution, and nothing is claimed.
+  VectorXd const pulled{{2.0, -1.0, 0.0}};
+  slant::separable_qp const endless{qp.a(), pulled, slant::half_lines(lower)};
+  CHECK(std::isinf(slant::energy_certificate(endless)(solution).bound));
+}
+
+/// A matrix that gives no entries.
+struct opaque {
+  using scalar = double;
+  static constexpr slant::law_set laws =
+      slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
+  MatrixXd const* a;
+  [[nodiscard]] slant::index rows() const { return a->rows(); }
+  [[nodiscard]] slant::index cols() const { return a->cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = *a * x; }
+};
+
+TEST_CASE("unknowns in units of their own, 1e8 to either side, do not hide the error") {
+  int const n = 12;
+  VectorXd units(n), rest(n);
+  MatrixXd alike(n, n);
+  for (int i = 0; i < n; ++i) {
+    units(i) = std::pow(10.0, 8.0 * std::sin(1.7 * i));
+    // Small where the gradient is in large units, as methods leave it that look at its norm.
+    rest(i) = units(i) > 1 ? 1e-10 : 1e-3;
+    for (int j = 0; j < n; ++j) alike(i, j) = (i == j ? 1 : 0) + 0.3 / (1 + std::abs(i - j));
+  }
+  MatrixXd const A = units.asDiagonal() * alike * units.asDiagonal();
+  VectorXd const solution = units.cwiseInverse(), b = A * solution;
+  VectorXd const scaled = alike.ldlt().solve(rest), error = scaled.cwiseQuotient(units);
+  double const truth = std::sqrt(scaled.dot(rest));
+  auto const free = slant::free_components<double>(n);
+  auto const M = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A);
+  slant::separable_qp const known(M, b, free);
+  slant::separable_qp const hidden(opaque{&A}, b, free);
+  slant::energy_certificate of_known(known);
+  slant::energy_certificate of_hidden(hidden);
+  CHECK(of_known(solution + error).bound == doctest::Approx(truth).epsilon(0.2));
+  CHECK(of_hidden(solution + error).bound == doctest::Approx(truth).epsilon(0.2));
+  VectorXd nowhere = solution;
+  nowhere(3) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isinf(of_known(nowhere).relative()));
+}
+
+}  // namespace energy_certificate_test

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "made_programs.hpp"
+
+#include <slant/certificates/newton_estimate.hpp>
+#include <slant/operators/diagonal.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace newton_estimate_test {
+
+using Eigen::VectorXd;
+
+/// What the estimate says of x with ‖rest‖_{A⁻¹} from the inverse, for a gradient that is off by d.
+double estimate(test::made_program const& p, VectorXd const& x, VectorXd const& d, double step,
+                slant::index most) {
+  auto const qp = test::program(p);
+  VectorXd const inverse = p.A.diagonal().cwiseInverse();
+  auto const M = slant::diagonal(inverse);
+  slant::newton_estimate newton(qp, M);
+  auto of_a = slant::workspace(qp.a(), x);
+  VectorXd const gradient = p.A * x - p.b + d;
+  double const ρ = step / p.A.diagonal().mean();
+  double const distance = newton(
+      {x, gradient, inverse, ρ, most, {}}, M, of_a,
+      [&](VectorXd const& rest) { return std::sqrt(std::fmax(0.0, rest.dot(p.inverse * rest))); });
+  CHECK(newton.applications() <= most + 1);
+  return distance;
+}
+
+/// Near the solution, on its face: three steps of the projected gradient method.
+VectorXd beside_solution(test::made_program const& p, double δ, std::mt19937& random) {
+  std::normal_distribution<double> gauss;
+  auto const qp = test::program(p);
+  VectorXd x = p.solution;
+  for (double& entry : x) entry += δ * gauss(random);
+  for (int k = 0; k < 3; ++k) x = slant::project(qp.set(), VectorXd(x - p.A * x + p.b));
+  return x;
+}
+
+TEST_CASE("newton_estimate: next to the solution the error itself, whatever the step") {
+  std::mt19937 random(5);
+  int sharp = 0, all = 0;
+  for (int run = 0; run < 40; ++run) {
+    auto const p = test::make_program(2 + run % 4, run % 5, random);
+    VectorXd const x = beside_solution(p, 1e-6, random);
+    double const error = test::energy_norm(p.A, x - p.solution);
+    if (!(error > 1000 * p.lost)) continue;
+    for (double const step : {1.0, 1e-3}) {
+      double const claimed = estimate(p, x, VectorXd::Zero(x.size()), step, 40);
+      CHECK(claimed >= 0.6 * error);
+      ++all;
+      sharp += claimed <= 1.5 * error ? 1 : 0;
+    }
+  }
+  CHECK(all > 40);
+  CHECK(sharp >= 0.9 * all);
+}
+
+TEST_CASE("newton_estimate: far from the solution, and with few iterations, never far too small") {
+  std::mt19937 random(8);
+  for (int run = 0; run < 60; ++run) {
+    auto const p = test::make_program(2 + run % 4, run % 6, random);
+    for (double const δ : {1.0, 1e-2}) {
+      VectorXd const x = beside_solution(p, δ, random);
+      double const error = test::energy_norm(p.A, x - p.solution);
+      CHECK(estimate(p, x, VectorXd::Zero(x.size()), 1, 40) >= 0.5 * error - p.lost);
+      CHECK(estimate(p, x, VectorXd::Zero(x.size()), 1, 8) >= 0.3 * error - p.lost);
+    }
+  }
+}
+
+TEST_CASE("newton_estimate: a gradient off by d counts at most ‖d‖ in the norm of A⁻¹") {
+  std::mt19937 random(9);
+  std::normal_distribution<double> gauss;
+  for (int run = 0; run < 20; ++run) {
+    auto const p = test::make_program(3, 2, random);
+    VectorXd const x = beside_solution(p, 1e-4, random);
+    VectorXd d(x.size());
+    for (double& entry : d) entry = 1e-6 * gauss(random);
+    double const size = std::sqrt(d.dot(p.inverse * d));
+    double const error = test::energy_norm(p.A, x - p.solution);
+    CHECK(estimate(p, x, d, 1, 40) + size >= 0.9 * error);
+  }
+}
+
+}  // namespace newton_estimate_test
