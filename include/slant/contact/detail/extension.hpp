@@ -49,9 +49,9 @@ class extension {
     return energy_;
   }
 
-  /// The same after by_zero(m, d), in at most `most` relaxations, fewer if one of them takes less
-  /// than a fiftieth of the energy or brings the norm below `enough`. Where rows of B depend on
-  /// each other nothing is relaxed.
+  /// The same after by_zero(m, d), in at most `most` relaxations: fewer if one of them takes less
+  /// than a fiftieth of the energy, or brings the norm below `enough`, or shows that all will not.
+  /// Where rows of B depend on each other nothing is relaxed.
   [[nodiscard]] S relaxed(matrices const& m, vector_type const& d, index most, S const& enough) {
     using std::sqrt;
     if (!m.is_orthogonal || !(energy_ > enough) || !slant::detail::is_finite(energy_)) {
@@ -59,7 +59,7 @@ class extension {
     }
     S const unit = unit_near(S(v_.stableNorm())), scale = S(1) / unit_near(m.largest);
     v_ /= unit;
-    S const limit = enough / unit * sqrt(scale);
+    S const limit = enough / unit * sqrt(scale), goal = limit > S(0) ? S(limit * limit) : S(0);
     auto const& K = m.K();
     // r = −P K v, z = P diag(K)⁻¹r, P the projector onto ker B.
     r_.resize(v_.size());
@@ -94,7 +94,9 @@ class extension {
       S const α = rz / bend, gain = α * rz;
       v_ += α * p_;
       energy -= gain;
-      if (!(gain > S(0.02) * energy) || (limit > S(0) && energy <= limit * limit)) break;
+      if (!(gain > S(0.02) * energy) || energy <= goal) break;
+      // Not even if all that follow take as much as this one.
+      if (goal > S(0) && energy - S(static_cast<double>(most - 1 - k)) * gain > goal) break;
       r_ -= α * z_;
       keep_in_kernel(m, r_);
     }
