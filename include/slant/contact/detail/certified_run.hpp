@@ -147,14 +147,20 @@ class certified_run {
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
       bool const can_go_on = end.how == status::converged || end.how == status::stalled;
-      certify(qp, M, state.x, wa, newton_error, !can_go_on);
+      certify(state.x);
       S error = result_.error.relative();
+      bool is_sharp = false;
+      auto const sharpen = [&] {
+        if (!(error > options_.tolerance) || is_sharp) return;
+        is_sharp = true;
+        estimate_by_newton(qp, M, wa, newton_error);
+        error = result_.error.relative();
+      };
+      // The bound is rarely off by more than 30.
+      if (!can_go_on || error <= S(64) * options_.tolerance) sharpen();
       bool const progresses = error < best / S(2) || end.how == status::converged;
       bool const goes_on = can_go_on && progresses && result_.corrections < 20;
-      if (error > options_.tolerance && !goes_on) {
-        certify(qp, M, state.x, wa, newton_error, true);
-        error = result_.error.relative();
-      }
+      if (!goes_on) sharpen();
       bool const is_enough = error <= options_.tolerance && end.how != status::unbounded;
       if (is_enough || !goes_on) {
         finish(end, is_enough);
@@ -202,28 +208,27 @@ class certified_run {
   }
 
   /// The error at x, u and λ with it.
-  template <class QP, class M, class W>
-  void certify(QP const& qp, M const& m, vector_type const& x, W& wa,
-               std::optional<newton_estimate<QP, M>>& newton, bool is_last) {
+  void certify(vector_type const& x) {
     result_.multipliers = d_.cwiseProduct(x);
     result_.u = dual_.displacement(result_.multipliers);
     ++result_.solves;
-    S const goal = options_.tolerance;
-    result_.error =
-        certificate_(dual_.set(), result_.multipliers, result_.u, goal, solver(factor_));
-    // The bound is rarely off by more than 30, and this is not the last word.
-    S const error = result_.error.relative();
-    if (!(error > goal) || (!is_last && error > S(64) * goal)) return;
+    result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
+                                 solver(factor_));
+  }
+  /// What a Newton step says of it, if that is less.
+  template <class QP, class M, class W>
+  void estimate_by_newton(QP const& qp, M const& m, W& wa,
+                          std::optional<newton_estimate<QP, M>>& newton) {
     if (!certificate_.gradient().allFinite()) return;
     if (!newton) newton.emplace(qp, m);
     index const before = newton->applications();
-    vector_type const at = result_.multipliers.cwiseQuotient(d_);
+    vector_type const x = result_.multipliers.cwiseQuotient(d_);
     vector_type const gradient = certificate_.gradient().cwiseProduct(d_);
     auto const norm = [&](vector_type const& d) {
       return certificate_.extended_norm(d.cwiseQuotient(d_));
     };
-    S const distance = (*newton)({at, gradient, inverse_diagonal_, step_, 12,
-                                  gradient_size<S>{slant::norm(at), slant::norm(b_)}},
+    S const distance = (*newton)({x, gradient, inverse_diagonal_, step_, 12,
+                                  gradient_size<S>{slant::norm(x), slant::norm(b_)}},
                                  m, wa, norm);
     result_.work.operator_applications += newton->applications() - before;
     result_.error = certificate_.estimated(distance);
