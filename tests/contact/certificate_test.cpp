@@ -111,6 +111,32 @@ TEST_CASE("slender and thin bodies: the certificate sees what the reduced gradie
   }
 }
 
+TEST_CASE(
+    "an estimate takes the place of the bound where it is smaller, and then nothing is proven") {
+  certified_scene s({.k = 2, .load = fem::brick_load::lift});
+  REQUIRE(s.prove());
+  VectorXd u;
+  auto const e = s(near_solution(s, 1e-4, 3), u);
+  REQUIRE(e.proven);
+  double const error = s.error(u);
+  auto same = s.certificate.estimated(2 * e.bound);
+  CHECK(same.bound == e.bound);
+  CHECK(same.proven);
+  for (double const nothing : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    CHECK(s.certificate.estimated(nothing).bound == e.bound);
+    CHECK(s.certificate.sharpened(nothing).bound == e.bound);
+  }
+  // The ‖d‖ that would show a goal shows it; d itself has the norm that the bound was made of.
+  double const goal = 0.9 * e.relative(), δ = s.certificate.norm_for(goal);
+  REQUIRE(δ > 0);
+  auto const sharp = s.certificate.sharpened(δ);
+  CHECK_FALSE(sharp.proven);
+  CHECK(sharp.relative() <= goal * (1 + 1e-6));
+  CHECK(s.certificate.extended_norm(s.certificate.rest()) >= δ);
+  auto const known = s.certificate.estimated(error);
+  CHECK(known.bound == doctest::Approx(error).epsilon(1e-6));
+}
+
 TEST_CASE("u is refined where the solve with K is too rough for the goal, and only there") {
   certified_scene s({.k = 1, .load = fem::brick_load::lift});
   VectorXd const λ = s.reference.multipliers();

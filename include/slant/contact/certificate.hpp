@@ -206,18 +206,19 @@ class certificate {
   [[nodiscard]] vector_type const& rest() const { return rest_; }
   /// The ‖d‖_{A⁻¹} with which it would show that relative error; may be negative: none.
   [[nodiscard]] S norm_for(S const& goal) const {
-    S const wanted = goal / (S(1) + goal) * error_.size / grown_ - off_;
+    // relative() is a bound over size − 2 bound, or less.
+    S const wanted = goal / (S(1) + S(2) * goal) * error_.size / grown_ - off_;
     return wanted - gap_ / wanted - off_of_rest_;
   }
   /// The last certificate, sharper if δ, an estimate of ‖d‖_{A⁻¹}, is smaller than the bound of
-  /// it.
+  /// it. A δ that is negative or NaN says nothing.
   [[nodiscard]] energy_error<S> const& sharpened(S const& δ) {
     // What no force of the contacts can move is in no range of A.
-    return use_estimate(bound_from(δ + extension_.tail(m_)));
+    return δ >= S(0) ? use_estimate(bound_from(δ + extension_.tail(m_))) : error_;
   }
   /// The same from an estimate of ‖λ − λ*‖_A that takes gradient() for A λ − b.
   [[nodiscard]] energy_error<S> const& estimated(S const& distance) {
-    return use_estimate((distance + off_of_rest_ + off_) * grown_);
+    return distance >= S(0) ? use_estimate((distance + off_of_rest_ + off_) * grown_) : error_;
   }
   /// ‖d‖_{A⁻¹} at most, for any d, without a solve; ∞ where d acts on an empty row.
   [[nodiscard]] S extended_norm(vector_type const& d) {
@@ -252,7 +253,7 @@ class certificate {
     return (error_bound<S>(δ + off_of_rest_, gap_) + off_) * grown_;
   }
   [[nodiscard]] energy_error<S> const& use_estimate(S const& bound) {
-    if (bound >= S(0) && bound < error_.bound) {
+    if (bound < error_.bound) {
       error_.bound = bound;
       error_.proven = false;
     }
