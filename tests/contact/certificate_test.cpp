@@ -116,7 +116,7 @@ TEST_CASE(
   certified_scene s({.k = 2, .load = fem::brick_load::lift});
   REQUIRE(s.prove());
   VectorXd u;
-  auto const e = s(near_solution(s, 1e-4, 3), u);
+  auto const e = s(near_solution(s, 1e-7, 3), u);
   REQUIRE(e.proven);
   double const error = s.error(u);
   auto same = s.certificate.estimated(2 * e.bound);
