@@ -129,6 +129,101 @@ template <class C, class X, class G, class M, class D>
   return result;
 }
 
+namespace detail {
+
+/// √(xᵀy) for a product that is ≥ 0 but for rounding.
+template <class V>
+[[nodiscard]] auto root_of_product(V const& x, V const& y) {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  S const ux = unit_near(slant::norm(x)), uy = unit_near(slant::norm(y));
+  S const product = (slant::local(x) / ux).dot(slant::local(y) / uy);
+  if (!(product > S(0))) return product == product ? S(0) : product;
+  return S(S(sqrt(product)) * S(sqrt(ux)) * S(sqrt(uy)));
+}
+
+/// What rounding the entries of x is worth in the energy norm, of which g knows nothing.
+template <class V>
+[[nodiscard]] auto rounding_of(V const& x, V const& stiffness) {
+  using S = scalar_t<V>;
+  S sum(0);
+  S const unit = unit_near(slant::norm(x));
+  for (index i = 0; i < slant::local(x).size(); ++i) {
+    S const entry = slant::local(x).coeff(i) / unit;
+    sum += entry * entry / slant::local(stiffness).coeff(i);
+  }
+  using std::sqrt;
+  return S(unit * (std::numeric_limits<S>::epsilon() / S(2)) * S(sqrt(sum)));
+}
+
+/// 1/diag A if A gives it or, with `probe`, has no more than 64 rows, else `typical`, the size of
+/// A⁻¹. x and g are scratch. Returns the applications of A.
+template <bool probe, class A, class V, class W>
+index set_stiffness(A const& a, scalar_t<V> const& typical, V& stiffness, V& x, V& g, W& w) {
+  using S = scalar_t<V>;
+  auto const invert = [&] {
+    for (index i = 0; i < slant::local(stiffness).size(); ++i) {
+      auto& entry = slant::local(stiffness).coeffRef(i);
+      entry = entry > S(0) ? S(S(1) / entry) : typical;
+    }
+  };
+  slant::local(stiffness).setConstant(typical);
+  if constexpr (has_diagonal<A, V>) {
+    a.diagonal(stiffness);
+    invert();
+  } else if constexpr (probe) {
+    index const n = slant::local(stiffness).size();
+    if (!slant::everywhere(stiffness, n == slant::global_size(stiffness) && n <= 64)) return 0;
+    for (index i = 0; i < n; ++i) {
+      slant::local(x).setZero();
+      slant::local(x).coeffRef(i) = S(1);
+      slant::apply(a, x, g, w);
+      slant::local(stiffness).coeffRef(i) = slant::local(g).coeff(i);
+    }
+    invert();
+    return n;
+  }
+  return 0;
+}
+
+/// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
+/// top.
+template <class S>
+struct bound_split {
+  S bound = std::numeric_limits<S>::infinity();
+  S moved{0}, gap{0}, above{0};
+};
+
+/// Splits the gradient at the end of a Newton step, `balanced`, into s and `rest` for x; curved
+/// blocks with a part of the gradient or by the gap alone. What the diagonal of A says is less
+/// becomes `best`. `moved`, `curvature`: of the step; `remainder`: what of it is missing on the
+/// face, and counted elsewhere. m and d are scratch.
+template <class Set, class Face, class V>
+void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& face, V const& x,
+                    V const& balanced, V const& remainder, V const& stiffness,
+                    scalar_t<V> const& moved, scalar_t<V> const& curvature,
+                    scalar_t<V> const& above, V& rest, V& m, V& d) {
+  using S = scalar_t<V>;
+  for (S const factor : {S(1), S(0x1p27)}) {
+    slant::local(m) = slant::local(stiffness);
+    face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
+    auto const split = balance(set, x, balanced, m, d);
+    slant::local(d) -= slant::local(remainder);
+    // By the gap alone, nothing to speak of is left there.
+    if (factor > S(1)) {
+      face.curved_components([&](index i) { slant::local(d).coeffRef(i) = S(0); });
+    }
+    S const γ = std::max<S>(split.gap, curvature / S(2));
+    slant::local(m) = slant::local(stiffness).cwiseProduct(slant::local(d));
+    S const bound = error_bound<S>(moved + root_of_product(d, m), γ) + above;
+    if (!(bound < best.bound)) continue;
+    best = {bound, moved, γ, above};
+    slant::local(rest) = slant::local(d);
+  }
+}
+
+}  // namespace detail
+
 /// An operator M ⪰ A⁻¹, with that promise.
 template <class M>
 struct dominating_inverse {
@@ -166,14 +261,14 @@ class energy_certificate {
     slant::apply(qp_->a(), x_, g_, a_workspace_);
     ++applications_;
     energy_error<scalar> e;
-    e.size = root_of(x_, g_);
+    e.size = detail::root_of_product(x_, g_);
     slant::local(g_) -= slant::local(qp_->b());
     if (dominates_) {
       auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
       slant::apply(m_, g_, norm_.z, norm_.of_m);
-      e.bound = error_bound<scalar>(root_of(g_, norm_.z), balanced.gap);
+      e.bound = error_bound<scalar>(detail::root_of_product(g_, norm_.z), balanced.gap);
     } else {
-      e.bound = estimate() + rounding();
+      e.bound = estimate() + detail::rounding_of(x_, stiffness_);
     }
     return e;
   }
@@ -231,18 +326,6 @@ class energy_certificate {
     return e.value;
   }
 
-  /// What rounding the entries of x is worth, of which g knows nothing.
-  [[nodiscard]] scalar rounding() const {
-    scalar sum(0);
-    scalar const unit = unit_near(slant::norm(x_));
-    for (index i = 0; i < slant::local(x_).size(); ++i) {
-      scalar const entry = slant::local(x_).coeff(i) / unit;
-      sum += entry * entry / slant::local(stiffness_).coeff(i);
-    }
-    using std::sqrt;
-    return unit * (std::numeric_limits<scalar>::epsilon() / scalar(2)) * sqrt(sum);
-  }
-
   /// From x and g. The Newton step D = (x₁ − x) + t goes to x₁ = P_Λ(x − ρ g) and from there on the
   /// face of x₁. With s the balanced part of g + A D, the rest of g − s is −A D.
   [[nodiscard]] scalar estimate() {
@@ -270,13 +353,6 @@ class energy_certificate {
     return error_bound<scalar>(norm_of(g_), balanced.gap);
   }
 
-  /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
-  /// top.
-  struct split {
-    scalar bound = std::numeric_limits<scalar>::infinity();
-    scalar moved{0}, gap{0}, above{0};
-  };
-
   /// The bound for x from s balanced at x, or for x₁ from s balanced there and ‖x₁ − x‖_A on top: a
   /// point inside Λ has a gap of the first order that x₁ has not. Curved blocks are balanced with a
   /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
@@ -285,77 +361,32 @@ class energy_certificate {
     slant::local(image_) += slant::local(correction_.image);
     slant::local(balanced_) = slant::local(g_) + slant::local(image_);
     slant::local(image_) -= slant::local(correction_.image);
-    scalar const way = root_of(step_, image_);
-    split best;
+    scalar const way = detail::root_of_product(step_, image_);
+    detail::bound_split<scalar> best;
     consider(best, projected_, correction_.energy, correction_.curvature, way);
     slant::local(step_) += slant::local(correction_.t);
     slant::local(image_) += slant::local(correction_.image);
     slant::local(norm_.p).setZero();
     face_.add_curvature(scalar(1) / typical_, step_, norm_.p);
-    consider(best, x_, root_of(step_, image_), slant::inner_product(step_, norm_.p), scalar(0));
+    consider(best, x_, detail::root_of_product(step_, image_), slant::inner_product(step_, norm_.p), scalar(0));
     if (!detail::is_finite(best.bound)) return best.bound;
     scalar const δ =
         sqrt(best.moved * best.moved + correction_.missing * correction_.missing) + norm_of(rest_);
     return error_bound<scalar>(δ, best.gap) + best.above;
   }
-  void consider(split& best, vector_type const& x, scalar const& moved, scalar const& curvature,
-                scalar const& above) {
-    for (scalar const factor : {scalar(1), scalar(0x1p27)}) {
-      auto& m = norm_.z;
-      auto& rest = norm_.r;
-      slant::local(m) = slant::local(stiffness_);
-      face_.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
-      auto const balanced = balance(qp_->set(), x, balanced_, m, rest);
-      slant::local(rest) -= slant::local(correction_.remainder);
-      // By the gap alone, nothing to speak of is left there.
-      if (factor > scalar(1)) {
-        face_.curved_components([&](index i) { slant::local(rest).coeffRef(i) = scalar(0); });
-      }
-      scalar const γ = std::max<scalar>(balanced.gap, curvature / scalar(2));
-      slant::local(m) = slant::local(stiffness_).cwiseProduct(slant::local(rest));
-      scalar const bound = error_bound<scalar>(moved + root_of(rest, m), γ) + above;
-      if (!(bound < best.bound)) continue;
-      best = {bound, moved, γ, above};
-      slant::local(rest_) = slant::local(rest);
-    }
+  void consider(detail::bound_split<scalar>& best, vector_type const& x, scalar const& moved,
+                scalar const& curvature, scalar const& above) {
+    detail::consider_split(best, qp_->set(), face_, x, balanced_, correction_.remainder, stiffness_,
+                           moved, curvature, above, rest_, norm_.z, norm_.r);
   }
 
   /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
   void set_stiffness() {
-    using A = typename QP::operator_type;
     auto const mean = mean_diagonal(qp_->a(), qp_->b());
     applications_ += mean.applications;
     typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    auto const invert = [&] {
-      for (index i = 0; i < slant::local(stiffness_).size(); ++i) {
-        auto& entry = slant::local(stiffness_).coeffRef(i);
-        entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical_;
-      }
-    };
-    slant::local(stiffness_).setConstant(typical_);
-    if constexpr (has_diagonal<A, vector_type>) {
-      qp_->a().diagonal(stiffness_);
-      invert();
-    } else if constexpr (is_plain) {
-      index const n = slant::local(stiffness_).size();
-      if (!slant::everywhere(stiffness_, n == slant::global_size(stiffness_) && n <= 64)) return;
-      for (index i = 0; i < n; ++i) {
-        slant::local(x_).setZero();
-        slant::local(x_).coeffRef(i) = scalar(1);
-        slant::apply(qp_->a(), x_, g_, a_workspace_);
-        slant::local(stiffness_).coeffRef(i) = slant::local(g_).coeff(i);
-      }
-      applications_ += n;
-      invert();
-    }
-  }
-  /// √(xᵀy) for a product that is ≥ 0 but for rounding.
-  static scalar root_of(vector_type const& x, vector_type const& y) {
-    using std::sqrt;
-    scalar const ux = unit_near(slant::norm(x)), uy = unit_near(slant::norm(y));
-    scalar const product = (slant::local(x) / ux).dot(slant::local(y) / uy);
-    if (!(product > scalar(0))) return product == product ? scalar(0) : product;
-    return scalar(sqrt(product)) * scalar(sqrt(ux)) * scalar(sqrt(uy));
+    applications_ +=
+        detail::set_stiffness<is_plain>(qp_->a(), typical_, stiffness_, x_, g_, a_workspace_);
   }
 
   QP const* qp_;

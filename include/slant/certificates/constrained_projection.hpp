@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+//
+// The projection onto separable and equality constraints together,
+//
+//     minimise  ½ ‖y − z‖²   over   y ∈ Λ = Λ₁ × … × Λ_m,   N y = n,
+//
+// by its dual problem, which has as many unknowns as there are equations:
+//
+//     minimise  θ(m) = ½ ‖z − Nᵀm‖² − ½ dist²(z − Nᵀm, Λ) + nᵀm,     ∇θ(m) = n − N P_Λ(z − Nᵀm)
+//
+// θ is convex with a slanting Hessian N G Nᵀ, G the slanting operator of P_Λ. Newton's method with
+// the term λ I, λ of the size of the residual: where a face leaves an equation nothing to act on,
+// the step is long and leaves that face. It is halved while it ends beyond the minimum along it, at
+// a slope of more than half the first.
+//
+// Where no point of Λ satisfies N y = n, θ is unbounded and there is no result. Nor is one claimed
+// where the equations are satisfied to less than the rounding errors of z and Nᵀm.
+//
+// Cost: a dense factorisation of the size of N Nᵀ a step, no operator of the problem. Hintermüller,
+// Ito, Kunisch, SIAM J. Optim. 13 (2002); regularised as in Qi, Sun, SIAM J. Matrix Anal. 28 (2006).
+#pragma once
+
+#include <slant/concepts/checks.hpp>
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/sets/blocks.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace slant {
+
+/// The projection at the top of this file, for rows of N of length 1, n = N x̄ and Eigen vectors.
+template <class S>
+class constrained_projection {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  vector_type point;   ///< y
+  vector_type normal;  ///< Nᵀm: y = P_Λ(z − Nᵀm)
+  vector_type base;    ///< z − Nᵀm
+
+  /// Room for N; allocates.
+  explicit constrained_projection(sparse_type const& N)
+      : point(N.cols()),
+        normal(N.cols()),
+        base(N.cols()),
+        hessian_(N.rows(), N.rows()),
+        factors_(N.rows()),
+        m_(N.rows()),
+        trial_(N.rows()),
+        step_(N.rows()),
+        residual_(N.rows()) {}
+
+  /// point, normal and base for z. False if none was found. Allocates nothing but what a large
+  /// dense factorisation needs for itself.
+  template <class Set>
+  [[nodiscard]] bool compute(Set const& set, sparse_type const& N, vector_type const& nearest,
+                             vector_type const& z) {
+    using std::sqrt;
+    S const ε = std::numeric_limits<S>::epsilon();
+    S const room = S(4) * ε * sqrt(S(z.size()));
+    S const size_of_z = slant::norm(z), of_nearest = slant::norm(nearest);
+    m_.setZero();
+    evaluate(set, N, nearest, z, m_);
+    S violation = slant::norm(residual_);
+    for (int k = 0; k < most_steps; ++k) {
+      S const size = std::max<S>(slant::norm(point), of_nearest);
+      if (!detail::is_finite(violation)) return false;
+      if (violation <= room * size) return true;
+      add_up_hessian(set, N);
+      S const share = violation / std::max<S>(size, violation);
+      hessian_.diagonal().array() += std::max<S>(S(1e-3) * share, S(64) * ε);
+      factors_.compute(hessian_);
+      if (factors_.info() != Eigen::Success) return false;
+      step_ = residual_ / violation;
+      factors_.solveInPlace(step_);
+      step_ *= violation;
+      if (!search(set, N, nearest, z)) {
+        evaluate(set, N, nearest, z, m_);
+        break;
+      }
+      S const left = slant::norm(residual_);
+      bool const is_slow = !(left < violation / S(2));
+      violation = left;
+      if (is_slow && violation <= room * (size_of_z + slant::norm(normal) + of_nearest)) break;
+    }
+    return violation <= room * (size_of_z + slant::norm(normal) + of_nearest);
+  }
+
+ private:
+  static constexpr int most_steps = 100;
+
+  /// All that belongs to m, and residual = N y − n.
+  template <class Set>
+  void evaluate(Set const& set, sparse_type const& N, vector_type const& nearest,
+                vector_type const& z, vector_type const& m) {
+    normal.noalias() = N.transpose() * m;
+    base = z - normal;
+    slant::project(set, base, point);
+    normal = point - nearest;
+    residual_.noalias() = N * normal;
+    normal = z - base;
+  }
+
+  /// m along the step; false if no length will do.
+  template <class Set>
+  bool search(Set const& set, sparse_type const& N, vector_type const& nearest,
+              vector_type const& z) {
+    // In units of both, so that no product leaves the range.
+    S const unit = slant::norm(residual_), length = slant::norm(step_);
+    auto const slope = [&] { return S((residual_ / unit).dot(step_ / length)); };
+    S const first = slope();
+    if (!(first > S(0))) return false;
+    S β(1);
+    for (int j = 0; j < 60; ++j, β /= S(2)) {
+      trial_ = m_ + β * step_;
+      evaluate(set, N, nearest, z, trial_);
+      if (slope() >= -first / S(2)) {
+        m_ = trial_;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// N G Nᵀ at the base.
+  template <class Set>
+  void add_up_hessian(Set const& set, sparse_type const& N) {
+    hessian_.setZero();
+    auto const add = [&](index i, index j, S const& value) {
+      for (typename sparse_type::InnerIterator a(N, i); a; ++a) {
+        for (typename sparse_type::InnerIterator b(N, j); b; ++b) {
+          hessian_(a.row(), b.row()) += value * a.value() * b.value();
+        }
+      }
+    };
+    slant::visit_blocks(set, [&](auto const& block, auto const& p) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      if constexpr (whole_space<block_type>) {
+        for (index j = 0; j < p.size(); ++j) add(p.component(j), p.component(j), S(1));
+      } else {
+        Eigen::Matrix<S, block_type::dimension, block_type::dimension> const g =
+            block.slant(p.value(base));
+        for (index j = 0; j < p.size(); ++j) {
+          for (index l = 0; l < p.size(); ++l) {
+            if (g(j, l) != S(0)) add(p.component(j), p.component(l), g(j, l));
+          }
+        }
+      }
+    });
+  }
+
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+  dense_type hessian_;
+  Eigen::LLT<dense_type> factors_;
+  vector_type m_, trial_, step_, residual_;
+};
+
+}  // namespace slant
