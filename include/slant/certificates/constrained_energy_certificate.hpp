@@ -291,11 +291,16 @@ class constrained_energy_certificate<QP, C, M> {
 
   /// sup restᵀv/‖v‖_A over ker G.
   [[nodiscard]] scalar dual_norm_of_rest() {
+    using std::sqrt;
+    scalar const whole = slant::norm(rest_);
     for (int k = 0; k < 2; ++k) {
       range_part(rest_, scratch_);
       rest_ -= scratch_;
     }
-    if (!(slant::norm(rest_) > scalar(0))) return slant::norm(rest_);
+    // All of it was in range Gᵀ: what is left is its rounding.
+    scalar const rounding = scalar(4) * sqrt(scalar(rest_.size())) *
+                            std::numeric_limits<scalar>::epsilon() * whole;
+    if (slant::norm(rest_) <= rounding) return scalar(0);
     auto const e = dual_norm(projected_hessian(qp_->a(), *constraints_),
                              projected_hessian(preconditioner(), *constraints_), rest_, most_,
                              false, pap_workspace_, norm_, scalar(0), sizes());

@@ -209,10 +209,6 @@ void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& 
     face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
     auto const split = balance(set, x, balanced, m, d);
     slant::local(d) -= slant::local(remainder);
-    // By the gap alone, nothing to speak of is left there.
-    if (factor > S(1)) {
-      face.curved_components([&](index i) { slant::local(d).coeffRef(i) = S(0); });
-    }
     S const γ = std::max<S>(split.gap, curvature / S(2));
     slant::local(m) = slant::local(stiffness).cwiseProduct(slant::local(d));
     S const bound = error_bound<S>(moved + root_of_product(d, m), γ) + above;
