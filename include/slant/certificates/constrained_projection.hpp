@@ -13,8 +13,7 @@
 // the step is long and leaves that face. It is halved while it ends beyond the minimum along it, at
 // a slope of more than half the first.
 //
-// Where no point of Λ satisfies N y = n, θ is unbounded and there is no result. Nor is one claimed
-// where the equations are satisfied to less than the rounding errors of z and Nᵀm.
+// Where no point of Λ satisfies N y = n, θ is unbounded and there is no result.
 //
 // Cost: a dense factorisation of the size of N Nᵀ a step, no operator of the problem. Hintermüller,
 // Ito, Kunisch, SIAM J. Optim. 13 (2002); regularised as in Qi, Sun, SIAM J. Matrix Anal. 28 (2006).
@@ -53,10 +52,10 @@ class constrained_projection {
         base(N.cols()),
         hessian_(N.rows(), N.rows()),
         factors_(N.rows()),
-        m_(N.rows()),
-        trial_(N.rows()),
         step_(N.rows()),
-        residual_(N.rows()) {}
+        residual_(N.rows()),
+        along_(N.cols()),
+        trial_(N.cols()) {}
 
   /// point, normal and base for z. False if none was found. Allocates nothing but what a large
   /// dense factorisation needs for itself.
@@ -66,14 +65,14 @@ class constrained_projection {
     using std::sqrt;
     S const ε = std::numeric_limits<S>::epsilon();
     S const room = S(4) * ε * sqrt(S(z.size()));
-    S const size_of_z = slant::norm(z), of_nearest = slant::norm(nearest);
-    m_.setZero();
-    evaluate(set, N, nearest, z, m_);
-    S violation = slant::norm(residual_);
+    S const of_nearest = slant::norm(nearest);
+    base = z;
+    evaluate(set, N, nearest, base);
+    S violation = slant::norm(residual_), size(0);
     for (int k = 0; k < most_steps; ++k) {
-      S const size = std::max<S>(slant::norm(point), of_nearest);
+      size = std::max<S>(slant::norm(point), of_nearest);
       if (!detail::is_finite(violation)) return false;
-      if (violation <= room * size) return true;
+      if (violation <= room * size) break;
       add_up_hessian(set, N);
       S const share = violation / std::max<S>(size, violation);
       hessian_.diagonal().array() += std::max<S>(S(1e-3) * share, S(64) * ε);
@@ -82,51 +81,47 @@ class constrained_projection {
       step_ = residual_ / violation;
       factors_.solveInPlace(step_);
       step_ *= violation;
-      if (!search(set, N, nearest, z)) {
-        evaluate(set, N, nearest, z, m_);
-        break;
-      }
+      if (!search(set, N, nearest)) break;
       S const left = slant::norm(residual_);
       bool const is_slow = !(left < violation / S(2));
       violation = left;
-      if (is_slow && violation <= room * (size_of_z + slant::norm(normal) + of_nearest)) break;
+      if (is_slow && violation <= S(8) * room * size) break;
     }
-    return violation <= room * (size_of_z + slant::norm(normal) + of_nearest);
+    normal = z - base;
+    return violation <= S(8) * room * size;
   }
 
  private:
   static constexpr int most_steps = 100;
 
-  /// All that belongs to m, and residual = N y − n.
+  /// y = P_Λ(base) and residual = N y − n.
   template <class Set>
   void evaluate(Set const& set, sparse_type const& N, vector_type const& nearest,
-                vector_type const& z, vector_type const& m) {
-    normal.noalias() = N.transpose() * m;
-    base = z - normal;
-    slant::project(set, base, point);
+                vector_type const& at) {
+    slant::project(set, at, point);
     normal = point - nearest;
     residual_.noalias() = N * normal;
-    normal = z - base;
   }
 
-  /// m along the step; false if no length will do.
+  /// The base along the step; false, and unchanged, if no length will do. The base itself is kept,
+  /// not m: so rounding errors of z and Nᵀm, which may be large, do not enter the equations.
   template <class Set>
-  bool search(Set const& set, sparse_type const& N, vector_type const& nearest,
-              vector_type const& z) {
+  bool search(Set const& set, sparse_type const& N, vector_type const& nearest) {
     // In units of both, so that no product leaves the range.
     S const unit = slant::norm(residual_), length = slant::norm(step_);
     auto const slope = [&] { return S((residual_ / unit).dot(step_ / length)); };
     S const first = slope();
-    if (!(first > S(0))) return false;
+    along_.noalias() = N.transpose() * step_;
     S β(1);
-    for (int j = 0; j < 60; ++j, β /= S(2)) {
-      trial_ = m_ + β * step_;
-      evaluate(set, N, nearest, z, trial_);
+    for (int j = 0; first > S(0) && j < 60; ++j, β /= S(2)) {
+      trial_ = base - β * along_;
+      evaluate(set, N, nearest, trial_);
       if (slope() >= -first / S(2)) {
-        m_ = trial_;
+        base = trial_;
         return true;
       }
     }
+    evaluate(set, N, nearest, base);
     return false;
   }
 
@@ -161,7 +156,7 @@ class constrained_projection {
 
   dense_type hessian_;
   Eigen::LLT<dense_type> factors_;
-  vector_type m_, trial_, step_, residual_;
+  vector_type step_, residual_, along_, trial_;
 };
 
 }  // namespace slant

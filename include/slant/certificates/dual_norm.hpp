@@ -109,9 +109,9 @@ template <class A, class M, class V, class WA>
     rz = next;
     // What is left of d is its rounding: of an operator that is definite on a subspace only, which
     // M knows as well, no curvature is to be expected along it.
-    if (slant::norm(w.r) <= room * ε || rz <= first * (room * ε) * (room * ε)) {
-      return {unit * sqrt(energy), k};
-    }
+    bool const is_spent =
+        slant::norm(w.r) <= room * ε || rz <= first * (room * ε) * (room * ε);
+    if (!dominates && is_spent) return {unit * sqrt(energy), k};
     if (noise < S(0) && is_rounding()) {
       noise = slant::norm(w.r);
       without_noise = energy;
