@@ -130,9 +130,9 @@ class constrained_energy_certificate<QP, C, M> {
         g_(qp.size()),
         stiffness_(qp.size()),
         a_workspace_(workspace(qp.a(), qp.b())),
-        pap_workspace_(workspace(projected_hessian(qp.a(), constraints), qp.b())),
+        whole_workspace_(workspace(augmented_hessian(qp.a(), constraints, scalar(1)), qp.b())),
         q_workspace_(workspace(constraints.range_projector(), qp.b())),
-        norm_(projected_hessian(preconditioner(), constraints), qp.b()),
+        norm_(augmented_hessian(preconditioner(), constraints, scalar(1)), qp.b()),
         projection_(constraints.unit_rows()),
         face_(qp.set(), constraints.unit_rows()),
         correction_(x_, preconditioner()),
@@ -177,9 +177,10 @@ class constrained_energy_certificate<QP, C, M> {
   static constexpr bool is_plain = std::same_as<M, identity_operator>;
   using diagonal_inverse = diagonal_operator<vector_type const&>;
   using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
+  /// P A P + α Q.
   template <class A>
-  using projected = decltype(slant::projected_hessian(std::declval<A const&>(),
-                                                      std::declval<C const&>()));
+  using definite = decltype(slant::augmented_hessian(
+      std::declval<A const&>(), std::declval<C const&>(), typename QP::scalar(1)));
 
   /// ‖x − p‖_A and what ‖p − x*‖_A is at most.
   struct distances {
@@ -289,7 +290,8 @@ class constrained_energy_certificate<QP, C, M> {
            back / sqrt(typical_);
   }
 
-  /// sup restᵀv/‖v‖_A over ker G.
+  /// sup restᵀv/‖v‖_A over ker G: of P A P + Q/ρ, for which nothing but rounding is left in range
+  /// Gᵀ.
   [[nodiscard]] scalar dual_norm_of_rest() {
     using std::sqrt;
     scalar const whole = slant::norm(rest_);
@@ -301,9 +303,9 @@ class constrained_energy_certificate<QP, C, M> {
     scalar const rounding = scalar(4) * sqrt(scalar(rest_.size())) *
                             std::numeric_limits<scalar>::epsilon() * whole;
     if (slant::norm(rest_) <= rounding) return scalar(0);
-    auto const e = dual_norm(projected_hessian(qp_->a(), *constraints_),
-                             projected_hessian(preconditioner(), *constraints_), rest_, most_,
-                             false, pap_workspace_, norm_, scalar(0), sizes());
+    auto const e = dual_norm(augmented_hessian(qp_->a(), *constraints_, scalar(1) / typical_),
+                             augmented_hessian(preconditioner(), *constraints_, typical_), rest_, most_,
+                             false, whole_workspace_, norm_, scalar(0), sizes());
     applications_ += e.applications;
     return e.value;
   }
@@ -331,9 +333,9 @@ class constrained_energy_certificate<QP, C, M> {
   index applications_ = 0;
   vector_type x_, g_, stiffness_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
-  workspace_t<projected<typename QP::operator_type>, vector_type> pap_workspace_;
+  workspace_t<definite<typename QP::operator_type>, vector_type> whole_workspace_;
   workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace_;
-  dual_norm_workspace<vector_type, projected<preconditioner_type>> norm_;
+  dual_norm_workspace<vector_type, definite<preconditioner_type>> norm_;
   constrained_projection<scalar> projection_;
   cut_face<scalar> face_;
   face_correction<vector_type, preconditioner_type> correction_;

@@ -10,7 +10,7 @@
 //
 // θ is convex with a slanting Hessian N G Nᵀ, G the slanting operator of P_Λ. Newton's method with
 // the term λ I, λ of the size of the residual: where a face leaves an equation nothing to act on,
-// the step is long and leaves that face. It is halved while it ends beyond the minimum along it, at
+// the step is as long as z is far from Λ, or Λ and n are large, and leaves that face. It is halved while it ends beyond the minimum along it, at
 // a slope of more than half the first.
 //
 // Where no point of Λ satisfies N y = n, θ is unbounded and there is no result.
@@ -74,8 +74,10 @@ class constrained_projection {
       if (!detail::is_finite(violation)) return false;
       if (violation <= room * size) break;
       add_up_hessian(set, N);
-      S const share = violation / std::max<S>(size, violation);
-      hessian_.diagonal().array() += std::max<S>(S(1e-3) * share, S(64) * ε);
+      trial_ = base - point;
+      S const reach = std::max<S>(size, slant::norm(trial_));
+      S const λ = S(1e-3) * (violation / std::max<S>(reach, violation));
+      hessian_.diagonal().array() += std::max<S>(λ, S(64) * ε);
       factors_.compute(hessian_);
       if (factors_.info() != Eigen::Success) return false;
       step_ = residual_ / violation;

@@ -76,7 +76,6 @@ template <class A, class M, class V, class WA>
   slant::apply(m, w.r, w.z, w.of_m);
   slant::local(w.p) = slant::local(w.z);
   S rz = slant::inner_product(w.r, w.z), energy(0), recent(0), stiffest(0);
-  S const first = rz;
   index k = 0;
   // ‖r‖ is no more than rounding.
   auto const is_rounding = [&] {
@@ -107,11 +106,6 @@ template <class A, class M, class V, class WA>
     S const next = slant::inner_product(w.r, w.z);
     slant::local(w.p) = (next / rz) * slant::local(w.p) + slant::local(w.z);
     rz = next;
-    // What is left of d is its rounding: of an operator that is definite on a subspace only, which
-    // M knows as well, no curvature is to be expected along it.
-    bool const is_spent =
-        slant::norm(w.r) <= room * ε || rz <= first * (room * ε) * (room * ε);
-    if (!dominates && is_spent) return {unit * sqrt(energy), k};
     if (noise < S(0) && is_rounding()) {
       noise = slant::norm(w.r);
       without_noise = energy;
