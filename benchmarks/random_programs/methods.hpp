@@ -6,6 +6,7 @@
 // and are told that A is positive semidefinite, no more.
 #pragma once
 
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error_below.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>

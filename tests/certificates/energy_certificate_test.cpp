@@ -152,4 +152,20 @@ TEST_CASE("unknowns in units of their own, 1e8 to either side, do not hide the e
   CHECK(std::isinf(of_known(nowhere).relative()));
 }
 
+TEST_CASE("a disc that the gradient leaves after the Newton step, along what A hardly resists") {
+  // Weak along (0, 1, 1), which diag(A) does not show. At x the gradient presses (x₀, x₁) against
+  // the unit disc; after the step of x₂ it pulls it inside, up to the middle.
+  double const ε = 1e-9, pull = 1e-9;
+  MatrixXd const A{{1.0, 0.0, 0.0}, {0.0, 1.0, ε - 1}, {0.0, ε - 1, 1.0}};
+  VectorXd const x{{0.0, 1.0, 0.0}}, g{{0.0, -0.1 * pull, 1.1 * pull}}, b = A * x - g;
+  VectorXd const radius = VectorXd::Ones(1);
+  slant::separable_qp const qp{
+      slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
+      slant::cartesian(slant::discs(radius), slant::free_components<double>(1))};
+  slant::energy_certificate certificate(qp);
+  double const error = pull / std::sqrt(2 * ε);  // √(gᵀA⁻¹g) to six digits
+  CHECK(certificate(x).bound >= 0.5 * error);
+  CHECK(certificate(x).bound <= 10 * error);
+}
+
 }  // namespace energy_certificate_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "made_programs.hpp"
 
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error_below.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Some methods in other scalars than double, on programs without contact.
+#include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error_below.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>

@@ -10,16 +10,14 @@
 //                                                     (dual_norm.hpp), which see A⁻¹ from below
 #pragma once
 
+#include <slant/certificates/detail/gradient_split.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/newton_estimate.hpp>
-#include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/checks.hpp>
-#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/krylov/unit.hpp>
 #include <slant/methods/detail/block_slants.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
@@ -75,7 +73,7 @@ class energy_certificate {
       slant::apply(m_, g_, norm_.z, norm_.of_m);
       e.bound = error_bound<scalar>(detail::root_of_product(g_, norm_.z), balanced.gap);
     } else {
-      e.bound = estimate() + rounding();
+      e.bound = estimate() + detail::rounding_of(x_, stiffness_);
     }
     return e;
   }
@@ -137,18 +135,6 @@ class energy_certificate {
     return e.value;
   }
 
-  /// What rounding the entries of x is worth, of which g knows nothing.
-  [[nodiscard]] scalar rounding() const {
-    scalar sum(0);
-    scalar const unit = unit_near(slant::norm(x_));
-    for (index i = 0; i < slant::local(x_).size(); ++i) {
-      scalar const entry = slant::local(x_).coeff(i) / unit;
-      sum += entry * entry / slant::local(stiffness_).coeff(i);
-    }
-    using std::sqrt;
-    return unit * (std::numeric_limits<scalar>::epsilon() / scalar(2)) * sqrt(sum);
-  }
-
   /// From x and g.
   [[nodiscard]] scalar estimate() {
     if constexpr (has_faces) {
@@ -162,33 +148,13 @@ class energy_certificate {
 
   /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
   void set_stiffness() {
-    using A = typename QP::operator_type;
     auto const mean = mean_diagonal(qp_->a(), qp_->b());
     applications_ += mean.applications;
     typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    auto const invert = [&] {
-      for (index i = 0; i < slant::local(stiffness_).size(); ++i) {
-        auto& entry = slant::local(stiffness_).coeffRef(i);
-        entry = entry > scalar(0) ? scalar(scalar(1) / entry) : typical_;
-      }
-    };
-    slant::local(stiffness_).setConstant(typical_);
-    if constexpr (has_diagonal<A, vector_type>) {
-      qp_->a().diagonal(stiffness_);
-      invert();
-    } else if constexpr (is_plain) {
-      index const n = slant::local(stiffness_).size();
-      if (!slant::everywhere(stiffness_, n == slant::global_size(stiffness_) && n <= 64)) return;
-      for (index i = 0; i < n; ++i) {
-        slant::local(x_).setZero();
-        slant::local(x_).coeffRef(i) = scalar(1);
-        slant::apply(qp_->a(), x_, g_, a_workspace_);
-        slant::local(stiffness_).coeffRef(i) = slant::local(g_).coeff(i);
-      }
-      applications_ += n;
-      invert();
-    }
+    applications_ +=
+        detail::set_stiffness<is_plain>(qp_->a(), typical_, stiffness_, x_, g_, a_workspace_);
   }
+
   QP const* qp_;
   M m_;
   bool dominates_;

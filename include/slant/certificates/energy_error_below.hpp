@@ -8,17 +8,20 @@
 //     slant::at_most(500));
 //
 // A certificate costs about as much as a step, so it is asked only where it may say yes: when the
-// quantity that the method watches anyway (reduced gradient, residual, step; relative) has fallen
-// to the tolerance, and after a no when that has fallen by the factor that was missing. A method
-// that ends by itself is judged too: `converged` becomes `stalled` where the certificate disagrees,
-// with the error reached in the reason.
+// quantity that the method watches anyway (reduced gradient, residual, step; relative; with the
+// violation of equality constraints, if there are any) has fallen to the tolerance, and after a no
+// when that has fallen by the factor that was missing. A method that ends by itself is judged too:
+// `converged` becomes `stalled` where the certificate disagrees, with the error reached in the
+// reason.
 #pragma once
 
-#include <slant/certificates/energy_certificate.hpp>
+#include <slant/certificates/energy_error.hpp>
+#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -39,7 +42,10 @@ template <class S, class State>
   auto const ratio = [](auto const& size, auto const& scale) {
     return scale > std::remove_cvref_t<decltype(scale)>(0) ? S(size / scale) : S(0);
   };
-  if constexpr (has_reduced_gradient_norm<State>) {
+  if constexpr (has_reduced_gradient_norm<State> && has_feasibility_norm<State>) {
+    return std::max<S>(ratio(s.reduced_gradient_norm, s.gradient_scale),
+                       ratio(s.feasibility_norm, s.feasibility_scale));
+  } else if constexpr (has_reduced_gradient_norm<State>) {
     return ratio(s.reduced_gradient_norm, s.gradient_scale);
   } else if constexpr (has_residual_norm<State>) {
     return ratio(s.residual_norm, s.residual_scale);

@@ -16,35 +16,19 @@
 // Cost: one application of A, and one for each iteration, some 10.
 #pragma once
 
+#include <slant/certificates/detail/gradient_split.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/face_correction.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/unit.hpp>
 #include <slant/methods/detail/block_slants.hpp>
 #include <slant/sets/curved_face.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 namespace slant {
-
-namespace detail {
-
-/// √(xᵀy) for a product that is ≥ 0 but for rounding.
-template <class V>
-[[nodiscard]] scalar_t<V> root_of_product(V const& x, V const& y) {
-  using S = scalar_t<V>;
-  using std::sqrt;
-  S const ux = unit_near(slant::norm(x)), uy = unit_near(slant::norm(y));
-  S const product = (slant::local(x) / ux).dot(slant::local(y) / uy);
-  if (!(product > S(0))) return product == product ? S(0) : product;
-  return S(sqrt(product)) * S(sqrt(ux)) * S(sqrt(uy));
-}
-
-}  // namespace detail
 
 /// Where x is, and what the estimate may use.
 template <class V>
@@ -105,13 +89,6 @@ class newton_estimate {
   [[nodiscard]] index applications() const { return applications_; }
 
  private:
-  /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
-  /// top.
-  struct split {
-    scalar bound = std::numeric_limits<scalar>::infinity();
-    scalar moved{0}, gap{0}, above{0};
-  };
-
   /// The bound for x from s balanced at x, or for x₁ from s balanced there and ‖x₁ − x‖_A on top: a
   /// point inside Λ has a gap of the first order that x₁ has not. Curved blocks are balanced with a
   /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
@@ -122,7 +99,7 @@ class newton_estimate {
     slant::local(balanced_) = slant::local(at.gradient) + slant::local(image_);
     slant::local(image_) -= slant::local(correction_.image);
     scalar const way = detail::root_of_product(step_, image_);
-    split best;
+    detail::bound_split<scalar> best;
     consider(best, at, projected_, correction_.energy, correction_.curvature, way);
     slant::local(step_) += slant::local(correction_.t);
     slant::local(image_) += slant::local(correction_.image);
@@ -136,25 +113,11 @@ class newton_estimate {
     return error_bound<scalar>(δ, best.gap) + best.above;
   }
 
-  void consider(split& best, estimated_point<vector_type> const& at, vector_type const& x,
-                scalar const& moved, scalar const& curvature, scalar const& above) {
-    for (scalar const factor : {scalar(1), scalar(0x1p27)}) {
-      slant::local(weight_) = slant::local(at.stiffness);
-      face_.curved_components([&](index i) { slant::local(weight_).coeffRef(i) *= factor; });
-      auto const balanced = balance(qp_->set(), x, balanced_, weight_, trial_);
-      slant::local(trial_) -= slant::local(correction_.remainder);
-      // By the gap alone, nothing to speak of is left there.
-      if (factor > scalar(1)) {
-        face_.curved_components([&](index i) { slant::local(trial_).coeffRef(i) = scalar(0); });
-      }
-      scalar const γ = std::max<scalar>(balanced.gap, curvature / scalar(2));
-      slant::local(weight_) = slant::local(at.stiffness).cwiseProduct(slant::local(trial_));
-      scalar const bound =
-          error_bound<scalar>(moved + detail::root_of_product(trial_, weight_), γ) + above;
-      if (!(bound < best.bound)) continue;
-      best = {bound, moved, γ, above};
-      slant::local(rest_) = slant::local(trial_);
-    }
+  void consider(detail::bound_split<scalar>& best, estimated_point<vector_type> const& at,
+                vector_type const& x, scalar const& moved, scalar const& curvature,
+                scalar const& above) {
+    detail::consider_split(best, qp_->set(), face_, x, balanced_, correction_.remainder,
+                           at.stiffness, moved, curvature, above, rest_, weight_, trial_);
   }
 
   QP const* qp_;

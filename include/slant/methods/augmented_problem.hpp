@@ -17,6 +17,8 @@
 #include <slant/operators/scaled.hpp>
 #include <slant/operators/sum.hpp>
 
+#include <Eigen/SparseCore>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -34,6 +36,12 @@ concept affine_space = requires(C const& c, V const& v) {
   { c.kernel_projector() } -> psd_operator<V>;
   { c.nearest() } -> std::convertible_to<V const&>;
 };
+
+/// An affine space that knows independent rows of length 1, as equality_constraints does.
+template <class C, class V>
+concept affine_space_with_rows = affine_space<C, V> && requires(C const& c) {
+  { c.unit_rows() } -> std::same_as<Eigen::SparseMatrix<scalar_t<V>> const&>;
+} && std::same_as<V, Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, 1>>;
 
 /// P A P; refers to both arguments.
 template <class A, class C>

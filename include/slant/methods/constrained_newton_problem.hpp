@@ -13,18 +13,9 @@
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <Eigen/SparseCore>
-
-#include <concepts>
 #include <type_traits>
 
 namespace slant {
-
-/// An affine space that knows independent rows of length 1, as equality_constraints does.
-template <class C, class V>
-concept affine_space_with_rows = affine_space<C, V> && requires(C const& c) {
-  { c.unit_rows() } -> std::same_as<Eigen::SparseMatrix<scalar_t<V>> const&>;
-} && std::same_as<V, Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, 1>>;
 
 /// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for symmetric_newton, and rows.
 template <class QP, class C>

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+//
+// What the certificates that take a Newton step share: how the gradient behind the step is split
+// into a part that Λ balances and a rest, and sizes of A⁻¹.
+#pragma once
+
+#include <slant/certificates/energy_error.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/distributed.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/krylov/unit.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace slant::detail {
+
+/// √(xᵀy) for a product that is ≥ 0 but for rounding.
+template <class V>
+[[nodiscard]] auto root_of_product(V const& x, V const& y) {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  S const ux = unit_near(slant::norm(x)), uy = unit_near(slant::norm(y));
+  S const product = (slant::local(x) / ux).dot(slant::local(y) / uy);
+  if (!(product > S(0))) return product == product ? S(0) : product;
+  return S(S(sqrt(product)) * S(sqrt(ux)) * S(sqrt(uy)));
+}
+
+/// What rounding the entries of x is worth in the energy norm, of which g knows nothing.
+template <class V>
+[[nodiscard]] auto rounding_of(V const& x, V const& stiffness) {
+  using S = scalar_t<V>;
+  S sum(0);
+  S const unit = unit_near(slant::norm(x));
+  for (index i = 0; i < slant::local(x).size(); ++i) {
+    S const entry = slant::local(x).coeff(i) / unit;
+    sum += entry * entry / slant::local(stiffness).coeff(i);
+  }
+  using std::sqrt;
+  return S(unit * (std::numeric_limits<S>::epsilon() / S(2)) * S(sqrt(sum)));
+}
+
+/// 1/diag A if A gives it or, with `probe`, has no more than 64 rows, else `typical`, the size of
+/// A⁻¹. x and g are scratch. Returns the applications of A.
+template <bool probe, class A, class V, class W>
+index set_stiffness(A const& a, scalar_t<V> const& typical, V& stiffness, V& x, V& g, W& w) {
+  using S = scalar_t<V>;
+  auto const invert = [&] {
+    for (index i = 0; i < slant::local(stiffness).size(); ++i) {
+      auto& entry = slant::local(stiffness).coeffRef(i);
+      entry = entry > S(0) ? S(S(1) / entry) : typical;
+    }
+  };
+  slant::local(stiffness).setConstant(typical);
+  if constexpr (has_diagonal<A, V>) {
+    a.diagonal(stiffness);
+    invert();
+  } else if constexpr (probe) {
+    index const n = slant::local(stiffness).size();
+    if (!slant::everywhere(stiffness, n == slant::global_size(stiffness) && n <= 64)) return 0;
+    for (index i = 0; i < n; ++i) {
+      slant::local(x).setZero();
+      slant::local(x).coeffRef(i) = S(1);
+      slant::apply(a, x, g, w);
+      slant::local(stiffness).coeffRef(i) = slant::local(g).coeff(i);
+    }
+    invert();
+    return n;
+  }
+  return 0;
+}
+
+/// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
+/// top.
+template <class S>
+struct bound_split {
+  S bound = std::numeric_limits<S>::infinity();
+  S moved{0}, gap{0}, above{0};
+};
+
+/// Splits the gradient at the end of a Newton step, `balanced`, into s and `rest` for x; curved
+/// blocks with a part of the gradient or by the gap alone. What the diagonal of A says is less
+/// becomes `best`. `moved`, `curvature`: of the step; `remainder`: what of it is missing on the
+/// face, and counted elsewhere. m and d are scratch.
+template <class Set, class Face, class V>
+void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& face, V const& x,
+                    V const& balanced, V const& remainder, V const& stiffness,
+                    scalar_t<V> const& moved, scalar_t<V> const& curvature,
+                    scalar_t<V> const& above, V& rest, V& m, V& d) {
+  using S = scalar_t<V>;
+  for (S const factor : {S(1), S(0x1p27)}) {
+    slant::local(m) = slant::local(stiffness);
+    face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
+    auto const split = balance(set, x, balanced, m, d);
+    slant::local(d) -= slant::local(remainder);
+    S const γ = std::max<S>(split.gap, curvature / S(2));
+    slant::local(m) = slant::local(stiffness).cwiseProduct(slant::local(d));
+    S const bound = error_bound<S>(moved + root_of_product(d, m), γ) + above;
+    if (!(bound < best.bound)) continue;
+    best = {bound, moved, γ, above};
+    slant::local(rest) = slant::local(d);
+  }
+}
+
+}  // namespace slant::detail
