@@ -255,9 +255,10 @@ TEST_CASE("contact::solve: one gap that is wide beside the others") {
     auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::press});
     auto held = test::contact_data(scene);
     held.d(held.nodes() - 1) = far;
-    auto const r = solve(scene.K, held);
+    auto const r = solve(scene.K, held, {.prove = true});
     CAPTURE(r.reason);
     CHECK(r.converged());
+    CHECK(r.error.proven);
     held.d(held.nodes() - 1) = std::numeric_limits<double>::infinity();
     CHECK(true_error(scene.K, r.u, solve(scene.K, held, {.tolerance = 1e-12}).u) <= 1e-8);
     test::loose_brick loose(1, {-0.3, 0, 0}, 0.05);

@@ -21,6 +21,7 @@
 #include <slant/contact/detail/falling_motion.hpp>
 #include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/factorizations/factorize.hpp>
+#include <slant/operators/inverse.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -229,7 +230,8 @@ class rigid_position {
       bend(H);
       vector_type p(α_.size());
       try {
-        slant::factorize(H).solve(gradient, p);
+        auto const factor = slant::factorize(H);
+        slant::apply(inverse(factor), gradient, p);
       } catch (bad_input const&) {
         return false;  // springs too soft beside the contacts
       }
