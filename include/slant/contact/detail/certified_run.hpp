@@ -108,7 +108,7 @@ class certified_run {
     dual_.update(std::move(step));
     certificate_.set_positions(w);
     b_ = dual_.b().cwiseProduct(d_);
-    options_.start = λ;
+    if (λ.size() > 0) options_.start = λ;
     options_.tolerance = tolerance;
     options_.max_steps = max_steps;
     bool const scaled = result_.scaled;

@@ -21,15 +21,24 @@
 //     not      u⁺ − u⁻ tends to a motion along which the energy falls for ever [Brézis, Reich]; it
 //              is checked (falling_motion.hpp) and is the proof
 //
+// Gaps. A spring that is to let a body through a gap has to be soft, so soft that B (K + D)⁻¹Bᵀ is
+// nearly of the rank of the motions. So u⁻ = R α to begin with, α from rigid_position.hpp, and u =
+// R α + v from there on: gaps, slips and norms are taken of v, which is of the size of the strains.
+// ‖·‖_K of what the sum R α + v loses to rounding is part of the error, as is that of K R α, which
+// ought to be 0: they are the floor where bodies move far beside what they deform.
+//
 // Cost: one factorisation of the size of K, and 2 to 4 problems, all but the first of which begin
-// at the solution of the one before.
+// at the solution of the one before. One more factorisation for each other σ, where 2⁻⁶ is too
+// stiff.
 #pragma once
 
 #include <slant/contact/detail/falling_motion.hpp>
+#include <slant/contact/detail/rigid_position.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/solve_options.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
+#include <slant/sets/detail/double_word.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -80,7 +89,8 @@ class spring_supports {
       : K_(&K), original_(&c), data_(c), options_(o), R_(kernel_of(motions, K.rows())) {
     for (index const j : fixing_unknowns(motions)) places_.push_back(j);
     sum_.motions = std::move(motions);
-    anchor_.setZero(K.rows());
+    origin_.setZero(K.rows());
+    rest_.setZero(K.rows());
   }
   spring_supports(spring_supports const&) = delete;
   spring_supports& operator=(spring_supports const&) = delete;
@@ -88,6 +98,8 @@ class spring_supports {
   template <class... Observers>
   [[nodiscard]] solution<S> run(Observers&... observers) {
     if (options_.start) λ_ = *options_.start;
+    origin_ = R_ * rigid_position<S>(*K_, *original_, R_)();
+    is_moved_ = !(origin_.array() == S(0)).all();
     for (S soft = S(0x1p-16);; soft *= S(0x1p-10)) {
       // Stiff springs make good systems; soft ones cover distances, for which three digits do.
       if (run_with_springs(S(0x1p-6), false, observers...)) break;
@@ -129,16 +141,31 @@ class spring_supports {
     return part.stableNorm();
   }
 
-  /// The load and the data as seen from r, the rigid part of the anchor.
+  /// The load and the data as seen from the rigid part of the anchor. K times that is rounding of K
+  /// and R: its resultants, which are 0 as K is symmetric, are removed, and its size as ‖·‖_{K⁻¹},
+  /// with diag(K) for K, is part of the error.
   void move_origin() {
-    origin_ = R_ * vector_type(R_.transpose() * anchor_);
+    using std::hypot;
+    using std::sqrt;
     vector_type const image = *K_ * origin_;
-    data_.f = original_->f - image;
+    data_.f = original_->f - image + R_ * vector_type(R_.transpose() * image);
+    lost_ = S(0);
+    for (index j = 0; j < image.size(); ++j) {
+      S const own = K_->coeff(j, j);
+      if (own > S(0)) lost_ = hypot(lost_, S(image(j) / sqrt(own)));
+    }
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      data_.f(places_[i]) += stiffness_[i] * (anchor_(places_[i]) - origin_(places_[i]));
+      data_.f(places_[i]) += stiffness_[i] * rest_(places_[i]);
     }
     data_.d = original_->d - original_->N * origin_;
     positions_ = -(original_->T * origin_);
+  }
+
+  /// u becomes the anchor: its rigid part the origin, the rest what is small beside it.
+  void move_anchor(vector_type const& v) {
+    vector_type const moved = R_ * vector_type(R_.transpose() * v);
+    origin_ += moved;
+    rest_ = v - moved;
   }
 
   /// Whether there is a verdict; none where the springs are too stiff, or after a few steps with
@@ -163,15 +190,17 @@ class spring_supports {
         if (λ_.size() > 0) o.start = λ_;
         data_.d = original_->d;
         method.emplace(supported_, data_, o);
+        ++sum_.work.factorizations;
       }
-      if (sum_.springs > 0) {
+      if (sum_.springs > 0 || is_moved_) {
         move_origin();
         method->reload(λ_, positions_, tolerance, budget);
       }
       auto found = method->run(observers...);
       S const supported_size = found.error.size, inner = found.error.bound;
-      if (origin_.size() > 0) found.u += origin_;
-      vector_type moved = found.u - anchor_;
+      vector_type const v = found.u;
+      found.u += origin_;
+      vector_type moved = v - rest_;
       S const t = spring_norm(moved);
       take(found);
       bool const is_over = sum_.status == status::unbounded ||
@@ -188,7 +217,9 @@ class spring_supports {
         }
         return true;
       }
-      bool const at_rest = !(t > S(4) * inner);
+      // u itself is rounded, by much where it is large beside the strains; so are the gaps.
+      S const rounded = S(2) * (lost_ + elastic_norm(*K_, lost_digits(v)));
+      bool const at_rest = !(t > S(4) * (inner + rounded));
       if (step > 0 && !at_rest) {
         S const factor = t / t_before;
         θ = std::clamp<S>(factor, S(0x1p-12), S(0.999));
@@ -196,19 +227,25 @@ class spring_supports {
       }
       t_before = t;
       S const spring = t > S(0) ? S((t + inner) * sqrt(θ / (S(1) - θ))) : S(0);
-      sum_.error.bound = inner + spring;
-      sum_.error.size = elastic_norm(*K_, sum_.u);
+      sum_.error.bound = inner + spring + rounded;
+      sum_.error.size = elastic_norm(*K_, v);
       sum_.error.proven = false;
       if (is_over) return true;  // also where no u satisfies the constraints
       if ((step > 0 || t == S(0)) && sum_.error.relative() <= options_.tolerance) {
         finish(status::converged);
         return true;
       }
-      if (at_rest && step > 1 && found.status == status::stalled) {
+      if (step > 0 && sum_.error.bound <= S(2) * rounded) {
+        finish(status::stalled);
+        sum_.reason += ", for the bodies move far beside what they deform";
+        return true;
+      }
+      // With soft springs that is their own floor, or the end of their budget.
+      if (at_rest && step > 1 && !is_soft && found.status == status::stalled) {
         finish(status::stalled);
         return true;
       }
-      anchor_ = sum_.u;
+      move_anchor(v);
       if (at_rest) goal *= S(0.3);  // the rest is what the inner tolerance leaves
       // What the springs store is no part of the elastic energy that the tolerance is relative to.
       S const share = supported_size > S(0) ? S(sum_.error.size / supported_size) : S(1);
@@ -216,6 +253,13 @@ class spring_supports {
       tolerance = next * std::min<S>(S(1), share);
     }
     return false;
+  }
+
+  /// (origin + v) − u, exactly.
+  [[nodiscard]] vector_type lost_digits(vector_type const& v) const {
+    vector_type lost(v.size());
+    for (index j = 0; j < v.size(); ++j) lost(j) = slant::detail::exact_sum<S>(origin_(j), v(j)).lo;
+    return lost;
   }
 
   void take(solution<S>& found) {
@@ -230,7 +274,6 @@ class spring_supports {
     sum_.work.operator_applications += found.work.operator_applications;
     sum_.work.setup_applications += found.work.setup_applications;
     sum_.work.inner_iterations += found.work.inner_iterations;
-    sum_.work.factorizations += found.work.factorizations;
     sum_.solves += found.solves;
     sum_.corrections += found.corrections;
     sum_.scaled = found.scaled;
@@ -263,7 +306,10 @@ class spring_supports {
   sparse_type R_, supported_{};
   std::vector<index> places_{};
   std::vector<S> stiffness_{};
-  vector_type anchor_{}, origin_{}, positions_{}, λ_{};
+  vector_type origin_{}, rest_{};  // of the anchor
+  vector_type positions_{}, λ_{};
+  S lost_{0};              // to rounding, of the origin
+  bool is_moved_ = false;  // before the first problem
   solution<S> sum_{};
 };
 
