@@ -104,9 +104,9 @@ struct planted {
         std::sqrt(std::fabs(rounding.dot(A.cast<real>().ldlt().solve(rounding)))));
   }
   [[nodiscard]] auto qp() const {
-    return slant::separable_qp{
-        slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
-        slant::cartesian(slant::free_components(2), slant::half_lines(lower), slant::discs(radius))};
+    return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
+                               slant::cartesian(slant::free_components(2), slant::half_lines(lower),
+                                                slant::discs(radius))};
   }
 };
 
@@ -192,7 +192,8 @@ TEST_CASE("constrained_newton and smalse end by the error, in any units and leng
     check_verdict(slant::smalse{qp, constraints}, qp, constraints, p.A, p.x);
     // Of a point that is not special, to more digits than the error.
     constrained_energy_certificate certificate(qp, constraints);
-    VectorXd const x = slant::project(qp.set(), VectorXd(p.x + 1e-5 * length * VectorXd::Ones(p.n)));
+    VectorXd const x =
+        slant::project(qp.set(), VectorXd(p.x + 1e-5 * length * VectorXd::Ones(p.n)));
     double const error = error_of(p.A, constraints.unit_rows(), x, p.x);
     CHECK(certificate(x).bound == doctest::Approx(error).epsilon(1e-3));
   }
@@ -241,8 +242,8 @@ TEST_CASE("as many equations as unknowns; a face that has lost what an equation 
   MatrixXd const G = test::random_matrix(4, 4, 7);
   VectorXd const b = test::random_matrix(4, 1, 6), x{{1.0, 2.0, 0.5, 3.0}};
   slant::equality_constraints const all(sparse(G.sparseView()), VectorXd(G * x));
-  auto const nothing = slant::cartesian(slant::free_components(4), slant::half_lines(0),
-                                        slant::discs(VectorXd()));
+  auto const nothing =
+      slant::cartesian(slant::free_components(4), slant::half_lines(0), slant::discs(VectorXd()));
   slant::separable_qp const point{
       slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b, nothing};
   check_verdict(slant::constrained_newton{point, all}, point, all, A, x);
@@ -252,8 +253,8 @@ TEST_CASE("as many equations as unknowns; a face that has lost what an equation 
   VectorXd const pushed{{-50.0, -100.0}};
   slant::equality_constraints const line(sparse(MatrixXd{{1.0, 1.0}}.sparseView()),
                                          VectorXd(VectorXd::Ones(1)));
-  auto const quadrant = slant::cartesian(slant::free_components(0), slant::half_lines(2),
-                                         slant::discs(VectorXd()));
+  auto const quadrant =
+      slant::cartesian(slant::free_components(0), slant::half_lines(2), slant::discs(VectorXd()));
   slant::separable_qp const corner{
       slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(unit), pushed, quadrant};
   constrained_energy_certificate certificate(corner, line);
@@ -290,9 +291,9 @@ TEST_CASE("constraints that no point satisfies: nothing is claimed, however near
     auto const constraints = p.constraints();
     constrained_energy_certificate certificate(qp, constraints);
     CHECK(std::isinf(certificate(p.x).bound));
-    auto const r = slant::solve(slant::constrained_newton{qp, constraints},
-                                VectorXd(VectorXd::Zero(p.n)),
-                                slant::energy_error_below(1e-8, certificate) || slant::at_most(400));
+    auto const r =
+        slant::solve(slant::constrained_newton{qp, constraints}, VectorXd(VectorXd::Zero(p.n)),
+                     slant::energy_error_below(1e-8, certificate) || slant::at_most(400));
     CHECK(!r.converged());
     CHECK(std::isinf(certificate(r.x()).relative()));
   }

@@ -4,9 +4,9 @@
 //
 //     minimise  q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ,  G x = e,        A symmetric semidefinite.
 //
-// Let x* be a solution with the multiplier ν* ∈ range Gᵀ: g* = A x* − b + ν*, −g* normal to Λ at x*.
-// For any p ∈ Λ with G p = e, any ν ∈ range Gᵀ and g = A p − b + ν, νᵀ(p − x*) = ν*ᵀ(p − x*) = 0, so
-// that the derivation of energy_error.hpp holds word for word,
+// Let x* be a solution with the multiplier ν* ∈ range Gᵀ: g* = A x* − b + ν*, −g* normal to Λ at
+// x*. For any p ∈ Λ with G p = e, any ν ∈ range Gᵀ and g = A p − b + ν, νᵀ(p − x*) = ν*ᵀ(p − x*) =
+// 0, so that the derivation of energy_error.hpp holds word for word,
 //
 //     ‖p − x*‖_A² = (g − g*)ᵀ(p − x*) ≤ (g − s)ᵀ(p − x*) + γ,
 //     ‖p − x*‖_A ≤ ½ (δ + √(δ² + 4γ)),         δ = sup (g − s)ᵀv/‖v‖_A over v ∈ ker G,
@@ -16,26 +16,26 @@
 //
 // p comes from Newton's method, started at y = x:
 //
-//     project     p = P(y − ρ (A y − b)) onto Λ ∩ { G x = e }, with ν     constrained_projection.hpp
+//     project     p = P(y − ρ (A y − b)) onto Λ ∩ { G x = e }, with ν constrained_projection.hpp
 //     step        t on the face there, cut by ker G                       face_correction.hpp
 //     bound       g − s = −A t + rest,  δ ≤ ‖t‖_A + ‖rest‖,  for ν balanced on the face
 //     go on       y = p + t, while p is not much nearer to x* than to x
 //
-// Near a solution p is next to x* after a step or two, and the estimate tends to ‖x − x*‖_A. Where a
-// face is wrong the inequality says so: the estimate is large. Rows of G that depend on others on the
-// face cut nothing more (methods/cut_face.hpp). Where no point of Λ satisfies G x = e, or none is
-// found, it is ∞. Conjugate gradients see the dual norm only from below: an estimate, no bound.
+// Near a solution p is next to x* after a step or two, and the estimate tends to ‖x − x*‖_A. Where
+// a face is wrong the inequality says so: the estimate is large. Rows of G that depend on others on
+// the face cut nothing more (methods/cut_face.hpp). Where no point of Λ satisfies G x = e, or none
+// is found, it is ∞. Conjugate gradients see the dual norm only from below: an estimate, no bound.
 //
 // The norm. A may vanish along what x misses of G x = e. The error is therefore that in
 //
 //     ‖v‖² = ‖v‖_A² + ω ‖Q v‖²,    Q onto range Gᵀ,    ω = ‖x‖_A²/‖x‖²,
 //
-// where ‖Q (x − x*)‖ is the distance of x from { G x = e }, which is known; it counts relative to ‖x‖
-// as the energy does relative to ‖x‖_A. The error in A alone is never more. The size it is compared
-// with is that of energy_error, ‖x‖_A.
+// where ‖Q (x − x*)‖ is the distance of x from { G x = e }, which is known; it counts relative to
+// ‖x‖ as the energy does relative to ‖x‖_A. The error in A alone is never more. The size it is
+// compared with is that of energy_error, ‖x‖_A.
 //
-// Where A is not declared definite, x* is any solution and what rounding leaves of a gradient is not
-// counted, as in energy_error.hpp.
+// Where A is not declared definite, x* is any solution and what rounding leaves of a gradient is
+// not counted, as in energy_error.hpp.
 #pragma once
 
 #include <slant/certificates/constrained_projection.hpp>
@@ -78,8 +78,7 @@ class constrained_energy_certificate : public detail::refused {
   using vector_type = typename QP::vector_type;
   using a = detail::questions_about<typename QP::operator_type, vector_type>;
   static constexpr bool has_slants = has_block_slants<typename QP::set_type, local_t<vector_type>>;
-  static constexpr bool good_problem =
-      has_slants && psd_operator<typename a::promise, vector_type>;
+  static constexpr bool good_problem = has_slants && psd_operator<typename a::promise, vector_type>;
 
   static_assert(psd_operator<typename a::promise, vector_type>,
                 "constrained_energy_certificate: A must declare that it is self-adjoint and "
@@ -98,6 +97,20 @@ class constrained_energy_certificate : public detail::refused {
   template <class... Arguments>
   explicit constrained_energy_certificate(Arguments const&...);
   energy_error<typename QP::scalar> operator()(auto const& x);
+  index applications() const;
+};
+
+/// A problem that was told so already, or none at all.
+template <class QP, class C, class M>
+  requires(!quadratic_program<QP>)
+class constrained_energy_certificate<QP, C, M> : public detail::refused {
+  static_assert(quadratic_program<QP> || detail::was_refused<QP>,
+                "constrained_energy_certificate: expected a separable_qp");
+
+ public:
+  template <class... Arguments>
+  explicit constrained_energy_certificate(Arguments const&...);
+  energy_error<double> operator()(auto const& x);
   index applications() const;
 };
 
@@ -284,8 +297,7 @@ class constrained_energy_certificate<QP, C, M> {
                            stiffness_, correction_.energy, correction_.curvature, scalar(0), rest_,
                            norm_.z, norm_.r);
     if (!detail::is_finite(best.bound)) return best.bound;
-    scalar const moved =
-        sqrt(best.moved * best.moved + correction_.missing * correction_.missing);
+    scalar const moved = sqrt(best.moved * best.moved + correction_.missing * correction_.missing);
     return error_bound<scalar>(moved + dual_norm_of_rest(), best.gap + changed * missed) +
            back / sqrt(typical_);
   }
@@ -300,12 +312,12 @@ class constrained_energy_certificate<QP, C, M> {
       rest_ -= scratch_;
     }
     // All of it was in range Gᵀ: what is left is its rounding.
-    scalar const rounding = scalar(4) * sqrt(scalar(rest_.size())) *
-                            std::numeric_limits<scalar>::epsilon() * whole;
+    scalar const rounding =
+        scalar(4) * sqrt(scalar(rest_.size())) * std::numeric_limits<scalar>::epsilon() * whole;
     if (slant::norm(rest_) <= rounding) return scalar(0);
     auto const e = dual_norm(augmented_hessian(qp_->a(), *constraints_, scalar(1) / typical_),
-                             augmented_hessian(preconditioner(), *constraints_, typical_), rest_, most_,
-                             false, whole_workspace_, norm_, scalar(0), sizes());
+                             augmented_hessian(preconditioner(), *constraints_, typical_), rest_,
+                             most_, false, whole_workspace_, norm_, scalar(0), sizes());
     applications_ += e.applications;
     return e.value;
   }

@@ -10,13 +10,14 @@
 //
 // θ is convex with a slanting Hessian N G Nᵀ, G the slanting operator of P_Λ. Newton's method with
 // the term λ I, λ of the size of the residual: where a face leaves an equation nothing to act on,
-// the step is as long as z is far from Λ, or Λ and n are large, and leaves that face. It is halved while it ends beyond the minimum along it, at
-// a slope of more than half the first.
+// the step is as long as z is far from Λ, or Λ and n are large, and leaves that face. It is halved
+// while it ends beyond the minimum along it, at a slope of more than half the first.
 //
 // Where no point of Λ satisfies N y = n, θ is unbounded and there is no result.
 //
 // Cost: a dense factorisation of the size of N Nᵀ a step, no operator of the problem. Hintermüller,
-// Ito, Kunisch, SIAM J. Optim. 13 (2002); regularised as in Qi, Sun, SIAM J. Matrix Anal. 28 (2006).
+// Ito, Kunisch, SIAM J. Optim. 13 (2002); regularised as in Qi, Sun, SIAM J. Matrix Anal. 28
+// (2006).
 #pragma once
 
 #include <slant/concepts/checks.hpp>

@@ -364,7 +364,8 @@ class energy_certificate {
     slant::local(image_) += slant::local(correction_.image);
     slant::local(norm_.p).setZero();
     face_.add_curvature(scalar(1) / typical_, step_, norm_.p);
-    consider(best, x_, detail::root_of_product(step_, image_), slant::inner_product(step_, norm_.p), scalar(0));
+    consider(best, x_, detail::root_of_product(step_, image_), slant::inner_product(step_, norm_.p),
+             scalar(0));
     if (!detail::is_finite(best.bound)) return best.bound;
     scalar const δ =
         sqrt(best.moved * best.moved + correction_.missing * correction_.missing) + norm_of(rest_);

@@ -10,8 +10,9 @@
 // A certificate costs about as much as a step, so it is asked only where it may say yes: when the
 // quantity that the method watches anyway (reduced gradient, residual, step; relative; with the
 // violation of equality constraints, if there are any) has fallen to the tolerance, and after a no
-// when that has fallen by the factor that was missing. A method that ends by itself is judged too: `converged` becomes `stalled` where the certificate disagrees,
-// with the error reached in the reason.
+// when that has fallen by the factor that was missing. A method that ends by itself is judged too:
+// `converged` becomes `stalled` where the certificate disagrees, with the error reached in the
+// reason.
 #pragma once
 
 #include <slant/certificates/energy_error.hpp>
