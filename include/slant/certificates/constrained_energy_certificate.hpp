@@ -116,8 +116,8 @@ class constrained_energy_certificate<QP, C, M> : public detail::refused {
 
 /// certificate(x) → energy_error of P_Λ(x), estimated. For a separable_qp, equality_constraints and
 /// a preconditioner M ≈ A⁻¹; without M, diag(A)⁻¹ where A gives its diagonal or has no more than 64
-/// rows. Refers to all three. Two applications of A a Newton step, of which there are up to four,
-/// and those of conjugate gradients.
+/// rows. Refers to the problem, the constraints and M. Two applications of A a Newton step, of
+/// which there are up to four, and those of conjugate gradients.
 ///
 ///     slant::constrained_energy_certificate certificate(qp, constraints);
 ///     solve(constrained_newton{qp, constraints}, x0,
@@ -159,7 +159,9 @@ class constrained_energy_certificate<QP, C, M> {
     set_sizes();
   }
   constrained_energy_certificate(QP const&&, C const&) = delete;
+  constrained_energy_certificate(QP const&, C const&&) = delete;
   constrained_energy_certificate(QP const&&, C const&, M const&) = delete;
+  constrained_energy_certificate(QP const&, C const&&, M const&) = delete;
 
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {
     slant::project(qp_->set(), x0, x_);
