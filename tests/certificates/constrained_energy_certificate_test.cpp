@@ -28,17 +28,27 @@ using real = long double;
 using real_vector = Eigen::Matrix<real, Eigen::Dynamic, 1>;
 using real_matrix = Eigen::Matrix<real, Eigen::Dynamic, Eigen::Dynamic>;
 
+/// vᵀM⁻¹v for a definite M, by Cholesky's factorisation.
+real inverse_form(real_matrix M, real_vector v) {
+  real sum = 0;
+  for (Eigen::Index k = 0; k < v.size(); ++k) {
+    sum += v(k) * v(k) / M(k, k);
+    for (Eigen::Index i = k + 1; i < v.size(); ++i) {
+      real const factor = M(i, k) / M(k, k);
+      v(i) -= factor * v(k);
+      for (Eigen::Index j = k + 1; j < v.size(); ++j) M(i, j) -= factor * M(k, j);
+    }
+  }
+  return sum;
+}
+
 /// √(dᵀ(A + ω Q)d) for d = x − x*, ω = ‖x‖_A²/‖x‖², in the long type.
 double error_of(MatrixXd const& A, sparse const& unit_rows, VectorXd const& x,
                 VectorXd const& solution) {
   real_vector const y = x.cast<real>(), d = y - solution.cast<real>();
   real_matrix const a = A.cast<real>(), N = MatrixXd(unit_rows).cast<real>();
   real const energy = d.dot(a * d), ω = y.dot(a * y) / y.squaredNorm();
-  real off = 0;
-  if (N.rows() > 0) {
-    real_vector const h = N * d;
-    off = h.dot(real_matrix(N * N.transpose()).ldlt().solve(h));
-  }
+  real const off = inverse_form(N * N.transpose(), N * d);
   return static_cast<double>(std::sqrt(std::fmax(energy, 0.0L) + ω * std::fmax(off, 0.0L)));
 }
 
@@ -99,8 +109,7 @@ struct planted {
     real_vector const load = A.cast<real>() * x.cast<real>() - force;
     b = load.cast<double>();
     real_vector const rounding = load - b.cast<real>();
-    lost = static_cast<double>(
-        std::sqrt(std::fabs(rounding.dot(A.cast<real>().ldlt().solve(rounding)))));
+    lost = static_cast<double>(std::sqrt(inverse_form(A.cast<real>(), rounding)));
   }
   [[nodiscard]] auto qp() const {
     return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
