@@ -101,10 +101,24 @@ class constrained_energy_certificate : public detail::refused {
   index applications() const;
 };
 
+/// A problem that was told so already, or none at all.
+template <class QP, class C, class M>
+  requires(!quadratic_program<QP>)
+class constrained_energy_certificate<QP, C, M> : public detail::refused {
+  static_assert(quadratic_program<QP> || detail::was_refused<QP>,
+                "constrained_energy_certificate: expected a separable_qp");
+
+ public:
+  template <class... Arguments>
+  explicit constrained_energy_certificate(Arguments const&...);
+  energy_error<double> operator()(auto const& x);
+  index applications() const;
+};
+
 /// certificate(x) → energy_error of P_Λ(x), estimated. For a separable_qp, equality_constraints and
 /// a preconditioner M ≈ A⁻¹; without M, diag(A)⁻¹ where A gives its diagonal or has no more than 64
-/// rows. Refers to all three. Two applications of A a Newton step, of which there are up to four,
-/// and those of conjugate gradients.
+/// rows. Refers to the problem, the constraints and M. Two applications of A a Newton step, of
+/// which there are up to four, and those of conjugate gradients.
 ///
 ///     slant::constrained_energy_certificate certificate(qp, constraints);
 ///     solve(constrained_newton{qp, constraints}, x0,
@@ -146,7 +160,9 @@ class constrained_energy_certificate<QP, C, M> {
     set_sizes();
   }
   constrained_energy_certificate(QP const&&, C const&) = delete;
+  constrained_energy_certificate(QP const&, C const&&) = delete;
   constrained_energy_certificate(QP const&&, C const&, M const&) = delete;
+  constrained_energy_certificate(QP const&, C const&&, M const&) = delete;
 
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {
     slant::project(qp_->set(), x0, x_);

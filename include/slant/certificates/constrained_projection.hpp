@@ -77,10 +77,7 @@ class constrained_projection {
       add_up_hessian(set, N);
       trial_ = base - point;
       S const reach = std::max<S>(size, slant::norm(trial_));
-      S const λ = S(1e-3) * (violation / std::max<S>(reach, violation));
-      hessian_.diagonal().array() += std::max<S>(λ, S(64) * ε);
-      factors_.compute(hessian_);
-      if (factors_.info() != Eigen::Success) return false;
+      if (!factor(S(1e-3) * (violation / std::max<S>(reach, violation)))) return false;
       step_ = residual_ / violation;
       factors_.solveInPlace(step_);
       step_ *= violation;
@@ -125,6 +122,17 @@ class constrained_projection {
       }
     }
     evaluate(set, N, nearest, base);
+    return false;
+  }
+
+  /// N G Nᵀ + λ I, with a larger λ where that is not definite up to rounding.
+  [[nodiscard]] bool factor(S λ) {
+    λ = std::max<S>(λ, S(4) * std::numeric_limits<S>::epsilon());
+    for (; λ < S(1); λ *= S(16)) {
+      hessian_.diagonal().array() += λ;
+      factors_.compute(hessian_);
+      if (factors_.info() == Eigen::Success) return true;
+    }
     return false;
   }
 

@@ -11,7 +11,8 @@
 // method is not.
 //
 // Rows may depend on others on a face and nowhere else. `assign` refuses such a face;
-// `assign_independent` cuts it by as many rows as are independent there, which have the same kernel.
+// `assign_independent` cuts it by as many rows as are independent there, which have the same
+// kernel.
 #pragma once
 
 #include <slant/concepts/vector.hpp>
