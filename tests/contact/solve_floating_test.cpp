@@ -99,6 +99,27 @@ TEST_CASE("lifted, without a load, stuck, in other units") {
   }
 }
 
+TEST_CASE("a gap that parts bodies from what holds them changes nothing") {
+  for (bool const friction : {true, false}) {
+    CAPTURE(friction);
+    loose_brick brick(1, {friction ? -0.3 : 0, 0, 0}, 0.05, friction);
+    auto const closed = brick.solve();
+    for (double const gap : {1e-3, 0.1, 1.0}) {
+      CAPTURE(gap);
+      brick.data.d.setConstant(gap);
+      auto const r = brick.solve();
+      CAPTURE(r.reason);
+      REQUIRE(r.converged());
+      CHECK(r.iterations <= closed.iterations + 2);
+      CHECK((brick.data.N * r.u - brick.data.d).maxCoeff() <= 1e-12);
+      CHECK((r.lambda - closed.lambda).norm() <= 1e-7 * closed.lambda.norm());
+    }
+  }
+  loose_brick sliding(1, {-0.3, 0, 0}, 0.01);
+  sliding.data.d.setConstant(0.1);
+  CHECK(sliding.solve().reason.ends_with("moves along -x"));
+}
+
 TEST_CASE("stacked bricks: held by walls and floor, tipped over, unknowns in another order") {
   struct push {
     fem::stack_options options;

@@ -18,9 +18,10 @@
 //
 // Bodies that supports do not hold, so that K is singular: their free motions are computed and
 // named (contact/free_motions), and where contact or friction holds them the same method solves a
-// few problems with springs that give way (contact/detail/spring_supports). The error is then that
-// in the seminorm ‖·‖_K, an estimate. Where nothing holds them the status is `unbounded`, with the
-// motion along which the energy falls for ever.
+// few problems with springs that give way (contact/detail/spring_supports), from where the load
+// puts the bodies across their gaps. The error is then that in the seminorm ‖·‖_K, an estimate.
+// Where nothing holds them the status is `unbounded`, with the motion along which the energy falls
+// for ever.
 #pragma once
 
 #include <slant/contact/detail/certified_run.hpp>

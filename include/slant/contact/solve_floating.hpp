@@ -9,6 +9,8 @@
 //     Tresca         Newton's method on the multipliers with K⁺ and the equilibrium of each body,
 //                    Rᵀ(f − Bᵀλ) = 0 (contact/total_feti.hpp)
 //
+// Gaps. Both see u − w, w the place to which the load moves rigid bodies (detail/rigid_position).
+//
 // No solution. The energy falls for ever exactly along motions w = R α with N w ≤ 0 and fᵀw > Σ gᵢ
 // ‖(T w)ᵢ‖. The status `unbounded` is said of a w that has been checked so, and its name is part of
 // the reason. K w = 0 as R is the computed kernel of K.
@@ -19,6 +21,7 @@
 
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/detail/falling_motion.hpp>
+#include <slant/contact/detail/rigid_position.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/total_feti.hpp>
@@ -27,6 +30,7 @@
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/schur_contact.hpp>
+#include <slant/methods/separable_qp.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -95,11 +99,23 @@ void check_claim(Eigen::SparseMatrix<S> const& K, data<S> const& c, S const& tol
              slant::detail::show(r.residual) + ", more than " + slant::detail::show(allowed);
 }
 
+/// w, where the load puts the bodies before they deform, for u = w + v: the methods then see gaps
+/// of the size of the strains, however wide they are, and friction acts on T w + T v.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> loaded_position(Eigen::SparseMatrix<S> const& K,
+                                                                  data<S> const& c,
+                                                                  free_motions<S> const& motions) {
+  auto const R = kernel_of(motions, K.rows());
+  return R * rigid_position<S>(K, c, R)();
+}
+
 template <class S>
 void solve_without_friction(Eigen::SparseMatrix<S> const& K, data<S> const& c,
                             floating_options<S> const& o, floating_solution<S>& r) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   r.method = "schur_contact";
-  bodies<S> const problem(K, c.f, c.N, c.d);
+  vector_type const w = loaded_position(K, c, r.motions);
+  bodies<S> const problem(K, c.f, c.N, vector_type(c.d - c.N * w));
   auto const qp = problem.qp();
   auto run = slant::solve(slant::schur_contact{qp}, problem.zero(),
                           residual_below(o.tolerance) || at_most(o.max_iterations));
@@ -107,7 +123,7 @@ void solve_without_friction(Eigen::SparseMatrix<S> const& K, data<S> const& c,
   r.reason = std::move(run.reason);
   r.iterations = run.iterations();
   r.work = run.state.work;
-  r.u = problem.displacement(run.x());
+  r.u = w + problem.displacement(run.x());
   r.lambda.setZero(c.N.rows() + c.T.rows());
   r.lambda.head(c.N.rows()) = run.state.multipliers();
   if (r.status == slant::status::unbounded) conclude_unbounded(K, c, o.layout, r);
@@ -159,7 +175,9 @@ void solve_with_friction(Friction friction, Eigen::SparseMatrix<S> const& K, dat
     if (is_free) ++next;
   }
   floating.B.resize(0, K.rows());
-  data<S> sorted{columns_in_order(c.N, order), columns_in_order(c.T, order), c.f, c.d, c.g};
+  vector_type const w = loaded_position(K, c, r.motions);
+  data<S> sorted{columns_in_order(c.N, order), columns_in_order(c.T, order), c.f,
+                 vector_type(c.d - c.N * w), c.g};
   for (index j = 0; j < c.f.size(); ++j) sorted.f[j] = c.f[order[static_cast<std::size_t>(j)]];
   auto const unsorted = [&](vector_type const& v) {
     vector_type all(v.size());
@@ -170,7 +188,10 @@ void solve_with_friction(Friction friction, Eigen::SparseMatrix<S> const& K, dat
   r.lambda.setZero(c.N.rows() + c.T.rows());
   try {
     total_feti const problem(friction, floating, sorted);
-    auto const qp = problem.qp();
+    auto const closed = problem.qp();
+    vector_type b = closed.b();
+    b.tail(c.T.rows()) += c.T * w;
+    separable_qp const qp{closed.a(), b, closed.set()};
     slant::constrained_newton const method{qp, problem.constraints()};
     auto run =
         slant::solve(method, problem.zero(),
@@ -181,7 +202,7 @@ void solve_with_friction(Friction friction, Eigen::SparseMatrix<S> const& K, dat
     r.iterations = run.iterations();
     r.work = run.state.work;
     r.lambda = run.x();
-    r.u = unsorted(problem.displacement(run.x(), method.multipliers(run.state)));
+    r.u = w + unsorted(problem.displacement(run.x(), method.multipliers(run.state)));
     if (run.state.infeasible) conclude_unbounded(K, c, o.layout, r);
   } catch (bad_input const& refusal) {
     if (!std::string_view(refusal.what()).starts_with("f: got a load that moves")) throw;

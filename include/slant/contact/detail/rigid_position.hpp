@@ -154,7 +154,7 @@ class rigid_position {
     };
     for (index i = 0; i < m; ++i) {
       if (y_(i) > d_(i)) put(i, i, κ_(i));
-      if (k == 0) continue;
+      if (k == 0 || !(g_(i) > S(0))) continue;
       index const first = m + k * i;
       S const κ = κ_(first), length = y_.segment(first, k).stableNorm();
       bool const sticks = !(κ * length > g_(i));
