@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <krylov/spd_matrices.hpp>
+#include <methods/sliding_discs.hpp>
 #include <optional>
 
 namespace face_correction_test {
@@ -17,29 +17,8 @@ namespace face_correction_test {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-struct sliding_discs {
-  MatrixXd A = test::with_spectrum(test::log_spaced(12, 200), 2);
-  VectorXd r = test::random_vector(12, 4);
-  VectorXd z = 2 * test::random_vector(12, 6);
-  VectorXd g{{0.5, 1.0, 3.0, 0.0, 0.1, 2.0}};
-  double ρ = 0.8;
-};
-
-/// H = Π A Π + C/ρ and Π as matrices.
-struct dense_face {
-  MatrixXd H{12, 12}, keep{12, 12};
-  dense_face(sliding_discs const& p, slant::curved_face<> const& face) {
-    for (Eigen::Index j = 0; j < 12; ++j) {
-      VectorXd const e = VectorXd::Unit(12, j);
-      VectorXd y = VectorXd::Zero(12);
-      face.add_curvature(1 / p.ρ, e, y);
-      H.col(j) = y;
-      face.keep(e, y);
-      keep.col(j) = y;
-    }
-    H += keep * p.A * keep;
-  }
-};
+using test::dense_face;
+using test::sliding_discs;
 
 TEST_CASE("the step, its image and energies, beside dense linear algebra") {
   sliding_discs const p;

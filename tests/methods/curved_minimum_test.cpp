@@ -6,34 +6,19 @@
 
 #include <doctest/doctest.h>
 
-#include <krylov/spd_matrices.hpp>
+#include <methods/sliding_discs.hpp>
 
 namespace curved_minimum_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-struct sliding_discs {
-  MatrixXd A = test::with_spectrum(test::log_spaced(12, 200), 2);
-  VectorXd r = test::random_vector(12, 4);
-  VectorXd z = 2 * test::random_vector(12, 6);
-  VectorXd g{{0.5, 1.0, 3.0, 0.0, 0.1, 2.0}};
-  double ρ = 0.8;
-};
+using test::sliding_discs;
 
 /// The minimiser by dense linear algebra on a basis of range(G).
 VectorXd dense_minimiser(sliding_discs const& p, slant::curved_face<> const& face) {
-  MatrixXd H(12, 12), keep(12, 12);
-  for (Eigen::Index j = 0; j < 12; ++j) {
-    VectorXd const e = VectorXd::Unit(12, j);
-    VectorXd y = VectorXd::Zero(12);
-    face.add_curvature(1 / p.ρ, e, y);
-    H.col(j) = y;
-    face.keep(e, y);
-    keep.col(j) = y;
-  }
-  H += keep * p.A * keep;
-  return H.completeOrthogonalDecomposition().solve(-keep * p.r);
+  test::dense_face const dense(p, face);
+  return dense.H.completeOrthogonalDecomposition().solve(-dense.keep * p.r);
 }
 
 TEST_CASE("the minimiser of the model and its image, with and without a preconditioner") {
