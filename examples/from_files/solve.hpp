@@ -122,13 +122,13 @@ template <class Friction>
   auto const A = dual.a();
   auto wa = slant::workspace(A, dual.b());
   slant::dual_norm_workspace norm_workspace(M, dual.b());
-  auto const sharper = [&](Eigen::VectorXd const& rest, double, double) {
-    return slant::dual_norm(A, M, rest, 12, true, wa, norm_workspace).value;
-  };
   s.error_of = [&](Eigen::VectorXd const& forces) {
     λ = forces;
     u = dual.displacement(slant::project(dual.set(), λ));
-    return error_of(dual.set(), λ, u, s.tolerance, solve_with_K, sharper);
+    auto const error = error_of(dual.set(), λ, u, s.tolerance, solve_with_K);
+    if (!(error.relative() > s.tolerance)) return error;
+    return error_of.sharpened(
+        slant::dual_norm(A, M, error_of.rest(), 12, true, wa, norm_workspace).value);
   };
   solution result;
   outcome const start = find_start(p, dual, s);
