@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace certificate_test {
 
@@ -254,6 +255,88 @@ TEST_CASE("a proven bound counts its own rounding errors: at solutions rounded t
   CHECK(proven == 20000);
   CHECK(below == 0);
   CHECK(sum / 6667 <= 100 * std::numeric_limits<double>::epsilon());
+}
+
+/// A bar of 100 springs k, the first held by soft·k, under the force F at its free end or all
+/// along, with one contact at the end.
+struct bar {
+  Eigen::SparseMatrix<double> K;
+  contact::data<double> data;
+
+  bar(double k, double soft, double skew, double F, double gap) : K(100, 100) {
+    int const n = 100;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i) {
+      entries.emplace_back(i, i, (i == 0 ? k * soft : k) + (i < n - 1 ? k : 0));
+      if (i == n - 1) continue;
+      entries.emplace_back(i, i + 1, -k * (1 + skew));
+      entries.emplace_back(i + 1, i, -k * (1 - skew));
+    }
+    K.setFromTriplets(entries.begin(), entries.end());
+    data.N.resize(1, n);
+    data.N.insert(0, n - 1) = 1;
+    data.T.resize(0, n);
+    data.f = VectorXd::Zero(n);
+    data.f(0) = F;
+    data.d = VectorXd::Constant(1, gap);
+  }
+};
+
+TEST_CASE("gaps are energies: where these underflow or overflow the bound is the same") {
+  auto const bound = [](double k, double F, double h) {
+    bar s(k, 1, 0, F, 2 * F / k);
+    slant::ldlt<double> const factor(s.K);
+    contact::certificate<double> certificate(s.K, s.data);
+    REQUIRE(certificate.prove(contact::solver(factor),
+                              [](auto const& K) { (void)slant::ldlt<double>(K); }));
+    VectorXd λ = VectorXd::Constant(1, h * F), u(100), load = s.data.f;
+    load(99) -= λ(0);
+    contact::solver(factor)(load, u);
+    auto const e = certificate(slant::half_lines(1), λ, u, 1e-8, contact::solver(factor));
+    CHECK(e.proven);
+    return e.relative();
+  };
+  for (double const h : {1e-3, 1e-6}) {
+    double const there = bound(1, 1, h);
+    CHECK(there >= 10 * h);  // ‖λ − λ*‖_A = h √100
+    double const big = std::ldexp(1.0, 400);
+    CHECK(bound(big, 1 / big, h) == doctest::Approx(there));
+    CHECK(bound(1 / big, big, h) == doctest::Approx(there));
+    CHECK(bound(1, 1 / big, h) == doctest::Approx(there));
+  }
+}
+
+TEST_CASE("K symmetric up to rounding only: the proof is of its symmetric part") {
+  bar s(1, 1e-8, 1e-16, 1, 1e300);
+  s.data.f.setOnes();
+  Eigen::SparseMatrix<double> const whole =
+      0.5 * (s.K + Eigen::SparseMatrix<double>(s.K.transpose()));
+  slant::ldlt<double> const factor(s.K), symmetric(whole);
+  contact::certificate<double> certificate(s.K, s.data);
+  REQUIRE(certificate.prove(contact::solver(factor),
+                            [](auto const& K) { (void)slant::ldlt<double>(K); }));
+  VectorXd λ = VectorXd::Zero(1), u(100), exact(100);
+  contact::solver(factor)(s.data.f, u);
+  contact::solver(symmetric)(s.data.f, exact);
+  auto const e = certificate(slant::half_lines(1), λ, u, 1e-12, contact::solver(factor));
+  VectorXd const off = u - exact;
+  CHECK(e.bound >= std::sqrt(off.dot(whole * off)));
+  CHECK(e.relative() <= 1e-3);
+}
+
+TEST_CASE("sizes that do not fit are refused before anything is read") {
+  bar const s(1, 1, 0, 1, 1);
+  auto const refused = [&](auto change, char const* message) {
+    contact::data<double> c = s.data;
+    change(c);
+    CHECK_THROWS_WITH_AS(contact::certificate<double>(s.K, c), message, slant::bad_input);
+  };
+  refused([](auto& c) { c.N.resize(1, 400); },
+          "columns of N: got 400, expected the size of f, 100");
+  refused([](auto& c) { c.d.resize(0); }, "d: got 0, expected the number of rows of N, 1");
+  contact::certificate<double> certificate(s.K, s.data);
+  CHECK_THROWS_AS((void)certificate.extended_norm(VectorXd(3)), slant::bad_input);
+  CHECK_THROWS_AS(certificate.set_positions(VectorXd(3)), slant::bad_input);
 }
 
 TEST_CASE("units do not matter; a scene without load is exact; NaN is no bound") {

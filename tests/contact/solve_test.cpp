@@ -361,4 +361,50 @@ TEST_CASE("contact::solve: some motions of one of three bodies, and their names"
   CHECK(pulled.reason.ends_with("moves along x"));
 }
 
+TEST_CASE("contact::solve: what holds a body hardly is seen beside what holds it well") {
+  // Two bodies of springs, x: two nodes, y: three; the contacts resist a motion of x by 1e-4 only.
+  std::vector<Eigen::Triplet<double>> entries;
+  auto const spring = [&](int i, int j) {
+    for (int const k : {i, j}) entries.emplace_back(k, k, 1);
+    entries.emplace_back(i, j, -1);
+    entries.emplace_back(j, i, -1);
+  };
+  spring(0, 1);
+  spring(2, 3);
+  spring(2, 4);
+  Eigen::SparseMatrix<double> K(5, 5);
+  K.setFromTriplets(entries.begin(), entries.end());
+  contact::data<double> c;
+  double const α = 1e-4;
+  c.N.resize(2, 5);
+  c.N.insert(0, 0) = α;
+  c.N.insert(0, 2) = -1;
+  c.N.insert(1, 1) = -α;
+  c.N.insert(1, 3) = -1;
+  c.T.resize(0, 5);
+  c.d = Eigen::VectorXd::Zero(2);
+  for (double const F : {1e-3, 1e-6, 1e-9}) {
+    c.f = Eigen::VectorXd{{F * α, 0.0, -1.0, -2.0, -1.0}};
+    // Both contacts press: K u + Nᵀλ = f, N u = 0.
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(7, 7);
+    whole.topLeftCorner(5, 5) = K;
+    whole.bottomLeftCorner(2, 5) = c.N;
+    whole.topRightCorner(5, 2) = Eigen::MatrixXd(c.N).transpose();
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(7);
+    load.head(5) = c.f;
+    Eigen::VectorXd const exact = whole.fullPivLu().solve(load).head(5);
+    for (double const tolerance : {1e-3, 1e-6, 1e-8}) {
+      auto const r = contact::solve(contact::frictionless{}, K, c, {.tolerance = tolerance});
+      Eigen::VectorXd const off = r.u - exact;
+      double const error = std::sqrt(off.dot(K * off) / exact.dot(K * exact));
+      CAPTURE(F);
+      CAPTURE(tolerance);
+      CAPTURE(r.reason);
+      if (r.converged()) CHECK(error <= tolerance);
+      if (tolerance == 1e-3) CHECK(r.converged());
+      CHECK(r.status != slant::status::unbounded);
+    }
+  }
+}
+
 }  // namespace solve_test

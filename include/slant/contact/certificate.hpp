@@ -132,7 +132,10 @@ class certificate {
       note_quotient(quotient, S(1));
       x.swap(y);
     }
+    // K may be symmetric up to rounding only; the problem is that of its symmetric part.
+    skew_ = detail::skew_part(m_.K());
     smallest_ = smallest_eigenvalue_bound(m_.K(), quotient, factor);
+    smallest_ = smallest_ > skew_ ? S(smallest_ - skew_) : S(0);
     is_proven_ = smallest_ > S(0);
     return is_proven_;
   }
@@ -154,7 +157,10 @@ class certificate {
   [[nodiscard]] vector_type const& gradient() const { return g_; }
 
   /// Tangential positions w from now on, as in load_step: friction opposes T u − w. Empty: 0.
-  void set_positions(vector_type w) { positions_ = std::move(w); }
+  void set_positions(vector_type w) {
+    if (w.size() > 0) slant::detail::check_size("w", w.size(), data_->T.rows());
+    positions_ = std::move(w);
+  }
 
   /// Bounds ‖u − u*‖_K. λ ← P_Λ(λ); u ← K⁻¹(f − Bᵀλ), refined as far as `goal`, a relative error,
   /// needs it. solve(b, x) solves K x = b.
@@ -173,9 +179,14 @@ class certificate {
     error_ = {};
     off_ = recover(λ, u, goal, solve);
     error_.size = size_;
-    g_.resize(m_.B.rows());
+    g_.setConstant(m_.B.rows(), std::numeric_limits<S>::quiet_NaN());
     rest_.setZero(m_.B.rows());
-    if (!slant::detail::is_finite(off_) || !slant::detail::is_finite(error_.size)) return error_;
+    root_of_gap_ = off_of_rest_ = std::numeric_limits<S>::infinity();
+    grown_ = S(1);
+    if (!slant::detail::is_finite(off_) || !slant::detail::is_finite(error_.size)) {
+      error_.size = S(0);
+      return error_;
+    }
     lost_.resize(m_.B.rows());
     S const eps = std::numeric_limits<S>::epsilon();
     S const length = u.stableNorm();
@@ -189,8 +200,12 @@ class certificate {
       lost_(i) = unit * (S(24) * eps * abs(g_(i)) + m_.tiny * abs(start)) +
                  (unit > S(0) ? S(m_.tiny * length) : S(0));
     }
-    rest_ = g_;
-    auto const balanced = balance(set, λ, g_, m_.stiffness, rest_);
+    // In units in which g is near 1: a gap is an energy, which may underflow.
+    S const unit_of_g = unit_near(S(g_.stableNorm()));
+    rest_ = g_ / unit_of_g;
+    scaled_ = m_.stiffness * unit_of_g;
+    auto const balanced = balance(set, λ, vector_type(rest_), scaled_, rest_);
+    rest_ *= unit_of_g;
     // Where λ_ν = 0 and the gap is open for certain, s is the exact gradient: however wide the gap
     // is, its rounding is no part of g − s.
     for (index i = 0; i < data_->nodes(); ++i) {
@@ -198,7 +213,7 @@ class certificate {
           λ(i) == S(0) && rest_(i) == S(0) && g_(i) * sqrt(m_.inverse_squares(i)) > lost_(i);
       if (is_open) lost_(i) = S(0);
     }
-    gap_ = balanced.gap;
+    root_of_gap_ = sqrt(balanced.gap) * sqrt(unit_of_g) * (S(1) + S(4) * eps);
     grown_ = S(1) + S(8 * (m_.K().rows() + 64)) * eps;
     off_of_rest_ = S(2) * sqrt(m_.largest) * lost_.stableNorm() + off_;
     error_.proven = is_proven_ && balanced.exact && m_.is_orthogonal;
@@ -215,7 +230,7 @@ class certificate {
   [[nodiscard]] S norm_for(S const& goal) const {
     // relative() is a bound over size − 2 bound, or less.
     S const wanted = goal / (S(1) + S(2) * goal) * error_.size / grown_ - off_;
-    return wanted - gap_ / wanted - off_of_rest_;
+    return wanted - (root_of_gap_ / wanted) * root_of_gap_ - off_of_rest_;
   }
   /// The last certificate, sharper if δ, an estimate of ‖d‖_{A⁻¹}, is smaller than the bound of
   /// it. A δ that is negative or NaN says nothing.
@@ -229,12 +244,16 @@ class certificate {
   }
   /// ‖d‖_{A⁻¹} at most, for any d, without a solve; ∞ where d acts on an empty row.
   [[nodiscard]] S extended_norm(vector_type const& d) {
+    slant::detail::check_size("d", d.size(), m_.B.rows());
     static_cast<void>(extension_.by_zero(m_, d));
     return extension_.relaxed(m_, d, relaxations_, S(0));
   }
 
   /// ‖v‖_K of the shortest v with B v = d, an upper bound of ‖d‖_{A⁻¹}; see detail/extension.hpp.
-  [[nodiscard]] S extension_by_zero(vector_type const& d) { return extension_.by_zero(m_, d); }
+  [[nodiscard]] S extension_by_zero(vector_type const& d) {
+    slant::detail::check_size("d", d.size(), m_.B.rows());
+    return extension_.by_zero(m_, d);
+  }
 
   /// √(vᵀK v).
   [[nodiscard]] S energy_norm(vector_type const& v) {
@@ -246,6 +265,15 @@ class certificate {
   static sparse_type const& checked(sparse_type const& K, data<S> const& c) {
     slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
     slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+    slant::detail::check_size("columns of N", c.N.cols(), c.f.size(), "the size of f,");
+    slant::detail::check_size("d", c.d.size(), c.N.rows(), "the number of rows of N,");
+    if (c.T.rows() > 0) {
+      slant::detail::check_size("columns of T", c.T.cols(), c.f.size(), "the size of f,");
+      slant::detail::check_size("g", c.g.size(), c.N.rows(), "the number of rows of N,");
+      index const k = c.T.rows() > c.N.rows() ? 2 : 1;
+      slant::detail::check_size("rows of T", c.T.rows(), k * c.N.rows(),
+                                "one or two for each of N,");
+    }
     return K;
   }
 
@@ -256,8 +284,12 @@ class certificate {
     return slant::detail::is_finite(data_->d(i)) ? S(data_->d(i)) : S(0);
   }
 
+  /// In units of the larger of δ and √γ.
   [[nodiscard]] S bound_from(S const& δ) const {
-    return (error_bound<S>(δ + off_of_rest_, gap_) + off_) * grown_;
+    S const all = δ + off_of_rest_, larger = all > root_of_gap_ ? all : root_of_gap_;
+    if (!(larger > S(0)) || !slant::detail::is_finite(larger)) return all + root_of_gap_;
+    S const unit = unit_near(larger), root = root_of_gap_ / unit;
+    return (unit * error_bound<S>(all / unit, root * root) + off_) * grown_;
   }
   [[nodiscard]] energy_error<S> const& use_estimate(S const& bound) {
     if (bound < error_.bound) {
@@ -305,17 +337,21 @@ class certificate {
       S const correction = m_.root(S(energy_of_w.sum + energy_of_w.lost), energy_of_w);
       // ρ − K w, of second order, with what rounding has taken from ρ and from itself.
       S const root_of_smallest = sqrt(smallest());
-      S plain = S(2 * (m_.longest + 8)) * eps * (load + m_.largest * w_.stableNorm());
+      S const skew_of_w = skew_ * w_.stableNorm();
+      S plain = S(2 * (m_.longest + 8)) * eps * (load + m_.largest * w_.stableNorm()) + skew_of_w;
       second_ = residual_ - image_;
       if (plain > S(0.1) * correction * root_of_smallest) {
         for (index j = 0; j < u.size(); ++j) {
           second_(j) = detail::minus_column<S>(m_.K(), j, w_, residual_(j)).hi;
         }
-        plain = m_.tiny * (load + m_.largest * w_.stableNorm());
+        plain = m_.tiny * (load + m_.largest * w_.stableNorm()) + skew_of_w;
       }
       S const unit_of_sums = is_doubled ? m_.tiny : S(S(2 * (m_.longest + 4)) * finer);
       S const sums = unit_of_sums * (data_->f.stableNorm() + S(2) * m_.size_of_B * λ.stableNorm() +
-                                     m_.largest * u.stableNorm());
+                                     m_.largest * u.stableNorm()) +
+                     skew_ * u.stableNorm();
+      // √(a² − b) ≥ a − b/a
+      if (size_ > S(0)) size_ = std::max<S>(S(0), S(size_ - (sums / size_) * u.stableNorm()));
       S const second = (second_.stableNorm() + plain + sums + eps * load) / root_of_smallest;
       if (!is_doubled && correction + second > S(0.02) * goal * size_) {
         is_doubled = true;
@@ -336,7 +372,7 @@ class certificate {
       }
       S const rounded = m_.most_energy(w_, m_.all, scaled_);
       if (second + rounded <= S(0.02) * goal * size_ || pass == 3) {
-        size_ = size_ > correction ? S(size_ - correction) : S(0);
+        size_ = std::max<S>(S(0), S(size_ - correction - rounded));
         return second + rounded;
       }
     }
@@ -392,10 +428,11 @@ class certificate {
   detail::extension<S> extension_{};
   data<S> const* data_;
   vector_type positions_{};
-  S size_{0}, smallest_{0}, quotient_{0};
-  // Of the last certificate: what is known, γ, ε, ε with the rounding of d, and 1 + rounding.
+  S size_{0}, smallest_{0}, quotient_{0}, skew_{0};
+  // Of the last certificate: what is known, √γ, ε, ε with the rounding of d, and 1 +
+  // rounding.
   energy_error<S> error_{};
-  S gap_{0}, off_{0}, off_of_rest_{0}, grown_{1};
+  S root_of_gap_{0}, off_{0}, off_of_rest_{0}, grown_{1};
   bool is_proven_ = false;
   index solves_ = 0;
   vector_type residual_, load_, second_, w_, g_, rest_, image_, lost_, outward_, scaled_;

@@ -166,8 +166,11 @@ class certified_run {
         finish(end, is_enough);
         break;
       }
-      budget = std::min<index>(options_.max_steps, 4 * state.iteration + 100);
       best = std::min<S>(best, error);
+      // While nothing is known of the error there is no floor that could have been met.
+      budget = slant::detail::is_finite(best)
+                   ? std::min<index>(options_.max_steps, 4 * state.iteration + 100)
+                   : options_.max_steps;
       // The gradient as the method computes it becomes that of the certificate.
       slant::apply(qp.a(), state.x, image_, wa);
       ++state.work.operator_applications;

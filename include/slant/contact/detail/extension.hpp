@@ -110,7 +110,7 @@ class extension {
   /// ‖·‖_K of what v has left of d, at most: part of what by_zero and relaxed return.
   [[nodiscard]] S tail(matrices const& m) const {
     using std::sqrt;
-    return rest_ > S(0) ? S(S(2) * rest_ * sqrt(m.largest)) : S(0);
+    return rest_ == S(0) ? S(0) : S(S(2) * rest_ * sqrt(m.largest));
   }
 
  private:

@@ -34,12 +34,14 @@
 
 #include <slant/contact/detail/falling_motion.hpp>
 #include <slant/contact/detail/rigid_position.hpp>
+#include <slant/contact/detail/stacked_constraints.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/solve_options.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 #include <slant/sets/detail/double_word.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -110,6 +112,7 @@ class spring_supports {
       if (run_with_springs(soft, true, observers...)) break;
     }
     if (!sum_.converged() && sum_.status != status::unbounded) {
+      go_back_to_best();
       sum_.reason += " (" + sum_.motions.sentence() + ")";
     }
     return std::move(sum_);
@@ -173,7 +176,8 @@ class spring_supports {
   template <class... Observers>
   [[nodiscard]] bool run_with_springs(S const& σ, bool is_soft, Observers&... observers) {
     using std::sqrt;
-    S t_before = std::numeric_limits<S>::infinity(), θ(0.5);
+    S t_before = std::numeric_limits<S>::infinity();
+    S θ(0.9);  // until it is measured
     S goal = is_soft ? S(1e-3) : S(S(0.3) * options_.tolerance);
     S tolerance = std::max<S>(goal, S(1e-3));
     int const steps = is_soft ? 3 : 100;
@@ -223,13 +227,19 @@ class spring_supports {
       if (step > 0 && !at_rest) {
         S const factor = t / t_before;
         θ = std::clamp<S>(factor, S(0x1p-12), S(0.999));
-        slow = factor > S(0.5) ? slow + 1 : 0;
+        slow = factor > S(0.8) ? slow + 1 : 0;
       }
       t_before = t;
       S const spring = t > S(0) ? S((t + inner) * sqrt(θ / (S(1) - θ))) : S(0);
       sum_.error.bound = inner + spring + rounded;
       sum_.error.size = elastic_norm(*K_, v);
       sum_.error.proven = false;
+      // A motion that is hardly held moves little in a step and has far to go; θ is not its rate.
+      if (sum_.error.relative() <= S(100) * options_.tolerance) {
+        S const held = way_of_forces(moved_springs(v));
+        sum_.error.bound = inner + std::max<S>(spring, held) + rounded;
+        if (step > 0) keep_best();
+      }
       if (is_over) return true;  // also where no u satisfies the constraints
       if ((step > 0 || t == S(0)) && sum_.error.relative() <= options_.tolerance) {
         finish(status::converged);
@@ -253,6 +263,73 @@ class spring_supports {
       tolerance = next * std::min<S>(S(1), share);
     }
     return false;
+  }
+
+  /// Soft springs may lead away from what stiff ones had found.
+  void keep_best() {
+    if (best_.u.size() > 0 && !(sum_.error.relative() < best_.error.relative())) return;
+    best_.u = sum_.u;
+    best_.multipliers = sum_.multipliers;
+    best_.error = sum_.error;
+  }
+  void go_back_to_best() {
+    bool const is_better = best_.error.relative() < sum_.error.relative();
+    if (best_.u.size() == 0 || !is_better || sum_.status != status::stalled) return;
+    sum_.u = std::move(best_.u);
+    sum_.multipliers = std::move(best_.multipliers);
+    sum_.error = best_.error;
+    sum_.reason = sum_.error.sentence() + ": no springs around the bodies lead further";
+  }
+
+  /// D (v − rest): the forces of the springs.
+  [[nodiscard]] vector_type moved_springs(vector_type const& v) const {
+    vector_type force = vector_type::Zero(v.size());
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      force(places_[i]) = stiffness_[i] * (v(places_[i]) - rest_(places_[i]));
+    }
+    return force;
+  }
+
+  /// How far, in energy, those forces would move the bodies as rigid ones on the contacts that
+  /// press or stick now: √(dᵀG⁻¹d), d = Rᵀp, G = Rᵀ B_aᵀ κ B_a R. κ is the stiffness of the nodes
+  /// alone, which is some ten times that of the bodies behind them: the factor 4.
+  [[nodiscard]] S way_of_forces(vector_type const& p) const {
+    index const m = original_->nodes(), k = original_->tangents();
+    sparse_type B = stacked_constraints(*original_);
+    vector_type squares = vector_type::Zero(B.rows()), κ = squares;
+    for (index j = 0; j < B.outerSize(); ++j) {
+      for (typename sparse_type::InnerIterator b(B, j); b; ++b) {
+        squares(b.row()) += b.value() * b.value();
+      }
+    }
+    auto const holds = [&](index i) {
+      if (i < m) return λ_(i) > S(0);
+      index const node = (i - m) / k;
+      return λ_.segment(m + k * node, k).stableNorm() < (S(1) - S(1e-9)) * original_->g(node);
+    };
+    for (index j = 0; j < B.outerSize(); ++j) {
+      for (typename sparse_type::InnerIterator b(B, j); b; ++b) {
+        S const part = b.value() / squares(b.row());
+        if (holds(b.row())) κ(b.row()) += part * part * K_->coeff(j, j);
+      }
+    }
+    sparse_type const BR = B * R_;
+    sparse_type const weighted = κ.asDiagonal() * BR;
+    sparse_type const G = sparse_type(BR.transpose()) * weighted;
+    vector_type const d = R_.transpose() * p;
+    // Motions that no contact resists belong to no force but rounding.
+    using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+    Eigen::SelfAdjointEigenSolver<dense_type> const modes{dense_type(G)};
+    S const largest = modes.eigenvalues().size() > 0 ? S(modes.eigenvalues().maxCoeff()) : S(0);
+    S way(0);
+    for (index i = 0; i < d.size(); ++i) {
+      S const stiff = modes.eigenvalues()(i);
+      if (!(stiff > S(1024) * std::numeric_limits<S>::epsilon() * largest)) continue;
+      using std::hypot;
+      using std::sqrt;
+      way = hypot(way, S(modes.eigenvectors().col(i).dot(d) / sqrt(stiff)));
+    }
+    return S(4) * way;
   }
 
   /// (origin + v) − u, exactly.
@@ -310,7 +387,7 @@ class spring_supports {
   vector_type positions_{}, λ_{};
   S lost_{0};              // to rounding, of the origin
   bool is_moved_ = false;  // before the first problem
-  solution<S> sum_{};
+  solution<S> sum_{}, best_{};
 };
 
 }  // namespace slant::contact::detail
