@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <support/optimised.hpp>
+
 #include <slant/certificates/constrained_energy_certificate.hpp>
 #include <slant/certificates/energy_error_below.hpp>
 #include <slant/methods/constrained_newton.hpp>
@@ -124,7 +126,9 @@ TEST_CASE("claimed against true errors: planted programs, condition numbers up t
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<double> ratios;
   int converged = 0, too_small = 0, wrong = 0, wrong_by_residuals = 0, all = 0;
-  for (int run = 0; run < 150; ++run) {
+  // Under sanitizers, unoptimised, each takes fifty times as long.
+  int const programs = test::is_optimised ? 150 : 8;
+  for (int run = 0; run < programs; ++run) {
     double const log_condition = 10 * uniform(random);
     planted const p(1 + run % 4, run % 5, log_condition, run % 3 == 0 ? 0.5 : 0, random);
     CAPTURE(run);
@@ -163,11 +167,12 @@ TEST_CASE("claimed against true errors: planted programs, condition numbers up t
     judge(slant::solve(multipliers, x0, by_error || slant::at_most(300)), wrong);
     judge(slant::solve(multipliers, x0, test::accurate(1e-8)), wrong_by_residuals);
   }
-  CHECK(all > 1500);
-  CHECK(converged >= 410);
+  CHECK(all > 10 * programs);
+  CHECK(converged >= 2.7 * programs);
   CHECK(wrong == 0);
-  CHECK(wrong_by_residuals > 3);  // what reduced gradient and feasibility say of the same runs
   CHECK(too_small == 0);
+  if (!test::is_optimised) return;  // too few for statistics
+  CHECK(wrong_by_residuals > 3);    // what reduced gradient and feasibility say of the same runs
   REQUIRE(ratios.size() > 500);
   std::sort(ratios.begin(), ratios.end());
   CHECK(ratios[ratios.size() / 2] <= 2);
