@@ -108,7 +108,7 @@ void measure_brick(int k, fem::brick_load load) {
         double const step = double(λ.size()) / stiffness.cwiseInverse().sum() / 1024;
         e = certificate.estimated(
             newton({λ, certificate.gradient(), stiffness, step, 12,
-                    slant::gradient_size<double>{λ.norm(), problem.b().norm()}},
+                    slant::gradient_size<double>{λ.norm(), problem.b().norm()}, false},
                    M, wa, [&](VectorXd const& rest) { return certificate.extended_norm(rest); }));
       }
       return e.relative() / error_of(u);

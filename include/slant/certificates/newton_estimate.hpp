@@ -42,6 +42,9 @@ struct estimated_point {
   index most;          ///< iterations
   /// For an A that may be singular: what the gradient was computed from.
   std::optional<gradient_size<scalar>> sizes;
+  /// false: what the iterations have left of the gradient is part of the rest, for few iterations
+  /// and a norm_of that bounds. true: what more of them would add is estimated.
+  bool trusts_iterations = true;
 };
 
 /// The estimate at the top of this file for programs qp with a preconditioner like m. Refers to qp.
@@ -82,6 +85,10 @@ class newton_estimate {
         correction_.compute(qp_->a(), of_a, m, rest_, face_, at.ρ, at.ρ, at.most, at.sizes);
     if (!correction_.found || !detail::is_finite(correction_.energy)) {
       return std::numeric_limits<scalar>::infinity();
+    }
+    if (!at.trusts_iterations) {
+      slant::local(correction_.remainder).setZero();
+      correction_.missing = scalar(0);
     }
     return put_together(at, norm_of);
   }

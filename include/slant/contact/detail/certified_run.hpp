@@ -231,7 +231,7 @@ class certified_run {
       return certificate_.extended_norm(d.cwiseQuotient(d_));
     };
     S const distance = (*newton)({x, gradient, inverse_diagonal_, step_, 12,
-                                  gradient_size<S>{slant::norm(x), slant::norm(b_)}},
+                                  gradient_size<S>{slant::norm(x), slant::norm(b_)}, false},
                                  m, wa, norm);
     result_.work.operator_applications += newton->applications() - before;
     result_.error = certificate_.estimated(distance);
