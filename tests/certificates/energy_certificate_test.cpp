@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace energy_certificate_test {
 
@@ -166,6 +167,38 @@ TEST_CASE("a disc that the gradient leaves after the Newton step, along what A h
   double const error = pull / std::sqrt(2 * ε);  // √(gᵀA⁻¹g) to six digits
   CHECK(certificate(x).bound >= 0.5 * error);
   CHECK(certificate(x).bound <= 10 * error);
+}
+
+TEST_CASE("in any units, also where energies leave the range of the numbers") {
+  std::mt19937 random(21);
+  auto const p = test::make_program(3, 2, random);
+  std::normal_distribution<double> gauss;
+  VectorXd noise(p.b.size());
+  for (double& entry : noise) entry = gauss(random);
+  // A of 2ᵃ, x of 2ᵗ.
+  auto const bounds = [&](int a, int t) {
+    test::made_program q = p;
+    q.A *= std::ldexp(1.0, a);
+    q.inverse *= std::ldexp(1.0, -a);
+    q.b *= std::ldexp(1.0, a + t);
+    q.g *= std::ldexp(1.0, t);
+    VectorXd const x = std::ldexp(1.0, t) * (p.solution + 0.1 * noise);
+    auto const qp = test::program(q);
+    auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(q.inverse);
+    slant::energy_certificate estimate(qp);
+    slant::energy_certificate bound(qp, slant::dominates_inverse(M));
+    double const unit = std::ldexp(1.0, a / 2) * std::ldexp(1.0, t);
+    return std::pair(estimate(x).bound / unit, bound(x).bound / unit);
+  };
+  auto const [estimate, bound] = bounds(0, 0);
+  for (auto const& [a, t] : {std::pair(500, -500), std::pair(-500, 500), std::pair(-300, -380),
+                             std::pair(300, 380), std::pair(0, -520), std::pair(0, 500)}) {
+    CAPTURE(a);
+    CAPTURE(t);
+    auto const there = bounds(a, t);
+    CHECK(there.first == doctest::Approx(estimate).epsilon(1e-6));
+    CHECK(there.second == doctest::Approx(bound).epsilon(1e-6));
+  }
 }
 
 }  // namespace energy_certificate_test

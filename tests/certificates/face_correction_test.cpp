@@ -45,7 +45,7 @@ TEST_CASE("the step, its image and energies, beside dense linear algebra") {
     CHECK(c.missing * c.missing <= 0.02 * whole);
     CHECK((c.image - p.A * c.t).norm() <= 1e-12 * c.image.norm());
     CHECK(c.energy == doctest::Approx(std::sqrt(c.t.dot(p.A * c.t))));
-    CHECK(c.energy * c.energy + c.curvature == doctest::Approx(c.t.dot(dense.H * c.t)));
+    CHECK(c.energy * c.energy + c.bend * c.bend == doctest::Approx(c.t.dot(dense.H * c.t)));
     CHECK((c.remainder - dense.keep * p.r - dense.H * c.t).norm() <= 1e-12 * p.r.norm());
     return steps;
   };

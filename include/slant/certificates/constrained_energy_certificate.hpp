@@ -270,7 +270,7 @@ class constrained_energy_certificate<QP, C, M> {
     correction_.t.setZero();
     correction_.image.setZero();
     correction_.remainder.setZero();
-    correction_.energy = correction_.curvature = correction_.missing = scalar(0);
+    correction_.energy = correction_.bend = correction_.missing = scalar(0);
   }
 
   /// balanced = g + A t + ν with the ν that leaves least of it, and of the curvature, on the face.
@@ -297,12 +297,13 @@ class constrained_energy_certificate<QP, C, M> {
 
     detail::bound_split<scalar> best;
     detail::consider_split(best, qp_->set(), face_.whole(), p, balanced_, correction_.remainder,
-                           stiffness_, correction_.energy, correction_.curvature, scalar(0), rest_,
+                           stiffness_, correction_.energy, correction_.bend, scalar(0), rest_,
                            norm_.z, norm_.r);
     if (!detail::is_finite(best.bound)) return best.bound;
-    scalar const moved = sqrt(best.moved * best.moved + correction_.missing * correction_.missing);
-    return error_bound<scalar>(moved + dual_norm_of_rest(), best.gap + changed * missed) +
-           back / sqrt(typical_);
+    using std::hypot;
+    scalar const moved = hypot(best.moved, correction_.missing);
+    scalar const root = hypot(best.root_of_gap, scalar(sqrt(changed) * sqrt(missed)));
+    return error_bound_of_root<scalar>(moved + dual_norm_of_rest(), root) + back / sqrt(typical_);
   }
 
   /// sup restᵀv/‖v‖_A over ker G: of P A P + Q/ρ, for which nothing but rounding is left in range

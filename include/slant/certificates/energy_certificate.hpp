@@ -71,7 +71,8 @@ class energy_certificate {
     if (dominates_) {
       auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
       slant::apply(m_, g_, norm_.z, norm_.of_m);
-      e.bound = error_bound<scalar>(detail::root_of_product(g_, norm_.z), balanced.gap);
+      e.bound =
+          error_bound_of_root<scalar>(detail::root_of_product(g_, norm_.z), balanced.root_of_gap);
     } else {
       e.bound = estimate() + detail::rounding_of(x_, stiffness_);
     }
@@ -143,7 +144,7 @@ class energy_certificate {
       if (detail::is_finite(bound)) return bound;
     }
     auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
-    return error_bound<scalar>(norm_of(g_), balanced.gap);
+    return error_bound_of_root<scalar>(norm_of(g_), balanced.root_of_gap);
   }
 
   /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.

@@ -27,6 +27,7 @@
 
 #include <slant/certificates/normal_part.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/krylov/unit.hpp>
 
 #include <cmath>
 #include <limits>
@@ -58,24 +59,31 @@ struct energy_error {
   }
 };
 
-/// ½ (δ + √(δ² + 4γ)), rounded upwards; NaN if δ or γ is.
+/// ½ (δ + √(δ² + 4γ)) from δ and √γ, rounded upwards; NaN if one of them is. γ itself is an energy,
+/// which may underflow where its root does not.
 template <class S>
-[[nodiscard]] S error_bound(S const& δ, S const& γ) {
+[[nodiscard]] S error_bound_of_root(S const& δ, S const& root_of_gap) {
   using std::sqrt;
-  S const root = S(2) * sqrt(γ);
+  S const root = S(2) * root_of_gap;
   S const larger = δ > root ? δ : root, smaller = δ > root ? root : δ;
-  if (!(larger > S(0))) return δ + γ;
+  if (!(larger > S(0))) return δ + root_of_gap;
   S const ratio = smaller / larger;
   return (δ + larger * sqrt(S(1) + ratio * ratio)) / S(2) *
          (S(1) + S(8) * std::numeric_limits<S>::epsilon());
 }
+/// The same from δ and γ.
+template <class S>
+[[nodiscard]] S error_bound(S const& δ, S const& γ) {
+  using std::sqrt;
+  return error_bound_of_root<S>(δ, sqrt(γ));
+}
 
-/// d = g − s for all blocks of Λ at x, with the sum of the gaps; m holds the stiffness of each
-/// component, of the size of diag(A⁻¹), ∞ where nothing resists. d may be g. Whether every gap is
-/// free of cancellation is known from the type: `exact`.
+/// d = g − s for all blocks of Λ at x, with the root of the sum of the gaps; m holds the stiffness
+/// of each component, of the size of diag(A⁻¹), ∞ where nothing resists. d may be g. Whether every
+/// gap is free of cancellation is known from the type: `exact`.
 template <class S>
 struct balanced_gradient {
-  S gap{0};
+  S root_of_gap{0};
   bool exact = true;
 };
 
@@ -83,6 +91,7 @@ template <class C, class X, class G, class M, class D>
 [[nodiscard]] auto balance(C const& set, X const& x, G const& g, M const& m, D& d)
     -> balanced_gradient<scalar_t<X>> {
   using S = scalar_t<X>;
+  using std::sqrt;
   balanced_gradient<S> result;
   index terms = 0;
   if constexpr (std::is_same_v<G, D>) {
@@ -90,20 +99,27 @@ template <class C, class X, class G, class M, class D>
   } else {
     slant::local(d) = slant::local(g);
   }
+  // Gaps are summed in units in which g is near 1, as they are products of x and g.
+  S const unit = unit_near(slant::norm(d));
+  S gaps(0);
   slant::visit_blocks(set, [&](auto const& block, auto const& p) {
     using block_type = std::remove_cvref_t<decltype(block)>;
     if constexpr (!whole_space<block_type>) {
       S ρ(0);
       for (index j = 0; j < p.size(); ++j) ρ += slant::local(m).coeff(p.component(j));
       ρ /= S(2 * p.size());
-      auto const part = split_gradient(block, p.value(x), p.value(d), ρ);
+      auto own = p.value(d);
+      own /= unit;
+      auto part = split_gradient(block, p.value(x), own, S(ρ * unit));
+      part.rest *= unit;
       p.put(d, part.rest);
-      result.gap += part.gap;
+      gaps += part.gap;
       ++terms;
       if constexpr (!has_exact_normal_part<block_type>) result.exact = false;
     }
   });
-  result.gap *= S(1) + S(terms + 64) * std::numeric_limits<S>::epsilon();
+  S const ε = std::numeric_limits<S>::epsilon();
+  result.root_of_gap = sqrt(gaps) * sqrt(unit) * (S(1) + S(terms + 64) * ε);
   return result;
 }
 

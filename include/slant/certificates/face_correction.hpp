@@ -33,13 +33,13 @@ class face_correction {
  public:
   using scalar = scalar_t<V>;
 
-  V t;                  ///< the step
-  V image;              ///< A t
-  V remainder;          ///< Π g + H t
-  scalar energy{0};     ///< ‖t‖_A
-  scalar curvature{0};  ///< tᵀ(C/ρ)t
-  scalar missing{0};    ///< estimate of the energy norm that more iterations would add to t
-  bool found = false;   ///< false: along what is left of g the face has no curvature, or M vanishes
+  V t;                 ///< the step
+  V image;             ///< A t
+  V remainder;         ///< Π g + H t
+  scalar energy{0};    ///< ‖t‖_A
+  scalar bend{0};      ///< ‖t‖_{C/ρ}, from the curvature of the blocks
+  scalar missing{0};   ///< estimate of the energy norm that more iterations would add to t
+  bool found = false;  ///< false: along what is left of g the face has no curvature, or M vanishes
 
   face_correction(V const& prototype, M const& m)
       : t(prototype),
@@ -62,7 +62,7 @@ class face_correction {
     scalar const room = scalar(4) * sqrt(scalar(slant::global_size(g)));
     slant::local(t).setZero();
     slant::local(image).setZero();
-    energy = curvature = missing = scalar(0);
+    energy = bend = missing = scalar(0);
     // Twice: g may be nearly normal to the face, and what rounding leaves of that is no residual.
     face.keep(g, z_);
     face.keep(z_, r_);
@@ -96,18 +96,18 @@ class face_correction {
       ++k;
       face.keep(Ap_, z_);
       face.add_curvature(scalar(1) / ρ, p_, z_);
-      scalar const bend = slant::inner_product(p_, z_);
+      scalar const pHp = slant::inner_product(p_, z_);
       scalar flat(0);
       if (sizes) {
         scalar const length = slant::inner_product(p_, p_);
-        stiffest = std::max<scalar>(stiffest, bend / length);
+        stiffest = std::max<scalar>(stiffest, pHp / length);
         flat = room * ε * stiffest * length;
       }
-      if (!(bend > flat)) {
+      if (!(pHp > flat)) {
         beyond = scalar(0);
         break;
       }
-      scalar const α = gz / bend, term = α * gz;
+      scalar const α = gz / pHp, term = α * gz;
       slant::local(r_) += α * slant::local(z_);
       sum += term;
       if (noise >= scalar(0)) {
@@ -128,7 +128,8 @@ class face_correction {
     missing = unit * sqrt(noise >= scalar(0) ? beyond : recent);
     slant::local(z_).setZero();
     face.add_curvature(scalar(1) / ρ, t, z_);
-    curvature = unit * slant::inner_product(t, z_) * unit;
+    scalar const curved = slant::inner_product(t, z_);
+    bend = curved > scalar(0) ? scalar(unit * sqrt(curved)) : scalar(0);
     scalar const squared = slant::inner_product(t, image);
     energy = squared > scalar(0)  ? scalar(unit * sqrt(squared))
              : squared == squared ? scalar(0)

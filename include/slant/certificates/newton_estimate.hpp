@@ -101,30 +101,29 @@ class newton_estimate {
   /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
   template <class Norm>
   [[nodiscard]] scalar put_together(estimated_point<vector_type> const& at, Norm const& norm_of) {
-    using std::sqrt;
+    using std::hypot;
     slant::local(image_) += slant::local(correction_.image);
     slant::local(balanced_) = slant::local(at.gradient) + slant::local(image_);
     slant::local(image_) -= slant::local(correction_.image);
     scalar const way = detail::root_of_product(step_, image_);
     detail::bound_split<scalar> best;
-    consider(best, at, projected_, correction_.energy, correction_.curvature, way);
+    consider(best, at, projected_, correction_.energy, correction_.bend, way);
     slant::local(step_) += slant::local(correction_.t);
     slant::local(image_) += slant::local(correction_.image);
     slant::local(trial_).setZero();
     face_.add_curvature(scalar(1) / at.ρ, step_, trial_);
     consider(best, at, at.x, detail::root_of_product(step_, image_),
-             slant::inner_product(step_, trial_), scalar(0));
+             detail::root_of_product(step_, trial_), scalar(0));
     if (!detail::is_finite(best.bound)) return best.bound;
-    scalar const δ =
-        sqrt(best.moved * best.moved + correction_.missing * correction_.missing) + norm_of(rest_);
-    return error_bound<scalar>(δ, best.gap) + best.above;
+    scalar const δ = hypot(best.moved, correction_.missing) + norm_of(rest_);
+    return error_bound_of_root<scalar>(δ, best.root_of_gap) + best.above;
   }
 
   void consider(detail::bound_split<scalar>& best, estimated_point<vector_type> const& at,
-                vector_type const& x, scalar const& moved, scalar const& curvature,
+                vector_type const& x, scalar const& moved, scalar const& bend,
                 scalar const& above) {
     detail::consider_split(best, qp_->set(), face_, x, balanced_, correction_.remainder,
-                           at.stiffness, moved, curvature, above, rest_, weight_, trial_);
+                           at.stiffness, moved, bend, above, rest_, weight_, trial_);
   }
 
   QP const* qp_;

@@ -200,12 +200,8 @@ class certificate {
       lost_(i) = unit * (S(24) * eps * abs(g_(i)) + m_.tiny * abs(start)) +
                  (unit > S(0) ? S(m_.tiny * length) : S(0));
     }
-    // In units in which g is near 1: a gap is an energy, which may underflow.
-    S const unit_of_g = unit_near(S(g_.stableNorm()));
-    rest_ = g_ / unit_of_g;
-    scaled_ = m_.stiffness * unit_of_g;
-    auto const balanced = balance(set, λ, vector_type(rest_), scaled_, rest_);
-    rest_ *= unit_of_g;
+    rest_ = g_;
+    auto const balanced = balance(set, λ, g_, m_.stiffness, rest_);
     // Where λ_ν = 0 and the gap is open for certain, s is the exact gradient: however wide the gap
     // is, its rounding is no part of g − s.
     for (index i = 0; i < data_->nodes(); ++i) {
@@ -213,7 +209,7 @@ class certificate {
           λ(i) == S(0) && rest_(i) == S(0) && g_(i) * sqrt(m_.inverse_squares(i)) > lost_(i);
       if (is_open) lost_(i) = S(0);
     }
-    root_of_gap_ = sqrt(balanced.gap) * sqrt(unit_of_g) * (S(1) + S(4) * eps);
+    root_of_gap_ = balanced.root_of_gap;
     grown_ = S(1) + S(8 * (m_.K().rows() + 64)) * eps;
     off_of_rest_ = S(2) * sqrt(m_.largest) * lost_.stableNorm() + off_;
     error_.proven = is_proven_ && balanced.exact && m_.is_orthogonal;
@@ -284,12 +280,8 @@ class certificate {
     return slant::detail::is_finite(data_->d(i)) ? S(data_->d(i)) : S(0);
   }
 
-  /// In units of the larger of δ and √γ.
   [[nodiscard]] S bound_from(S const& δ) const {
-    S const all = δ + off_of_rest_, larger = all > root_of_gap_ ? all : root_of_gap_;
-    if (!(larger > S(0)) || !slant::detail::is_finite(larger)) return all + root_of_gap_;
-    S const unit = unit_near(larger), root = root_of_gap_ / unit;
-    return (unit * error_bound<S>(all / unit, root * root) + off_) * grown_;
+    return (error_bound_of_root<S>(δ + off_of_rest_, root_of_gap_) + off_) * grown_;
   }
   [[nodiscard]] energy_error<S> const& use_estimate(S const& bound) {
     if (bound < error_.bound) {

@@ -77,29 +77,30 @@ index set_stiffness(A const& a, scalar_t<V> const& typical, V& stiffness, V& x, 
 template <class S>
 struct bound_split {
   S bound = std::numeric_limits<S>::infinity();
-  S moved{0}, gap{0}, above{0};
+  S moved{0}, root_of_gap{0}, above{0};
 };
 
 /// Splits the gradient at the end of a Newton step, `balanced`, into s and `rest` for x; curved
 /// blocks with a part of the gradient or by the gap alone. What the diagonal of A says is less
-/// becomes `best`. `moved`, `curvature`: of the step; `remainder`: what of it is missing on the
-/// face, and counted elsewhere. m and d are scratch.
+/// becomes `best`. `moved` and `bend`, ‖·‖_A and ‖·‖_{C/ρ} of the step; `remainder`: what of it is
+/// missing on the face, and counted elsewhere. m and d are scratch.
 template <class Set, class Face, class V>
 void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& face, V const& x,
                     V const& balanced, V const& remainder, V const& stiffness,
-                    scalar_t<V> const& moved, scalar_t<V> const& curvature,
-                    scalar_t<V> const& above, V& rest, V& m, V& d) {
+                    scalar_t<V> const& moved, scalar_t<V> const& bend, scalar_t<V> const& above,
+                    V& rest, V& m, V& d) {
   using S = scalar_t<V>;
   for (S const factor : {S(1), S(0x1p27)}) {
     slant::local(m) = slant::local(stiffness);
     face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
     auto const split = balance(set, x, balanced, m, d);
     slant::local(d) -= slant::local(remainder);
-    S const γ = std::max<S>(split.gap, curvature / S(2));
+    using std::sqrt;
+    S const root = std::max<S>(split.root_of_gap, bend / S(sqrt(S(2))));
     slant::local(m) = slant::local(stiffness).cwiseProduct(slant::local(d));
-    S const bound = error_bound<S>(moved + root_of_product(d, m), γ) + above;
+    S const bound = error_bound_of_root<S>(moved + root_of_product(d, m), root) + above;
     if (!(bound < best.bound)) continue;
-    best = {bound, moved, γ, above};
+    best = {bound, moved, root, above};
     slant::local(rest) = slant::local(d);
   }
 }
