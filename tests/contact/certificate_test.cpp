@@ -75,6 +75,18 @@ VectorXd near_solution(certified_scene const& s, double δ, unsigned seed) {
   return λ;
 }
 
+/// ‖u‖_K with sums in quadruple precision.
+double energy_norm(Eigen::SparseMatrix<double> const& K, VectorXd const& u) {
+  __extension__ using quad = __float128;
+  quad sum = 0;
+  for (Eigen::Index j = 0; j < K.outerSize(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator k(K, j); k; ++k) {
+      sum += quad(u(k.row())) * quad(k.value()) * quad(u(j));
+    }
+  }
+  return std::sqrt(double(sum));
+}
+
 TEST_CASE("a proven bound is never below the error, and not far above it") {
   for (auto const load : fem::brick_loads) {
     certified_scene s({.k = 2, .load = load});
@@ -104,10 +116,14 @@ TEST_CASE("slender and thin bodies: the certificate sees what the reduced gradie
   for (auto const& [length, height] : {std::pair(300.0, 1.0), std::pair(3.0, 1e-3)}) {
     certified_scene s(
         {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(length, 1, height)});
+    REQUIRE(s.prove());
     for (double const δ : {1e-2, 1e-5, 1e-8}) {
       VectorXd u;
       auto const e = s(near_solution(s, δ, 8), u, 1e-12);
       CHECK(e.bound >= s.error(u) - 2 * s.reference.energy_error * e.size);
+      CHECK(e.proven);
+      CHECK(e.size <= energy_norm(s.scene.K, u) * (1 + 1e-15));
+      CHECK(e.size >= energy_norm(s.scene.K, u) * (1 - 1e-9));
     }
   }
 }
