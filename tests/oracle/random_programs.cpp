@@ -578,7 +578,14 @@ double energy_error(random_program const& p, VectorXd const& x, quad_vector cons
   };
   quad_vector d = widened(x);
   for (std::size_t i = 0; i < d.size(); ++i) d[i] -= exact[i];
-  quad const whole = root(square(exact)), error = root(square(d));
+  // d may lie in the null space of a singular A, which is one up to the rounding of A only.
+  quad off = square(d);
+  for (std::size_t i = 0; i < d.size() && !p.definite; ++i) {
+    for (std::size_t j = 0; j < d.size(); ++j) {
+      off -= quad(0x1p-53) * magnitude(d[i] * quad(p.A(Eigen::Index(i), Eigen::Index(j))) * d[j]);
+    }
+  }
+  quad const whole = root(square(exact)), error = off > 0 ? root(off) : quad(0);
   return static_cast<double>(whole > 0 ? error / whole : error);
 }
 

@@ -94,7 +94,8 @@ struct program_shape {
 /// the natural residual; nothing if that does not converge. A reference may fail, but not be wrong.
 [[nodiscard]] std::optional<quad_vector> exact_solution(random_program const& p);
 
-/// ‖x − x*‖_A / ‖x*‖_A; ‖x − x*‖_A alone if x* = 0.
+/// ‖x − x*‖_A / ‖x*‖_A; ‖x − x*‖_A alone if x* = 0. Of a singular A less what its rounding may make
+/// of x − x*: in its null space solutions differ by any amount.
 [[nodiscard]] double energy_error(random_program const& p, Eigen::VectorXd const& x,
                                   quad_vector const& exact);
 

@@ -88,13 +88,14 @@ template <class A, class M, class V, class WA>
     slant::apply(a, w.p, w.image, of_a);
     ++k;
     S const bend = slant::inner_product(w.p, w.image);
-    S flat(0);
+    S quotient = bend, flat(0);
     if (sizes) {
-      S const length = slant::inner_product(w.p, w.p);
-      stiffest = std::max<S>(stiffest, bend / length);
-      flat = room * ε * stiffest * length;
+      S const length = slant::norm(w.p);  // its square may leave the range of the numbers
+      quotient = bend / length / length;
+      stiffest = std::max<S>(stiffest, quotient);
+      flat = room * ε * stiffest;
     }
-    if (!(bend > flat)) {
+    if (!(quotient > flat)) {
       if (noise >= S(0)) return {unit * sqrt(without_noise), k};
       return {is_rounding() ? S(unit * sqrt(energy)) : std::numeric_limits<S>::infinity(), k};
     }

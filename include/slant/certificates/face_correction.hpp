@@ -97,13 +97,14 @@ class face_correction {
       face.keep(Ap_, z_);
       face.add_curvature(scalar(1) / ρ, p_, z_);
       scalar const pHp = slant::inner_product(p_, z_);
-      scalar flat(0);
+      scalar quotient = pHp, flat(0);
       if (sizes) {
-        scalar const length = slant::inner_product(p_, p_);
-        stiffest = std::max<scalar>(stiffest, pHp / length);
-        flat = room * ε * stiffest * length;
+        scalar const length = slant::norm(p_);  // its square may leave the range of the numbers
+        quotient = pHp / length / length;
+        stiffest = std::max<scalar>(stiffest, quotient);
+        flat = room * ε * stiffest;
       }
-      if (!(pHp > flat)) {
+      if (!(quotient > flat)) {
         beyond = scalar(0);
         break;
       }

@@ -90,16 +90,18 @@ void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& 
                     scalar_t<V> const& moved, scalar_t<V> const& bend, scalar_t<V> const& above,
                     V& rest, V& m, V& d) {
   using S = scalar_t<V>;
+  using std::sqrt;
+  S const bent = bend / S(sqrt(S(2)));
   for (S const factor : {S(1), S(0x1p27)}) {
     slant::local(m) = slant::local(stiffness);
     face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
     auto const split = balance(set, x, balanced, m, d);
     slant::local(d) -= slant::local(remainder);
-    using std::sqrt;
-    S const root = std::max<S>(split.root_of_gap, bend / S(sqrt(S(2))));
+    S const root = split.root_of_gap > bent ? split.root_of_gap : bent;
     slant::local(m) = slant::local(stiffness).cwiseProduct(slant::local(d));
     S const bound = error_bound_of_root<S>(moved + root_of_product(d, m), root) + above;
-    if (!(bound < best.bound)) continue;
+    // A gap that is NaN may have lost the comparison.
+    if (!(bound < best.bound) || !is_finite(split.root_of_gap)) continue;
     best = {bound, moved, root, above};
     slant::local(rest) = slant::local(d);
   }
