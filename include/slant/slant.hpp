@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole library, but for what needs more than Eigen, Boost and range-v3: <slant/io/vtu.hpp>
-// (pugixml) and <slant/testing/…> (for test suites, partly with doctest). CHOLMOD takes part where
-// SLANT_HAS_CHOLMOD is 1, as with the CMake target slant::cholmod.
+// Operators, sets, slanting functions and the methods over them: what a solver is composed of. What
+// only some programs need has headers of its own, since the compiler reads all that is included:
+//
+//     <slant/contact/contact.hpp>                contact from stiffness matrices, friction laws
+//     <slant/io/io.hpp>, <slant/io/vtu.hpp>      files (the second one needs pugixml)
+//     <slant/multilevel/multilevel.hpp>          multigrid
+//     <slant/factorizations/factorizations.hpp>  kernels, static condensation, generalised inverses
+//     <slant/iteration/iterates.hpp>             a run as a range (range-v3)
+//     <slant/operators/timed.hpp>                seconds spent in an operator (<chrono>)
+//     <slant/testing/…>                          law checks, for test suites (partly with doctest)
+//
+// CHOLMOD takes part where SLANT_HAS_CHOLMOD is 1, as with the CMake target slant::cholmod.
 #pragma once
 
 // IWYU pragma: begin_exports
@@ -11,12 +20,11 @@
 
 #include <slant/certificates/certificates.hpp>
 #include <slant/concepts/concepts.hpp>
-#include <slant/contact/contact.hpp>
-#include <slant/factorizations/factorizations.hpp>
-#include <slant/io/io.hpp>
+#include <slant/factorizations/dense_ldlt.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/iteration.hpp>
 #include <slant/krylov/krylov.hpp>
-#include <slant/multilevel/multilevel.hpp>
 #include <slant/newton/newton.hpp>
 #include <slant/operators/operators.hpp>
 #include <slant/sets/sets.hpp>

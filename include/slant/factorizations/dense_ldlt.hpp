@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: MIT
 //
-// Dense LDLᵀ with diagonal pivoting by Eigen, for symmetric positive definite matrices.
+// Dense LDLᵀ for symmetric positive definite matrices.
 //
-// As in ldlt.hpp, K / 2^e is factored, so nothing depends on the units.
+// As in ldlt.hpp, K / 2^e is factored, so nothing depends on the units. No pivoting, of which
+// definite matrices have no need: the error is that of the equilibrated matrix, whatever the rows
+// are scaled by [Demmel 1989; Higham, Accuracy and Stability, 10.1].
+//
+// Eight columns at a time, in place of the lower triangle: they receive what all panels before
+// take from them (panel_kernels.hpp: so that a panel is read once for four columns), then what they
+// take from each other. Plain loops over arrays and not Eigen's LDLT: that brings the products of
+// matrices with it, three seconds of the compiler in every program that factors a small matrix.
 #pragma once
 
 #include <slant/concepts/factorization.hpp>
+#include <slant/factorizations/detail/panel_kernels.hpp>
+#include <slant/factorizations/detail/panel_kernels_of_four.hpp>
 #include <slant/factorizations/detail/spd_checks.hpp>
 
-#include <Eigen/Cholesky>
-
+#include <algorithm>
+#include <concepts>
 #include <memory>
-#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace slant {
 
-/// P K Pᵀ = 2^e L D Lᵀ. Copies share the factors, which never change.
+/// K = 2^e L D Lᵀ. Copies share the factors, which never change.
 template <class S = double>
 class dense_ldlt {
  public:
@@ -34,8 +42,9 @@ class dense_ldlt {
     detail::require_symmetric_matrix("K", normalised);
     exponent_ = detail::scale_exponent(normalised);
     unit_ = detail::power_of_two<S>(-exponent_);
-    normalised *= unit_;
+    for (index i = 0; i < normalised.size(); ++i) normalised.data()[i] *= unit_;
     factor(normalised);
+    factors_ = std::make_shared<matrix_type const>(std::move(normalised));
   }
 
   [[nodiscard]] index rows() const { return factors_->rows(); }
@@ -48,50 +57,146 @@ class dense_ldlt {
   void solve(X const& b, Y& x) const {
     detail::check_solve(rows(), b, x);
     auto&& solution = slant::local(x);
-    if (rows() == 0) return;
     solution = slant::local(b);
-    // Row interchanges in place: Eigen's solve() would do the same into its destination.
-    auto const& swaps = factors_->transpositionsP().indices();
-    for (index i = 0; i < rows(); ++i) exchange(solution, i, index(swaps[i]));
-    factors_->matrixL().solveInPlace(solution);
-    auto const pivots = factors_->vectorD();
-    for (index j = 0; j < solution.cols(); ++j) {
-      for (index i = 0; i < rows(); ++i) solution(i, j) /= pivots.coeff(i);
+    index const columns = solution.cols(), apart = solution.colStride();
+    for (index k = 0; k < columns;) {
+      bool const together = k + 4 <= columns && solution.rowStride() == 1;
+      solve_in_place({solution.data() + k * apart, solution.rowStride(), apart, together ? 4 : 1});
+      k += together ? 4 : 1;
     }
-    factors_->matrixU().solveInPlace(solution);
-    for (index i = rows(); i-- > 0;) exchange(solution, i, index(swaps[i]));
-    solution *= unit_;
   }
 
  private:
-  using factors_type = Eigen::LDLT<matrix_type, Eigen::Lower>;
+  static constexpr index width = detail::panel_width;
+  /// Whether the kernels exist for these numbers.
+  static constexpr bool has_kernels = std::same_as<S, double> || std::same_as<S, float>;
 
-  template <class X>
-  static void exchange(X& x, index i, index k) {
-    if (i != k) x.row(i).swap(x.row(k));
+  /// One or four vectors: entry i of vector k is first[i · step + k · apart].
+  struct right_hand_sides {
+    S* first;
+    index step, apart, count;
+
+    S& operator()(index i, index k) const { return first[i * step + k * apart]; }
+    [[nodiscard]] right_hand_sides from(index i) const {
+      return {first + i * step, step, apart, count};
+    }
+  };
+
+  /// Rows `first`, `first` + 1, … of eight columns of L.
+  static detail::panel_columns<S> panel(matrix_type const& l, index first, index column) {
+    detail::panel_columns<S> r{{}, detail::tile_rows<S>};
+    for (auto& place : r.column) place = l.data() + column++ * l.rows() + first;
+    return r;
   }
 
-  void factor(matrix_type const& k) {
-    auto factors = std::make_shared<factors_type>(k.rows());
-    if (k.rows() > 0) {
-      factors->compute(k);
-      std::vector<index> order(static_cast<std::size_t>(k.rows()));
-      std::iota(order.begin(), order.end(), index{0});
-      auto const& swaps = factors->transpositionsP().indices();
-      auto const pivots = factors->vectorD();
-      for (index i = 0; i < k.rows(); ++i) {
-        index& row = order[static_cast<std::size_t>(i)];
-        std::swap(row, order[static_cast<std::size_t>(swaps[i])]);
-        detail::require_positive_pivot("K", k.rows(), i, row, S(pivots.coeff(i)), S(k(row, row)),
-                                       exponent_);
+  /// y ← y − R p, with eight numbers of p for each of the vectors y.
+  static void subtract(detail::panel_columns<S> const& r, S const* p, right_hand_sides const& y,
+                       index rows) {
+    if constexpr (has_kernels) {
+      bool const long_vectors = detail::has_long_vectors();
+      if (y.step == 1 && y.count == 4) {
+        return detail::subtract_panel_from_four(long_vectors, r, p, y.first, y.apart, rows);
+      }
+      if (y.step == 1 && y.count == 1) {
+        return detail::subtract_panel(long_vectors, r, p, y.first, rows);
       }
     }
-    factors_ = std::move(factors);
+    for (index k = 0; k < y.count; ++k) {
+      for (auto const& column : r.column) {
+        S const factor = p[k * width + (&column - r.column.data())];
+        for (index i = 0; i < rows; ++i) y(i, k) -= factor * column[i];
+      }
+    }
+  }
+  /// result ← Rᵀy, eight numbers for each of the vectors y.
+  static void products(detail::panel_columns<S> const& r, right_hand_sides const& y, index rows,
+                       S* result) {
+    if constexpr (has_kernels) {
+      bool const long_vectors = detail::has_long_vectors();
+      if (y.step == 1 && y.count == 4) {
+        return detail::panel_products_of_four(long_vectors, r, y.first, y.apart, rows, result);
+      }
+      if (y.step == 1 && y.count == 1) {
+        return detail::panel_products(long_vectors, r, y.first, rows, result);
+      }
+    }
+    for (index k = 0; k < y.count; ++k) {
+      for (auto const& column : r.column) {
+        S sum(0);
+        for (index i = 0; i < rows; ++i) sum += y(i, k) * column[i];
+        result[k * width + (&column - r.column.data())] = sum;
+      }
+    }
+  }
+
+  /// The lower triangle becomes L, without its ones, and D.
+  void factor(matrix_type& a) const {
+    index const n = a.rows();
+    std::vector<S> diagonal(static_cast<std::size_t>(n));
+    for (index j = 0; j < n; ++j) diagonal[static_cast<std::size_t>(j)] = a.coeff(j, j);
+    for (index c = 0; c < n; c += width) {
+      index const end = std::min(c + width, n);
+      for (index q = 0; q < c; q += width) {
+        for (index j = c; j < end;) {
+          index const together = j + 4 <= end ? 4 : 1;
+          S p[4 * width];
+          for (index k = 0; k < together * width; ++k) {
+            index const column = q + k % width;
+            p[k] = a.coeff(j + k / width, column) * a.coeff(column, column);
+          }
+          // From row c on for all columns: what stands above the diagonal is not used.
+          subtract(panel(a, c, q), p, {a.data() + j * n + c, 1, n, together}, n - c);
+          j += together;
+        }
+      }
+      for (index j = c; j < end; ++j) {
+        S* const column = a.data() + j * n;
+        for (index q = c; q < j; ++q) {
+          S const* const before = a.data() + q * n;
+          S const factor = before[j] * before[q];
+          for (index i = j; i < n; ++i) column[i] -= factor * before[i];
+        }
+        detail::require_positive_pivot("K", n, j, j, column[j],
+                                       diagonal[static_cast<std::size_t>(j)], exponent_);
+        for (index i = j + 1; i < n; ++i) column[i] /= column[j];
+      }
+    }
+  }
+
+  void solve_in_place(right_hand_sides const& x) const {
+    matrix_type const& l = *factors_;
+    index const n = l.rows();
+    S p[4 * width];
+    for (index c = 0; c < n; c += width) {
+      index const end = std::min(c + width, n);
+      for (index k = 0; k < x.count; ++k) {
+        for (index j = c; j < end; ++j) {
+          S const factor = p[k * width + j - c] = x(j, k);
+          for (index i = j + 1; i < end; ++i) x(i, k) -= factor * l.coeff(i, j);
+        }
+      }
+      if (end < n) subtract(panel(l, end, c), p, x.from(end), n - end);
+    }
+    for (index c = n == 0 ? -1 : (n - 1) / width * width; c >= 0; c -= width) {
+      index const end = std::min(c + width, n);
+      if (end < n) products(panel(l, end, c), x.from(end), n - end, p);
+      for (index k = 0; k < x.count; ++k) {
+        for (index j = end; j-- > c;) {
+          S value = x(j, k) / l.coeff(j, j);
+          if (end < n) value -= p[k * width + j - c];
+          for (index i = j + 1; i < end; ++i) value -= x(i, k) * l.coeff(i, j);
+          x(j, k) = value;
+        }
+      }
+    }
+    for (index k = 0; k < x.count; ++k) {
+      for (index i = 0; i < n; ++i) x(i, k) *= unit_;
+    }
   }
 
   int exponent_ = 0;
   S unit_{1};
-  std::shared_ptr<factors_type const> factors_;
+  std::shared_ptr<matrix_type const> factors_;
 };
 
 template <class M>

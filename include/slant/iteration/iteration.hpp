@@ -5,7 +5,6 @@
 
 // IWYU pragma: begin_exports
 #include <slant/iteration/feasible.hpp>
-#include <slant/iteration/iterates.hpp>
 #include <slant/iteration/nested.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/report.hpp>

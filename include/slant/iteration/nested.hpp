@@ -26,7 +26,7 @@
 #include <slant/iteration/solve.hpp>
 
 #include <concepts>
-#include <ranges>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -92,13 +92,19 @@ struct refused_nested_report : refused_report<V> {
   refused_report<V> const& finest() const;
 };
 
+/// What `for (auto&& level : levels)` needs. Not std::ranges::input_range: <ranges> is a tenth of a
+/// small program.
+template <class Levels>
+concept range_of_levels = requires(Levels& levels) {
+  *std::begin(levels);
+  { std::begin(levels) != std::end(levels) } -> std::convertible_to<bool>;
+};
+template <class Levels>
+using level_of = std::remove_reference_t<decltype(*std::begin(std::declval<Levels&>()))>;
+
 template <class Levels, class V, class... Observers>
-concept nested_solvable =
-    std::ranges::input_range<Levels> &&
-    nested_level<std::remove_reference_t<std::ranges::range_reference_t<Levels>>, V> &&
-    (observer<Observers,
-              level_state<std::remove_reference_t<std::ranges::range_reference_t<Levels>>, V>> &&
-     ...);
+concept nested_solvable = range_of_levels<Levels> && nested_level<level_of<Levels>, V> &&
+                          (observer<Observers, level_state<level_of<Levels>, V>> && ...);
 
 }  // namespace detail
 
@@ -110,7 +116,7 @@ concept nested_solvable =
 template <class Levels, class V, class... Observers>
   requires detail::nested_solvable<Levels, V, Observers...>
 [[nodiscard]] auto solve_nested(Levels&& levels, V const& x0, Observers&&... observers) {
-  using level_type = std::remove_reference_t<std::ranges::range_reference_t<Levels>>;
+  using level_type = detail::level_of<Levels>;
   nested_report<detail::level_state<level_type, V>> result;
   for (auto&& level : levels) {
     if (result.levels.empty()) {
@@ -131,9 +137,9 @@ template <class Levels, class V, class... Observers>
   requires(!detail::nested_solvable<Levels, V, Observers...>)
 [[nodiscard]] auto solve_nested(Levels&&, V const&, Observers&&...)
     -> detail::refused_nested_report<V> {
-  static_assert(std::ranges::input_range<Levels>, "solve_nested: expected a range of levels");
-  if constexpr (std::ranges::input_range<Levels>) {
-    using level_type = std::remove_reference_t<std::ranges::range_reference_t<Levels>>;
+  static_assert(detail::range_of_levels<Levels>, "solve_nested: expected a range of levels");
+  if constexpr (detail::range_of_levels<Levels>) {
+    using level_type = detail::level_of<Levels>;
     static_assert(has_method<level_type> && has_stop<level_type> && has_prolongation<level_type>,
                   "solve_nested: a level must have method(), stop() and prolongation()");
     if constexpr (has_method<level_type> && has_stop<level_type> && has_prolongation<level_type>) {

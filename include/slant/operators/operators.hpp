@@ -29,6 +29,5 @@
 #include <slant/operators/slice.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/operators/sum.hpp>
-#include <slant/operators/timed.hpp>
 #include <slant/operators/zero.hpp>
 // IWYU pragma: end_exports
