@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# Install rules. The package is headers only, hence independent of the architecture.
+# Install rules. Without the component compiled the package is headers only, hence independent of the
+# architecture.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/slant")
@@ -10,15 +11,24 @@ install(EXPORT slant NAMESPACE slant:: FILE slant-targets.cmake DESTINATION "${p
 
 # One export per component: a client that does not ask for one does not need its dependency.
 foreach(component IN LISTS slant_components)
-  install(TARGETS slant_${component} EXPORT slant-${component} FILE_SET HEADERS)
+  if(component STREQUAL "compiled")
+    install(TARGETS slant_compiled EXPORT slant-compiled)
+  else()
+    install(TARGETS slant_${component} EXPORT slant-${component} FILE_SET HEADERS)
+  endif()
   install(EXPORT slant-${component} NAMESPACE slant:: FILE slant-${component}-targets.cmake
           DESTINATION "${package_dir}")
 endforeach()
 
 configure_package_config_file(cmake/slantConfig.cmake.in slantConfig.cmake
                               INSTALL_DESTINATION "${package_dir}")
+if(SLANT_COMPILED)
+  set(any_architecture "")
+else()
+  set(any_architecture ARCH_INDEPENDENT)
+endif()
 write_basic_package_version_file(slantConfigVersion.cmake COMPATIBILITY SameMinorVersion
-                                 ARCH_INDEPENDENT)
+                                 ${any_architecture})
 install(FILES "${PROJECT_BINARY_DIR}/slantConfig.cmake"
               "${PROJECT_BINARY_DIR}/slantConfigVersion.cmake" cmake/FindCHOLMOD.cmake
         DESTINATION "${package_dir}")

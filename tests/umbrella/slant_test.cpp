@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Everything here comes through <slant/slant.hpp>: one thing of each room, and a second translation
-// unit (other_unit_test.cpp) that includes the same header and is linked to this one.
+// One thing of each room: what comes through <slant/slant.hpp>, and what has headers of its own.
+// A second translation unit (other_unit_test.cpp) includes the same header and is linked to this
+// one.
 #include <slant/slant.hpp>
 
 // Nothing that only some clients want may come along.
+#if defined(RANGES_V3_VERSION_HPP) || defined(RANGES_V3_CONFIG_HPP)
+#error "<slant/slant.hpp> includes range-v3"
+#endif
+#if defined(_GLIBCXX_FILESYSTEM) || defined(_GLIBCXX_CHRONO)
+#error "<slant/slant.hpp> includes <filesystem> or <chrono>"
+#endif
+#if defined(EIGEN_SVD_MODULE_H) || defined(EIGEN_EIGENVALUES_MODULE_H)
+#error "<slant/slant.hpp> includes decompositions of Eigen that it has no use for"
+#endif
 #if defined(_GLIBCXX_IOSTREAM)
 #error "<slant/slant.hpp> includes <iostream>, whose static objects end up in every client"
 #endif
@@ -19,6 +29,11 @@
 #if defined(check) || defined(index) || defined(laws) || defined(status) || defined(verify)
 #error "<slant/slant.hpp> defines a macro with a common name"
 #endif
+
+// Headers for those who need them.
+#include <slant/contact/contact.hpp>
+#include <slant/io/io.hpp>
+#include <slant/iteration/iterates.hpp>
 
 #include <umbrella/other_unit.hpp>
 

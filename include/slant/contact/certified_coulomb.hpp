@@ -18,6 +18,7 @@
 //     if (r.converged()) use(r.u, r.λ);
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/concepts/checks.hpp>
 #include <slant/contact/coulomb_certificate.hpp>
 #include <slant/contact/solve_coulomb.hpp>
@@ -218,5 +219,14 @@ template <class Friction, class S>
   }
   return result;
 }
+
+#if SLANT_USES_COMPILED
+extern template certified_coulomb_result<Eigen::VectorXd> certified_coulomb<friction_line, double>(
+    friction_line, Eigen::SparseMatrix<double> const&, data<double>, Eigen::VectorXd const&,
+    certified_coulomb_options const&);
+extern template certified_coulomb_result<Eigen::VectorXd> certified_coulomb<friction_disc, double>(
+    friction_disc, Eigen::SparseMatrix<double> const&, data<double>, Eigen::VectorXd const&,
+    certified_coulomb_options const&);
+#endif
 
 }  // namespace slant::contact

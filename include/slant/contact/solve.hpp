@@ -24,6 +24,7 @@
 // for ever.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/detail/certified_run.hpp>
 #include <slant/contact/detail/spring_supports.hpp>
 #include <slant/contact/solve_options.hpp>
@@ -68,5 +69,22 @@ template <class S, class... Observers>
       return solve(friction_disc{}, K, c, o, observers...);
   }
 }
+
+#if SLANT_USES_COMPILED
+extern template solution<double> solve<frictionless, double>(frictionless,
+                                                             Eigen::SparseMatrix<double> const&,
+                                                             data<double> const&,
+                                                             solve_options<double> const&);
+extern template solution<double> solve<friction_line, double>(friction_line,
+                                                              Eigen::SparseMatrix<double> const&,
+                                                              data<double> const&,
+                                                              solve_options<double> const&);
+extern template solution<double> solve<friction_disc, double>(friction_disc,
+                                                              Eigen::SparseMatrix<double> const&,
+                                                              data<double> const&,
+                                                              solve_options<double> const&);
+extern template solution<double> solve<double>(Eigen::SparseMatrix<double> const&,
+                                               data<double> const&, solve_options<double> const&);
+#endif
 
 }  // namespace slant::contact

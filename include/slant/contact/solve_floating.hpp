@@ -19,6 +19,7 @@
 // where its residual is more than 1000 times the tolerance, or what rounding errors of K u make.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/detail/falling_motion.hpp>
 #include <slant/contact/detail/rigid_position.hpp>
@@ -243,5 +244,11 @@ template <class S>
   if (r.status != slant::status::unbounded) detail::check_claim(K, c, options.tolerance, r);
   return r;
 }
+
+#if SLANT_USES_COMPILED
+extern template floating_solution<double> solve_floating<double>(Eigen::SparseMatrix<double> const&,
+                                                                 data<double> const&,
+                                                                 floating_options<double> const&);
+#endif
 
 }  // namespace slant::contact

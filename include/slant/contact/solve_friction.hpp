@@ -15,6 +15,7 @@
 // limits of the options.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/asymmetry.hpp>
 #include <slant/contact/detail/friction_run.hpp>
 #include <slant/contact/friction_options.hpp>
@@ -40,5 +41,11 @@ template <scalar S>
   return problem.dimension() == 2 ? detail::friction_run<2, S>(problem, options).result(start)
                                   : detail::friction_run<3, S>(problem, options).result(start);
 }
+
+#if SLANT_USES_COMPILED
+extern template friction_result<double> solve_friction<double>(friction_problem<double> const&,
+                                                               friction_options<double> const&,
+                                                               Eigen::VectorXd const&);
+#endif
 
 }  // namespace slant::contact

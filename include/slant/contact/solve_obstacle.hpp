@@ -14,6 +14,7 @@
 // is smaller by as much, as long as this helps; where it does not, the precision is exhausted.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/obstacle.hpp>
 #include <slant/contact/obstacle_route.hpp>
 #include <slant/contact/optimality.hpp>
@@ -176,5 +177,13 @@ template <class S>
   detail::factor_and_solve(K, c, o, s);
   return s;
 }
+
+#if SLANT_USES_COMPILED
+extern template obstacle_solution<double> solve_obstacle<double>(Eigen::SparseMatrix<double> const&,
+                                                                 Eigen::VectorXd const&,
+                                                                 Eigen::SparseMatrix<double> const&,
+                                                                 Eigen::VectorXd const&,
+                                                                 obstacle_options<double> const&);
+#endif
 
 }  // namespace slant::contact

@@ -3,6 +3,7 @@
 // A client of the installed package: headers of both base directories, each dependency, and the
 // components that were asked for.
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <cstdio>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
@@ -15,6 +16,9 @@
 #include <string>
 #if defined(CONSUMER_HAS_vtu)
 #include <slant/io/vtu.hpp>
+#endif
+#if defined(CONSUMER_HAS_compiled)
+#include <slant/contact/solve.hpp>
 #endif
 
 static_assert(slant::scalar<double>);
@@ -57,6 +61,17 @@ int main() {
     check(std::string(error.what()).find("radius") != std::string::npos, "the radius is named");
   }
 
+#if defined(CONSUMER_HAS_compiled)
+  static_assert(SLANT_USES_COMPILED, "the installed library was built with other flags");
+  slant::contact::data<double> contact;  // the second unknown rests on an obstacle at 0.1
+  contact.N.resize(1, 2);
+  contact.N.insert(0, 1) = 1;
+  contact.T.resize(0, 2);
+  contact.f = b;
+  contact.d = Eigen::VectorXd::Constant(1, 0.1);
+  auto const held = slant::contact::solve(k, contact);
+  check(held.converged() && std::abs(held.multipliers[0] - 0.6) < 1e-8, "the force is 0.6");
+#endif
 #if defined(CONSUMER_HAS_vtu)
   slant::vtu_grid const grid(Eigen::MatrixXd::Zero(3, 1));
   static_cast<void>(grid);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/certified_coulomb.hpp>
+
+namespace slant::contact {
+
+using matrix = Eigen::SparseMatrix<double>;
+using vector = Eigen::VectorXd;
+
+template certified_coulomb_result<vector> certified_coulomb<friction_line, double>(
+    friction_line, matrix const&, data<double>, vector const&, certified_coulomb_options const&);
+template certified_coulomb_result<vector> certified_coulomb<friction_disc, double>(
+    friction_disc, matrix const&, data<double>, vector const&, certified_coulomb_options const&);
+
+}  // namespace slant::contact

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include <slant/contact/solve_friction.hpp>
+
+namespace slant::contact {
+
+template friction_result<double> solve_friction<double>(friction_problem<double> const&,
+                                                        friction_options<double> const&,
+                                                        Eigen::VectorXd const&);
+
+}  // namespace slant::contact
