@@ -214,8 +214,8 @@ void take_larger(violation<S>& worst, S const& value, index contact) {
 }  // namespace detail
 
 /// Evaluates the law at the forces r of a problem, contact by contact as its q. ρ > 0 is a force
-/// over a velocity. A force that is not finite gives NaN as its maps. Throws bad_input for a problem that is not
-/// valid, and for a size of r or a ρ that does not fit.
+/// over a velocity. A force that is not finite gives NaN as its maps. Throws bad_input for a
+/// problem that is not valid, and for a size of r or a ρ that does not fit.
 template <class S>
 [[nodiscard]] friction_check<S> verify(friction_problem<S> const& p,
                                        typename friction_problem<S>::vector_type const& r,

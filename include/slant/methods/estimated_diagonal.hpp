@@ -37,6 +37,8 @@ void visit_parts(C const& set, F const& f) {
       auto const one = [&](index size) { f(first, size), first += size; };
       (one(index(slant::dimension_of(set.template part<I>()))), ...);
     }(std::make_index_sequence<C::part_count>{});
+  } else if constexpr (requires { set.visit_parts(f); }) {
+    set.visit_parts(f);
   } else if constexpr (requires { set.map(), set.part(); }) {
     visit_parts(set.part(), f);
   } else {

@@ -9,6 +9,7 @@
 
 #include <slant/methods/active_rows.hpp>
 #include <slant/methods/anderson_mixing.hpp>
+#include <slant/methods/any_qp.hpp>
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/barrier_minimum.hpp>

@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/sets/any_set.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/block_product.hpp>
 #include <slant/sets/block_scaled.hpp>

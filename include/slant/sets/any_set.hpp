@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+//
+// A product of blocks of which only the scalar is in the type: how many there are, of which kinds
+// and in which order is known at run time. With any_operator.hpp it makes one type of many
+// quadratic programs, so that a method is compiled once for all of them (methods/any_qp.hpp).
+//
+//     slant::any_set<> const Λ(slant::cartesian(slant::half_lines(m), slant::discs(g)));
+//
+// Intuition. Blocks of one kind that follow one another are a run, a power_product; the set is a
+// list of runs, and which kind a run is of is asked once for the whole run and not once for each
+// block. Inside the loop it is the code of the set that it was made of, with the same bits.
+//
+// Rejected: virtual functions. Methods visit blocks with functions of their own (faces, barriers,
+// certificates), of which a base class would have to list every one; and a virtual call for each
+// block costs more than the block. So the kinds are a closed list, those of contact_sets.hpp with
+// ball<3>, point and ellipse. A set with other blocks keeps its type, and methods are instantiated
+// for it.
+#pragma once
+
+#include <slant/sets/ball.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/ellipse.hpp>
+#include <slant/sets/free_space.hpp>
+#include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
+#include <slant/sets/plane_cone.hpp>
+#include <slant/sets/point.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/sets/second_order_cone.hpp>
+#include <slant/sets/symmetric_interval.hpp>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace slant {
+
+namespace detail {
+
+/// Blocks of one kind, one after the other or planar.
+template <class Block, class Layout = consecutive>
+using run_of = power_product<Block, Layout, listed_blocks<Block>>;
+
+/// The kinds of runs.
+template <class S>
+using any_run = std::variant<run_of<half_line<S>>, run_of<interval<S>>,
+                             run_of<symmetric_interval<S>>, run_of<free_space<1, S>>,
+                             run_of<point<1, S>>, run_of<ball<2, S>>, run_of<ball<2, S>, planar>,
+                             run_of<ball<3, S>>, run_of<ellipse<S>>, run_of<ellipse<S>, planar>,
+                             run_of<plane_cone<S>>, run_of<second_order_cone<3, S>>>;
+
+template <class T, class V>
+inline constexpr bool is_alternative = false;
+template <class T, class... Ts>
+inline constexpr bool is_alternative<T, std::variant<Ts...>> = (std::same_as<T, Ts> || ...);
+
+/// What a run is made of: a power, or a single block.
+template <class C>
+struct run_type {
+  using type = void;
+};
+template <class Block, class Layout, class Blocks>
+struct run_type<power_product<Block, Layout, Blocks>> {
+  using type = run_of<Block, Layout>;
+};
+template <class C>
+  requires has_static_dimension<C>
+struct run_type<C> {
+  using type = run_of<C>;
+};
+template <class C>
+using run_type_t = typename run_type<C>::type;
+
+/// The kinds of C, part by part, are those of any_set<S>.
+template <class S, class C>
+[[nodiscard]] consteval bool has_usual_blocks() {
+  using run = run_type_t<C>;
+  if constexpr (is_alternative<run, any_run<S>>) {
+    return true;
+  } else if constexpr (requires { C::part_count; }) {
+    return []<std::size_t... I>(std::index_sequence<I...>) {
+      return (
+          has_usual_blocks<
+              S, std::remove_cvref_t<decltype(std::declval<C const&>().template part<I>())>>() &&
+          ...);
+    }(std::make_index_sequence<C::part_count>{});
+  } else {
+    return false;
+  }
+}
+
+/// The slanting operator of a run; runs with blocks of one size have the same.
+template <class S>
+using any_run_slant =
+    std::variant<block_diagonal_slant<S, 1>, block_diagonal_slant<S, 1, consecutive, true>,
+                 block_diagonal_slant<S, 2>, block_diagonal_slant<S, 2, planar>,
+                 block_diagonal_slant<S, 3>>;
+
+}  // namespace detail
+
+/// All blocks of C are of the kinds that any_set<S> has, the powers among its parts included.
+template <class C, class S = double>
+concept has_usual_blocks = detail::has_usual_blocks<S, std::remove_cvref_t<C>>();
+
+template <scalar S>
+class any_set;
+
+/// The slanting operator of the projection onto an any_set, that of run after run.
+template <scalar S>
+class any_set_slant {
+ public:
+  using scalar = S;
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+
+  [[nodiscard]] index rows() const { return size_; }
+  [[nodiscard]] index cols() const { return size_; }
+
+  /// y = G x.
+  template <class X, class Y>
+  void apply(X const& x, Y& y) const {
+    visit([&](auto const& g, index first) {
+      auto const xs = slant::local(x).middleRows(first, g.rows());
+      auto ys = slant::local(y).middleRows(first, g.rows());
+      g.apply(xs, ys);
+    });
+  }
+  /// y ← y + α G x.
+  template <class X, class Y>
+  void apply_add(S const& α, X const& x, Y& y) const {
+    visit([&](auto const& g, index first) {
+      auto const xs = slant::local(x).middleRows(first, g.rows());
+      auto ys = slant::local(y).middleRows(first, g.rows());
+      g.apply_add(α, xs, ys);
+    });
+  }
+  /// d = diag(G).
+  template <class V>
+  void diagonal(V& d) const {
+    visit([&](auto const& g, index first) {
+      auto ds = slant::local(d).middleRows(first, g.rows());
+      g.diagonal(ds);
+    });
+  }
+
+ private:
+  friend any_set<S>;
+  any_set_slant() = default;
+
+  /// f(slant of a run, its first row).
+  template <class F>
+  void visit(F const& f) const {
+    index first = 0;
+    for (auto const& run : runs_) {
+      std::visit(
+          [&](auto const& g) {
+            f(g, first);
+            first += g.rows();
+          },
+          run);
+    }
+  }
+
+  std::vector<detail::any_run_slant<S>> runs_{};
+  index size_ = 0;
+};
+
+/// Λ₁ × … × Λ_m of the usual kinds; see the top of this file. Copies the blocks of the set that it
+/// is made of. Nothing allocates but the constructor and slant(x).
+template <scalar S = double>
+class any_set {
+ public:
+  using scalar = S;
+
+  /// The whole space of dimension 0.
+  any_set() = default;
+  /// The same set as `set`.
+  template <class C>
+    requires(!std::same_as<std::remove_cvref_t<C>, any_set> && has_usual_blocks<C, S>)
+  explicit any_set(C const& set) {
+    add(set);
+  }
+
+  [[nodiscard]] index size() const { return size_; }
+  [[nodiscard]] index block_count() const { return block_count_; }
+
+  /// y = P(x); y may be x.
+  template <class X, class Y>
+  void project(X const& x, Y&& y) const {
+    each_run([&](auto const& run, auto const& p) { detail::project_part(run, p, x, y); });
+  }
+  /// x ∈ Λ, up to rounding.
+  template <class X>
+  [[nodiscard]] bool contains(X const& x) const {
+    if (slant::local(x).size() != size_) return false;
+    bool inside = true;
+    each_run([&](auto const& run, auto const& p) { inside = inside && run.contains(p.in(x)); });
+    return inside;
+  }
+  /// sup{α >= 0 : x + α d ∈ Λ} for x ∈ Λ, or any step below `enough` that is known to be too long.
+  template <class X, class D, class T = scalar_t<X>>
+  [[nodiscard]] T step_to_boundary(X const& x, D const& d,
+                                   std::type_identity_t<T> const& enough = T(0)) const {
+    detail::smallest_step<T> smallest(enough);
+    bool more = true;
+    each_run([&](auto const& run, auto const& p) {
+      if (more) more = !smallest(run.step_to_boundary(p.in(x), p.in(d), enough));
+    });
+    return smallest.value();
+  }
+  /// sup{yᵀz : z ∈ Λ}, ∞ allowed.
+  template <class Y>
+  [[nodiscard]] scalar_t<Y> support(Y const& y) const {
+    scalar_t<Y> sum(0);
+    each_run([&](auto const& run, auto const& p) { sum += run.support(p.in(y)); });
+    return sum;
+  }
+  /// The slanting operator of the projection at x; allocates.
+  template <class X>
+  [[nodiscard]] any_set_slant<S> slant(X const& x) const {
+    any_set_slant<S> g;
+    g.size_ = size_;
+    each_run([&](auto const& run, auto const& p) { g.runs_.emplace_back(run.slant(p.in(x))); });
+    return g;
+  }
+  /// The same into an operator that slant(x) made earlier; does not allocate.
+  template <class X>
+  void slant(X const& x, any_set_slant<S>& g) const {
+    eigen_assert(g.runs_.size() == runs_.size());
+    auto next = g.runs_.begin();
+    each_run([&](auto const& run, auto const& p) {
+      using slant_type = std::remove_cvref_t<decltype(run.slant(p.in(x)))>;
+      run.slant(p.in(x), std::get<slant_type>(*next++));
+    });
+  }
+  /// f(block, place) for every block.
+  template <class F>
+  void visit(F&& f) const {
+    each_run([&](auto const& run, auto const& outer) {
+      run.visit([&](auto const& block, auto const& inner) { f(block, outer.then(inner)); });
+    });
+  }
+  /// f(first component, size) for every run, as the parts of the set that it was made of.
+  template <class F>
+  void visit_parts(F const& f) const {
+    each_run([&](auto const&, auto const& p) { f(p.component(0), p.size()); });
+  }
+
+ private:
+  template <class C>
+  void add(C const& set) {
+    using run = detail::run_type_t<C>;
+    if constexpr (detail::is_alternative<run, detail::any_run<S>>) {
+      std::vector<typename run::block_type> blocks;
+      if constexpr (has_static_dimension<C>) {
+        blocks.push_back(set);
+      } else {
+        index const count = set.block_count();
+        blocks.reserve(static_cast<std::size_t>(count));
+        for (index i = 0; i < count; ++i) blocks.push_back(set.block(i));
+      }
+      size_ += slant::dimension_of(set);
+      block_count_ += static_cast<index>(blocks.size());
+      runs_.emplace_back(run(detail::listed_blocks<typename run::block_type>(std::move(blocks))));
+    } else {
+      [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (add(set.template part<I>()), ...);
+      }(std::make_index_sequence<C::part_count>{});
+    }
+  }
+
+  /// f(run, place) for all runs.
+  template <class F>
+  void each_run(F const& f) const {
+    index number = 0, first = 0;
+    for (auto const& some : runs_) {
+      std::visit(
+          [&](auto const& run) {
+            f(run, place<>(number, first, run.size()));
+            number += run.block_count();
+            first += run.size();
+          },
+          some);
+    }
+  }
+
+  std::vector<detail::any_run<S>> runs_{};
+  index size_ = 0, block_count_ = 0;
+};
+
+template <class C>
+any_set(C const&) -> any_set<set_scalar_t<C>>;
+
+}  // namespace slant
