@@ -8,14 +8,15 @@
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/matrix.hpp>
 
+#include "any_dual.hpp"
+
 namespace from_files {
 
 /// Refers to the dual problem. One product with A for each multiplier, counted by products().
-template <class Dual>
 class dense_dual {
  public:
-  explicit dense_dual(Dual const& dual) : dual_(&dual) {
-    auto const operator_a = dual.a();
+  explicit dense_dual(any_dual const& dual) : dual_(&dual) {
+    auto const& operator_a = dual.a();
     slant::index const n = operator_a.rows();
     A_.resize(n, n);
     Eigen::VectorXd column(n);
@@ -36,7 +37,7 @@ class dense_dual {
   [[nodiscard]] double mean() const { return A_.diagonal().mean(); }
 
  private:
-  Dual const* dual_;
+  any_dual const* dual_;
   Eigen::MatrixXd A_;
 };
 

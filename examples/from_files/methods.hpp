@@ -17,15 +17,15 @@
 #include <string>
 #include <string_view>
 #include <tuple>
-#include <utility>
 
+#include "any_dual.hpp"
 #include "newton_methods.hpp"
 #include "outcome.hpp"
 
 namespace from_files {
 
-/// A method: run(friction law, problem, dual, λ⁰, settings) → outcome, where dual is a
-/// slant::contact::dual. The recommended one has no run: contact::solve takes the problem itself.
+/// A method: run(problem, dual, λ⁰, settings) → outcome. The recommended one has no run:
+/// contact::solve takes the problem itself.
 template <class Run>
 struct named_method {
   std::string_view name;
@@ -38,7 +38,7 @@ named_method(char const*, char const*, Run) -> named_method<Run>;
 /// A method that needs nothing but the dual problem; make(qp) makes it.
 template <class Make>
 [[nodiscard]] constexpr auto on_dual(char const* name, char const* sentence, Make make) {
-  auto run = [make](auto, problem const&, auto const& dual, Eigen::VectorXd const& λ0,
+  auto run = [make](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0,
                     settings const& s) { return run_on_dual(make(dual.qp()), λ0, s); };
   return named_method<decltype(run)>{name, sentence, run};
 }
@@ -46,7 +46,7 @@ template <class Make>
 /// SSNM with one of its linear solvers.
 template <class Solver>
 [[nodiscard]] constexpr auto thesis(char const* name, char const* sentence, Solver) {
-  auto run = [](auto, problem const&, auto const& dual, Eigen::VectorXd const& λ0,
+  auto run = [](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0,
                 settings const& s) { return run_ssnm(dual, λ0, s, Solver{}); };
   return named_method<decltype(run)>{name, sentence, run};
 }
@@ -56,41 +56,41 @@ inline constexpr std::tuple methods{
                  "Semismooth Newton with the curvature of the discs, preconditioned CG inside.",
                  nullptr},
     named_method{"interior_point", "Path following inside the set, preconditioned CG inside.",
-                 [](auto, problem const& p, auto const& dual, Eigen::VectorXd const& λ0,
+                 [](problem const& p, any_dual const& dual, Eigen::VectorXd const& λ0,
                     settings const& s) { return run_interior_point(p, dual, λ0, s); }},
     on_dual("kprgp", "Active sets: CG on a face, gradient projections to change it.",
-            [](auto qp) { return slant::kprgp{std::move(qp)}; }),
+            [](auto const& qp) { return slant::kprgp{qp}; }),
     on_dual("as", "kprgp by the name that it has on half lines and intervals.",
-            [](auto qp) { return slant::as(std::move(qp)); }),
+            [](auto const& qp) { return slant::as(qp); }),
     on_dual("as_s", "kprgp with the active sets of semismooth Newton.",
-            [](auto qp) { return slant::as_s(std::move(qp)); }),
+            [](auto const& qp) { return slant::as_s(qp); }),
     on_dual("qpq", "Active sets by the discontinuous test that came before kprgp.",
-            [](auto qp) { return slant::qpq{std::move(qp)}; }),
+            [](auto const& qp) { return slant::qpq{qp}; }),
     on_dual("qpc", "Polyak's active sets: CG to the minimum of a face before it is changed.",
-            [](auto qp) { return slant::qpc{std::move(qp)}; }),
+            [](auto const& qp) { return slant::qpc{qp}; }),
     on_dual("gimssn", "Semismooth Newton without curvature, feasible and monotone.",
-            [](auto qp) { return slant::gimssn{std::move(qp)}; }),
+            [](auto const& qp) { return slant::gimssn{qp}; }),
     on_dual("imssn", "The same, neither feasible nor monotone.",
-            [](auto qp) { return slant::imssn{std::move(qp)}; }),
+            [](auto const& qp) { return slant::imssn{qp}; }),
     on_dual("mssn", "The same with inner systems solved accurately.",
-            [](auto qp) { return slant::mssn{std::move(qp)}; }),
+            [](auto const& qp) { return slant::mssn{qp}; }),
     named_method{
         "semismooth_newton",
         "Newton for the natural residual as a composition; inner solver by its laws.",
-        [](auto, problem const&, auto const& dual, Eigen::VectorXd const& λ0, settings const& s) {
+        [](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0, settings const& s) {
           return run_natural_residual(dual, λ0, s, slant::by_laws{}, slant::halving_line_search{},
                                       slant::eisenstat_walker{});
         }},
     named_method{
         "ssn", "The same with BiCGSTAB and full steps, as in the lecture.",
-        [](auto, problem const&, auto const& dual, Eigen::VectorXd const& λ0, settings const& s) {
+        [](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0, settings const& s) {
           return run_natural_residual(dual, λ0, s, slant::bicgstab_solver{}, slant::full_step{},
                                       slant::adaptive_precision{});
         }},
     named_method{"ssn_primal_dual",
                  "Newton for displacements and multipliers together, without a factor of K inside.",
-                 [](auto friction, problem const& p, auto const& dual, Eigen::VectorXd const& λ0,
-                    settings const& s) { return run_primal_dual(friction, p, dual, λ0, s); }},
+                 [](problem const& p, any_dual const& dual, Eigen::VectorXd const& λ0,
+                    settings const& s) { return run_primal_dual(p, dual, λ0, s); }},
     thesis("ssnm_a", "Newton for multipliers and their multipliers: Schur complement, BiCGSTAB.",
            slant::schur_bicgstab{}),
     thesis("ssnm_b", "The same: BiCGSTAB on the whole system.", slant::bicgstab_solver{}),

@@ -14,6 +14,7 @@
 #include <slant/slanting/natural_residual.hpp>
 #include <utility>
 
+#include "any_dual.hpp"
 #include "dense_dual.hpp"
 #include "outcome.hpp"
 #include "problem_folder.hpp"
@@ -21,20 +22,19 @@
 namespace from_files {
 
 /// Path following, with the preconditioner that K offers for nothing.
-template <class Dual>
-[[nodiscard]] outcome run_interior_point(problem const& p, Dual const& dual,
-                                         Eigen::VectorXd const& λ0, settings const& s) {
+[[nodiscard]] inline outcome run_interior_point(problem const& p, any_dual const& dual,
+                                                Eigen::VectorXd const& λ0, settings const& s) {
   return run_on_dual(slant::interior_point{dual.qp(), slant::contact::lumped_preconditioner(
                                                           p.K, dual.constraints())},
                      λ0, s);
 }
 
 /// Newton's method for λ − P(λ − ρ(A λ − b)) with a linear solver and a globalisation.
-template <class Dual, class Solver, class Search, class Forcing>
-[[nodiscard]] outcome run_natural_residual(Dual const& dual, Eigen::VectorXd const& λ0,
+template <class Solver, class Search, class Forcing>
+[[nodiscard]] outcome run_natural_residual(any_dual const& dual, Eigen::VectorXd const& λ0,
                                            settings const& s, Solver solver, Search search,
                                            Forcing forcing) {
-  auto const A = dual.a();
+  auto const& A = dual.a();
   auto const step = slant::mean_step(A, λ0, 0.5);
   auto const F = slant::natural_residual(A, dual.b(), dual.set(), step.length);
   outcome result = run_and_project(
@@ -45,8 +45,8 @@ template <class Dual, class Solver, class Search, class Forcing>
 }
 
 /// [K (46)–(54)], displacements and multipliers in one nonsymmetric system.
-template <class Friction, class Dual>
-[[nodiscard]] outcome run_primal_dual(Friction friction, problem const& p, Dual const& dual,
+template <class Friction>
+[[nodiscard]] outcome run_primal_dual(Friction friction, problem const& p, any_dual const& dual,
                                       Eigen::VectorXd const& λ0, settings const& s) {
   auto const K = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.K);
   slant::contact::primal_dual const contact(friction, K, p.contact);
@@ -64,12 +64,25 @@ template <class Friction, class Dual>
       y0, slant::energy_error_below(s.tolerance, error_of), s, forces);
 }
 
+/// The same for the law that T stands for.
+[[nodiscard]] inline outcome run_primal_dual(problem const& p, any_dual const& dual,
+                                             Eigen::VectorXd const& λ0, settings const& s) {
+  switch (p.contact.tangents()) {
+    case 0:
+      return run_primal_dual(slant::contact::frictionless{}, p, dual, λ0, s);
+    case 1:
+      return run_primal_dual(slant::contact::friction_line{}, p, dual, λ0, s);
+    default:
+      return run_primal_dual(slant::contact::friction_disc{}, p, dual, λ0, s);
+  }
+}
+
 /// SSNM of the thesis; A is formed and factored. It has nothing against cycles: as there, 1000
 /// steps are the most.
-template <class Dual, class Solver>
-[[nodiscard]] outcome run_ssnm(Dual const& dual, Eigen::VectorXd const& λ0, settings const& s,
+template <class Solver>
+[[nodiscard]] outcome run_ssnm(any_dual const& dual, Eigen::VectorXd const& λ0, settings const& s,
                                Solver solver) {
-  dense_dual<Dual> const dense(dual);
+  dense_dual const dense(dual);
   slant::ssnm_options<double> options;
   options.rho = dense.mean() > 0 ? dense.mean() : 1;
   options.precision = {.r_tol = 0.1, .c_fact = 0.5};

@@ -14,6 +14,8 @@
 #include <string>
 #include <utility>
 
+#include "any_dual.hpp"
+
 namespace from_files {
 
 using clock = std::chrono::steady_clock;
@@ -79,9 +81,9 @@ template <class Method>
 }
 
 /// A method whose iterates leave Λ: the nearest point of Λ is judged, and the result.
-template <class Method, class Dual>
+template <class Method>
 [[nodiscard]] outcome run_and_project(Method const& method, Eigen::VectorXd const& λ0,
-                                      settings const& s, Dual const& dual) {
+                                      settings const& s, any_dual const& dual) {
   return run_until(method, λ0, slant::energy_error_below(s.tolerance, s.error_of), s,
                    [&](auto const& λ) { return slant::project(dual.set(), λ); });
 }

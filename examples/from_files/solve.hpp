@@ -16,6 +16,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "any_dual.hpp"
 #include "methods.hpp"
 #include "problem_folder.hpp"
 #include "solution.hpp"
@@ -32,8 +33,7 @@ namespace detail {
 }
 
 /// λ = 0, or where the first method ends; its outcome then.
-template <class Dual>
-[[nodiscard]] outcome find_start(problem const& p, Dual const& dual, settings const& s) {
+[[nodiscard]] inline outcome find_start(problem const& p, any_dual const& dual, settings const& s) {
   settings rough = s;
   rough.tolerance = 0.1;
   rough.stops_early = true;
@@ -79,16 +79,17 @@ template <class Friction>
     o.start = Eigen::VectorXd::Zero(p.contact.N.rows() + p.contact.T.rows()).eval();
   } else if (s.start != start_point::automatic) {
     auto const factor = slant::factorize(p.K);
-    slant::contact::dual const dual(friction, factor, p.contact);
-    start = find_start(p, dual, s);
+    slant::contact::dual const given(friction, factor, p.contact);
+    auto const qp = given.qp();
+    start = find_start(p, any_dual(given, qp), s);
     o.start = start.λ;
     if (hopeless(start.status)) o.max_steps = 0;
   }
   clock::time_point started{};
-  auto const note_start = [&](auto const& state) {
-    if (state.iteration == 0) started = clock::now();
+  o.progress = [&](auto const& step) {
+    if (step.iteration == 0) started = clock::now();
   };
-  auto found = slant::contact::solve(friction, p.K, p.contact, o, note_start);
+  auto found = slant::contact::solve(friction, p.K, p.contact, o);
   result.run = {.status = found.status,
                 .reason = std::move(found.reason),
                 .iterations = found.iterations,
@@ -113,13 +114,15 @@ template <class Friction>
                                      settings s) {
   auto const begin = clock::now();
   auto const factor = slant::factorize(p.K);
-  slant::contact::dual const dual(friction, factor, p.contact);
+  slant::contact::dual const given(friction, factor, p.contact);
+  auto const qp = given.qp();
+  any_dual const dual(given, qp);
   slant::contact::certificate<double> error_of(p.K, p.contact);
   auto const solve_with_K = slant::contact::solver(factor);
   if (s.prove) error_of.prove(solve_with_K, [](auto const& K) { (void)slant::factorize(K); });
   Eigen::VectorXd λ, u;
   auto const M = slant::contact::lumped_preconditioner(p.K, dual.constraints());
-  auto const A = dual.a();
+  auto const& A = dual.a();
   auto wa = slant::workspace(A, dual.b());
   slant::dual_norm_workspace norm_workspace(M, dual.b());
   s.error_of = [&](Eigen::VectorXd const& forces) {
@@ -138,7 +141,7 @@ template <class Friction>
       return;
     }
     if constexpr (!std::is_null_pointer_v<std::remove_cvref_t<decltype(chosen.run)>>) {
-      result.run = chosen.run(friction, p, dual, start.λ, s);
+      result.run = chosen.run(p, dual, start.λ, s);
       add_work(start, result.run);
     }
   });
@@ -174,10 +177,9 @@ template <class Friction>
 
 }  // namespace detail
 
-/// Solves with the method of that name. The friction law is that of T: no disc is compiled into a
-/// frictionless solver. Throws slant::bad_input if K is not symmetric positive definite (naming the
-/// entry or the pivot; the recommended method takes a K that is singular by free motions) or if
-/// there is no such method.
+/// Solves with the method of that name. The friction law is that of T. Throws slant::bad_input if K
+/// is not symmetric positive definite (naming the entry or the pivot; the recommended method takes
+/// a K that is singular by free motions) or if there is no such method.
 [[nodiscard]] inline solution solve(problem const& p, std::string_view method, settings const& s) {
   switch (p.contact.tangents()) {
     case 0:

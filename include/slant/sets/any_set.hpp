@@ -12,9 +12,9 @@
 //
 // Rejected: virtual functions. Methods visit blocks with functions of their own (faces, barriers,
 // certificates), of which a base class would have to list every one; and a virtual call for each
-// block costs more than the block. So the kinds are a closed list, those of contact_sets.hpp with
-// ball<3>, point and ellipse. A set with other blocks keeps its type, and methods are instantiated
-// for it.
+// block costs more than the block. So the kinds are a closed list, by default those of
+// contact_sets.hpp with ball<3> and ellipse; all have an inequality form, which some methods ask
+// for. A set with other blocks keeps its type, and methods are instantiated for it.
 #pragma once
 
 #include <slant/sets/ball.hpp>
@@ -25,7 +25,6 @@
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/plane_cone.hpp>
-#include <slant/sets/point.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/sets/symmetric_interval.hpp>
@@ -38,19 +37,25 @@
 
 namespace slant {
 
-namespace detail {
-
-/// Blocks of one kind, one after the other or planar.
+/// A run: blocks of one kind, one after the other or planar.
 template <class Block, class Layout = consecutive>
-using run_of = power_product<Block, Layout, listed_blocks<Block>>;
+using run_of = power_product<Block, Layout, detail::listed_blocks<Block>>;
 
-/// The kinds of runs.
+/// The kinds of an any_set unless others are listed.
 template <class S>
-using any_run = std::variant<run_of<half_line<S>>, run_of<interval<S>>,
-                             run_of<symmetric_interval<S>>, run_of<free_space<1, S>>,
-                             run_of<point<1, S>>, run_of<ball<2, S>>, run_of<ball<2, S>, planar>,
-                             run_of<ball<3, S>>, run_of<ellipse<S>>, run_of<ellipse<S>, planar>,
-                             run_of<plane_cone<S>>, run_of<second_order_cone<3, S>>>;
+using usual_runs =
+    std::variant<run_of<half_line<S>>, run_of<interval<S>>, run_of<symmetric_interval<S>>,
+                 run_of<free_space<1, S>>, run_of<ball<2, S>>, run_of<ball<2, S>, planar>,
+                 run_of<ball<3, S>>, run_of<ellipse<S>>, run_of<ellipse<S>, planar>,
+                 run_of<plane_cone<S>>, run_of<second_order_cone<3, S>>>;
+
+/// The kinds that the forces of contact with Tresca friction have: what a method is instantiated
+/// for is less.
+template <class S>
+using contact_runs =
+    std::variant<run_of<half_line<S>>, run_of<symmetric_interval<S>>, run_of<ball<2, S>>>;
+
+namespace detail {
 
 template <class T, class V>
 inline constexpr bool is_alternative = false;
@@ -74,17 +79,17 @@ struct run_type<C> {
 template <class C>
 using run_type_t = typename run_type<C>::type;
 
-/// The kinds of C, part by part, are those of any_set<S>.
-template <class S, class C>
-[[nodiscard]] consteval bool has_usual_blocks() {
+/// The kinds of C, part by part, are among Runs.
+template <class Runs, class C>
+[[nodiscard]] consteval bool is_made_of() {
   using run = run_type_t<C>;
-  if constexpr (is_alternative<run, any_run<S>>) {
+  if constexpr (is_alternative<run, Runs>) {
     return true;
   } else if constexpr (requires { C::part_count; }) {
     return []<std::size_t... I>(std::index_sequence<I...>) {
       return (
-          has_usual_blocks<
-              S, std::remove_cvref_t<decltype(std::declval<C const&>().template part<I>())>>() &&
+          is_made_of<
+              Runs, std::remove_cvref_t<decltype(std::declval<C const&>().template part<I>())>>() &&
           ...);
     }(std::make_index_sequence<C::part_count>{});
   } else {
@@ -103,9 +108,9 @@ using any_run_slant =
 
 /// All blocks of C are of the kinds that any_set<S> has, the powers among its parts included.
 template <class C, class S = double>
-concept has_usual_blocks = detail::has_usual_blocks<S, std::remove_cvref_t<C>>();
+concept has_usual_blocks = detail::is_made_of<usual_runs<S>, std::remove_cvref_t<C>>();
 
-template <scalar S>
+template <scalar S, class Runs>
 class any_set;
 
 /// The slanting operator of the projection onto an any_set, that of run after run.
@@ -146,7 +151,8 @@ class any_set_slant {
   }
 
  private:
-  friend any_set<S>;
+  template <slant::scalar, class>
+  friend class any_set;
   any_set_slant() = default;
 
   /// f(slant of a run, its first row).
@@ -167,9 +173,9 @@ class any_set_slant {
   index size_ = 0;
 };
 
-/// Λ₁ × … × Λ_m of the usual kinds; see the top of this file. Copies the blocks of the set that it
-/// is made of. Nothing allocates but the constructor and slant(x).
-template <scalar S = double>
+/// Λ₁ × … × Λ_m of the kinds listed in Runs; see the top of this file. Copies the blocks of the set
+/// that it is made of. Nothing allocates but the constructor and slant(x).
+template <scalar S = double, class Runs = usual_runs<S>>
 class any_set {
  public:
   using scalar = S;
@@ -178,7 +184,7 @@ class any_set {
   any_set() = default;
   /// The same set as `set`.
   template <class C>
-    requires(!std::same_as<std::remove_cvref_t<C>, any_set> && has_usual_blocks<C, S>)
+    requires(!std::same_as<std::remove_cvref_t<C>, any_set> && detail::is_made_of<Runs, C>())
   explicit any_set(C const& set) {
     add(set);
   }
@@ -252,7 +258,7 @@ class any_set {
   template <class C>
   void add(C const& set) {
     using run = detail::run_type_t<C>;
-    if constexpr (detail::is_alternative<run, detail::any_run<S>>) {
+    if constexpr (detail::is_alternative<run, Runs>) {
       std::vector<typename run::block_type> blocks;
       if constexpr (has_static_dimension<C>) {
         blocks.push_back(set);
@@ -286,7 +292,7 @@ class any_set {
     }
   }
 
-  std::vector<detail::any_run<S>> runs_{};
+  std::vector<Runs> runs_{};
   index size_ = 0, block_count_ = 0;
 };
 

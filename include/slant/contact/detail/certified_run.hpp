@@ -139,10 +139,13 @@ class certified_run {
     std::optional<
         newton_estimate<std::remove_const_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
         newton_error;
+    auto const tell = [&](auto const& now) {
+      if (options_.progress) options_.progress({now.iteration, relative_gradient(now)});
+    };
     while (true) {
       auto newton = method();
       auto stop = reduced_gradient_below(threshold) || at_most(budget);
-      auto end = slant::detail::run_to_end(newton, state, stop, observers...);
+      auto end = slant::detail::run_to_end(newton, state, stop, tell, observers...);
       // A later phase that takes longer than all before it is at its floor.
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
@@ -177,9 +180,7 @@ class certified_run {
       b_ = image_ - d_.cwiseProduct(certificate_.gradient());
       ++result_.corrections;
       S const ask = S(0.3) * options_.tolerance / error;
-      S const reached = state.gradient_scale > S(0)
-                            ? S(state.reduced_gradient_norm / state.gradient_scale)
-                            : S(0);
+      S const reached = relative_gradient(state);
       S const factor = ask < S(1e-3) || !(ask == ask) ? S(1e-3) : ask < S(0.3) ? ask : S(0.3);
       threshold = std::min<S>(threshold, reached) * factor;
       newton.resume(state);
@@ -196,6 +197,12 @@ class certified_run {
 
  private:
   sparse_type const& certificate_matrix() const { return certificate_.matrix(); }
+
+  template <class State>
+  [[nodiscard]] static S relative_gradient(State const& state) {
+    return state.gradient_scale > S(0) ? S(state.reduced_gradient_norm / state.gradient_scale)
+                                       : S(0);
+  }
 
   template <class QP, class M>
   [[nodiscard]] vector_type start(QP const& qp, M const& m) {
