@@ -135,6 +135,24 @@ TEST_CASE("contact::solve: tolerance 0 goes on to the last digits and says that 
   CHECK(true_error(scene.K, r.u, reference.u) <= r.error.relative() + 2 * reference.energy_error);
 }
 
+TEST_CASE("contact::solve: progress is told of every iterate, as observers are") {
+  auto const scene = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
+  auto const data = test::contact_data(scene);
+  std::vector<slant::index> told, seen;
+  std::vector<double> gradients;
+  contact::solve_options<double> o;
+  o.progress = [&](contact::solve_step<double> const& step) {
+    told.push_back(step.iteration);
+    gradients.push_back(step.reduced_gradient);
+  };
+  auto const r = contact::solve(contact::friction_disc{}, scene.K, data, o,
+                                [&](auto const& state) { seen.push_back(state.iteration); });
+  CHECK(told == seen);
+  CHECK(told.front() == 0);
+  CHECK(told.back() == r.iterations);
+  CHECK(gradients.back() < 1e-3 * gradients.front());
+}
+
 TEST_CASE("contact::solve: limits, starts, bad input") {
   auto const scene = fem::make_steel_brick({.k = 1, .load = fem::brick_load::press});
   auto const data = test::contact_data(scene);
