@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: MIT
 #
-# eigen_alignment(result): EIGEN_MAX_ALIGN_BYTES with the compiler and the flags of this build.
+# eigen_alignment(result): EIGEN_MAX_ALIGN_BYTES with the compiler and the flags of this build; empty
+# if it cannot be found out. Options of single targets are not seen: src/ checks the result.
 function(eigen_alignment result)
-  get_target_property(includes Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
-  list(TRANSFORM includes PREPEND "-I")
   set(unit "${PROJECT_BINARY_DIR}/eigen_alignment.cpp")
-  file(WRITE "${unit}" "#include <Eigen/Core>\nalignment: EIGEN_MAX_ALIGN_BYTES\n")
-  string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
-  separate_arguments(flags UNIX_COMMAND "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}}")
-  execute_process(
-    COMMAND "${CMAKE_CXX_COMPILER}" -std=c++20 ${flags} ${includes} -E -P "${unit}"
-    OUTPUT_VARIABLE text
-    ERROR_VARIABLE messages
-    RESULT_VARIABLE status)
-  if(NOT status STREQUAL "0" OR NOT text MATCHES "alignment: ([0-9]+)")
-    message(FATAL_ERROR "the alignment of Eigen's arrays cannot be found out:\n${messages}")
+  file(WRITE "${unit}" "#include <Eigen/Core>\nstatic_assert(EIGEN_MAX_ALIGN_BYTES == EXPECTED);\n")
+  set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+  if(CMAKE_BUILD_TYPE)
+    set(CMAKE_TRY_COMPILE_CONFIGURATION "${CMAKE_BUILD_TYPE}")
   endif()
-  set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
+  foreach(bytes IN ITEMS 16 32 64 8 0)
+    try_compile(
+      is_so "${PROJECT_BINARY_DIR}/eigen_alignment" "${unit}"
+      COMPILE_DEFINITIONS "-DEXPECTED=${bytes}"
+      LINK_LIBRARIES Eigen3::Eigen
+      CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON)
+    if(is_so)
+      set(${result} ${bytes} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  set(${result} "" PARENT_SCOPE)
 endfunction()

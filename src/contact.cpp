@@ -4,6 +4,8 @@
 #include <slant/contact/solve.hpp>
 #include <slant/contact/solve_floating.hpp>
 
+static_assert(SLANT_USES_COMPILED, "SLANT_COMPILED is not the alignment of Eigen with these flags");
+
 namespace slant::contact {
 
 using matrix = Eigen::SparseMatrix<double>;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/certified_coulomb.hpp>
 
+static_assert(SLANT_USES_COMPILED, "SLANT_COMPILED is not the alignment of Eigen with these flags");
+
 namespace slant::contact {
 
 using matrix = Eigen::SparseMatrix<double>;

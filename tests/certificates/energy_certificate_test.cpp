@@ -6,6 +6,10 @@
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 
+#include <slant/operators/diagonal.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/testing/archetypes/scalar.hpp>
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -203,6 +207,31 @@ TEST_CASE("in any units, also where energies leave the range of the numbers") {
     CHECK(there.first == doctest::Approx(estimate).epsilon(1e-6));
     CHECK(there.second == doctest::Approx(bound).epsilon(1e-6));
   }
+}
+
+TEST_CASE("numbers that can do no more than the concept of a scalar asks for") {
+  using S = slant::testing::archetype::scalar;
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  vector const d = vector::Constant(2, S(2)), b = vector::Constant(2, S(1));
+  auto const A = slant::diagonal<slant::positive_definite>(d);
+  auto const set = slant::half_lines<S>(2);
+  slant::separable_qp const qp{A, b, set};
+  slant::energy_certificate certificate(qp);
+  auto const e = certificate(vector(vector::Constant(2, S(0.75))));
+  // x* = ½: ‖x − x*‖_A = ¼ √2 √2
+  CHECK(e.bound > S(0.499));
+  CHECK(e.bound < S(1));
+}
+
+TEST_CASE("infinite parts make an infinite bound, NaN stays NaN") {
+  double const inf = std::numeric_limits<double>::infinity();
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(slant::error_bound_of_root(inf, inf) == inf);
+  CHECK(slant::error_bound_of_root(inf, 0.0) == inf);
+  CHECK(slant::error_bound_of_root(0.0, inf) == inf);
+  CHECK(std::isnan(slant::error_bound_of_root(nan, 1.0)));
+  CHECK(std::isnan(slant::error_bound_of_root(1.0, nan)));
+  CHECK(slant::error_bound_of_root(0.0, 0.0) == 0);
 }
 
 }  // namespace energy_certificate_test

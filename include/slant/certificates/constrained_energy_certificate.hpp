@@ -181,8 +181,8 @@ class constrained_energy_certificate<QP, C, M> {
       bound = std::min<scalar>(bound, way + beyond);
       if (!is_better || beyond <= way / scalar(4)) break;
     }
-    using std::hypot;
-    e.bound = hypot(bound + detail::rounding_of(x_, stiffness_), violation(e.size));
+    e.bound = detail::root_of_squares<scalar>(bound + detail::rounding_of(x_, stiffness_),
+                                              violation(e.size));
     return e;
   }
   /// Applications of A so far.
@@ -300,9 +300,9 @@ class constrained_energy_certificate<QP, C, M> {
                            stiffness_, correction_.energy, correction_.bend, scalar(0), rest_,
                            norm_.z, norm_.r);
     if (!detail::is_finite(best.bound)) return best.bound;
-    using std::hypot;
-    scalar const moved = hypot(best.moved, correction_.missing);
-    scalar const root = hypot(best.root_of_gap, scalar(sqrt(changed) * sqrt(missed)));
+    scalar const moved = detail::root_of_squares<scalar>(best.moved, correction_.missing);
+    scalar const root =
+        detail::root_of_squares<scalar>(best.root_of_gap, scalar(sqrt(changed) * sqrt(missed)));
     return error_bound_of_root<scalar>(moved + dual_norm_of_rest(), root) + back / sqrt(typical_);
   }
 

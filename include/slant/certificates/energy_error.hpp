@@ -26,6 +26,7 @@
 #pragma once
 
 #include <slant/certificates/normal_part.hpp>
+#include <slant/concepts/checks.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/unit.hpp>
 
@@ -59,16 +60,25 @@ struct energy_error {
   }
 };
 
+namespace detail {
+
+/// √(a² + b²) for a, b ≥ 0, without the squares.
+template <class S>
+[[nodiscard]] S root_of_squares(S const& a, S const& b) {
+  using std::sqrt;
+  S const larger = a > b ? a : b, smaller = a > b ? b : a;
+  if (!(larger > S(0)) || !is_finite(larger)) return a + b;
+  S const ratio = smaller / larger;
+  return larger * S(sqrt(S(S(1) + ratio * ratio)));
+}
+
+}  // namespace detail
+
 /// ½ (δ + √(δ² + 4γ)) from δ and √γ, rounded upwards; NaN if one of them is. γ itself is an energy,
 /// which may underflow where its root does not.
 template <class S>
 [[nodiscard]] S error_bound_of_root(S const& δ, S const& root_of_gap) {
-  using std::sqrt;
-  S const root = S(2) * root_of_gap;
-  S const larger = δ > root ? δ : root, smaller = δ > root ? root : δ;
-  if (!(larger > S(0))) return δ + root_of_gap;
-  S const ratio = smaller / larger;
-  return (δ + larger * sqrt(S(1) + ratio * ratio)) / S(2) *
+  return (δ + detail::root_of_squares<S>(δ, S(2) * root_of_gap)) / S(2) *
          (S(1) + S(8) * std::numeric_limits<S>::epsilon());
 }
 /// The same from δ and γ.

@@ -101,7 +101,6 @@ class newton_estimate {
   /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
   template <class Norm>
   [[nodiscard]] scalar put_together(estimated_point<vector_type> const& at, Norm const& norm_of) {
-    using std::hypot;
     slant::local(image_) += slant::local(correction_.image);
     slant::local(balanced_) = slant::local(at.gradient) + slant::local(image_);
     slant::local(image_) -= slant::local(correction_.image);
@@ -115,7 +114,8 @@ class newton_estimate {
     consider(best, at, at.x, detail::root_of_product(step_, image_),
              detail::root_of_product(step_, trial_), scalar(0));
     if (!detail::is_finite(best.bound)) return best.bound;
-    scalar const δ = hypot(best.moved, correction_.missing) + norm_of(rest_);
+    scalar const δ =
+        detail::root_of_squares<scalar>(best.moved, correction_.missing) + norm_of(rest_);
     return error_bound_of_root<scalar>(δ, best.root_of_gap) + best.above;
   }
 

@@ -23,7 +23,7 @@ namespace slant::contact {
 template <class S = double>
 struct solve_step {
   index iteration;     ///< of Newton's method, from 0; anew for each problem with springs
-  S reduced_gradient;  ///< relative to that at the start; 0 if that is
+  S reduced_gradient;  ///< relative to that at P_Λ(0); 0 if that is
 };
 
 /// Options of contact::solve.
@@ -37,8 +37,8 @@ struct solve_options {
   /// λ to start from; none: conjugate gradients without the constraints.
   std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
   node_layout<S> layout{};  ///< gives motions of bodies without supports their names
-  /// Called with every iterate, the start included; empty: nothing is. Unlike observers it is no
-  /// part of the type of the call.
+  /// Called with every iterate, the start included; twice with one from which a correction goes on.
+  /// Empty: nothing is called. Unlike observers it is no part of the type of the call.
   std::function<void(solve_step<S> const&)> progress{};
 
   /// Throws bad_input naming the option, its value and what was expected.

@@ -8,7 +8,8 @@
 //
 // Intuition. Blocks of one kind that follow one another are a run, a power_product; the set is a
 // list of runs, and which kind a run is of is asked once for the whole run and not once for each
-// block. Inside the loop it is the code of the set that it was made of, with the same bits.
+// block. Inside the loop it is the code of the set that it was made of, with the same bits (only
+// that a free block is passed over, also if its component is NaN).
 //
 // Rejected: virtual functions. Methods visit blocks with functions of their own (faces, barriers,
 // certificates), of which a base class would have to list every one; and a virtual call for each
@@ -104,6 +105,12 @@ using any_run_slant =
                  block_diagonal_slant<S, 2>, block_diagonal_slant<S, 2, planar>,
                  block_diagonal_slant<S, 3>>;
 
+template <class S, class Runs>
+inline constexpr bool has_slants_of = false;
+template <class S, class... Block, class... Layout, class... Blocks>
+inline constexpr bool has_slants_of<S, std::variant<power_product<Block, Layout, Blocks>...>> =
+    (is_alternative<power_slant<S, Block, Layout>, any_run_slant<S>> && ...);
+
 }  // namespace detail
 
 /// All blocks of C are of the kinds that any_set<S> has, the powers among its parts included.
@@ -177,6 +184,9 @@ class any_set_slant {
 /// that it is made of. Nothing allocates but the constructor and slant(x).
 template <scalar S = double, class Runs = usual_runs<S>>
 class any_set {
+  static_assert(detail::has_slants_of<S, Runs>,
+                "any_set: runs of blocks with one, two or three components; planar ones with two");
+
  public:
   using scalar = S;
 

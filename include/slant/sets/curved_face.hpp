@@ -130,7 +130,7 @@ class curved_face {
     bool inside = true;
     for (int j = 0; j < N * N; ++j) inside = inside && g.data()[j] == S(j % (N + 1) == 0 ? 1 : 0);
     // Nor is there a motion where G is so small that 1/γ leaves the range of the numbers.
-    constexpr S least = std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon();
+    S const least = std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon();
     bool fixed = true;
     for (int j = 0; j < N; ++j) fixed = fixed && !(g.data()[j * (N + 1)] > least);
     for (index j = 0; j < N; ++j) mask_.coeffRef(p.component(j)) = fixed ? S(0) : S(1);
