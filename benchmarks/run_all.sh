@@ -8,6 +8,7 @@
 #
 #   composition         instructions of composed operators, beside loops written by hand
 #   slanting            instructions of F°(y) by the chain rule, beside hand-derived formulas
+#   erased              instructions of methods on any_qp, beside the same method on the given types
 #   compile_time        seconds and memory of the compiler for a few includes
 #   projections         largest error of the projections at a million points each
 #   example_1           products of KPRGP for eleven Γ, beside the printed ones
@@ -52,7 +53,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 here=$root/benchmarks
 tree=${SLANT_BUILD_DIR:-$root/build/bench}
 programs=$tree/benchmarks
-all=(composition slanting compile_time projections example_1 wire brick newton_brick newton_wire
+all=(composition slanting erased compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
   certificates load_steps coulomb coulomb_models multilevel multilevel_large stability
@@ -110,6 +111,7 @@ run_composition() { "$here/composition.sh" "$(program composition)" >"$output/co
 run_slanting() {
   "$here/slanting_composition.sh" "$(program slanting_composition)" >"$output/slanting.csv"
 }
+run_erased() { "$here/erased.sh" "$(program erased)" >"$output/erased.csv"; }
 run_compile_time() { "$here/compile_time.sh" --output "$output"; }
 run_projections() { "$(program projection_errors)" >"$output/projections.csv"; }
 run_example_1() { "$(program kprgp_products)" example_1 >"$output/example_1.csv"; }
@@ -332,6 +334,7 @@ write_summary() {
   describe_machine
   section composition "Instructions of one application"
   section slanting "Instructions of one application of F°(y)"
+  section erased "Instructions of a solve with the types of the program forgotten"
   section compile_time "Compile time"
   section projections "Accuracy of projections"
   section example_1 "Example 1: products of KPRGP, relative reduced gradient 1e-6"

@@ -15,14 +15,11 @@ namespace from_files {
 class any_dual {
  public:
   using set_type = slant::any_set<double, slant::contact_runs<double>>;
-  using problem_type =
-      slant::separable_qp<slant::any_qp<double>::operator_type, Eigen::VectorXd, set_type>;
+  using problem_type = slant::any_qp<double, slant::semidefinite_laws, slant::contact_runs<double>>;
 
   template <class Dual, class QP>
   any_dual(Dual const& dual, QP const& qp)
-      : qp_{slant::held<problem_type::operator_type>(problem_type::operator_type(qp.a())),
-            slant::held<Eigen::VectorXd>(Eigen::VectorXd(qp.b())),
-            slant::held<set_type>(set_type(qp.set()))},
+      : qp_(qp),
         constraints_(&dual.constraints()),
         displacement_([&dual](Eigen::VectorXd const& λ) { return dual.displacement(λ); }) {}
   any_dual(any_dual const&) = delete;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What the component slant::compiled has compiled once, for double: the doors of contact, from
-// matrices to displacements. A program that links it says what it said before; headers of these
-// functions then promise the compiler that their instances exist elsewhere,
+// What the component slant::compiled has compiled once, for double. A program that links it says
+// what it said before; headers of these functions then promise the compiler that their instances
+// exist elsewhere,
 //
+//     kprgp, symmetric_newton, interior_point, as, as_s
+//                                   for programs that can be forgotten
+//                                   (methods/compiled_problem.hpp)
+//     dense_ldlt                    also for float
 //     contact::solve                Tresca friction, each law and the choice by the data
 //     contact::certified_coulomb    Coulomb friction
 //     contact::solve_friction       Coulomb friction from W, q, μ

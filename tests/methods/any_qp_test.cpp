@@ -87,4 +87,57 @@ TEST_CASE("erased programs: one type for all, as definite as they were") {
   CHECK(slant::erased(third).set().block_count() == p.b.size());
 }
 
+TEST_CASE("erased programs: the diagonal is kept where there is one") {
+  usual_program const p(2, 10);
+  auto const lines = slant::half_lines(p.b.size());
+  auto const with = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A);
+  product_only const without{p.A};
+  VectorXd d = VectorXd::Constant(p.b.size(), -1);
+  auto const same = d;
+  CHECK_FALSE(slant::erased(slant::separable_qp{without, p.b, lines}).a().diagonal_if_known(d));
+  CHECK(d == same);
+  CHECK(slant::erased(slant::separable_qp{with, p.b, lines}).a().diagonal_if_known(d));
+  CHECK(d == p.A.diagonal());
+}
+
+TEST_CASE("erased programs: they refer to an lvalue, own an rvalue, and copies share it") {
+  usual_program p(3, 10);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A);
+  auto intervals = slant::intervals(p.g);
+  auto const set = slant::cartesian(slant::half_lines(3), intervals, slant::discs(p.g));
+  slant::separable_qp const given{A, p.b, set};
+  auto const forgotten = slant::erased(given);
+  CHECK(&forgotten.b() == &p.b);
+  VectorXd const z = VectorXd::Constant(12, 50);
+  CHECK(slant::project(forgotten.set(), z)[3] == p.g[0]);
+  p.g *= 3;
+  intervals.update(p.g);  // bounds that change in their place have changed here as well
+  CHECK(slant::project(forgotten.set(), z)[3] == p.g[0]);
+
+  auto const owning = [&] {
+    auto const inner = slant::erased(slant::separable_qp{
+        A, VectorXd(2 * p.b),
+        slant::cartesian(slant::half_lines(3), slant::intervals(p.g), slant::discs(p.g))});
+    return inner;
+  }();
+  auto const copy = owning;
+  CHECK(copy.b() == 2 * p.b);
+  CHECK(&copy.b() == &owning.b());
+  CHECK(slant::project(copy.set(), z)[3] == p.g[0]);
+  CHECK(slant::project(copy.set(), z).tail(2).norm() == doctest::Approx(p.g[2]));
+}
+
+TEST_CASE("erased programs: one of few kinds is one of many") {
+  usual_program const p(2, 10);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A);
+  auto const forces =
+      slant::cartesian(slant::half_lines(2), slant::half_lines(2), slant::discs(p.g));
+  slant::separable_qp const given{A, p.b, forces};
+  auto const few = slant::erased<slant::contact_runs<double>>(given);
+  auto const many = slant::erased(few);
+  static_assert(std::same_as<decltype(many), slant::any_qp<> const>);
+  VectorXd const z = test::random_vector(8, 9);
+  CHECK(slant::project(many.set(), z) == slant::project(forces, z));
+}
+
 }  // namespace any_qp_test

@@ -19,7 +19,7 @@ namespace detail {
 
 /// Text of anything that can be streamed; of a floating-point number the shortest that means it.
 template <class T>
-[[nodiscard]] std::string show(T const& value) {
+[[nodiscard, gnu::cold]] std::string show(T const& value) {
   if constexpr (std::is_floating_point_v<T>) {
     char text[64];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
@@ -37,7 +37,8 @@ template <class T>
 /// what() reads "radius: got -1, expected a number >= 0".
 class bad_input : public std::invalid_argument {
  public:
-  bad_input(std::string_view argument, std::string_view value, std::string_view expectation)
+  [[gnu::cold]] bad_input(std::string_view argument, std::string_view value,
+                          std::string_view expectation)
       : std::invalid_argument(std::string(argument)
                                   .append(": got ")
                                   .append(value)
@@ -46,7 +47,7 @@ class bad_input : public std::invalid_argument {
         name_length_(argument.size()) {}
 
   /// The same complaint about entry i of an array of such arguments: "radius[3]: got -1, …".
-  [[nodiscard]] bad_input at(std::ptrdiff_t i) const {
+  [[nodiscard, gnu::cold]] bad_input at(std::ptrdiff_t i) const {
     std::string_view const text = what();
     std::string changed(text.substr(0, name_length_));
     changed.append("[").append(detail::show(i)).append("]");

@@ -169,6 +169,26 @@ inline constexpr detail::apply_adjoint_add_fn apply_adjoint_add{};
 /// d = diag(A). For set-up: it may allocate.
 template <class A, class V> concept has_diagonal = requires(A const& a, V& d) { a.diagonal(d); };
 
+/// Whether there is a diagonal is known at run time: diagonal_if_known(d) gives it and returns
+/// true, or returns false. For operators that forget what they are made of.
+template <class A, class V>
+concept may_have_diagonal = has_diagonal<A, V> || requires(A const& a, V& d) {
+  { a.diagonal_if_known(d) } -> std::same_as<bool>;
+};
+
+/// d = diag(A) where A gives it; whether it does. Without it d is as it was.
+template <class A, class V>
+[[nodiscard]] bool diagonal_if_known(A const& a, V& d) {
+  if constexpr (has_diagonal<A, V>) {
+    a.diagonal(d);
+    return true;
+  } else if constexpr (may_have_diagonal<A, V>) {
+    return a.diagonal_if_known(d);
+  } else {
+    return false;
+  }
+}
+
 /// Y = columns first … first + Y.cols() − 1 of A, for a dense matrix Y with rows() rows.
 template <class A, class M>
 concept has_columns = requires(A const& a, index first, M& y) { a.columns(first, y); };

@@ -13,8 +13,8 @@
 namespace slant::detail {
 
 /// Throws bad_input "name: got 3, expected 4" (or the expectation in the caller's words).
-inline void check_size(std::string_view name, index got, index expected,
-                       std::string_view meaning = "size") {
+[[gnu::cold]] inline void check_size(std::string_view name, index got, index expected,
+                                     std::string_view meaning = "size") {
   if (got != expected) {
     throw bad_input(name, show(got), std::string(meaning) + " " + show(expected));
   }

@@ -21,8 +21,10 @@
 // each distributed vector would have to supply them all, and Eigen fuses them better.
 #pragma once
 
+#include <slant/concepts/kernels.hpp>
 #include <slant/concepts/scalar.hpp>
 
+#include <cassert>
 #include <cmath>
 #include <concepts>
 #include <type_traits>
@@ -87,6 +89,15 @@ namespace detail {
 
 template <class X, class Y> concept has_dot = requires(X const& x, Y const& y) { x.dot(y); };
 
+/// A column vector of Eigen that owns its entries: they are contiguous, and kernels.hpp does what
+/// its expressions would.
+template <class X>
+concept plain_column = requires {
+  requires std::is_same_v<typename X::PlainObject, X>;
+  requires X::ColsAtCompileTime == 1;
+  requires X::InnerStrideAtCompileTime == 1;
+};
+
 /// What the vectors themselves return, whatever its type. An own vector answers for itself: a dot
 /// that it inherits is not asked.
 template <class X, class Y>
@@ -94,6 +105,9 @@ template <class X, class Y>
 [[nodiscard]] decltype(auto) own_inner_product(X const& x, Y const& y) {
   if constexpr (has_inner_product_member<X>) {
     return x.inner_product(y);
+  } else if constexpr (plain_column<X> && std::is_same_v<X, Y>) {
+    assert(x.size() == y.size());
+    return kernels::dot(index(x.size()), x.data(), y.data());
   } else {
     return x.dot(y);
   }
@@ -172,26 +186,42 @@ struct norm_fn {
     using std::frexp;
     using std::ldexp;
     using std::sqrt;
-    largest_entry<S> visitor;
-    if (v.size() > 0) v.visit(visitor);
-    S const& largest = visitor.size;
+    S const largest = largest_entry<S>(v);
     if (!(largest > S(0)) || !(largest <= std::numeric_limits<S>::max())) return largest;
     int e = 0;
     static_cast<void>(frexp(largest, &e));
     if (e < 3 - std::numeric_limits<S>::max_exponent) e = 3 - std::numeric_limits<S>::max_exponent;
-    S const unit = pow2<S>(-e);
-    S const square = (v * unit).dot(v * unit);
-    return ldexp(S(sqrt(square)), e);
+    return ldexp(S(sqrt(scaled_square(v, pow2<S>(-e)))), e);
   }
-  template <class S>
-  struct largest_entry {  // a visitor
-    S size{};             ///< or NaN
-    void init(S const& entry, index i, index j) { (*this)(entry, i, j); }
-    void operator()(S const& entry, index, index) {
-      S const now = entry < S(0) ? S(-entry) : entry;
-      if (size == size && !(now <= size)) size = now;
+  /// max |v_i|, or NaN.
+  template <class S, class L>
+  static S largest_entry(L const& v) {
+    if constexpr (plain_column<L>) {
+      return kernels::largest(index(v.size()), v.data());
+    } else {
+      S largest(0);
+      for (index i = 0; i < index(v.size()); ++i) {
+        S const entry = v.coeff(i);
+        S const now = kernels::largest(1, &entry);
+        if (largest == largest && !(now <= largest)) largest = now;
+      }
+      return largest;
     }
-  };
+  }
+  /// Σ (α v_i)².
+  template <class S, class L>
+  static S scaled_square(L const& v, S const& α) {
+    if constexpr (plain_column<L>) {
+      return kernels::scaled_square(index(v.size()), α, v.data());
+    } else {
+      S sum(0);
+      for (index i = 0; i < index(v.size()); ++i) {
+        S const entry = α * v.coeff(i);
+        sum += entry * entry;
+      }
+      return sum;
+    }
+  }
 };
 
 }  // namespace detail

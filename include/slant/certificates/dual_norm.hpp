@@ -23,6 +23,7 @@
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 
 #include <algorithm>
@@ -72,9 +73,9 @@ template <class A, class M, class V, class WA>
   S const ε = std::numeric_limits<S>::epsilon();
   S const room = S(4) * sqrt(S(slant::global_size(d)));
   S const unit = unit_near(slant::norm(d));
-  slant::local(w.r) = slant::local(d) / unit;
+  vectors::scale(scalar_t<V>(1) / unit, d, w.r);
   slant::apply(m, w.r, w.z, w.of_m);
-  slant::local(w.p) = slant::local(w.z);
+  vectors::copy(w.z, w.p);
   S rz = slant::inner_product(w.r, w.z), energy(0), recent(0), stiffest(0);
   index k = 0;
   // ‖r‖ is no more than rounding.
@@ -102,10 +103,10 @@ template <class A, class M, class V, class WA>
     S const α = rz / bend, term = α * rz;
     energy += term;
     recent = recent / S(2) + term;
-    slant::local(w.r) -= α * slant::local(w.image);
+    vectors::axpy(-α, w.image, w.r);
     slant::apply(m, w.r, w.z, w.of_m);
     S const next = slant::inner_product(w.r, w.z);
-    slant::local(w.p) = (next / rz) * slant::local(w.p) + slant::local(w.z);
+    vectors::waxpy(next / rz, w.p, w.z, w.p);
     rz = next;
     if (noise < S(0) && is_rounding()) {
       noise = slant::norm(w.r);

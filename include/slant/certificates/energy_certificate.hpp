@@ -17,6 +17,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/detail/block_slants.hpp>
 #include <slant/operators/diagonal.hpp>
@@ -67,7 +68,7 @@ class energy_certificate {
     ++applications_;
     energy_error<scalar> e;
     e.size = detail::root_of_product(x_, g_);
-    slant::local(g_) -= slant::local(qp_->b());
+    vectors::subtract(qp_->b(), g_);
     if (dominates_) {
       auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
       slant::apply(m_, g_, norm_.z, norm_.of_m);

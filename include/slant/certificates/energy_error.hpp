@@ -28,6 +28,7 @@
 #include <slant/certificates/normal_part.hpp>
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 
 #include <cmath>
@@ -54,7 +55,7 @@ struct energy_error {
     return least > S(0) ? S(bound / least) : std::numeric_limits<S>::infinity();
   }
   /// "energy error at most 3e-10 (proven)".
-  [[nodiscard]] std::string sentence() const {
+  [[nodiscard, gnu::cold]] std::string sentence() const {
     return "relative energy error " + detail::show(relative()) +
            (proven ? ", proven" : ", estimated");
   }
@@ -105,9 +106,9 @@ template <class C, class X, class G, class M, class D>
   balanced_gradient<S> result;
   index terms = 0;
   if constexpr (std::is_same_v<G, D>) {
-    if (&g != &d) slant::local(d) = slant::local(g);
+    if (&g != &d) vectors::copy(g, d);
   } else {
-    slant::local(d) = slant::local(g);
+    vectors::copy(g, d);
   }
   // Gaps are summed in units in which g is near 1, as they are products of x and g.
   S const unit = unit_near(slant::norm(d));

@@ -91,7 +91,7 @@ class energy_error_below : public rule {
     return status::running;
   }
   template <class State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     if (s.status == status::unbounded) return detail::own_words(s);
     return error_.sentence() + (error_.relative() <= tolerance_ ? ", at most " : "; asked was ") +
            detail::show(tolerance_);

@@ -17,6 +17,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/face_preconditioner.hpp>
 
@@ -60,14 +61,14 @@ class face_correction {
     using std::sqrt;
     scalar const ε = std::numeric_limits<scalar>::epsilon();
     scalar const room = scalar(4) * sqrt(scalar(slant::global_size(g)));
-    slant::local(t).setZero();
-    slant::local(image).setZero();
+    vectors::set_zero(t);
+    vectors::set_zero(image);
     energy = bend = missing = scalar(0);
     // Twice: g may be nearly normal to the face, and what rounding leaves of that is no residual.
     face.keep(g, z_);
     face.keep(z_, r_);
     scalar const unit = unit_near(slant::norm(r_));
-    slant::local(r_) /= unit;
+    vectors::divide(unit, r_);
     if constexpr (preconditions_faces<M, V, Face>) {
       if (face.curved_count() == 0) m.enter(face, m_workspace_);
     }
@@ -81,15 +82,15 @@ class face_correction {
     scalar noise(-1), beyond(0);
     index k = 0;
     found = slant::norm(r_) == scalar(0);
-    slant::local(remainder) = slant::local(r_);
+    vectors::copy(r_, remainder);
     while (!found && k < most) {
       precondition_on_face(m, face, s, r_, z_, weighed_, m_workspace_);
       scalar const next = slant::inner_product(r_, z_);
       if (!(next > scalar(0))) break;
       if (k == 0) {
-        slant::local(p_) = -slant::local(z_);
+        vectors::negate(z_, p_);
       } else {
-        slant::local(p_) = (next / gz) * slant::local(p_) - slant::local(z_);
+        vectors::waxpby(next / gz, p_, scalar(-1), z_, p_);
       }
       gz = next;
       slant::apply(a, p_, Ap_, of_a);
@@ -109,16 +110,16 @@ class face_correction {
         break;
       }
       scalar const α = gz / pHp, term = α * gz;
-      slant::local(r_) += α * slant::local(z_);
+      vectors::axpy(α, z_, r_);
       sum += term;
       if (noise >= scalar(0)) {
         beyond += term;
         found = slant::norm(r_) <= noise / scalar(10);
         continue;
       }
-      slant::local(t) += α * slant::local(p_);
-      slant::local(image) += α * slant::local(Ap_);
-      slant::local(remainder) = slant::local(r_);
+      vectors::axpy(α, p_, t);
+      vectors::axpy(α, Ap_, image);
+      vectors::copy(r_, remainder);
       recent = recent / scalar(2) + term;
       bool const is_exact = slant::norm(r_) <= room * ε;
       if (is_exact) recent = scalar(0);
@@ -127,7 +128,7 @@ class face_correction {
     }
     found = found || noise >= scalar(0) || is_rounding() || (k == most && k > 4);
     missing = unit * sqrt(noise >= scalar(0) ? beyond : recent);
-    slant::local(z_).setZero();
+    vectors::set_zero(z_);
     face.add_curvature(scalar(1) / ρ, t, z_);
     scalar const curved = slant::inner_product(t, z_);
     bend = curved > scalar(0) ? scalar(unit * sqrt(curved)) : scalar(0);
@@ -135,9 +136,9 @@ class face_correction {
     energy = squared > scalar(0)  ? scalar(unit * sqrt(squared))
              : squared == squared ? scalar(0)
                                   : squared;
-    slant::local(t) *= unit;
-    slant::local(image) *= unit;
-    slant::local(remainder) *= unit;
+    vectors::scale(unit, t);
+    vectors::scale(unit, image);
+    vectors::scale(unit, remainder);
     return k;
   }
 

@@ -21,6 +21,7 @@
 #include <slant/certificates/face_correction.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/detail/block_slants.hpp>
 #include <slant/sets/curved_face.hpp>
 
@@ -71,23 +72,23 @@ class newton_estimate {
   template <class WA, class Norm>
   [[nodiscard]] scalar operator()(estimated_point<vector_type> const& at, M const& m, WA& of_a,
                                   Norm const& norm_of) {
-    slant::local(trial_) = slant::local(at.x) - at.ρ * slant::local(at.gradient);
+    vectors::waxpy(-at.ρ, at.gradient, at.x, trial_);
     slant::project(qp_->set(), slant::local(trial_), slant::local(projected_));
     face_.assign(qp_->set(), slant::local(trial_), scalar(1));
-    slant::local(step_) = slant::local(projected_) - slant::local(at.x);
-    slant::local(image_).setZero();
+    vectors::difference(projected_, at.x, step_);
+    vectors::set_zero(image_);
     if (slant::norm(step_) > scalar(0)) {
       slant::apply(qp_->a(), step_, image_, of_a);
       ++applications_;
     }
-    slant::local(rest_) = slant::local(at.gradient) + slant::local(image_);
+    vectors::sum(at.gradient, image_, rest_);
     applications_ +=
         correction_.compute(qp_->a(), of_a, m, rest_, face_, at.ρ, at.ρ, at.most, at.sizes);
     if (!correction_.found || !detail::is_finite(correction_.energy)) {
       return std::numeric_limits<scalar>::infinity();
     }
     if (!at.trusts_iterations) {
-      slant::local(correction_.remainder).setZero();
+      vectors::set_zero(correction_.remainder);
       correction_.missing = scalar(0);
     }
     return put_together(at, norm_of);
@@ -101,15 +102,15 @@ class newton_estimate {
   /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
   template <class Norm>
   [[nodiscard]] scalar put_together(estimated_point<vector_type> const& at, Norm const& norm_of) {
-    slant::local(image_) += slant::local(correction_.image);
-    slant::local(balanced_) = slant::local(at.gradient) + slant::local(image_);
-    slant::local(image_) -= slant::local(correction_.image);
+    vectors::add(correction_.image, image_);
+    vectors::sum(at.gradient, image_, balanced_);
+    vectors::subtract(correction_.image, image_);
     scalar const way = detail::root_of_product(step_, image_);
     detail::bound_split<scalar> best;
     consider(best, at, projected_, correction_.energy, correction_.bend, way);
-    slant::local(step_) += slant::local(correction_.t);
-    slant::local(image_) += slant::local(correction_.image);
-    slant::local(trial_).setZero();
+    vectors::add(correction_.t, step_);
+    vectors::add(correction_.image, image_);
+    vectors::set_zero(trial_);
     face_.add_curvature(scalar(1) / at.ρ, step_, trial_);
     consider(best, at, at.x, detail::root_of_product(step_, image_),
              detail::root_of_product(step_, trial_), scalar(0));

@@ -51,7 +51,7 @@ struct certified_coulomb_options {
   bool scale = true;        ///< whether rows of B may be scaled
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     slant::detail::checked_tolerance(tolerance);
     if (newton_steps < 1) {
       throw bad_input("newton_steps", slant::detail::show(newton_steps), "at least 1");

@@ -29,7 +29,7 @@ struct data {
   [[nodiscard]] index tangents() const { return nodes() == 0 ? 0 : T.rows() / nodes(); }
 
   /// Throws bad_input naming the argument, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     using slant::detail::check_size;
     if (N.rows() < 1) throw bad_input("N", slant::detail::show(N.rows()), "at least one row");
     check_size("columns of N", N.cols(), f.size(), "the size of f,");

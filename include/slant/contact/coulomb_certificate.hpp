@@ -53,7 +53,7 @@ struct coulomb_error {
   }
   /// "Coulomb's law violated by 1e-9, most at contact 3; relative energy error 2e-9, estimated, for
   /// its slip bounds".
-  [[nodiscard]] std::string sentence() const {
+  [[nodiscard, gnu::cold]] std::string sentence() const {
     std::string where =
         law.contact >= 0 ? ", most at contact " + slant::detail::show(law.contact) : std::string();
     return "Coulomb's law violated by " + slant::detail::show(law.relative) + where + "; " +

@@ -54,7 +54,7 @@ class coulomb_error_below : public rule {
     return status::running;
   }
   template <class State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     if (!is_judged_) return slant::detail::own_words(s);
     return error_.sentence() + (error_.relative() <= tolerance_ ? ", at most " : "; asked was ") +
            slant::detail::show(tolerance_);

@@ -54,7 +54,7 @@ struct free_motions {
     return sum;
   }
   /// "body 0 can move along x; body 2 has 3 free motions"; the first few of many.
-  [[nodiscard]] std::string sentence() const {
+  [[nodiscard, gnu::cold]] std::string sentence() const {
     std::string text;
     for (std::size_t i = 0; i < free.size() && i < 4; ++i) {
       text.append(i == 0 ? "" : "; ").append(free[i].text);
@@ -97,8 +97,8 @@ template <class S>
 
 /// The largest part of a motion d of all unknowns, in words: "body 1 moves along x".
 template <class S, class V>
-[[nodiscard]] std::string name_motion(Eigen::SparseMatrix<S> const& K, V const& d,
-                                      node_layout<S> const& layout = {}) {
+[[nodiscard, gnu::cold]] std::string name_motion(Eigen::SparseMatrix<S> const& K, V const& d,
+                                                 node_layout<S> const& layout = {}) {
   using std::abs;
   auto const bodies = detail::bodies_of(K);
   std::size_t largest = 0;

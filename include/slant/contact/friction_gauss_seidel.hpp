@@ -28,7 +28,7 @@ struct gauss_seidel_options {
   index patience = 3000;  ///< steps without a new smallest error that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     using slant::detail::show;
     if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
     if (full_every < 1) throw bad_input("full_every", show(full_every), "at least 1");

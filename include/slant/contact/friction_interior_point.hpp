@@ -54,7 +54,7 @@ struct friction_interior_options {
   S proximal = S(1e-3);   ///< first α; then × 3 after a short step, × ½ after a long one
   index patience = 100;   ///< steps without a clearly smaller error that mean stalled
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     using slant::detail::show;
     within("small", small, S(1));
     within("fraction", fraction, S(1));

@@ -71,7 +71,7 @@ struct friction_options {
   proximal_point_options<S> proximal{};
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     using slant::detail::show;
     if (!(tolerance > S(0) && tolerance < S(1))) {
       throw bad_input("tolerance", show(tolerance), "a number in (0, 1)");

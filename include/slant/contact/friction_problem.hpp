@@ -34,7 +34,7 @@ struct friction_problem {
   [[nodiscard]] index dimension() const { return mu.size() > 0 ? q.size() / mu.size() : 3; }
 
   /// Throws bad_input naming the member, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (mu.size() == 0 ? q.size() != 0 : q.size() != 2 * mu.size() && q.size() != 3 * mu.size()) {
       throw bad_input(
           "size of q", slant::detail::show(index(q.size())),

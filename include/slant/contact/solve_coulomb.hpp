@@ -45,7 +45,7 @@ struct solve_coulomb_options {
   index outer_steps = 300;  ///< of successive approximations at most; 0: none, if the others are
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(tolerance > 0 && tolerance < 1)) {
       throw bad_input("tolerance", slant::detail::show(tolerance), "a number in (0, 1)");
     }

@@ -54,7 +54,7 @@ struct floating_options {
   node_layout<S> layout{};      ///< gives the motions their names
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(tolerance > S(0) && tolerance < S(1))) {
       throw bad_input("tolerance", slant::detail::show(tolerance), "a number in (0, 1)");
     }

@@ -42,7 +42,7 @@ struct solve_options {
   std::function<void(solve_step<S> const&)> progress{};
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     slant::detail::checked_tolerance(tolerance);
     if (max_steps < 0) throw bad_input("max_steps", slant::detail::show(max_steps), "at least 0");
     condensation.validate();

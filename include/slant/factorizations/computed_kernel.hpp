@@ -15,6 +15,7 @@
 // from them is amplified as fixing_rows says, and where a pivot counts as small would depend on it.
 #pragma once
 
+#include <slant/concepts/random.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <random>
 #include <utility>
 
 namespace slant {
@@ -90,7 +90,7 @@ template <class S>
   auto const factors = slant::factorize(shifted);
 
   S const limit = detail::kernel_rounding<S>() * detail::largest_row_sum(scaled) / S(4);
-  std::mt19937_64 generator(2013);
+  detail::random_bits generator(2013);
   for (index width = std::min<index>(n, 8);; width = std::min<index>(n, 2 * width)) {
     matrix_type X(n, width);
     for (index i = 0; i < X.size(); ++i) X(i) = detail::uniform<S>(generator());

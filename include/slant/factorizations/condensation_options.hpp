@@ -48,7 +48,7 @@ struct condensation_options {
   double most_memory = 1.5;  ///< ≥ 1; so many times the bytes of a factor alone, or the cache
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     auto const positive = [](std::string_view name, double value) {
       if (!(value > 0) || !detail::is_finite(value)) {
         throw bad_input(name, detail::show(value), "a finite number > 0");

@@ -12,6 +12,7 @@
 // matrices with it, three seconds of the compiler in every program that factors a small matrix.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/concepts/factorization.hpp>
 #include <slant/factorizations/detail/panel_kernels.hpp>
 #include <slant/factorizations/detail/panel_kernels_of_four.hpp>
@@ -38,13 +39,7 @@ class dense_ldlt {
   /// (up to 1024 ε, naming the worst pair), or not definite (naming the pivot).
   template <class M>
   explicit dense_ldlt(Eigen::MatrixBase<M> const& k) {
-    matrix_type normalised = k;
-    detail::require_symmetric_matrix("K", normalised);
-    exponent_ = detail::scale_exponent(normalised);
-    unit_ = detail::power_of_two<S>(-exponent_);
-    for (index i = 0; i < normalised.size(); ++i) normalised.data()[i] *= unit_;
-    factor(normalised);
-    factors_ = std::make_shared<matrix_type const>(std::move(normalised));
+    normalise_and_factor(k);
   }
 
   [[nodiscard]] index rows() const { return factors_->rows(); }
@@ -129,77 +124,99 @@ class dense_ldlt {
     }
   }
 
+  void normalise_and_factor(matrix_type k);
   /// The lower triangle becomes L, without its ones, and D.
-  void factor(matrix_type& a) const {
-    index const n = a.rows();
-    std::vector<S> diagonal(static_cast<std::size_t>(n));
-    for (index j = 0; j < n; ++j) diagonal[static_cast<std::size_t>(j)] = a.coeff(j, j);
-    for (index c = 0; c < n; c += width) {
-      index const end = std::min(c + width, n);
-      for (index q = 0; q < c; q += width) {
-        for (index j = c; j < end;) {
-          index const together = j + 4 <= end ? 4 : 1;
-          S p[4 * width];
-          for (index k = 0; k < together * width; ++k) {
-            index const column = q + k % width;
-            p[k] = a.coeff(j + k / width, column) * a.coeff(column, column);
-          }
-          // From row c on for all columns: what stands above the diagonal is not used.
-          subtract(panel(a, c, q), p, {a.data() + j * n + c, 1, n, together}, n - c);
-          j += together;
-        }
-      }
-      for (index j = c; j < end; ++j) {
-        S* const column = a.data() + j * n;
-        for (index q = c; q < j; ++q) {
-          S const* const before = a.data() + q * n;
-          S const factor = before[j] * before[q];
-          for (index i = j; i < n; ++i) column[i] -= factor * before[i];
-        }
-        detail::require_positive_pivot("K", n, j, j, column[j],
-                                       diagonal[static_cast<std::size_t>(j)], exponent_);
-        for (index i = j + 1; i < n; ++i) column[i] /= column[j];
-      }
-    }
-  }
+  void factor(matrix_type& a) const;
 
-  void solve_in_place(right_hand_sides const& x) const {
-    matrix_type const& l = *factors_;
-    index const n = l.rows();
-    S p[4 * width];
-    for (index c = 0; c < n; c += width) {
-      index const end = std::min(c + width, n);
-      for (index k = 0; k < x.count; ++k) {
-        for (index j = c; j < end; ++j) {
-          S const factor = p[k * width + j - c] = x(j, k);
-          for (index i = j + 1; i < end; ++i) x(i, k) -= factor * l.coeff(i, j);
-        }
-      }
-      if (end < n) subtract(panel(l, end, c), p, x.from(end), n - end);
-    }
-    for (index c = n == 0 ? -1 : (n - 1) / width * width; c >= 0; c -= width) {
-      index const end = std::min(c + width, n);
-      if (end < n) products(panel(l, end, c), x.from(end), n - end, p);
-      for (index k = 0; k < x.count; ++k) {
-        for (index j = end; j-- > c;) {
-          S value = x(j, k) / l.coeff(j, j);
-          if (end < n) value -= p[k * width + j - c];
-          for (index i = j + 1; i < end; ++i) value -= x(i, k) * l.coeff(i, j);
-          x(j, k) = value;
-        }
-      }
-    }
-    for (index k = 0; k < x.count; ++k) {
-      for (index i = 0; i < n; ++i) x(i, k) *= unit_;
-    }
-  }
+  void solve_in_place(right_hand_sides const& x) const;
 
   int exponent_ = 0;
   S unit_{1};
   std::shared_ptr<matrix_type const> factors_;
 };
 
+template <class S>
+void dense_ldlt<S>::normalise_and_factor(matrix_type k) {
+  detail::require_symmetric_matrix("K", k);
+  exponent_ = detail::scale_exponent(k);
+  unit_ = detail::power_of_two<S>(-exponent_);
+  for (index i = 0; i < k.size(); ++i) k.data()[i] *= unit_;
+  factor(k);
+  factors_ = std::make_shared<matrix_type const>(std::move(k));
+}
+
+template <class S>
+void dense_ldlt<S>::factor(matrix_type& a) const {
+  index const n = a.rows();
+  std::vector<S> diagonal(static_cast<std::size_t>(n));
+  for (index j = 0; j < n; ++j) diagonal[static_cast<std::size_t>(j)] = a.coeff(j, j);
+  for (index c = 0; c < n; c += width) {
+    index const end = std::min(c + width, n);
+    for (index q = 0; q < c; q += width) {
+      for (index j = c; j < end;) {
+        index const together = j + 4 <= end ? 4 : 1;
+        S p[4 * width];
+        for (index k = 0; k < together * width; ++k) {
+          index const column = q + k % width;
+          p[k] = a.coeff(j + k / width, column) * a.coeff(column, column);
+        }
+        // From row c on for all columns: what stands above the diagonal is not used.
+        subtract(panel(a, c, q), p, {a.data() + j * n + c, 1, n, together}, n - c);
+        j += together;
+      }
+    }
+    for (index j = c; j < end; ++j) {
+      S* const column = a.data() + j * n;
+      for (index q = c; q < j; ++q) {
+        S const* const before = a.data() + q * n;
+        S const factor = before[j] * before[q];
+        for (index i = j; i < n; ++i) column[i] -= factor * before[i];
+      }
+      detail::require_positive_pivot("K", n, j, j, column[j], diagonal[static_cast<std::size_t>(j)],
+                                     exponent_);
+      for (index i = j + 1; i < n; ++i) column[i] /= column[j];
+    }
+  }
+}
+
+template <class S>
+void dense_ldlt<S>::solve_in_place(right_hand_sides const& x) const {
+  matrix_type const& l = *factors_;
+  index const n = l.rows();
+  S p[4 * width];
+  for (index c = 0; c < n; c += width) {
+    index const end = std::min(c + width, n);
+    for (index k = 0; k < x.count; ++k) {
+      for (index j = c; j < end; ++j) {
+        S const factor = p[k * width + j - c] = x(j, k);
+        for (index i = j + 1; i < end; ++i) x(i, k) -= factor * l.coeff(i, j);
+      }
+    }
+    if (end < n) subtract(panel(l, end, c), p, x.from(end), n - end);
+  }
+  for (index c = n == 0 ? -1 : (n - 1) / width * width; c >= 0; c -= width) {
+    index const end = std::min(c + width, n);
+    if (end < n) products(panel(l, end, c), x.from(end), n - end, p);
+    for (index k = 0; k < x.count; ++k) {
+      for (index j = end; j-- > c;) {
+        S value = x(j, k) / l.coeff(j, j);
+        if (end < n) value -= p[k * width + j - c];
+        for (index i = j + 1; i < end; ++i) value -= x(i, k) * l.coeff(i, j);
+        x(j, k) = value;
+      }
+    }
+  }
+  for (index k = 0; k < x.count; ++k) {
+    for (index i = 0; i < n; ++i) x(i, k) *= unit_;
+  }
+}
+
 template <class M>
 dense_ldlt(Eigen::MatrixBase<M> const&) -> dense_ldlt<typename M::Scalar>;
+
+#if SLANT_USES_COMPILED
+extern template class dense_ldlt<double>;
+extern template class dense_ldlt<float>;
+#endif
 
 }  // namespace slant

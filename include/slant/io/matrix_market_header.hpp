@@ -29,7 +29,7 @@ struct matrix_market_header {
   index entries = 0;  ///< stored in the file, not expanded
 };
 
-[[nodiscard]] inline std::string lower_case(std::string_view text) {
+[[nodiscard, gnu::cold]] inline std::string lower_case(std::string_view text) {
   std::string result(text);
   for (char& c : result)
     if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

@@ -95,7 +95,7 @@ template <std::floating_point S>
 }
 
 /// What was expected instead, for a message.
-[[nodiscard]] inline std::string_view expectation_of(number_defect defect) {
+[[nodiscard, gnu::cold]] inline std::string_view expectation_of(number_defect defect) {
   return defect == number_defect::too_large ? "a number within the range of the scalar type"
                                             : "a finite number";
 }

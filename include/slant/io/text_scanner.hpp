@@ -28,7 +28,7 @@ namespace slant::detail {
 
 /// Text as it can stand in a one-line message: control characters as \xNN, and, if ascii_only,
 /// everything beyond 7 bits too.
-[[nodiscard]] inline std::string printable(std::string_view text, bool ascii_only) {
+[[nodiscard, gnu::cold]] inline std::string printable(std::string_view text, bool ascii_only) {
   static constexpr std::string_view digits = "0123456789abcdef";
   std::string result;
   for (char const c : text) {
@@ -42,14 +42,14 @@ namespace slant::detail {
 }
 
 /// A piece of a file for a message: quoted, printable, at most 40 characters of it.
-[[nodiscard]] inline std::string quoted(std::string_view text) {
+[[nodiscard, gnu::cold]] inline std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 40;
   bool const cut = text.size() > longest;
   return "'" + printable(text.substr(0, longest), true) + (cut ? "...'" : "'");
 }
 
 /// A path for a message.
-[[nodiscard]] inline std::string printable(std::filesystem::path const& path) {
+[[nodiscard, gnu::cold]] inline std::string printable(std::filesystem::path const& path) {
   return printable(path.string(), false);
 }
 

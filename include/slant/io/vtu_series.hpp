@@ -60,7 +60,7 @@ class vtu_series {
   }
 
  private:
-  [[nodiscard]] std::string name_of(std::size_t i) const {
+  [[nodiscard, gnu::cold]] std::string name_of(std::size_t i) const {
     std::string number = std::to_string(i);
     if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
     return list_.stem().string() + "_" + number + ".vtu";

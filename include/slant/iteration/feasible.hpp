@@ -25,7 +25,7 @@ class feasibility_below : public rule {
     return detail::is_below(s.feasibility_norm, tolerance_, s.feasibility_scale);
   }
   template <has_feasibility_norm State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     return "relative distance from the equality constraints " + detail::show(s.feasibility_norm) +
            " / " + detail::show(s.feasibility_scale) + " is at most " + detail::show(tolerance_);
   }

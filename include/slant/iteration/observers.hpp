@@ -45,7 +45,7 @@ class progress_bar {
     index every = 1;             ///< draw every n-th state, n >= 1
 
     /// Throws bad_input naming the option, its value and what was expected.
-    void validate() const {
+    [[gnu::cold]] void validate() const {
       if (every < 1) throw bad_input("every", detail::show(every), "a number of states >= 1");
     }
   };

@@ -41,7 +41,7 @@ struct sequel_report {
   /// How the last phase that ran ended.
   [[nodiscard]] slant::status status() const { return second ? second->status : first.status; }
   /// The same as a sentence, for both phases.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     return "first phase: " + first.reason +
            (second ? "; second phase: " + second->reason : std::string("; no second phase"));
   }
@@ -76,7 +76,7 @@ struct refused_sequel_report {
   std::optional<refused_report<V>> second;
   V const& x() const;
   slant::status status() const;
-  std::string reason() const;
+  [[gnu::cold]] std::string reason() const;
   bool converged() const;
   index iterations() const;
   slant::work work() const;

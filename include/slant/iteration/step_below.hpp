@@ -33,7 +33,7 @@ class step_below : public rule {
     return detail::is_below(s.step_norm, tolerance_, N(s.x_norm + N(offset_)));
   }
   template <has_step_norm State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     std::string text = "relative step " + detail::show(s.step_norm) + " / ";
     text += offset_ == S(0) ? detail::show(s.x_norm)
                             : "(" + detail::show(s.x_norm) + " + " + detail::show(offset_) + ")";

@@ -50,7 +50,7 @@ class at_most : public rule {
   status operator()(iteration_state auto const& s) const {
     return s.iteration >= limit_ ? status::iteration_limit : status::running;
   }
-  std::string reason(auto const&) const {
+  [[gnu::cold]] std::string reason(auto const&) const {
     return "reached the limit of " + detail::show(limit_) + " steps";
   }
 
@@ -73,7 +73,7 @@ class at_most_applications : public rule {
   status operator()(State const& s) const {
     return s.work.operator_applications >= limit_ ? status::iteration_limit : status::running;
   }
-  std::string reason(auto const&) const {
+  [[gnu::cold]] std::string reason(auto const&) const {
     return "reached the limit of " + detail::show(limit_) + " operator applications";
   }
 
@@ -94,7 +94,7 @@ class residual_below : public rule {
     return detail::is_below(s.residual_norm, tolerance_, s.residual_scale);
   }
   template <has_residual_norm State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     return "relative residual " + detail::show(s.residual_norm) + " / " +
            detail::show(s.residual_scale) + " is at most " + detail::show(tolerance_);
   }
@@ -118,7 +118,7 @@ class reduced_gradient_below : public rule {
     return detail::is_below(s.reduced_gradient_norm, tolerance_, s.gradient_scale);
   }
   template <has_reduced_gradient_norm State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     return "relative reduced gradient " + detail::show(s.reduced_gradient_norm) + " / " +
            detail::show(s.gradient_scale) + " is at most " + detail::show(tolerance_);
   }
@@ -138,7 +138,7 @@ class stop_when : public rule {
   status operator()(State const& s) const {
     return predicate_(s) ? why_ : status::running;
   }
-  std::string reason(auto const&) const { return sentence_; }
+  [[gnu::cold]] std::string reason(auto const&) const { return sentence_; }
 
  private:
   Predicate predicate_;
@@ -164,7 +164,7 @@ struct either_rule : rule {
     return fired_first_ ? first : second;
   }
   template <class State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     return fired_first_ ? a.reason(s) : b.reason(s);
   }
 
@@ -186,7 +186,7 @@ struct both_rule : rule {
     return first == status::converged ? second : first;  // the less happy of the two
   }
   template <class State>
-  std::string reason(State const& s) const {
+  [[gnu::cold]] std::string reason(State const& s) const {
     return a.reason(s) + " and " + b.reason(s);
   }
 };

@@ -15,6 +15,7 @@
 // What is left is A v = 0 or a number out of range: status breakdown.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
@@ -124,7 +125,8 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
       } else {
         scalar const β = (ρ / s.ρ) * (s.α / s.ω);
         s.ρ = ρ;
-        slant::local(s.p) = slant::local(s.r) + β * (slant::local(s.p) - s.ω * slant::local(s.v));
+        vectors::axpy(-s.ω, s.v, s.p);
+        vectors::waxpy(β, s.p, s.r, s.p);
       }
     }
     bool const renewed = s.restarted;
@@ -142,8 +144,8 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     if (!usable_denominator(denominator)) denominator = turn_shadow(s);
     if (!usable_denominator(denominator)) return break_down(s);
     s.α = s.ρ / denominator;
-    slant::local(s.x) -= (s.unit * s.α) * slant::local(s.preconditioned);  // M p
-    slant::local(s.r) -= s.α * slant::local(s.v);  // r is now the half-step residual s
+    vectors::axpy(-(s.unit * s.α), s.preconditioned, s.x);  // M p
+    vectors::axpy(-s.α, s.v, s.r);                          // r is now the half-step residual s
     s.restarted = false;
     s.updated = true;
     ++s.iteration;
@@ -153,8 +155,8 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     scalar const τ = norm(s.t);
     if (!usable(τ, scalar(0))) return break_down(s);
     s.ω = stabilised(inner_product(s.t, s.r) / τ, s.residual_norm / s.unit) / τ;
-    slant::local(s.x) -= (s.unit * s.ω) * slant::local(s.preconditioned);  // M s
-    slant::local(s.r) -= s.ω * slant::local(s.t);
+    vectors::axpy(-(s.unit * s.ω), s.preconditioned, s.x);  // M s
+    vectors::axpy(-s.ω, s.t, s.r);
     detail::note_residual(s);
   }
 
@@ -170,8 +172,8 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
     return abs(value) > noise && detail::is_finite(value);
   }
   static void renew_shadow(state_type& s) {
-    slant::local(s.shadow) = slant::local(s.r);
-    slant::local(s.p) = slant::local(s.r);
+    vectors::copy(s.r, s.shadow);
+    vectors::copy(s.r, s.p);
     s.ρ = inner_product(s.r, s.r);
     s.restarted = false;
   }
@@ -179,7 +181,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
   static scalar turn_shadow(state_type& s) {
     scalar const stretch = norm(s.r) / norm(s.v);
     if (!usable(stretch, scalar(0))) return scalar(0);
-    slant::local(s.shadow) += stretch * slant::local(s.v);
+    vectors::axpy(stretch, s.v, s.shadow);
     s.ρ = inner_product(s.shadow, s.r);
     return inner_product(s.shadow, s.v);
   }

@@ -11,6 +11,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
@@ -123,8 +124,8 @@ class cg<A, V, M> : public detail::preconditioned_system<A, V, M> {
       return;
     }
     scalar const α = inner_product(s.r, d.p) / d.curvature;
-    slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
-    slant::local(s.r) -= α * slant::local(d.Ap);
+    vectors::axpy(-(s.unit * α), d.p, s.x);
+    vectors::axpy(-α, d.Ap, s.r);
     s.updated = true;
     detail::note_residual(s);
     ++s.iteration;

@@ -46,7 +46,7 @@ struct cg_feas_state {
   slant::work work{};
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     return at_boundary ? "the boundary of the set is reached before the minimum on the face"
                        : "the method reports: " + std::string(to_string(status));
   }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 
 namespace slant {
 
@@ -31,9 +32,9 @@ struct conjugate_directions {
   void advance(V const& φ) {
     if (live) {
       scalar const γ = inner_product(φ, Ap) / curvature;
-      slant::local(p) = slant::local(φ) - γ * slant::local(p);
+      vectors::waxpy(-γ, p, φ, p);
     } else {
-      slant::local(p) = slant::local(φ);
+      vectors::copy(φ, p);
       live = true;
     }
   }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <slant/concepts/face.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/iteration/report.hpp>
@@ -105,8 +106,8 @@ class face_cg<A, V, F> {
       return;
     }
     scalar const α = inner_product(s.r, d.p) / d.curvature;
-    slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
-    slant::local(s.r) -= α * slant::local(d.Ap);
+    vectors::axpy(-(s.unit * α), d.p, s.x);
+    vectors::axpy(-α, d.Ap, s.r);
     s.updated = true;
     note(s);
     ++s.iteration;

@@ -13,6 +13,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 
 #include <limits>
@@ -56,16 +57,16 @@ template <class Set, class State, class S>
   step.flat = !(d.curvature > noise);
   if (!step.flat) {
     S const α = step.slope / d.curvature;
-    slant::local(s.trial) = slant::local(s.x) - (s.unit * α) * slant::local(d.p);
+    vectors::waxpy(-(s.unit * α), d.p, s.x, s.trial);
     if (slant::everywhere(s.x, set.contains(slant::local(s.trial)))) {
       std::swap(s.x, s.trial);
-      slant::local(s.r) -= α * slant::local(d.Ap);
+      vectors::axpy(-α, d.Ap, s.r);
       ++s.since_refresh;
       step.end = feasible_step_end::minimum;
       return step;
     }
   }
-  slant::local(s.trial) = -slant::local(d.p);
+  vectors::negate(d.p, s.trial);
   step.length = slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial)));
   bool const ends = step.length < std::numeric_limits<S>::infinity();
   step.end = ends ? feasible_step_end::boundary : feasible_step_end::endless;
@@ -75,8 +76,8 @@ template <class Set, class State, class S>
 /// The half step that step_within has found: x onto the boundary of Λ, and r with it.
 template <class State, class S>
 void half_step(State& s, feasible_step<S> const& step) {
-  slant::local(s.x) += step.length * slant::local(s.trial);
-  slant::local(s.r) -= (step.length / s.unit) * slant::local(s.directions.Ap);
+  vectors::axpy(step.length, s.trial, s.x);
+  vectors::axpy(-(step.length / s.unit), s.directions.Ap, s.r);
   ++s.since_refresh;
 }
 

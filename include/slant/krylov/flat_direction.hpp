@@ -19,6 +19,7 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/projected_directions.hpp>
 
@@ -57,13 +58,12 @@ class flat_direction {
         q_(D_),
         image_of_q_(D_),
         directions_(prototype),
-        exact_(has_diagonal<K, V>) {
-    if constexpr (has_diagonal<K, V>) {
-      k.diagonal(D_);
+        exact_(slant::diagonal_if_known(k, D_)) {
+    if (exact_) {
       detail::check_finite("the diagonal of K", D_);
     } else {
       auto const mean = mean_diagonal(k, prototype);
-      slant::local(D_).setConstant(mean.value);
+      vectors::fill(mean.value, D_);
       applications += mean.applications;
     }
   }
@@ -83,7 +83,7 @@ class flat_direction {
 
   /// ‖D x‖, the size of the forces of which K x is the sum; its rounding errors are ε times that.
   [[nodiscard]] scalar force(V const& x) {
-    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(x));
+    vectors::multiply(D_, x, image_);
     return norm(image_);
   }
 
@@ -98,8 +98,8 @@ class flat_direction {
                                     Q const& q, WQ& wq, index steps) {
     kernel_search spent{false, 0, 0};
     index passes = 0;
-    slant::local(q_) = slant::local(d.q);
-    slant::local(image_of_q_) = slant::local(d.Ap);
+    vectors::copy(d.q, q_);
+    vectors::copy(d.Ap, image_of_q_);
     curvature_of_q_ = d.curvature;
     scalar const least = norm(d.q) / scalar(128);
     scalar const enough = scalar(4) * std::numeric_limits<scalar>::epsilon() * force(d.q);
@@ -119,8 +119,8 @@ class flat_direction {
   /// d as it was before it was split.
   template <class Directions>
   void restore(Directions& d) const {
-    slant::local(d.q) = slant::local(q_);
-    slant::local(d.Ap) = slant::local(image_of_q_);
+    vectors::copy(q_, d.q);
+    vectors::copy(image_of_q_, d.Ap);
     d.curvature = curvature_of_q_;
   }
 
@@ -143,8 +143,8 @@ class flat_direction {
       ++products;
       if (is_flat(directions_) || !(directions_.curvature > scalar(0))) break;
       scalar const α = inner_product(d.Ap, directions_.q) / directions_.curvature;
-      slant::local(d.q) -= α * slant::local(directions_.q);
-      slant::local(d.Ap) -= α * slant::local(directions_.Ap);
+      vectors::axpy(-α, directions_.q, d.q);
+      vectors::axpy(-α, directions_.Ap, d.Ap);
     }
     return products;
   }
@@ -152,7 +152,7 @@ class flat_direction {
   /// qᵀD q.
   template <class Directions>
   [[nodiscard]] scalar size(Directions const& d) {
-    slant::local(image_) = slant::local(D_).cwiseProduct(slant::local(d.q));
+    vectors::multiply(D_, d.q, image_);
     return inner_product(image_, d.q);
   }
 

@@ -6,6 +6,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
@@ -52,7 +53,7 @@ void first_residual(A const& a, V const& b, State& s, Check check) {
   s.residual_scale = norm(b);
   if (norm(s.x) == S(0)) {
     s.unit = unit_near(s.residual_scale);
-    slant::local(r) = slant::local(b) * (S(-1) / s.unit);
+    vectors::scale(S(-1) / s.unit, b, r);
   } else {
     slant::apply(a, s.x, r, s.a_workspace);
     ++s.work.operator_applications;
@@ -60,7 +61,8 @@ void first_residual(A const& a, V const& b, State& s, Check check) {
     S const image = norm(r);
     if (s.residual_scale == S(0)) s.residual_scale = image;
     s.unit = unit_near(std::max<S>(s.residual_scale, image));
-    slant::local(r) = (slant::local(r) - slant::local(b)) * (S(1) / s.unit);
+    vectors::subtract(b, r);
+    vectors::scale(S(1) / s.unit, r);
   }
   note_residual(s);
 }
@@ -94,7 +96,8 @@ bool refresh_residual(A const& a, V const& b, State& s, Note note) {
   if (!s.updated) return false;
   slant::apply(a, s.x, s.r, s.a_workspace);
   ++s.work.operator_applications;
-  slant::local(s.r) = (slant::local(s.r) - slant::local(b)) * (S(1) / s.unit);
+  vectors::subtract(b, s.r);
+  vectors::scale(S(1) / s.unit, s.r);
   s.updated = false;
   s.status = status::running;
   note(s);

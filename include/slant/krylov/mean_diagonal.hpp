@@ -17,8 +17,8 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
-
-#include <random>
+#include <slant/concepts/random.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 
 namespace slant {
 
@@ -36,7 +36,7 @@ struct mean_diagonal_options {
                                     ///< wants another one on each process
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (samples < 1) throw bad_input("samples", detail::show(samples), "a number >= 1");
   }
 };
@@ -54,16 +54,15 @@ template <class A, class V>
   V v = like(prototype, here), image = like(prototype, here);
   S sum(0);
   index applications = 0;
-  if constexpr (has_diagonal<A, V>) {
-    a.diagonal(image);
-    slant::local(v).setOnes();
+  if (slant::diagonal_if_known(a, image)) {
+    vectors::fill(S(1), v);
     sum = inner_product(v, image);
   } else {
     auto temporaries = workspace(a, prototype);
-    std::mt19937_64 generator(options.seed);
+    detail::random_bits bits(options.seed);
     for (; applications < options.samples; ++applications) {
       for (index i = 0; i < here; ++i) {
-        slant::local(v).coeffRef(i) = (generator() >> 63) != 0 ? S(1) : S(-1);
+        slant::local(v).coeffRef(i) = bits.coin() ? S(1) : S(-1);
       }
       slant::apply(a, v, image, temporaries);
       sum += inner_product(v, image);

@@ -18,6 +18,7 @@
 // required of the first step y over range(U). Otherwise it is up to whoever chooses U.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
 #include <slant/krylov/linear_system.hpp>
@@ -112,7 +113,7 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
                  workspace(q_.get(), x0),
                  spent,
                  std::move(flat)};
-    slant::local(s.descent).setZero();
+    vectors::set_zero(s.descent);
     detail::start_residual(this->a(), this->b(), s);
     s.status = status::running;
     slant::apply(this->m(), this->b(), s.z, s.c_workspace);
@@ -141,8 +142,8 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
       return;
     }
     scalar const α = inner_product(s.r, d.q) / d.curvature;
-    slant::local(s.x) -= (s.unit * α) * slant::local(d.q);
-    slant::local(s.r) -= α * slant::local(d.Ap);
+    vectors::axpy(-(s.unit * α), d.q, s.x);
+    vectors::axpy(-α, d.Ap, s.r);
     s.updated = true;
     note(s);
     ++s.iteration;
@@ -159,7 +160,8 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
   void minimise_inside(state_type& s) const {
     q_.get().add_minimiser(-s.unit, s.r, s.x, s.q_workspace);
     slant::apply(this->a(), s.x, s.r, s.a_workspace);
-    slant::local(s.r) = (slant::local(s.r) - slant::local(this->b())) * (scalar(1) / s.unit);
+    vectors::subtract(this->b(), s.r);
+    vectors::scale(scalar(1) / s.unit, s.r);
     count(s, 1, 1);
   }
 
@@ -167,12 +169,12 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
   void check_range([[maybe_unused]] vector_type const& x0, [[maybe_unused]] state_type& s) const {
     using C_type = typename system::preconditioner_type;
     if constexpr (declares_projector<C_type> && !std::same_as<C_type, identity_operator>) {
-      slant::local(s.descent) = slant::local(s.x) - slant::local(x0);
+      vectors::difference(s.x, x0, s.descent);
       slant::apply(this->m(), s.descent, s.z, s.c_workspace);
-      slant::local(s.z) -= slant::local(s.descent);
+      vectors::subtract(s.descent, s.z);
       auto const ε = std::numeric_limits<scalar>::epsilon();
       scalar const size = norm(s.descent) + norm(s.x);
-      slant::local(s.descent).setZero();
+      vectors::set_zero(s.descent);
       using std::sqrt;
       if (norm(s.z) <= sqrt(ε) * size) return;
       throw bad_input("Q", "range(U) not in range(C): it moves x0 by y with C y != y",
@@ -200,7 +202,7 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     using std::abs;
     if (is_descent(scalar(abs(slope)), d.q, size)) {
       s.status = status::unbounded;
-      slant::local(s.descent) = (slope > scalar(0) ? scalar(-1) : scalar(1)) * slant::local(d.q);
+      vectors::scale(slope > scalar(0) ? scalar(-1) : scalar(1), d.q, s.descent);
       return;
     }
     s.flat.restore(d);

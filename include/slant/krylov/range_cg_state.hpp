@@ -41,7 +41,7 @@ struct range_cg_state {
   slant::status status = slant::status::running;
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "the gradient vanishes on the range";

@@ -17,11 +17,12 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/random.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/tridiagonal_eigenvalue.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 namespace slant {
@@ -43,7 +44,7 @@ struct spectral_bound_options {
   unsigned long long seed = 20161;  ///< of the start vector; the same seed gives the same bound.
                                     ///< A distributed vector wants another one on each process
 
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (steps < 2) throw bad_input("steps", detail::show(steps), "at least 2 Lanczos steps");
     if (!(failure > 0 && failure < 1)) {
       throw bad_input("failure", detail::show(failure), "a probability in (0, 1)");
@@ -55,8 +56,8 @@ struct spectral_bound_options {
 /// Throws bad_input if A x is not finite, or if it shows that A is not semidefinite.
 template <class A, class V>
   requires psd_operator<A, V>
-[[nodiscard]] auto largest_eigenvalue_bound(A const& a, V const& prototype,
-                                            spectral_bound_options const& options = {})
+[[nodiscard, gnu::cold]] auto largest_eigenvalue_bound(A const& a, V const& prototype,
+                                                       spectral_bound_options const& options = {})
     -> spectral_bound<scalar_t<V>> {
   using S = scalar_t<V>;
   using std::sqrt;
@@ -66,11 +67,10 @@ template <class A, class V>
 
   V q = like(prototype, here), w = like(prototype, here), previous = like(prototype, here);
   auto temporaries = workspace(a, prototype);
-  std::mt19937_64 generator(options.seed);
-  std::normal_distribution<double> gaussian;
-  for (index i = 0; i < here; ++i) slant::local(q).coeffRef(i) = S(gaussian(generator));
-  slant::local(q) /= norm(q);
-  slant::local(previous).setZero();
+  detail::normal_numbers gaussian(options.seed);
+  for (index i = 0; i < here; ++i) slant::local(q).coeffRef(i) = S(gaussian());
+  vectors::divide(norm(q), q);
+  vectors::set_zero(previous);
 
   std::vector<S> diagonal, off_diagonal;
   auto const ε = std::numeric_limits<S>::epsilon();
@@ -87,16 +87,17 @@ template <class A, class V>
       throw bad_input("A", detail::show(α), "finite values of xᵀA x for finite x");
     }
     diagonal.push_back(α);
-    slant::local(w) -= α * slant::local(q);
-    if (k > 0) slant::local(w) -= off_diagonal.back() * slant::local(previous);
+    vectors::axpy(-α, q, w);
+    if (k > 0) vectors::axpy(-off_diagonal.back(), previous, w);
     S const β = norm(w);
     using std::abs;
     scale = std::max<S>(scale, std::max<S>(abs(α), β));
     exhausted = !(β > S(n) * ε * scale);
     if (exhausted || k + 1 == steps) break;
     off_diagonal.push_back(β);
-    slant::local(previous) = slant::local(q);
-    slant::local(q) = slant::local(w) / β;
+    vectors::copy(q, previous);
+    vectors::copy(w, q);
+    vectors::divide(β, q);
   }
   S const θ = detail::largest_tridiagonal_eigenvalue(diagonal, off_diagonal);
   auto const k = static_cast<index>(diagonal.size());

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <slant/concepts/laws.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/constraint_rows.hpp>
 #include <slant/methods/detail/nearest_point.hpp>
 
@@ -73,7 +74,7 @@ class active_rows {
   /// φ = V Vᵀr.
   template <class V>
   void project_on_kernel(rows_type const& rows, V const& r, V& φ) {
-    slant::local(φ) = slant::local(r);
+    vectors::copy(r, φ);
     for (std::size_t k = 0; k < rooms_.size(); ++k) {
       room& w = rooms_[k];
       if (w.basis.size() == 0) continue;
@@ -90,7 +91,7 @@ class active_rows {
     auto const bound = [&](index i) {
       return contains(i) ? S(0) : std::numeric_limits<S>::infinity();
     };
-    slant::local(d) = slant::local(r);
+    vectors::copy(r, d);
     (void)nearest(rows, d, λ, bound, [&](auto const& part) {
       return std::any_of(part.rows.begin(), part.rows.end(), [&](index i) { return contains(i); });
     });

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 
 #include <cstddef>
 #include <utility>
@@ -50,37 +51,37 @@ class anderson_mixing {
   /// used. `next` must not alias the others.
   bool mix(V const& p, V const& f, scalar const& ω, V& next) {
     if (begun_) record(p, f);
-    slant::local(last_p_) = slant::local(p);
-    slant::local(last_f_) = slant::local(f);
+    vectors::copy(p, last_p_);
+    vectors::copy(f, last_f_);
     begun_ = true;
     // Gram and Schmidt, the newest difference first; `rest` is what γ leaves of f.
-    slant::local(next) = slant::local(p);
+    vectors::copy(p, next);
     bool used = false;
     auto& rest = last_f_;  // restored below
     for (std::size_t j = 0; j < count_; ++j) {
       auto& d = newest(j);
-      slant::local(d.p) = slant::local(d.step);
-      slant::local(d.f) = slant::local(d.change);
+      vectors::copy(d.step, d.p);
+      vectors::copy(d.change, d.f);
       scalar const whole = norm(d.f);
       for (std::size_t i = 0; i < j; ++i) {
         auto const& e = newest(i);
         if (!e.used) continue;
         scalar const c = inner_product(e.f, d.f);
-        slant::local(d.f) -= c * slant::local(e.f);
-        slant::local(d.p) -= c * slant::local(e.p);
+        vectors::axpy(-c, e.f, d.f);
+        vectors::axpy(-c, e.p, d.p);
       }
       scalar const length = norm(d.f);
       d.used = length > scalar(independent_) * whole && detail::is_finite(length);
       if (!d.used) continue;
-      slant::local(d.f) /= length;
-      slant::local(d.p) /= length;
+      vectors::divide(length, d.f);
+      vectors::divide(length, d.p);
       scalar const γ = inner_product(d.f, rest);
-      slant::local(rest) -= γ * slant::local(d.f);
-      slant::local(next) -= γ * slant::local(d.p);
+      vectors::axpy(-γ, d.f, rest);
+      vectors::axpy(-γ, d.p, next);
       used = true;
     }
-    slant::local(next) += ω * slant::local(rest);
-    slant::local(last_f_) = slant::local(f);
+    vectors::axpy(ω, rest, next);
+    vectors::copy(f, last_f_);
     return used;
   }
 
@@ -99,8 +100,8 @@ class anderson_mixing {
   void record(V const& p, V const& f) {
     if (differences_.empty()) return;
     auto& d = differences_[head_];
-    slant::local(d.step) = slant::local(p) - slant::local(last_p_);
-    slant::local(d.change) = slant::local(f) - slant::local(last_f_);
+    vectors::difference(p, last_p_, d.step);
+    vectors::difference(f, last_f_, d.change);
     head_ = (head_ + 1) % differences_.size();
     if (count_ < differences_.size()) ++count_;
   }

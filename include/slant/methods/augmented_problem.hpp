@@ -12,6 +12,7 @@
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/scaled.hpp>
@@ -78,7 +79,7 @@ template <class A, class V>
 [[nodiscard]] auto size_on_ones(A const& a, V const& prototype) {
   using S = scalar_t<V>;
   V v = like(prototype, slant::local(prototype).size()), image = v;
-  slant::local(v).setOnes();
+  vectors::fill(S(1), v);
   slant::apply(a, v, image);
   S const length = norm(v);
   return length > S(0) ? S(norm(image) / length) : S(0);
@@ -102,12 +103,12 @@ template <class QP, class C>
   typename QP::vector_type rest = qp.b();
   slant::apply(qp.a(), c.nearest(), rest);
   S const terms = norm(qp.b()) + norm(rest);
-  slant::local(rest) = slant::local(qp.b()) - slant::local(rest);
+  vectors::difference(qp.b(), rest, rest);
   slant::apply(c.kernel_projector(), rest, load.projected);
-  slant::local(load.opposed) = slant::local(load.projected) - slant::local(rest);
+  vectors::difference(load.projected, rest, load.opposed);
   auto const n = static_cast<S>(static_cast<double>(slant::global_size(qp.b())));
   if (norm(load.projected) <= S(32) * sqrt(n) * std::numeric_limits<S>::epsilon() * terms) {
-    slant::local(load.projected).setZero();
+    vectors::set_zero(load.projected);
   }
   return load;
 }
@@ -129,9 +130,10 @@ template <class QP, class C, class V>
 [[nodiscard]] auto equality_multipliers(QP const& qp, C const& c, V const& x, V const& offset,
                                         V const& ν) {
   V feasible = x, v = x;
-  slant::local(feasible) -= slant::local(offset);  // P x + x̄
+  vectors::subtract(offset, feasible);  // P x + x̄
   slant::apply(qp.a(), feasible, v);
-  slant::local(v) = slant::local(ν) - slant::local(v) + slant::local(qp.b());
+  vectors::difference(ν, v, v);
+  vectors::add(qp.b(), v);
   return c.multipliers(v);
 }
 

@@ -20,6 +20,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/curved_minimum.hpp>
 #include <slant/methods/recession.hpp>
 #include <slant/operators/identity.hpp>
@@ -55,8 +56,8 @@ class barrier_minimum {
 
   /// No step is known yet.
   void forget() {
-    slant::local(t).setZero();
-    slant::local(image).setZero();
+    vectors::set_zero(t);
+    vectors::set_zero(image);
     known_ = false;
   }
 
@@ -67,7 +68,7 @@ class barrier_minimum {
   inner_result<scalar> solve(A const& a, WA& a_workspace, M const& m, B const& barrier, V const& d,
                              V const& g0, scalar const& target, index most, bool warm,
                              scalar const& trace) {
-    slant::local(g_) = slant::local(g0);
+    vectors::copy(g0, g_);
     barrier.keep_fixed(g_);
     if (warm && known_) {
       begin_at_multiple(barrier);
@@ -85,9 +86,9 @@ class barrier_minimum {
       finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;
       if (k == 0) {
-        slant::local(direction) = -slant::local(z_);
+        vectors::negate(z_, direction);
       } else {
-        slant::local(direction) = (next / gz) * slant::local(direction) - slant::local(z_);
+        vectors::waxpby(next / gz, direction, scalar(-1), z_, direction);
       }
       gz = next;
       slant::apply(a, direction, direction_image, a_workspace);
@@ -103,9 +104,9 @@ class barrier_minimum {
         break;
       }
       scalar const α = gz / bend;
-      slant::local(t) += α * slant::local(direction);
-      slant::local(image) += α * slant::local(direction_image);
-      slant::local(g_) += α * slant::local(z_);
+      vectors::axpy(α, direction, t);
+      vectors::axpy(α, direction_image, image);
+      vectors::axpy(α, z_, g_);
       size = norm(g_);
     }
     return {k, size, finite && detail::is_finite(size)};
@@ -119,9 +120,9 @@ class barrier_minimum {
   void precondition(M const& m, B const& barrier, V const& d) {
     if constexpr (preconditioned) {
       slant::apply(barrier.preconditioner(), g_, near_);
-      slant::local(far_) = slant::local(d).cwiseProduct(slant::local(near_));
+      vectors::multiply(d, near_, far_);
       slant::apply(m, far_, z_, m_workspace_);
-      slant::local(far_) = slant::local(d).cwiseProduct(slant::local(z_));
+      vectors::multiply(d, z_, far_);
       barrier.stiffness().apply_add(scalar(1), near_, far_);
       slant::apply(barrier.preconditioner(), far_, z_);
       barrier.keep_fixed(z_);
@@ -135,7 +136,7 @@ class barrier_minimum {
   /// y = J_SC x for x with the image Ax.
   template <class B>
   void add_stiffness(B const& barrier, V const& x, V const& Ax, V& y) const {
-    slant::local(y) = slant::local(Ax);
+    vectors::copy(Ax, y);
     barrier.stiffness().apply_add(scalar(1), x, y);
     barrier.keep_fixed(y);
   }
@@ -150,9 +151,9 @@ class barrier_minimum {
       return;
     }
     scalar const θ = slope / bend;
-    slant::local(t) *= θ;
-    slant::local(image) *= θ;
-    slant::local(g_) += θ * slant::local(z_);
+    vectors::scale(θ, t);
+    vectors::scale(θ, image);
+    vectors::axpy(θ, z_, g_);
   }
 
   V g_;           // g₀ + J_SC t

@@ -26,7 +26,7 @@ struct constrained_newton_options {
   smalse_options<S> fallback{};  ///< of the method that takes over where Newton's fails
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
       throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
     }

@@ -3,6 +3,7 @@
 // The state of the semismooth Newton method with equality constraints.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/methods/augmented_problem.hpp>
 #include <slant/methods/curved_minimum.hpp>
@@ -95,11 +96,11 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
         gradient_at_end(ν),
         dν(ν),
         q_workspace(workspace(c.range_projector(), x0)) {
-    slant::local(ν).setZero();
+    vectors::set_zero(ν);
   }
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_with_equalities(status, infeasible);
   }
 };

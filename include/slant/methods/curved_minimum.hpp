@@ -17,6 +17,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/face_preconditioner.hpp>
 #include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/identity.hpp>
@@ -60,8 +61,8 @@ class curved_minimum {
   inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
                                 Face const& face, scalar const& ρ, scalar const& s, scalar target,
                                 index most, scalar const& floor = scalar(0)) {
-    slant::local(t).setZero();
-    slant::local(image).setZero();
+    vectors::set_zero(t);
+    vectors::set_zero(image);
     // Twice: r may be nearly normal to the face, and what rounding leaves of that is no residual.
     face.keep(r, z_);
     face.keep(z_, g_);
@@ -80,9 +81,9 @@ class curved_minimum {
       finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
       if (k == 0) {
-        slant::local(p_) = -slant::local(z_);
+        vectors::negate(z_, p_);
       } else {
-        slant::local(p_) = (next / gz) * slant::local(p_) - slant::local(z_);
+        vectors::waxpby(next / gz, p_, scalar(-1), z_, p_);
       }
       gz = next;
       slant::apply(a, p_, Ap_, a_workspace);
@@ -93,9 +94,9 @@ class curved_minimum {
       finite = finite && detail::is_finite(bend);
       if (!(bend > scalar(0))) break;  // a direction of the kernel of H: the step ends here
       scalar const α = gz / bend;
-      slant::local(t) += α * slant::local(p_);
-      slant::local(image) += α * slant::local(Ap_);
-      slant::local(g_) += α * slant::local(z_);
+      vectors::axpy(α, p_, t);
+      vectors::axpy(α, Ap_, image);
+      vectors::axpy(α, z_, g_);
       size = norm(g_);
     }
     return {k, size, finite && detail::is_finite(size), first};
@@ -104,7 +105,7 @@ class curved_minimum {
   /// ‖Π r + H t‖ from t and its image.
   template <class Face>
   scalar residual(V const& r, Face const& face, scalar const& ρ) {
-    slant::local(z_) = slant::local(r) + slant::local(image);
+    vectors::sum(r, image, z_);
     face.keep(z_, g_);
     face.add_curvature(scalar(1) / ρ, t, g_);
     return norm(g_);

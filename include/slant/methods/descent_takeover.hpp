@@ -7,12 +7,14 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/kprgp_options.hpp>
 #include <slant/methods/kprgp_state.hpp>
 
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -24,6 +26,8 @@ class descent_takeover {
  public:
   using scalar = typename QP::scalar;
   using options = kprgp_options<scalar>;
+  /// Refers to the problem; one that forgets its types is as good as a reference.
+  using method_type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
 
   [[nodiscard]] bool at_work() const { return at_work_; }
   /// No longer at work: the problem has changed.
@@ -36,11 +40,11 @@ class descent_takeover {
   /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if KPRGP
   /// finds A or A x unusable, which it would refuse as input.
   template <class State>
-  status begin(QP const& qp, options o, State& s, scalar const& goal) {
+  [[gnu::cold]] status begin(QP const& qp, options o, State& s, scalar const& goal) {
     scalar const σ = state_ ? state_->σ : scalar(0);
     if (state_) o.step_length = state_->step_length;  // σ_max is known by now
     try {
-      state_.emplace(kprgp<QP const&>{qp, std::move(o)}.start(s.x));
+      state_.emplace(method_type{qp, std::move(o)}.start(s.x));
     } catch (bad_input const&) {
       return status::breakdown;
     }
@@ -55,8 +59,8 @@ class descent_takeover {
 
   /// r from x, if KPRGP has been updating it; whether it has. One product.
   template <class State>
-  bool refresh(QP const& qp, options const& o, State& s) {
-    if (!kprgp<QP const&>{qp, o}.refresh(*state_)) return false;
+  [[gnu::cold]] bool refresh(QP const& qp, options const& o, State& s) {
+    if (!method_type{qp, o}.refresh(*state_)) return false;
     ++s.work.operator_applications;
     s.status = follow(qp, s);
     return true;
@@ -64,9 +68,9 @@ class descent_takeover {
 
   /// One step of KPRGP.
   template <class State>
-  status step(QP const& qp, options const& o, State& s) {
+  [[gnu::cold]] status step(QP const& qp, options const& o, State& s) {
     index const before = state_->work.operator_applications;
-    kprgp<QP const&> const method{qp, o};
+    method_type const method{qp, o};
     method.step(*state_);
     copy(qp, s);
     // r̃ = 0 counts if r was computed from x.
@@ -85,8 +89,8 @@ class descent_takeover {
   }
   template <class State>
   void copy(QP const& qp, State& s) {
-    slant::local(s.x) = slant::local(state_->x);
-    slant::local(s.r) = slant::local(state_->r);
+    vectors::copy(state_->x, s.x);
+    vectors::copy(state_->r, s.r);
     // In that of a start far away it might vanish.
     if (s.unit != state_->unit) s.progress.forget_energy();
     s.unit = state_->unit;

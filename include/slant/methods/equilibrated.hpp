@@ -17,6 +17,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/diagonal.hpp>
@@ -92,26 +93,29 @@ class equilibrated {
   /// y of x.
   [[nodiscard]] vector_type from(vector_type x) const {
     detail::check_size("x", index(slant::local(x).size()), original_.get().size());
-    slant::local(x) = slant::local(x).cwiseQuotient(d_);
+    vectors::quotient(x, d_, x);
     return x;
   }
   /// x of y.
   [[nodiscard]] vector_type back(vector_type y) const {
     detail::check_size("y", index(slant::local(y).size()), original_.get().size());
-    slant::local(y) = slant::local(y).cwiseProduct(d_);
+    vectors::multiply(y, d_, y);
     return y;
   }
 
  private:
   static factors factors_of(problem const& qp) {
-    constexpr bool known = has_diagonal<typename problem::operator_type, vector_type>;
+    constexpr bool known = may_have_diagonal<typename problem::operator_type, vector_type>;
     static_assert(known,
                   "equilibrated: A must have diagonal(d); without it, give the factors d as second "
                   "argument");
     factors a = factors::Ones(qp.size());
     if constexpr (known) {
       vector_type diagonal_of_a = like(qp.b(), qp.size());
-      qp.a().diagonal(diagonal_of_a);
+      if (!slant::diagonal_if_known(qp.a(), diagonal_of_a)) {
+        throw bad_input("A", "an operator without a diagonal",
+                        "diagonal(d), or the factors d as second argument");
+      }
       a = slant::local(diagonal_of_a);
     }
     return block_factors(qp.set(), a);
@@ -120,7 +124,7 @@ class equilibrated {
   [[nodiscard]] vector_type scaled_b() const {
     detail::check_block_factors(d_, original_.get().set());
     vector_type b = original_.get().b();
-    slant::local(b) = slant::local(b).cwiseProduct(d_);
+    vectors::multiply(b, d_, b);
     return b;
   }
 

@@ -14,12 +14,13 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/random.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/sets/blocks.hpp>
 
 #include <cstddef>
 #include <limits>
-#include <random>
 #include <type_traits>
 #include <utility>
 
@@ -65,19 +66,17 @@ template <class A, class C, class V>
     }
     return mean;
   };
-  slant::local(v).setOnes();
+  vectors::fill(S(1), v);
   S const size = inner_product(v, v);
   index applications = 0;
-  if constexpr (has_diagonal<A, V>) {
-    a.diagonal(d);
-  } else {
+  if (!slant::diagonal_if_known(a, d)) {
     auto temporaries = workspace(a, d);
     index parts = 0;
     detail::visit_parts(set, [&](index, index) { ++parts; });
     bool const exactly =
         slant::everywhere(d, here == slant::global_size(d) && here <= options.samples * parts);
     for (; exactly && applications < here; ++applications) {
-      slant::local(v).setZero();
+      vectors::set_zero(v);
       slant::local(v).coeffRef(applications) = S(1);
       slant::apply(a, v, image, temporaries);
       S const entry = slant::local(image).coeff(applications);
@@ -85,16 +84,16 @@ template <class A, class C, class V>
           entry < S(0) && -entry <= S(8) * std::numeric_limits<S>::epsilon() * norm(image);
       slant::local(d).coeffRef(applications) = rounded ? S(0) : mean_of(entry, S(1));
     }
-    std::mt19937_64 generator(options.seed);
+    detail::random_bits bits(options.seed);
     detail::visit_parts(set, [&](index first, index count) {
       if (exactly) return;
-      slant::local(v).setZero();
+      vectors::set_zero(v);
       slant::local(v).segment(first, count).setOnes();
       S const unknowns = inner_product(v, v);
       S sum(0), noise(0);
       for (index k = 0; k < options.samples && unknowns > S(0); ++k, ++applications) {
         for (index i = first; i < first + count; ++i) {
-          slant::local(v).coeffRef(i) = (generator() >> 63) != 0 ? S(1) : S(-1);
+          slant::local(v).coeffRef(i) = bits.coin() ? S(1) : S(-1);
         }
         slant::apply(a, v, image, temporaries);
         sum += inner_product(v, image);
@@ -105,7 +104,7 @@ template <class A, class C, class V>
           .segment(first, count)
           .setConstant(mean_of(sum, S(options.samples) * unknowns));
     });
-    slant::local(v).setOnes();
+    vectors::fill(S(1), v);
   }
   S const mean = mean_of(inner_product(v, d), size);
   // Where A has nothing to say anything will do that has its size.

@@ -6,6 +6,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/reduced_gradient.hpp>
@@ -63,7 +64,7 @@ struct gradient_point {
   bool begin(QP const& qp, vector_type const& x0) {
     // What ‖r̃‖ has to be small against: its value at the point of Λ next to 0, wherever the run
     // starts. Not ‖b‖, much of which the constraints may absorb.
-    slant::local(trial).setZero();
+    vectors::set_zero(trial);
     place(qp, trial);
     gradient_scale = reduced_gradient_norm;
     // No band of rounding errors: ‖x‖ may be that of blocks which have nothing to do with r̃.
@@ -74,8 +75,8 @@ struct gradient_point {
     scalar const length_of_b = norm(qp.b());
     unit = unit_near(std::max<scalar>(length_of_b, norm(r)));
     size_of_b = length_of_b / unit;
-    slant::local(r) *= scalar(1) / unit;
-    slant::local(reduced) *= scalar(1) / unit;
+    vectors::scale(scalar(1) / unit, r);
+    vectors::scale(scalar(1) / unit, reduced);
     return solved;
   }
 
@@ -90,7 +91,7 @@ struct gradient_point {
   /// r = (A x − b) / unit; one application, none at x = 0.
   void gradient(QP const& qp) {
     gradient_as_given(qp);
-    slant::local(r) *= scalar(1) / unit;
+    vectors::scale(scalar(1) / unit, r);
   }
 
   /// The same in a smaller unit, where that of a start far away is so large that products of r
@@ -106,7 +107,7 @@ struct gradient_point {
     bool const is_other = is_small && size > scalar(0);
     if (is_other) unit = unit_near(size);
     size_of_b = length_of_b / unit;
-    slant::local(r) *= scalar(1) / unit;
+    vectors::scale(scalar(1) / unit, r);
     return is_other;
   }
 
@@ -118,7 +119,7 @@ struct gradient_point {
 
   /// q(x) / unit = ½ xᵀ(r − b) / unit, and a bound of its rounding error. No product is spent.
   [[nodiscard]] std::pair<scalar, scalar> energy(QP const& qp) {
-    slant::local(trial) = slant::local(r) - slant::local(qp.b()) * (scalar(1) / unit);
+    vectors::waxpy(-(scalar(1) / unit), qp.b(), r, trial);
     scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(x);
     return {inner_product(x, trial) / scalar(2), noise * norm(trial)};
   }
@@ -130,23 +131,19 @@ struct gradient_point {
   }
 
   /// The accuracy reached, for sentences: "relative reduced gradient 1e-15 / 1, …".
-  [[nodiscard]] std::string accuracy() const {
-    return "relative reduced gradient " + detail::show(reduced_gradient_norm) + " / " +
-           detail::show(gradient_scale) + ", of which rounding errors may be " +
-           detail::show(rounding());
-  }
+  [[nodiscard, gnu::cold]] std::string accuracy() const;
 
  private:
   /// r = A x − b.
   void gradient_as_given(QP const& qp) {
     since_refresh = 0;
     if (norm(x) == scalar(0)) {
-      slant::local(r) = -slant::local(qp.b());
+      vectors::negate(qp.b(), r);
       return;
     }
     slant::apply(qp.a(), x, r, a_workspace);
     ++work.operator_applications;
-    slant::local(r) -= slant::local(qp.b());
+    vectors::subtract(qp.b(), r);
   }
   /// x = P_Λ(y) with its r and r̃.
   void place(QP const& qp, vector_type const& y) {
@@ -157,9 +154,16 @@ struct gradient_point {
   /// Is x = P_Λ(y)?
   [[nodiscard]] bool at_projection(QP const& qp, vector_type const& y) {
     slant::project(qp.set(), slant::local(y), slant::local(trial));
-    slant::local(trial) -= slant::local(x);
+    vectors::subtract(x, trial);
     return norm(trial) == scalar(0);
   }
 };
+
+template <class QP>
+std::string gradient_point<QP>::accuracy() const {
+  return "relative reduced gradient " + detail::show(reduced_gradient_norm) + " / " +
+         detail::show(gradient_scale) + ", of which rounding errors may be " +
+         detail::show(rounding());
+}
 
 }  // namespace slant

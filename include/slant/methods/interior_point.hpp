@@ -34,6 +34,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/interior_point_core.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_problem.hpp>
@@ -49,15 +50,12 @@
 
 namespace slant {
 
-/// The method at the top of this file: solve(interior_point{qp}, x0, reduced_gradient_below(1e-8)
-/// || at_most(100)), options second. Requires of the problem that A is psd_operator and that the
-/// blocks of the set have a smooth inequality form and step_to_boundary; single points keep their
-/// values. Statuses of its own: converged (P_Λ(0) is the solution); stalled; unbounded; breakdown.
+namespace detail {
+
+/// What `interior_point` does with a problem that has all it needs.
 template <class QP, class M>
-  requires interior_point_problem<std::remove_cvref_t<QP>> &&
-           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class interior_point<QP, M> : detail::interior_point_core<QP, M> {
-  using core = detail::interior_point_core<QP, M>;
+class interior_point_steps : interior_point_core<QP, M> {
+  using core = interior_point_core<QP, M>;
 
  public:
   using typename core::options;
@@ -66,90 +64,30 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
   using typename core::state_type;
   using typename core::vector_type;
 
-  explicit interior_point(held<QP> qp)
+  explicit interior_point_steps(held<QP> qp)
     requires(!core::preconditioned)
-      : interior_point(std::move(qp), options{}) {}
+      : interior_point_steps(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  interior_point(held<QP> qp, options o)
+  interior_point_steps(held<QP> qp, options o)
     requires(!core::preconditioned)
       : core(std::move(qp), std::move(o)) {}
-  interior_point(held<QP> qp, held<M> m) : interior_point(std::move(qp), std::move(m), options{}) {}
+  interior_point_steps(held<QP> qp, held<M> m)
+      : interior_point_steps(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  interior_point(held<QP> qp, held<M> m, options o)
+  interior_point_steps(held<QP> qp, held<M> m, options o)
       : core(std::move(qp), std::move(m), std::move(o)) {}
 
   /// The state of a point in the interior on the way from P_Λ(x0), or P_Λ(0) where q is smaller,
   /// to the middle of Λ. Throws
   /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
   /// interior.
-  [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const& qp = qp_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
-    state_type s(qp, m_.get(), x0);
-    this->set_diagonal(s);
-    auto origin = like(x0, qp.size());
-    slant::local(origin).setZero();
-    bool const solved = s.begin(qp, origin);
-    scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
-    scalar const start_force =
-        detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
-    scalar const force = start_force * norm(s.r) * per_entry;
-    scalar const length = options_.start_length * this->first_way(s) * per_entry;
-    if (!solved) this->choose_start(s, x0);
-    s.trial = s.x;
-    enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
-                   s.barrier.per_unit(), [&](auto const& place) { s.barrier.hold(place); });
-    if (solved) {
-      s.x = s.trial;
-      s.status = status::converged;
-      return s;
-    }
-    this->begin(s, force, length);
-    return s;
-  }
+  [[nodiscard]] state_type start(vector_type const& x0) const;
 
   /// One Newton step.
-  void step(state_type& s) const {
-    if (s.status != status::running) return;
-    choose_centring(s);
-    bool solved = solve_newton(s);
-    while (solved && this->raise(s)) solved = solve_newton(s, true);
-    if (solved) {
-      if (descends_for_ever(s)) {
-        s.status = status::unbounded;
-      } else {
-        scalar α = length(s);
-        if (s.constraints > 0 && α < correct_below(s)) {
-          scalar const c = s.centring, plain = α;
-          s.centring = centring_after(s, α);
-          α = solve_newton(s, true, α * α) ? length(s) : scalar(0);
-          if (α < plain && s.status == status::running) {
-            s.centring = c;
-            α = solve_newton(s, true) ? length(s) : scalar(0);
-          }
-        }
-        if (α > scalar(0)) {
-          accept(s, α);
-        } else if (s.status == status::running) {
-          s.status = status::stalled;
-        }
-      }
-    }
-    ++s.iteration;
-    if (s.status == status::running) note_progress(s);
-  }
+  void step(state_type& s) const;
 
   /// r from x, where it has been updated; one product.
-  bool refresh(state_type& s) const {
-    if (s.since_refresh == 0) return false;
-    s.gradient(qp_.get());
-    s.reduce(qp_.get());
-    this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
-    s.status = status::running;
-    note_progress(s);
-    return true;
-  }
+  bool refresh(state_type& s) const;
 
  private:
   using core::infinity;
@@ -201,7 +139,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     } else {
       centred = (smooth * aim / z).matrix();
     }
-    slant::local(s.rhs) = slant::local(s.r);
+    vectors::copy(s.r, s.rhs);
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
     s.pairs.subtract_target(this->blocks(), aim, corrected, s.rhs);
     s.barrier.keep_fixed(s.rhs);
@@ -216,7 +154,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;
-    slant::local(s.step) = s.unit * slant::local(s.inner.t);
+    vectors::scale(s.unit, s.inner.t, s.step);
     s.step_norm = norm(s.step);
     if (!inner.finite || !detail::is_finite(s.step_norm)) {
       s.status = status::breakdown;
@@ -238,7 +176,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     } else {
       if (is_endless(s, s.inner.t, s.inner.image)) return true;
       if (!s.inner.flat || !is_endless(s, s.inner.direction, s.inner.direction_image)) return false;
-      slant::local(s.step) = s.unit * slant::local(s.inner.direction);
+      vectors::scale(s.unit, s.inner.direction, s.step);
       return true;
     }
   }
@@ -272,7 +210,7 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     std::swap(s.x, s.trial);
     std::swap(s.multipliers, s.trial_multipliers);
     std::swap(s.slacks, s.trial_slacks);
-    slant::local(s.r) += α * slant::local(s.inner.image);
+    vectors::axpy(α, s.inner.image, s.r);
     s.measure = s.trial_measure;
     s.least = s.trial_least;
     s.pairs.accept(this->blocks(), α);
@@ -298,5 +236,96 @@ class interior_point<QP, M> : detail::interior_point_core<QP, M> {
     }
   }
 };
+
+template <class QP, class M>
+auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_type {
+  auto const& qp = qp_.get();
+  detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
+  detail::check_finite("x0", x0);
+  state_type s(qp, m_.get(), x0);
+  this->set_diagonal(s);
+  auto origin = like(x0, qp.size());
+  vectors::set_zero(origin);
+  bool const solved = s.begin(qp, origin);
+  scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
+  scalar const start_force =
+      detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
+  scalar const force = start_force * norm(s.r) * per_entry;
+  scalar const length = options_.start_length * this->first_way(s) * per_entry;
+  if (!solved) this->choose_start(s, x0);
+  s.trial = s.x;
+  enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
+                 s.barrier.per_unit(), [&](auto const& place) { s.barrier.hold(place); });
+  if (solved) {
+    s.x = s.trial;
+    s.status = status::converged;
+    return s;
+  }
+  this->begin(s, force, length);
+  return s;
+}
+
+template <class QP, class M>
+void interior_point_steps<QP, M>::step(state_type& s) const {
+  if (s.status != status::running) return;
+  choose_centring(s);
+  bool solved = solve_newton(s);
+  while (solved && this->raise(s)) solved = solve_newton(s, true);
+  if (solved) {
+    if (descends_for_ever(s)) {
+      s.status = status::unbounded;
+    } else {
+      scalar α = length(s);
+      if (s.constraints > 0 && α < correct_below(s)) {
+        scalar const c = s.centring, plain = α;
+        s.centring = centring_after(s, α);
+        α = solve_newton(s, true, α * α) ? length(s) : scalar(0);
+        if (α < plain && s.status == status::running) {
+          s.centring = c;
+          α = solve_newton(s, true) ? length(s) : scalar(0);
+        }
+      }
+      if (α > scalar(0)) {
+        accept(s, α);
+      } else if (s.status == status::running) {
+        s.status = status::stalled;
+      }
+    }
+  }
+  ++s.iteration;
+  if (s.status == status::running) note_progress(s);
+}
+
+template <class QP, class M>
+bool interior_point_steps<QP, M>::refresh(state_type& s) const {
+  if (s.since_refresh == 0) return false;
+  s.gradient(qp_.get());
+  s.reduce(qp_.get());
+  this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
+  s.status = status::running;
+  note_progress(s);
+  return true;
+}
+
+}  // namespace detail
+
+/// The method at the top of this file: solve(interior_point{qp}, x0, reduced_gradient_below(1e-8)
+/// || at_most(100)), options second. Requires of the problem that A is psd_operator and that the
+/// blocks of the set have a smooth inequality form and step_to_boundary; single points keep their
+/// values. Statuses of its own: converged (P_Λ(0) is the solution); stalled; unbounded; breakdown.
+template <class QP, class M>
+  requires interior_point_problem<std::remove_cvref_t<QP>> &&
+           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class interior_point<QP, M> : public detail::interior_point_steps<QP, M> {
+ public:
+  using interior_point::interior_point_steps::interior_point_steps;
+};
+
+#if SLANT_USES_COMPILED
+extern template class detail::interior_point_steps<any_qp<double, definite_laws>,
+                                                   identity_operator>;
+extern template class detail::interior_point_steps<any_qp<double, semidefinite_laws>,
+                                                   identity_operator>;
+#endif
 
 }  // namespace slant

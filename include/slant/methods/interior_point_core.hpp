@@ -6,6 +6,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/estimated_diagonal.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -102,13 +103,13 @@ class interior_point_core {
   void choose_start(state_type& s, vector_type const& x0) const {
     auto const& qp = qp_.get();
     slant::project(qp.set(), slant::local(x0), slant::local(s.projected));
-    slant::local(s.trial) = slant::local(s.projected) - slant::local(s.x);
+    vectors::difference(s.projected, s.x, s.trial);
     if (norm(s.trial) == scalar(0)) return;
     // q(P_Λ(x0)) − q(x) = dᵀ(r + ½ A d), d the way there.
     slant::apply(qp.a(), s.trial, s.reduced, s.a_workspace);
     ++s.work.setup_applications;
     check_finite("A x0", s.reduced);
-    slant::local(s.reduced) = slant::local(s.r) + slant::local(s.reduced) / (scalar(2) * s.unit);
+    vectors::waxpy(scalar(1) / (scalar(2) * s.unit), s.reduced, s.r, s.reduced);
     if (!(inner_product(s.trial, s.reduced) > scalar(0))) s.x = s.projected;
   }
 
@@ -127,7 +128,7 @@ class interior_point_core {
                          : scalar(0);
     slant::local(s.multipliers) =
         slant::local(s.smooth).cwiseProduct((ϑ / slant::local(s.slacks).array()).matrix());
-    slant::local(s.products) = ϑ * slant::local(s.counted);
+    vectors::scale(ϑ, s.counted, s.products);
     s.measure = ϑ;
     s.first_measure = ϑ;
     s.infeasible = scalar(1);
@@ -150,8 +151,7 @@ class interior_point_core {
   /// far: Δx leaves Λ almost at once, as no force holds it back. Whether they were.
   bool raise(state_type& s) const {
     if (s.constraints == 0 || s.under_way || s.raises == options_.raises) return false;
-    slant::local(s.trial_multipliers) =
-        slant::local(s.multipliers) + slant::local(s.multiplier_step);
+    vectors::sum(s.multipliers, s.multiplier_step, s.trial_multipliers);
     s.pairs.growth(blocks(), [&](index row, scalar const& factor) {
       slant::local(s.trial_multipliers).coeffRef(row) =
           factor * slant::local(s.multipliers).coeff(row);
@@ -161,8 +161,8 @@ class interior_point_core {
         options_.raise_above * way_out(s, s.step) > scalar(1)) {
       return false;
     }
-    slant::local(s.multipliers) *= growth;
-    slant::local(s.products) *= growth;
+    vectors::scale(growth, s.multipliers);
+    vectors::scale(growth, s.products);
     s.pairs.raise(growth);
     s.measure *= growth;
     s.first_measure = s.measure / s.infeasible;
@@ -177,7 +177,7 @@ class interior_point_core {
     auto& counted = slant::local(s.counted);
     counted = (s.barrier.per_unit().array() > scalar(0)).template cast<scalar>().matrix();
     s.constraints = static_cast<index>(inner_product(s.counted, s.counted) + scalar(0.5));
-    slant::local(s.smooth) = slant::local(s.counted);
+    vectors::copy(s.counted, s.smooth);
     s.pairs.visit(blocks(), [&](auto const& block, auto const&, auto const& at) {
       constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
       for (int i = 0; i < k; ++i) {
@@ -203,8 +203,8 @@ class interior_point_core {
   /// ∇L = gradient + G ν − Σ Tᵀ(y + αΔy), G as it stands.
   void set_lagrangian(state_type& s, vector_type const& gradient, vector_type const& ν,
                       scalar const& α) const {
-    slant::local(s.lagrangian) = slant::local(gradient);
-    slant::local(s.row_scratch) = slant::local(s.smooth).cwiseProduct(slant::local(ν));
+    vectors::copy(gradient, s.lagrangian);
+    vectors::multiply(s.smooth, ν, s.row_scratch);
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.lagrangian);
     s.pairs.subtract_forces(blocks(), α, s.lagrangian);
     s.barrier.keep_fixed(s.lagrangian);
@@ -230,9 +230,8 @@ class interior_point_core {
 
   /// The point at the fraction α of the step: 1 if it will do, else the factor that shortens α.
   scalar judge(state_type& s, scalar const& α) const {
-    slant::local(s.trial) = slant::local(s.x) + α * slant::local(s.step);
-    slant::local(s.trial_multipliers) =
-        slant::local(s.multipliers) + α * slant::local(s.multiplier_step);
+    vectors::waxpy(α, s.step, s.x, s.trial);
+    vectors::waxpy(α, s.multiplier_step, s.multipliers, s.trial_multipliers);
     bool inside = s.barrier.slacks(blocks(), s.trial, s.trial_slacks) ||
                   (draw_inside(s), s.barrier.slacks(blocks(), s.trial, s.trial_slacks));
     slant::local(s.products) = slant::local(s.smooth)
@@ -254,7 +253,7 @@ class interior_point_core {
       return options_.shorten_residual;
     }
     s.barrier.linearise(blocks(), s.trial);
-    slant::local(s.rhs) = slant::local(s.r) + α * slant::local(s.inner.image);
+    vectors::waxpy(α, s.inner.image, s.r, s.rhs);
     set_lagrangian(s, s.rhs, s.trial_multipliers, α);
     if (!(s.lagrangian_norm <= s.residual_bound * measure)) return options_.shorten_residual;
     s.trial_measure = measure;

@@ -80,7 +80,7 @@ struct interior_point_options {
   index patience = 30;       ///< steps without progress that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (step_length) positive("step_length", *step_length);
     positive("start_length", start_length);
     if (start_force) positive("start_force", *start_force);

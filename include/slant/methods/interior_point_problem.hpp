@@ -6,6 +6,7 @@
 
 #include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
+#include <slant/methods/compiled_problem.hpp>
 #include <slant/methods/detail/block_inequalities.hpp>
 #include <slant/methods/interior_point_options.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -94,14 +95,14 @@ class interior_point<QP, M> : public detail::refused_method<void, void> {
 };
 
 template <class QP>
-interior_point(QP&&) -> interior_point<kept_t<QP>, identity_operator>;
+interior_point(QP&&) -> interior_point<compiled_problem_t<QP>, identity_operator>;
 template <class QP>
 interior_point(QP&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> interior_point<kept_t<QP>, identity_operator>;
+    -> interior_point<compiled_problem_t<QP>, identity_operator>;
 template <class QP, class M>
-interior_point(QP&&, M&&) -> interior_point<kept_t<QP>, kept_t<M>>;
+interior_point(QP&&, M&&) -> interior_point<compiled_problem_t<QP>, kept_t<M>>;
 template <class QP, class M>
 interior_point(QP&&, M&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> interior_point<kept_t<QP>, kept_t<M>>;
+    -> interior_point<compiled_problem_t<QP>, kept_t<M>>;
 
 }  // namespace slant

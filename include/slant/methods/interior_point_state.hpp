@@ -87,7 +87,7 @@ struct interior_point_state : gradient_point<QP> {
         inner(x0, qp.size(), m) {}
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "the reduced gradient is zero: x is the solution";

@@ -11,6 +11,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/slanting/detail/inequality_layout.hpp>
 
@@ -119,7 +120,7 @@ void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull
   using S = scalar_t<V>;
   index row = 0;
   std::optional<index> empty;
-  slant::local(centre) = slant::local(x);
+  vectors::copy(x, centre);
   slant::visit_blocks(set, [&](auto const& block, auto const& place) {
     using block_type = std::remove_cvref_t<decltype(block)>;
     constexpr int k = detail::inequalities_of<block_type>;

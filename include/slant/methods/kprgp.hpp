@@ -23,6 +23,7 @@
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
 #pragma once
 
+#include <slant/methods/compiled_problem.hpp>
 #include <slant/methods/detail/active_set_complaint.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/release_rules.hpp>
@@ -49,16 +50,17 @@ class kprgp : public proportioning<QP, reduced_gradient_release> {
 };
 
 template <class QP>
-kprgp(QP&&) -> kprgp<kept_t<QP>>;
+kprgp(QP&&) -> kprgp<compiled_problem_t<QP>>;
 template <class QP>
-kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> kprgp<kept_t<QP>>;
+kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> kprgp<compiled_problem_t<QP>>;
 
 /// AS [K Ex 5], KPRGP by its name for the two-sided bounds of plane friction: solve(as(qp), x0,
 /// reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
 [[nodiscard]] auto as(QP&& qp,
                       kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
-  return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
+  return kprgp<compiled_problem_t<QP>>(std::forward<QP>(qp), std::move(options));
 }
 
 /// AS-S [K Ex 5], KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i
@@ -71,5 +73,14 @@ template <class QP>
   options.active_sets = active_set_rule::semismooth;
   return slant::as(std::forward<QP>(qp), std::move(options));
 }
+
+#if SLANT_USES_COMPILED
+extern template struct gradient_point<any_qp<double, definite_laws>>;
+extern template struct gradient_point<any_qp<double, semidefinite_laws>>;
+extern template class detail::proportioning_steps<any_qp<double, definite_laws>,
+                                                  reduced_gradient_release>;
+extern template class detail::proportioning_steps<any_qp<double, semidefinite_laws>,
+                                                  reduced_gradient_release>;
+#endif
 
 }  // namespace slant

@@ -29,7 +29,7 @@ struct kprgp_options {
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(proportioning > S(0)) || !detail::is_finite(proportioning)) {
       throw bad_input("proportioning", detail::show(proportioning), "a number > 0");
     }

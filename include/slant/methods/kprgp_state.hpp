@@ -46,7 +46,7 @@ struct kprgp_state : gradient_point<QP> {
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "the reduced gradient vanishes";

@@ -21,6 +21,7 @@
 // step, unless λ^(k+1,0) = λ^(k); one for (4°), if λ^(k+1) has left Λ.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/gradient_step.hpp>
 #include <slant/methods/modified_newton_options.hpp>
 #include <slant/methods/modified_newton_parts.hpp>
@@ -124,7 +125,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
       if (!s.outside.in_use) return;
       exchange(s);
       s.outside.in_use = false;
-      slant::local(s.trial) = slant::local(s.x) - (s.step_length * s.unit) * slant::local(s.r);
+      vectors::waxpy(-(s.step_length * s.unit), s.r, s.x, s.trial);
       slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.projected));
     }
   }
@@ -132,8 +133,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   /// (3.2°): r is computed anew unless λ stays where it is.
   void start_on_face(state_type& s) const {
     Start::place(s);
-    bool const stays =
-        slant::everywhere(s.x, (slant::local(s.trial).array() == slant::local(s.x).array()).all());
+    bool const stays = slant::everywhere(s.x, vectors::equal(s.trial, s.x));
     if (stays && (options_.refresh == 0 || s.since_refresh < options_.refresh)) return;
     std::swap(s.x, s.trial);
     compute_gradient(s);
@@ -188,8 +188,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   void measure(state_type& s) const {
     if constexpr (!Inner::stays_inside) {
       slant::project(qp_.get().set(), slant::local(s.x), slant::local(s.trial));
-      bool const inside = slant::everywhere(
-          s.x, (slant::local(s.trial).array() == slant::local(s.x).array()).all());
+      bool const inside = slant::everywhere(s.x, vectors::equal(s.trial, s.x));
       if (!inside) {
         s.outside.in_use = true;
         exchange(s);
@@ -238,7 +237,8 @@ class modified_newton<QP, Start, Inner, Forcing> {
     }
   }
 
-  void set_step_length(state_type& s) const {
+  /// Not inlined: g++ 12 would see *step_length read where there is none.
+  [[gnu::noinline]] void set_step_length(state_type& s) const {
     if (options_.step_length) {
       s.step_length = *options_.step_length;
       return;

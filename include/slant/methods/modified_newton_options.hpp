@@ -24,7 +24,7 @@ struct modified_newton_options {
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     forcing.validate();
     if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
       throw bad_input("step_length", detail::show(*step_length), "a number > 0");

@@ -4,6 +4,7 @@
 // conjugate gradients minimise q on the face, and how accurately (newton/forcing.hpp).
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/feasible_step.hpp>
 #include <slant/methods/recession.hpp>
 #include <slant/newton/forcing.hpp>
@@ -19,7 +20,7 @@ struct frozen_start {
   static void place(State& s) {
     s.face.keep(s.x, s.φ);
     s.face.keep_complement(s.projected, s.trial);
-    slant::local(s.trial) += slant::local(s.φ);
+    vectors::add(s.φ, s.trial);
   }
 };
 
@@ -28,7 +29,7 @@ struct projected_start {
   /// s.trial becomes λ^(k+1,0).
   template <class State>
   static void place(State& s) {
-    slant::local(s.trial) = slant::local(s.projected);
+    vectors::copy(s.projected, s.trial);
   }
 };
 
@@ -57,8 +58,8 @@ struct unlimited_cg {
       return minimal ? inner_end::accurate : inner_end::broken;
     }
     S const α = slope / d.curvature;
-    slant::local(s.x) -= (s.unit * α) * slant::local(d.p);
-    slant::local(s.r) -= α * slant::local(d.Ap);
+    vectors::axpy(-(s.unit * α), d.p, s.x);
+    vectors::axpy(-α, d.Ap, s.r);
     ++s.since_refresh;
     return inner_end::going_on;
   }

@@ -65,7 +65,7 @@ struct modified_newton_state : gradient_point<QP> {
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "the reduced gradient vanishes";
@@ -81,7 +81,7 @@ struct modified_newton_state : gradient_point<QP> {
   }
 
  private:
-  [[nodiscard]] std::string stagnation() const {
+  [[nodiscard, gnu::cold]] std::string stagnation() const {
     if (last_inner == inner_end::endless) {
       return "along a direction that does not leave the set the curvature is lost in rounding "
              "errors";

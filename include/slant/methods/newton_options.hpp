@@ -27,7 +27,7 @@ struct newton_options {
   index patience = 100;  ///< steps without a new smallest ‖F‖ that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(step_offset >= 0) || !detail::is_finite(step_offset)) {
       throw bad_input("step_offset", detail::show(step_offset), "a number >= 0");
     }

@@ -10,6 +10,7 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 
 namespace slant {
 
@@ -32,22 +33,23 @@ struct newton_segment {
   /// ‖F‖ at the fraction β of the step; projected = P_Λ(z) there, trial is scratch.
   template <class Set>
   [[nodiscard]] scalar residual_at(Set const& set, scalar const& β, V& projected, V& trial) const {
-    slant::local(trial) = between(z, target_z, β);
+    between(z, target_z, β, trial);
     slant::project(set, slant::local(trial), slant::local(projected));
-    slant::local(trial) = between(y, target_y, β) - slant::local(projected);
+    between(y, target_y, β, trial);
+    vectors::subtract(projected, trial);
     return norm(trial);
   }
 
   /// Takes the fraction β of the step.
   void advance(scalar const& β) {
-    slant::local(y) = between(y, target_y, β);
-    slant::local(z) = between(z, target_z, β);
+    between(y, target_y, β, y);
+    between(z, target_z, β, z);
   }
 
  private:
   /// Exact at both ends, however far they are apart.
-  [[nodiscard]] static auto between(V const& from, V const& to, scalar const& β) {
-    return (scalar(1) - β) * slant::local(from) + β * slant::local(to);
+  static void between(V const& from, V const& to, scalar const& β, V& point) {
+    vectors::waxpby(scalar(1) - β, from, β, to, point);
   }
 };
 

@@ -75,7 +75,7 @@ struct newton_state {
   }
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (failure) {
       case newton_failure::no_direction:
         return "the linear solver found no direction along which F decreases (" +

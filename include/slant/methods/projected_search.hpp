@@ -14,6 +14,7 @@
 #pragma once
 
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/schur_contact_state.hpp>
 
 namespace slant {
@@ -28,22 +29,24 @@ template <class P>
   scalar const gain = α1 * (inner_product(s.r, q.q) - α1 * q.curvature / scalar(2));
   scalar t = α;
   for (index i = 0; i < trials && t > α1; ++i, t /= scalar(2)) {
-    slant::local(s.trial) = slant::local(s.x) + (s.unit * t) * slant::local(q.q);
-    slant::local(s.d) = slant::local(s.trial);
+    vectors::waxpy(s.unit * t, q.q, s.x, s.trial);
+    vectors::copy(s.trial, s.d);
     s.rows.note_sizes(p.rows(), s.trial);
     (void)s.rows.active.project_on_set(p.rows(), s.trial, s.λ);
     if (!everywhere(s.x, s.rows.are_tight(p.rows(), s.trial))) continue;
-    slant::local(s.d) = (slant::local(s.trial) - slant::local(s.d)) * (scalar(1) / s.unit);
+    vectors::difference(s.trial, s.d, s.d);
+    vectors::scale(scalar(1) / s.unit, s.d);
     slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
     slant::apply(p.k(), s.correction, s.d, s.k_workspace);
     ++s.work.operator_applications;
     ++s.projector_applications;
-    slant::local(s.correction) += t * slant::local(q.q);
-    slant::local(s.d) = slant::local(s.r) - slant::local(s.d) - t * slant::local(q.Ap);
-    slant::local(s.trial) = slant::local(s.r) + slant::local(s.d);
+    vectors::axpy(t, q.q, s.correction);
+    vectors::difference(s.r, s.d, s.d);
+    vectors::axpy(-t, q.Ap, s.d);
+    vectors::sum(s.r, s.d, s.trial);
     if (!(inner_product(s.correction, s.trial) / scalar(2) >= gain)) continue;
-    slant::local(s.x) += s.unit * slant::local(s.correction);
-    slant::local(s.r) = slant::local(s.d);
+    vectors::axpy(s.unit, s.correction, s.x);
+    vectors::copy(s.d, s.r);
     s.updated = true;
     s.rows.measure(p.rows(), s.x);
     s.rows.take_tight(p.rows());

@@ -12,6 +12,7 @@
 //                                q or the boundary of Λ
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/gradient_step.hpp>
 #include <slant/methods/kprgp_options.hpp>
@@ -24,11 +25,11 @@
 
 namespace slant {
 
-/// Active set method with a rule of release_rules.hpp. Requires: psd_operator (A symmetric positive
-/// semidefinite) and separable_set with step_to_boundary.
+namespace detail {
+
+/// What `proportioning` does with a problem that has all it needs.
 template <class QP, class Rule>
-  requires kprgp_problem<std::remove_cvref_t<QP>>
-class proportioning<QP, Rule> {
+class proportioning_steps {
  public:
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
@@ -36,73 +37,30 @@ class proportioning<QP, Rule> {
   using options = typename Rule::template options<scalar>;
   using state_type = kprgp_state<problem>;
 
-  explicit proportioning(held<QP> qp) : proportioning(std::move(qp), options{}) {}
+  explicit proportioning_steps(held<QP> qp) : proportioning_steps(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  proportioning(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
+  proportioning_steps(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
     options_.validate();
   }
 
   /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// 1/σ_max is not a finite number.
-  [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const& qp = qp_.get();
-    detail::check_start_in_set(x0, qp_.get().b());
-    state_type s(qp, x0);
-    set_step_length(s);
-    bool const solved = s.begin(qp, x0);
-    restart(s);
-    settle(s);
-    if (solved) s.status = status::converged;
-    return s;
-  }
+  [[nodiscard]] state_type start(vector_type const& x0) const;
 
   /// One step on the face, or one that changes it.
-  void step(state_type& s) const {
-    if (s.status != status::running) return;
-    if (Rule::keeps_face(s, options_)) {
-      if (!conjugate_gradient_step(s)) expansion_step(s);
-    } else {
-      release_step(s);
-    }
-    ++s.iteration;
-    settle(s);
-    note_progress(s);
-  }
+  void step(state_type& s) const;
 
   /// Goes on from s.x after b of the problem has changed: r, r̃ and the face anew, everything else
   /// (units, scales, bounds) as it is. One application; no allocation.
-  void resume(state_type& s) const {
-    s.status = status::running;
-    s.progress = {};
-    s.recession.forget();
-    compute_gradient(s);
-    restart(s);
-    settle(s);
-  }
+  void resume(state_type& s) const;
 
   /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
   /// depends on A alone (α̃, σ_max, all memory) stays. Counts begin at zero. x0 must not be s.x. One
   /// application; no allocation.
-  void resume(state_type& s, vector_type const& x0) const {
-    detail::check_start_in_set(x0, qp_.get().b());
-    s.progress = {};
-    s.recession.forget();
-    s.iteration = 0;
-    s.status = status::running;
-    bool const solved = s.begin_again(qp_.get(), x0);
-    restart(s);
-    settle(s);
-    if (solved) s.status = status::converged;
-  }
+  void resume(state_type& s, vector_type const& x0) const;
 
   /// r and r̃ from x, if CG steps have been updating r instead; whether they have. One application.
-  bool refresh(state_type& s) const {
-    if (s.since_refresh == 0) return false;
-    s.status = status::running;
-    recompute(s);
-    judge(s);
-    return true;
-  }
+  bool refresh(state_type& s) const;
 
  private:
   static constexpr index most_confirming_steps = 500;
@@ -193,7 +151,7 @@ class proportioning<QP, Rule> {
 
   /// The blocks that move are in s.φ, the others in s.trial.
   void take_gradient_step(state_type& s, kprgp_step kind) const {
-    slant::local(s.x) = slant::local(s.φ) + slant::local(s.trial);
+    vectors::sum(s.φ, s.trial, s.x);
     compute_gradient(s);
     restart(s);
     s.last_step = kind;
@@ -254,7 +212,8 @@ class proportioning<QP, Rule> {
     }
   }
 
-  void set_step_length(state_type& s) const {
+  /// Not inlined: g++ 12 would see *step_length read where there is none.
+  [[gnu::noinline]] void set_step_length(state_type& s) const {
     if (options_.step_length) {
       s.step_length = *options_.step_length;
       return;
@@ -268,6 +227,75 @@ class proportioning<QP, Rule> {
 
   held<QP> qp_;
   options options_;
+};
+
+template <class QP, class Rule>
+auto proportioning_steps<QP, Rule>::start(vector_type const& x0) const -> state_type {
+  auto const& qp = qp_.get();
+  detail::check_start_in_set(x0, qp_.get().b());
+  state_type s(qp, x0);
+  set_step_length(s);
+  bool const solved = s.begin(qp, x0);
+  restart(s);
+  settle(s);
+  if (solved) s.status = status::converged;
+  return s;
+}
+
+template <class QP, class Rule>
+void proportioning_steps<QP, Rule>::step(state_type& s) const {
+  if (s.status != status::running) return;
+  if (Rule::keeps_face(s, options_)) {
+    if (!conjugate_gradient_step(s)) expansion_step(s);
+  } else {
+    release_step(s);
+  }
+  ++s.iteration;
+  settle(s);
+  note_progress(s);
+}
+
+template <class QP, class Rule>
+void proportioning_steps<QP, Rule>::resume(state_type& s) const {
+  s.status = status::running;
+  s.progress = {};
+  s.recession.forget();
+  compute_gradient(s);
+  restart(s);
+  settle(s);
+}
+
+template <class QP, class Rule>
+void proportioning_steps<QP, Rule>::resume(state_type& s, vector_type const& x0) const {
+  detail::check_start_in_set(x0, qp_.get().b());
+  s.progress = {};
+  s.recession.forget();
+  s.iteration = 0;
+  s.status = status::running;
+  bool const solved = s.begin_again(qp_.get(), x0);
+  restart(s);
+  settle(s);
+  if (solved) s.status = status::converged;
+}
+
+template <class QP, class Rule>
+bool proportioning_steps<QP, Rule>::refresh(state_type& s) const {
+  if (s.since_refresh == 0) return false;
+  s.status = status::running;
+  recompute(s);
+  judge(s);
+  return true;
+}
+
+}  // namespace detail
+
+/// Active set method with a rule of release_rules.hpp. Requires: psd_operator (A symmetric positive
+/// semidefinite) and separable_set with step_to_boundary.
+template <class QP, class Rule>
+  requires kprgp_problem<std::remove_cvref_t<QP>>
+class proportioning<QP, Rule> : public detail::proportioning_steps<QP, Rule> {
+ public:
+  using proportioning::proportioning_steps::proportioning_steps;
 };
 
 }  // namespace slant

@@ -16,6 +16,7 @@
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/report.hpp>
 
 #include <algorithm>
@@ -50,7 +51,7 @@ struct proximal_point_options {
   S growth = S(5);        ///< > 1; α ← growth · α after a failure
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     require_positive("first", first);
     require_positive("smallest", smallest);
     require_positive("largest", largest);
@@ -117,14 +118,14 @@ class proximal_point {
     requires has_proximal_call<Inner, V>
   void step(proximal_point_state<V>& s) {
     if (s.status != status::running) return;
-    slant::local(s.trial) = slant::local(s.x);
+    vectors::copy(s.x, s.trial);
     proximal_inner_report const r = inner_(std::as_const(s.x), std::as_const(s.α), s.trial);
     s.work.inner_iterations += r.steps;
     ++s.iteration;
     if (r.solved || r.accept) {
       using std::swap;
       swap(s.x, s.trial);
-      slant::local(s.trial) -= slant::local(s.x);
+      vectors::subtract(s.x, s.trial);
       s.step_norm = norm(s.trial);
     }
     if (r.solved) {

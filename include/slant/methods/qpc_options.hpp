@@ -24,7 +24,7 @@ struct qpc_options {
   spectral_bound_options spectrum{};
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(face_accuracy >= S(0) && face_accuracy < S(1))) {
       throw bad_input("face_accuracy", detail::show(face_accuracy), "a number in [0, 1)");
     }

@@ -13,6 +13,7 @@
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/krylov/unit.hpp>
 
@@ -56,7 +57,7 @@ template <class V, class S>
 ///
 /// Where A d = 0 the slope is −bᵀd, whatever of x is in r.
 template <class QP, class State>
-[[nodiscard]] bool is_endless_descent(QP const& qp, State const& s) {
+[[nodiscard, gnu::cold]] bool is_endless_descent(QP const& qp, State const& s) {
   using S = typename State::scalar;
   S const slope = inner_product(s.trial, qp.b()) / s.unit;
   return norm(s.φ) <= kernel_image(s.trial, s.σ) &&
@@ -75,7 +76,7 @@ template <class QP, class State>
 /// then is one, with A d computed anew; s.directions.p is −d. Scratch: φ, trial, projected,
 /// reduced. One application for each of at most `steps` steps and one for the proof.
 template <class QP, class State>
-[[nodiscard]] bool confirm_descent(QP const& qp, State& s, index steps) {
+[[nodiscard, gnu::cold]] bool confirm_descent(QP const& qp, State& s, index steps) {
   using S = typename State::scalar;
   using std::abs;
   auto& d = s.directions.p;
@@ -86,34 +87,36 @@ template <class QP, class State>
   S const first = norm(d);
   if (!(first > S(0)) || !detail::is_finite(first)) return false;
   S const size = unit_near(first), least = first / size / S(128);
-  slant::local(d) *= S(-1) / size;
-  slant::local(image) *= S(-1) / size;
+  vectors::scale(S(-1) / size, d);
+  vectors::scale(S(-1) / size, image);
   S curvature(0);
   for (index k = 0; k < steps && norm(d) > least; ++k) {
     s.face.keep(image, s.trial);
     S const residual = norm(s.trial);
     if (!(residual > kernel_image(d, s.σ) / S(8))) break;
     if (k == 0) {
-      slant::local(w) = slant::local(s.trial);
+      vectors::copy(s.trial, w);
     } else {
       S const γ = inner_product(s.trial, Aw) / curvature;
-      slant::local(w) = slant::local(s.trial) - γ * slant::local(w);
+      vectors::waxpy(-γ, w, s.trial, w);
     }
     slant::apply(qp.a(), w, Aw, s.a_workspace);
     ++s.work.operator_applications;
     curvature = inner_product(w, Aw);
     if (!(curvature > flatness(w, s.σ))) break;
     S const α = inner_product(s.trial, w) / curvature;
-    slant::local(d) -= α * slant::local(w);
-    slant::local(image) -= α * slant::local(Aw);
+    vectors::axpy(-α, w, d);
+    vectors::axpy(-α, Aw, image);
   }
   // What is left of components that d does not have are rounding errors of the others.
   S const nothing = S(8) * std::numeric_limits<S>::epsilon() * norm(d);
-  slant::local(s.trial) =
-      slant::local(d).unaryExpr([&](S const& e) { return abs(e) <= nothing ? S(0) : e; });
+  for (index i = 0; i < index(slant::local(d).size()); ++i) {
+    S const& entry = slant::local(d).coeff(i);
+    slant::local(s.trial).coeffRef(i) = abs(entry) <= nothing ? S(0) : entry;
+  }
   slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
   ++s.work.operator_applications;
-  slant::local(d) = -slant::local(s.trial);
+  vectors::negate(s.trial, d);
   return norm(s.trial) > least && is_endless_descent(qp, s);
 }
 
@@ -139,25 +142,25 @@ class recession_watch {
     using S = scalar_t<V>;
     bool yes = false;
     if (seen_ > 0 && seen_ >= next_) {
-      slant::local(s.φ) = slant::local(s.r) - (unit_ / s.unit) * slant::local(r_);
-      slant::local(s.trial) = slant::local(s.x) - slant::local(x_);
+      vectors::waxpy(-(unit_ / s.unit), r_, s.r, s.φ);
+      vectors::difference(s.x, x_, s.trial);
       S const slope = -inner_product(s.trial, s.r);
       auto const& set = qp.set();
       if (!(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
           is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
           !(slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
             std::numeric_limits<S>::infinity())) {
-        slant::local(s.trial) *= S(1) / unit_near(norm(s.trial));
+        vectors::scale(S(1) / unit_near(norm(s.trial)), s.trial);
         slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
         ++s.work.operator_applications;
         yes = is_endless_descent(qp, s);
         next_ = 2 * seen_;
       }
     }
-    if (yes) slant::local(s.directions.p) = -slant::local(s.trial);
+    if (yes) vectors::negate(s.trial, s.directions.p);
     if ((seen_ & (seen_ - 1)) == 0) {
-      slant::local(x_) = slant::local(s.x);
-      slant::local(r_) = slant::local(s.r);
+      vectors::copy(s.x, x_);
+      vectors::copy(s.r, r_);
       unit_ = s.unit;
     }
     ++seen_;

@@ -6,6 +6,7 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 
 namespace slant {
 
@@ -13,14 +14,16 @@ namespace slant {
 template <class Set, class V>
 void reduced_gradient(Set const& set, V const& x, V const& r, scalar_t<V> const& α, V& trial,
                       V& projected, V& reduced) {
-  slant::local(trial) = slant::local(x) - α * slant::local(r);
+  vectors::waxpy(-α, r, x, trial);
   slant::project(set, slant::local(trial), slant::local(projected));
   // Where the projection does nothing r̃ = r, exactly: the quotient would lose ‖x‖ε/α.
-  auto const there = slant::local(projected).array();
-  slant::local(reduced) =
-      (there == slant::local(trial).array())
-          .select(slant::local(r).array(), (slant::local(x).array() - there) / α)
-          .matrix();
+  auto const& there = slant::local(projected);
+  for (index i = 0; i < index(there.size()); ++i) {
+    bool const is_inside = there.coeff(i) == slant::local(trial).coeff(i);
+    slant::local(reduced).coeffRef(i) =
+        is_inside ? slant::local(r).coeff(i)
+                  : scalar_t<V>((slant::local(x).coeff(i) - there.coeff(i)) / α);
+  }
 }
 
 /// r̃ᵀr over some of the blocks, what a projected gradient step on them can gain. On a curved

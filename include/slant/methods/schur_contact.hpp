@@ -42,6 +42,7 @@
 #pragma once
 
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/detail/moved_rows.hpp>
 #include <slant/methods/detail/schur_contact_kernel.hpp>
@@ -98,7 +99,8 @@ class schur_contact<P> {
     s.residual_scale = norm(p.f());
     if (s.residual_scale == scalar(0)) s.residual_scale = norm(s.r);
     s.unit = unit_near(std::max<scalar>(s.residual_scale, norm(s.r)));
-    slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
+    vectors::difference(p.f(), s.r, s.r);
+    vectors::scale(scalar(1) / s.unit, s.r);
     s.rows.take_tight(p.rows());
     detail::minimise_inside(p, s);
     detail::note_contact_residual(p, s);
@@ -192,7 +194,7 @@ class schur_contact<P> {
       s.last_step = schur_contact_step::conjugate_gradient;
     } else if (!(α1 < infinity)) {
       s.status = status::unbounded;
-      slant::local(s.descent) = slant::local(q.q);
+      vectors::copy(q.q, s.descent);
       return;
     } else if (flat || !projected_search(p, s, options_.projected_trials, α, α1)) {
       advance(s, α1);
@@ -204,8 +206,8 @@ class schur_contact<P> {
   }
   /// (xv), (xvi).
   void advance(state_type& s, scalar const& α) const {
-    slant::local(s.x) += (s.unit * α) * slant::local(s.directions.q);
-    slant::local(s.r) -= α * slant::local(s.directions.Ap);
+    vectors::axpy(s.unit * α, s.directions.q, s.x);
+    vectors::axpy(-α, s.directions.Ap, s.r);
     s.rows.advance(p_.get().rows(), s.directions.q, s.unit * α);
     s.updated = true;
   }

@@ -25,7 +25,7 @@ struct schur_contact_options {
   index patience = 1000;  ///< steps in which neither the residual nor the energy falls: stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(release >= S(0)) || !detail::is_finite(release)) {
       throw bad_input("release", detail::show(release), "a number >= 0");
     }

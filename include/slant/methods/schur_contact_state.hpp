@@ -3,6 +3,7 @@
 // The state of the Schur complement contact algorithm.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/report.hpp>
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/krylov/projected_directions.hpp>
@@ -79,7 +80,7 @@ struct schur_contact_state {
         k_workspace(workspace(p.k(), x0)),
         q_workspace(workspace(p.projection(), x0)),
         flat(p.k(), x0, work.setup_applications) {
-    slant::local(descent).setZero();
+    vectors::set_zero(descent);
   }
 
   /// The Lagrange multipliers of B u ≤ c, ≥ 0: forces. In λ they are in multiples of unit, and
@@ -87,7 +88,7 @@ struct schur_contact_state {
   [[nodiscard]] row_vector multipliers() const { return unit * λ.cwiseQuotient(row_units); }
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "the residual vanishes and no multiplier is negative";

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/newton_options.hpp>
 #include <slant/methods/newton_parts.hpp>
 #include <slant/methods/newton_state.hpp>
@@ -88,7 +89,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
                    std::move(g),
                    std::move(f_workspace),
                    std::move(prepared)};
-    slant::local(s.direction).setZero();
+    vectors::set_zero(s.direction);
     ++s.work.operator_applications;
     s.residual_norm = norm(s.residual);
     s.x_norm = norm(s.x);
@@ -159,7 +160,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     p.best_residual = std::numeric_limits<S>::infinity();
     for (p.length = S(search_.first_length()); p.length > S(0);
          p.length = S(search_.next_length(p)), ++p.trial) {
-      slant::local(s.trial) = slant::local(s.x) + p.length * slant::local(s.direction);
+      vectors::waxpy(p.length, s.direction, s.x, s.trial);
       slant::evaluate(f(), s.trial, s.trial_residual, s.f_workspace);
       ++s.work.operator_applications;
       p.residual = norm(s.trial_residual);
@@ -218,7 +219,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     using S = typename State::scalar;
     s.residual_scale = s.residual_norm;
     if (options_.scale == newton_scale::start || s.x_norm == S(0)) return;
-    slant::local(s.trial).setZero();
+    vectors::set_zero(s.trial);
     auto w = s.f_workspace;  // that of the state holds what belongs to x0
     slant::evaluate(f(), s.trial, s.trial_residual, w);
     ++s.work.setup_applications;

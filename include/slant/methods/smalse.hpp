@@ -24,6 +24,7 @@
 // stands for ‖G x − e‖.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 #include <slant/methods/smalse_core.hpp>
 #include <slant/methods/smalse_options.hpp>
@@ -80,13 +81,13 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
 
     auto const load = detail::projected_load(qp, c);
     vector_type b = load.projected;
-    slant::local(b) += ρ * slant::local(c.nearest());
+    vectors::axpy(ρ, c.nearest(), b);
 
     auto const inner_problem = augmented(b, ρ);
     auto inner = inner_method(inner_problem, σ).start(x0);
     inner.σ = std::max<scalar>(bound.ritz, ρ);  // known: what counts as a direction of the kernel
     vector_type ν = like(x0, qp.size());
-    slant::local(ν).setZero();
+    vectors::set_zero(ν);
     state_type s{x0, ν, load.projected, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
     s.σ = σ;
     s.ρ = ρ;
@@ -106,7 +107,7 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
     s.progress = {};
     s.M = options_.balance * s.ρ;
     slant::project(qp_.get().set(), slant::local(x), slant::local(s.inner.x));
-    slant::local(s.ν) = slant::local(ν);
+    vectors::copy(ν, s.ν);
     form_linear_term(s);
     if (s.status != status::running) return;
     restart(s);
@@ -121,7 +122,7 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
     auto const inner_problem = augmented(s.b, s.ρ);
     minimise(s, inner_method(inner_problem, s.σ));
     adapt_precision(s, inner_problem);
-    slant::local(s.ν) += s.ρ * slant::local(s.offset);
+    vectors::axpy(s.ρ, s.offset, s.ν);
     ++s.iteration;
     look(s);
     note_progress(s);
@@ -201,7 +202,7 @@ class smalse<QP, C> : private detail::smalse_core<QP, C> {
     auto const& x_e = constraints_.get().nearest();
     // L − q: the constant terms −νᵀx̄ + ½ ρ ‖x̄‖². Scaled before they are squared.
     scalar const unit = s.inner.unit, size = norm(x_e);
-    slant::local(s.inner.trial) = slant::local(s.ν) * (scalar(1) / unit);
+    vectors::scale(scalar(1) / unit, s.ν, s.inner.trial);
     scalar const constant =
         s.ρ * size * (size / unit) / scalar(2) - inner_product(s.inner.trial, x_e);
     scalar const now = q + constant;

@@ -4,6 +4,7 @@
 // judgement of progress.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/detail/separation.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/smalse_options.hpp>
@@ -48,8 +49,8 @@ class smalse_core {
   }
 
   void form_linear_term(state_type& s) const {
-    slant::local(s.b) = slant::local(s.projected_b) - slant::local(s.ν) +
-                        s.ρ * slant::local(constraints_.get().nearest());
+    vectors::difference(s.projected_b, s.ν, s.b);
+    vectors::axpy(s.ρ, constraints_.get().nearest(), s.b);
     if (!is_finite(norm(s.b))) s.status = status::breakdown;
   }
 
@@ -63,13 +64,13 @@ class smalse_core {
 
   void measure_offset(state_type& s, vector_type const& x) const {
     slant::apply(constraints_.get().range_projector(), x, s.offset, s.q_workspace);
-    slant::local(s.offset) -= slant::local(constraints_.get().nearest());
+    vectors::subtract(constraints_.get().nearest(), s.offset);
     s.feasibility_norm = norm(s.offset);
   }
 
   /// What rules look at.
   void look(state_type& s) const {
-    slant::local(s.x) = slant::local(s.inner.x);
+    vectors::copy(s.inner.x, s.x);
     measure_offset(s, s.x);
     s.feasibility_scale = std::max<scalar>(norm(constraints_.get().nearest()), norm(s.x));
     s.gradient_scale = gradient_scale(s.load, s.ρ, s.feasibility_scale);

@@ -26,7 +26,7 @@ struct smalse_options {
   kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     require_positive("penalty", penalty);
     require_positive("balance", balance);
     require_positive("precision", precision);

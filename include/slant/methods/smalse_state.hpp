@@ -63,7 +63,7 @@ struct smalse_state {
   bool infeasible = false;            ///< no point of Λ satisfies G x = e, which has been shown
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_with_equalities(status, infeasible);
   }
 };

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <slant/certificates/energy_certificate.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/equilibrated.hpp>
 #include <slant/methods/interior_point.hpp>
@@ -98,7 +99,7 @@ template <class QP, class M, class Certificate>
                 std::clamp<S>(missing / S(3), S(1e-3), S(0.3));
     newton.resume(state);
   }
-  slant::local(result.point) = slant::local(state.x);
+  vectors::copy(state.x, result.point);
   result.steps = state.iteration;
   result.work = state.work;
   return result;
@@ -119,7 +120,7 @@ template <class QP>
       spent.operator_applications += run.state.work.operator_applications;
       spent.setup_applications += run.state.work.setup_applications;
       if (run.status == status::breakdown || run.status == status::unbounded) return false;
-      slant::local(x) = slant::local(run.x());
+      vectors::copy(run.x(), x);
       return is_finite(slant::norm(x));
     } catch (bad_input const&) {
       return false;
@@ -134,7 +135,7 @@ template <class QP, class M>
                                    index most) -> certified_point<typename QP::vector_type> {
   using V = typename QP::vector_type;
   V x = like(qp.b(), qp.size());
-  slant::local(x).setZero();
+  vectors::set_zero(x);
   energy_certificate certificate(qp, m);
   index const first = std::min<index>(most, 300);
   auto result = newton_certified(qp, m, x, certificate, tolerance, first);
@@ -143,7 +144,7 @@ template <class QP, class M>
   if (is_open && result.steps < most && result.error.relative() > tolerance) {
     work spent{};
     bool const has_start = start_inside(qp, x, tolerance, spent);
-    if (!has_start) slant::local(x) = slant::local(result.point);
+    if (!has_start) vectors::copy(result.point, x);
     if (has_start || result.status == status::iteration_limit) {
       auto again = newton_certified(qp, m, x, certificate, tolerance, most - result.steps);
       again.steps += result.steps;
@@ -167,9 +168,7 @@ template <class QP>
   using S = typename QP::scalar;
   using V = typename QP::vector_type;
   Eigen::Matrix<S, Eigen::Dynamic, 1> d;
-  if constexpr (has_diagonal<typename QP::operator_type, V>) {
-    V a = like(qp.b(), qp.size());
-    qp.a().diagonal(a);
+  if (V a = like(qp.b(), qp.size()); slant::diagonal_if_known(qp.a(), a)) {
     Eigen::Matrix<S, Eigen::Dynamic, 1> const entries = slant::local(a);
     auto const factors = block_factors(qp.set(), entries);
     S least = std::numeric_limits<S>::infinity(), most(0);
@@ -193,7 +192,7 @@ template <class QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {
   detail::checked_tolerance(tolerance);
   identity_operator const I(qp.size());
-  if constexpr (has_diagonal<typename QP::operator_type, typename QP::vector_type>) {
+  if constexpr (may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
     auto d = detail::block_factors_if_needed(qp);
     if (d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));

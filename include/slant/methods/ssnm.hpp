@@ -18,6 +18,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/estimated_multipliers.hpp>
 #include <slant/methods/separable_qp.hpp>
 #include <slant/methods/ssnm_options.hpp>
@@ -61,11 +62,11 @@ class ssnm<QP, LinearSolver> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     check(x0);
     auto z = like(x0, f_.multipliers());
-    slant::local(z).setZero();
+    vectors::set_zero(z);
     if (options_.multipliers == ssnm_multipliers::zero) return start(x0, z);
     auto r = like(x0, f_.unknowns());
     slant::apply(problem().a(), x0, r);
-    slant::local(r) -= slant::local(problem().b());
+    vectors::subtract(problem().b(), r);
     estimated_multipliers(problem().set(), x0, r, z);
     auto s = start(x0, z);
     ++s.work.setup_applications;
@@ -115,10 +116,10 @@ class ssnm<QP, LinearSolver> {
       s.status = r.status == status::breakdown ? status::breakdown : status::stalled;
       return;
     }
-    slant::local(s.y) += slant::local(s.direction);
+    vectors::add(s.direction, s.y);
     slant::evaluate(f_, s.y, s.residual, s.f_workspace);
     slant::update_slant_after_value(f_, s.y, s.slant_operator, s.f_workspace);
-    slant::local(s.x) = -slant::local(s.x);
+    vectors::negate(s.x, s.x);
     slant::local(s.x) += x_of(s.y);
     s.step_norm = norm(s.x);
     slant::local(s.x) = x_of(s.y);

@@ -30,7 +30,7 @@ struct ssnm_options {
   ssnm_multipliers multipliers = ssnm_multipliers::zero;
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (!(rho > S(0)) || !detail::is_finite(rho)) {
       throw bad_input("rho", detail::show(rho), "a number > 0");
     }

@@ -44,7 +44,7 @@ struct ssnm_state {
                        ///< those of F° in bicgstab_solver; evaluations of F are `iteration` + 1
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "the optimality conditions hold exactly";

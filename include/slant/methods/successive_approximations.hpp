@@ -31,6 +31,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/iterative_method.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/reduced_gradient.hpp>
 #include <slant/methods/successive_options.hpp>
 #include <slant/methods/successive_state.hpp>
@@ -142,21 +143,21 @@ class successive_approximations {
   /// P(x) and R; no product.
   void look(state_type& s) const {
     auto const& in = s.inner;
-    slant::local(s.x) = slant::local(in.x);
+    vectors::copy(in.x, s.x);
     s.unit = in.unit;
-    slant::local(s.trial) = in.unit * slant::local(in.r);
+    vectors::scale(in.unit, in.r, s.trial);
     family_->parameters(s.x, s.trial, s.image);
     if (!detail::is_finite(norm(s.image))) {
       s.status = s.inner_status = status::breakdown;
       return;
     }
     // r for the other b: r + b_p − b_P(x).
-    slant::local(s.r) = slant::local(in.r) + slant::local(family_->qp().b()) / in.unit;
+    vectors::waxpy(scalar(1) / in.unit, family_->qp().b(), in.r, s.r);
     family_->assign(s.image);
-    slant::local(s.r) -= slant::local(family_->qp().b()) / in.unit;
+    vectors::axpy(-(scalar(1) / in.unit), family_->qp().b(), s.r);
     reduced_gradient(family_->qp().set(), s.x, s.r, in.step_length * in.unit, s.trial, s.projected,
                      s.reduced);
-    slant::local(s.change) = slant::local(s.image) - slant::local(s.parameters);
+    vectors::difference(s.image, s.parameters, s.change);
     s.reduced_gradient_norm = in.unit * norm(s.reduced);
     s.gradient_scale = in.gradient_scale;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
@@ -168,11 +169,11 @@ class successive_approximations {
     s.accelerated = false;
     bool const moves = norm(s.change) > scalar(0);
     if (!moves) {
-      slant::local(s.next) = slant::local(s.parameters);
+      vectors::copy(s.parameters, s.next);
     } else if (s.solved_once) {
       s.accelerated = s.mixing.mix(s.parameters, s.change, s.relaxation, s.next);
     } else {
-      slant::local(s.next) = slant::local(s.image);
+      vectors::copy(s.image, s.next);
     }
     std::swap(s.parameters, s.next);
     family_->assign(s.parameters);

@@ -25,7 +25,7 @@ struct successive_options {
   index patience = 30;      ///< outer steps in which the residual does not fall that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (window < 0) throw bad_input("window", detail::show(window), "a number >= 0");
     if (!(growth >= S(1)) || !detail::is_finite(growth)) {
       throw bad_input("growth", detail::show(growth), "a finite number >= 1");

@@ -45,7 +45,7 @@ struct successive_state {
   slant::work work{};  ///< inner_iterations: steps of the inner method
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
+  [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
         return "x solves the problem that belongs to it";

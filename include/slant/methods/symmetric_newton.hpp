@@ -27,6 +27,7 @@
 // and the values of ‖F‖ tend to zero whatever the start and ρ are.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/symmetric_newton_core.hpp>
 #include <slant/methods/symmetric_newton_problem.hpp>
 #include <slant/methods/symmetric_newton_state.hpp>
@@ -38,16 +39,12 @@
 
 namespace slant {
 
-/// The method at the top of this file: solve(symmetric_newton{qp}, x0, reduced_gradient_below(1e-8)
-/// || at_most(100)); symmetric_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Requires
-/// of the problem what kprgp does, and blocks with slant(x); of M psd_operator. Begins at P_Λ(x0).
-/// Statuses of its own: converged (r̃ = 0); stalled (the precision is exhausted); unbounded (only if
-/// A is not declared definite); breakdown.
+namespace detail {
+
+/// What `symmetric_newton` does with a problem that has all it needs.
 template <class QP, class M>
-  requires symmetric_newton_problem<std::remove_cvref_t<QP>> &&
-           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
-  using core = detail::symmetric_newton_core<QP, M>;
+class symmetric_newton_steps : public symmetric_newton_core<QP, M> {
+  using core = symmetric_newton_core<QP, M>;
 
  public:
   using typename core::options;
@@ -57,76 +54,38 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
   using typename core::state_type;
   using typename core::vector_type;
 
-  explicit symmetric_newton(held<QP> qp)
+  explicit symmetric_newton_steps(held<QP> qp)
     requires(!core::preconditioned)
-      : symmetric_newton(std::move(qp), options{}) {}
+      : symmetric_newton_steps(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  symmetric_newton(held<QP> qp, options o)
+  symmetric_newton_steps(held<QP> qp, options o)
     requires(!core::preconditioned)
       : core(std::move(qp), std::move(o)) {}
-  symmetric_newton(held<QP> qp, held<M> m)
-      : symmetric_newton(std::move(qp), std::move(m), options{}) {}
+  symmetric_newton_steps(held<QP> qp, held<M> m)
+      : symmetric_newton_steps(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  symmetric_newton(held<QP> qp, held<M> m, options o)
+  symmetric_newton_steps(held<QP> qp, held<M> m, options o)
       : core(std::move(qp), std::move(m), std::move(o)) {}
 
   /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// ρ is not a finite number.
-  [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const& qp = qp_.get();
-    detail::check_start_in_set(x0, qp_.get().b());
-    state_type s(qp, m_.get(), x0);
-    this->set_sizes(s);
-    begin_newton(s, s.begin(qp, x0));
-    return s;
-  }
+  [[nodiscard]] state_type start(vector_type const& x0) const;
 
   /// One Newton step, or one step of KPRGP where Newton's method has failed.
-  void step(state_type& s) const {
-    if (s.status != status::running) return;
-    if (s.descent.at_work()) {
-      descend(s);
-    } else {
-      this->project(s);
-      if (s.status == status::running) newton_step(s);
-    }
-    ++s.iteration;
-    note_progress(s);
-  }
+  void step(state_type& s) const;
 
   /// Goes on from s.x after b of the problem has changed: r and r̃ anew, everything else (units,
   /// scales, ρ) as it is. One product; no allocation.
-  void resume(state_type& s) const {
-    s.status = status::running;
-    s.progress = {};
-    s.descent.leave();
-    measure(s);
-    begin_newton(s, false);
-  }
+  void resume(state_type& s) const;
 
   /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
   /// depends on A alone (ρ, mean(diag M), all memory) stays. Counts begin at zero. x0 must not be
   /// s.x. One product; no allocation.
-  void resume(state_type& s, vector_type const& x0) const {
-    detail::check_start_in_set(x0, qp_.get().b());
-    s.progress = {};
-    s.descent.leave();
-    s.last_step = symmetric_newton_step::none;
-    s.iteration = s.inner_iterations = 0;
-    s.status = status::running;
-    begin_newton(s, s.begin_again(qp_.get(), x0));
-  }
+  void resume(state_type& s, vector_type const& x0) const;
 
   /// r from x where KPRGP has been updating it, also in the point that it has handed back; whether
   /// it has. One product.
-  bool refresh(state_type& s) const {
-    if (s.descent.at_work()) return s.descent.refresh(qp_.get(), options_.descent, s);
-    if (s.since_refresh == 0) return false;
-    s.status = status::running;
-    measure(s);
-    restart(s);
-    return true;
-  }
+  bool refresh(state_type& s) const;
 
  private:
   using core::m_;
@@ -149,10 +108,9 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
       s.status = status::breakdown;
       return;
     }
-    slant::local(s.segment.target_y) = slant::local(s.x) + s.unit * slant::local(s.inner.t);
-    slant::local(s.inner.image) += slant::local(s.r);
-    slant::local(s.segment.target_z) =
-        slant::local(s.segment.target_y) - core::ρ(s) * slant::local(s.inner.image);
+    vectors::waxpy(s.unit, s.inner.t, s.x, s.segment.target_y);
+    vectors::add(s.r, s.inner.image);
+    vectors::waxpy(-core::ρ(s), s.inner.image, s.segment.target_y, s.segment.target_z);
     if (this->shorten(s)) {
       accept(s);
     } else if (s.products.at_work()) {
@@ -219,5 +177,82 @@ class symmetric_newton<QP, M> : public detail::symmetric_newton_core<QP, M> {
     }
   }
 };
+
+template <class QP, class M>
+auto symmetric_newton_steps<QP, M>::start(vector_type const& x0) const -> state_type {
+  auto const& qp = qp_.get();
+  detail::check_start_in_set(x0, qp_.get().b());
+  state_type s(qp, m_.get(), x0);
+  this->set_sizes(s);
+  begin_newton(s, s.begin(qp, x0));
+  return s;
+}
+
+template <class QP, class M>
+void symmetric_newton_steps<QP, M>::step(state_type& s) const {
+  if (s.status != status::running) return;
+  if (s.descent.at_work()) {
+    descend(s);
+  } else {
+    this->project(s);
+    if (s.status == status::running) newton_step(s);
+  }
+  ++s.iteration;
+  note_progress(s);
+}
+
+template <class QP, class M>
+void symmetric_newton_steps<QP, M>::resume(state_type& s) const {
+  s.status = status::running;
+  s.progress = {};
+  s.descent.leave();
+  measure(s);
+  begin_newton(s, false);
+}
+
+template <class QP, class M>
+void symmetric_newton_steps<QP, M>::resume(state_type& s, vector_type const& x0) const {
+  detail::check_start_in_set(x0, qp_.get().b());
+  s.progress = {};
+  s.descent.leave();
+  s.last_step = symmetric_newton_step::none;
+  s.iteration = s.inner_iterations = 0;
+  s.status = status::running;
+  begin_newton(s, s.begin_again(qp_.get(), x0));
+}
+
+template <class QP, class M>
+bool symmetric_newton_steps<QP, M>::refresh(state_type& s) const {
+  if (s.descent.at_work()) return s.descent.refresh(qp_.get(), options_.descent, s);
+  if (s.since_refresh == 0) return false;
+  s.status = status::running;
+  measure(s);
+  restart(s);
+  return true;
+}
+
+}  // namespace detail
+
+/// The method at the top of this file: solve(symmetric_newton{qp}, x0, reduced_gradient_below(1e-8)
+/// || at_most(100)); symmetric_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Requires
+/// of the problem what kprgp does, and blocks with slant(x); of M psd_operator. Begins at P_Λ(x0).
+/// Statuses of its own: converged (r̃ = 0); stalled (the precision is exhausted); unbounded (only if
+/// A is not declared definite); breakdown.
+template <class QP, class M>
+  requires symmetric_newton_problem<std::remove_cvref_t<QP>> &&
+           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class symmetric_newton<QP, M> : public detail::symmetric_newton_steps<QP, M> {
+ public:
+  using symmetric_newton::symmetric_newton_steps::symmetric_newton_steps;
+};
+
+#if SLANT_USES_COMPILED
+extern template struct symmetric_newton_state<any_qp<double, definite_laws>, identity_operator>;
+extern template struct symmetric_newton_state<any_qp<double, semidefinite_laws>, identity_operator>;
+extern template class detail::symmetric_newton_steps<any_qp<double, definite_laws>,
+                                                     identity_operator>;
+extern template class detail::symmetric_newton_steps<any_qp<double, semidefinite_laws>,
+                                                     identity_operator>;
+#endif
 
 }  // namespace slant

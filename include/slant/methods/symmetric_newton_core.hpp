@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/preconditioner_for.hpp>
 #include <slant/methods/symmetric_newton_options.hpp>
@@ -78,8 +79,8 @@ class symmetric_newton_core {
 
   /// y = x, with its z and ‖F(y)‖.
   void restart(state_type& s) const {
-    slant::local(s.segment.y) = slant::local(s.x);
-    slant::local(s.segment.z) = slant::local(s.x) - ρ(s) * slant::local(s.r);
+    vectors::copy(s.x, s.segment.y);
+    vectors::waxpy(-ρ(s), s.r, s.x, s.segment.z);
     s.residual_norm = s.reduced_gradient_norm;
     s.at_projection = false;
   }

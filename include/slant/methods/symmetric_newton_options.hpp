@@ -34,7 +34,7 @@ struct symmetric_newton_options {
   kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
       throw bad_input("step_length", detail::show(*step_length), "a number > 0");
     }

@@ -6,6 +6,7 @@
 
 #include <slant/iteration/detail/part_to_blame.hpp>
 #include <slant/iteration/detail/refused.hpp>
+#include <slant/methods/compiled_problem.hpp>
 #include <slant/methods/detail/block_slants.hpp>
 #include <slant/methods/kprgp_problem.hpp>
 #include <slant/methods/preconditioner_for.hpp>
@@ -89,14 +90,14 @@ class symmetric_newton<QP, M> : public detail::refused_method<void, void> {
 };
 
 template <class QP>
-symmetric_newton(QP&&) -> symmetric_newton<kept_t<QP>, identity_operator>;
+symmetric_newton(QP&&) -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
 template <class QP>
 symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<kept_t<QP>, identity_operator>;
+    -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
 template <class QP, class M>
-symmetric_newton(QP&&, M&&) -> symmetric_newton<kept_t<QP>, kept_t<M>>;
+symmetric_newton(QP&&, M&&) -> symmetric_newton<compiled_problem_t<QP>, kept_t<M>>;
 template <class QP, class M>
 symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<kept_t<QP>, kept_t<M>>;
+    -> symmetric_newton<compiled_problem_t<QP>, kept_t<M>>;
 
 }  // namespace slant

@@ -52,20 +52,23 @@ struct symmetric_newton_state : gradient_point<QP> {
         products(qp.a(), x0) {}
 
   /// What a status other than running means here.
-  [[nodiscard]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient is zero: x is the solution";
-      case slant::status::stalled:
-        return "no step lowers the residual any further at this precision: " + this->accuracy();
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not semidefinite";
-      case slant::status::unbounded:
-        return "the function decreases for ever along −descent.state()->directions.p";
-      default:
-        return std::string(to_string(status));
-    }
-  }
+  [[nodiscard, gnu::cold]] std::string reason() const;
 };
+
+template <class QP, class M>
+std::string symmetric_newton_state<QP, M>::reason() const {
+  switch (status) {
+    case slant::status::converged:
+      return "the reduced gradient is zero: x is the solution";
+    case slant::status::stalled:
+      return "no step lowers the residual any further at this precision: " + this->accuracy();
+    case slant::status::breakdown:
+      return "a number left the range of the scalar, or A is not semidefinite";
+    case slant::status::unbounded:
+      return "the function decreases for ever along −descent.state()->directions.p";
+    default:
+      return std::string(to_string(status));
+  }
+}
 
 }  // namespace slant

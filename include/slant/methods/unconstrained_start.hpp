@@ -16,6 +16,7 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/rounded.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 #include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/identity.hpp>
@@ -42,11 +43,11 @@ template <class A, class M, class V>
   // In units in which b is of the order 1, so that no square leaves the range.
   S const unit = unit_near(slant::norm(b));
   V r = b, z = like(b, n), p = like(b, n), Ap = like(b, n);
-  slant::local(r) /= unit;
+  vectors::divide(unit, r);
   auto wa = slant::workspace(a, b);
   auto wm = slant::workspace(m, b);
   slant::apply(m, r, z, wm);
-  slant::local(p) = slant::local(z);
+  vectors::copy(z, p);
   S size = slant::inner_product(r, z);
   S const enough = tolerance * tolerance * size;
   index k = 0;
@@ -56,14 +57,14 @@ template <class A, class M, class V>
     S const bend = slant::inner_product(p, Ap);
     if (!(bend > S(0)) || !is_finite(bend)) break;
     S const α = size / bend;
-    slant::local(x) += α * slant::local(p);
-    slant::local(r) -= α * slant::local(Ap);
+    vectors::axpy(α, p, x);
+    vectors::axpy(-α, Ap, r);
     slant::apply(m, r, z, wm);
     S const next = slant::inner_product(r, z);
-    slant::local(p) = (next / size) * slant::local(p) + slant::local(z);
+    vectors::waxpy(next / size, p, z, p);
     size = next;
   }
-  slant::local(x) *= unit;
+  vectors::scale(unit, x);
   return k;
 }
 
@@ -84,7 +85,7 @@ template <class QP, class M>
   if (most < 0) throw bad_input("most", detail::show(most), "a number >= 0");
   detail::check_size("rows of the preconditioner", index(m.rows()), qp.size());
   V x = like(qp.b(), qp.size()), start = like(qp.b(), qp.size());
-  slant::local(x).setZero();
+  vectors::set_zero(x);
   index k = 0;
   if constexpr (has_rounded<typename QP::operator_type, V>) {
     k = detail::few_cg_steps(qp.a().rounded(), m, qp.b(), x, tolerance, most);
@@ -92,7 +93,7 @@ template <class QP, class M>
     k = detail::few_cg_steps(qp.a(), m, qp.b(), x, tolerance, most);
   }
   // A number out of range says that x̂ is of no use: zero is as good a start as any.
-  if (!detail::is_finite(slant::norm(x))) slant::local(x).setZero();
+  if (!detail::is_finite(slant::norm(x))) vectors::set_zero(x);
   slant::project(qp.set(), slant::local(x), slant::local(start));
   return {std::move(start), k};
 }

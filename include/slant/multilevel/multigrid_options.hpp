@@ -17,7 +17,7 @@ struct multigrid_options {
   index levels = 20;         ///< at most so many, >= 1
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     using detail::show;
     if (block_size < 0) throw bad_input("block_size", show(block_size), "a number >= 0");
     if (!(strength >= 0 && strength < 1)) {

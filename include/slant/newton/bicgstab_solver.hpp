@@ -9,6 +9,7 @@
 // is final: the status is breakdown and dy the best iterate, never NaN.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/newton/detail/iteration_limit.hpp>
 #include <slant/newton/direction.hpp>
@@ -23,13 +24,13 @@ struct bicgstab_solver {
   bool warm_start = false;   ///< begin with what a shortened step left over: one product more
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const { detail::check_iteration_limit(max_iterations); }
+  [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
   template <class G, class V>
     requires linear_operator<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     auto zero = like(f, slant::local(f).size());
-    slant::local(zero).setZero();
+    vectors::set_zero(zero);
     return bicgstab{g, f}.start(zero);
   }
 
@@ -44,7 +45,7 @@ struct bicgstab_solver {
     index const limit = detail::iteration_limit(max_iterations, f);
     direction_report<S> report;
 
-    slant::local(s.x) *= warm_start ? request.leftover : S(0);
+    vectors::scale(warm_start ? request.leftover : S(0), s.x);
     report.residual_norm = request.residual_norm;
     // Where G is nearly singular a vector of any size changes the residual in its last digits.
     using std::sqrt;
@@ -55,9 +56,9 @@ struct bicgstab_solver {
       if (!enough && !(now <= noticeably * report.residual_norm)) return;
       if (!detail::is_finite(S(norm(state.x)))) return;
       report.residual_norm = now;
-      slant::local(dy) = -slant::local(state.x);
+      vectors::negate(state.x, dy);
     };
-    slant::local(dy).setZero();
+    vectors::set_zero(dy);
     while (true) {
       method.restart(s);
       keep_best(s);
@@ -68,7 +69,7 @@ struct bicgstab_solver {
       report.status = report.residual_norm <= target ? status::converged : ended(s);
       bool const mendable = report.status == status::breakdown && report.residual_norm < before;
       if (!mendable) return report;
-      slant::local(s.x) = -slant::local(dy);
+      vectors::negate(dy, s.x);
     }
   }
 

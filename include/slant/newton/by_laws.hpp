@@ -44,7 +44,7 @@ struct by_laws {
   template <class G, class V>
   using choice = typename decltype(detail::solver_by_laws<G, V>())::type;
 
-  void validate() const {}
+  [[gnu::cold]] void validate() const {}
   template <class Solver>
   [[nodiscard]] explicit operator Solver() const {
     return {};

@@ -4,6 +4,7 @@
 // as the Hessian of a convex function is.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/newton/detail/iteration_limit.hpp>
 #include <slant/newton/direction.hpp>
@@ -16,13 +17,13 @@ struct cg_solver {
   bool warm_start = false;   ///< begin with what a shortened step left over
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const { detail::check_iteration_limit(max_iterations); }
+  [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
   template <class G, class V>
     requires spd_operator<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     auto zero = like(f, slant::local(f).size());
-    slant::local(zero).setZero();
+    vectors::set_zero(zero);
     return cg{g, f}.start(zero);
   }
 
@@ -34,11 +35,11 @@ struct cg_solver {
     using S = scalar_t<V>;
     cg const method{g, f};
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
-    slant::local(s.x) *= warm_start ? request.leftover : S(0);
+    vectors::scale(warm_start ? request.leftover : S(0), s.x);
     method.restart(s);
     detail::run_until(method, s, target, detail::iteration_limit(max_iterations, f),
                       [](auto const&) {});
-    slant::local(dy) = -slant::local(s.x);
+    vectors::negate(s.x, dy);
     return {detail::verdict_on(s, target), s.residual_norm, s.iteration,
             s.work.operator_applications, 0};
   }

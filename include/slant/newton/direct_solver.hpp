@@ -12,6 +12,7 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/detail/dense_lu.hpp>
 #include <slant/newton/detail/sparse_lu.hpp>
 #include <slant/newton/direction.hpp>
@@ -80,7 +81,7 @@ template <class G, class V, class P, class Solve>
   constexpr index factored = std::remove_cvref_t<decltype(p.factors)>::factorizations;
   direction_report<S> report{status::breakdown, request.residual_norm, 0, 1 - factored, factored};
   bool const solved = slant::everywhere(dy, solve(dy));
-  slant::local(dy) = -slant::local(dy);
+  vectors::negate(dy, dy);
   if (solved && is_finite(S(norm(dy)))) {
     if constexpr (requires { p.factors.multiply(dy, p.residual); }) {
       p.factors.multiply(dy, p.residual);
@@ -88,7 +89,7 @@ template <class G, class V, class P, class Solve>
       slant::apply(g, dy, p.residual, p.g_workspace);
       ++report.operator_applications;
     }
-    slant::local(p.residual) += slant::local(f);
+    vectors::add(f, p.residual);
     report.residual_norm = norm(p.residual);
     // LU is as accurate as this precision allows, if not as η wants.
     bool const enough = report.residual_norm <= request.tolerance * request.residual_norm;
@@ -98,7 +99,7 @@ template <class G, class V, class P, class Solve>
     }
   }
   report.residual_norm = request.residual_norm;
-  slant::local(dy).setZero();
+  vectors::set_zero(dy);
   return report;
 }
 
@@ -116,7 +117,7 @@ concept solved_directly =
 
 /// LU of F°(y), or its inverse; for operators that are `solved_directly`. Factorisations allocate.
 struct direct_solver {
-  void validate() const {}
+  [[gnu::cold]] void validate() const {}
 
   template <class G, class V>
     requires solved_directly<G, V>

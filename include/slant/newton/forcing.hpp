@@ -55,8 +55,8 @@ concept forcing_rule = requires(R const& rule, forcing_history<S> const& h) {
 namespace detail {
 
 /// Throws bad_input unless lower < value < upper, or value is an end that belongs to the range.
-inline void check_between(std::string_view name, double value, bool inside,
-                          std::string_view range) {
+[[gnu::cold]] inline void check_between(std::string_view name, double value, bool inside,
+                                        std::string_view range) {
   if (!inside) throw bad_input(name, show(value), std::string("a number in ").append(range));
 }
 
@@ -87,7 +87,7 @@ struct fixed_forcing {
   double tolerance = 0;  ///< η in [0, 1)
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     detail::check_between("tolerance", tolerance, tolerance >= 0 && tolerance < 1, "[0, 1)");
   }
   template <class S>
@@ -103,7 +103,7 @@ struct adaptive_precision {
   double c_fact = 0.9;  ///< in (0, 1)
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     detail::check_between("r_tol", r_tol, r_tol > 0 && r_tol < 1, "(0, 1)");
     detail::check_between("c_fact", c_fact, c_fact > 0 && c_fact < 1, "(0, 1)");
   }
@@ -125,7 +125,7 @@ struct eisenstat_walker {
   double goal = 0;  ///< in [0, 1): no step is solved beyond half of goal · err⁽⁰⁾; 0: no limit
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     detail::check_between("γ", γ, γ > 0 && γ <= 1, "(0, 1]");
     detail::check_between("exponent", exponent, exponent > 1 && exponent <= 2, "(1, 2]");
     detail::check_between("η_max", η_max, η_max > 0 && η_max < 1, "(0, 1)");

@@ -42,7 +42,7 @@ concept globalisation = requires(G const& g, search_point<S> const& p) {
 
 /// α = 1 always: Newton's method itself. Local convergence.
 struct full_step {
-  void validate() const {}
+  [[gnu::cold]] void validate() const {}
   [[nodiscard]] static constexpr int first_length() { return 1; }
   template <class S>
   [[nodiscard]] bool accepts(search_point<S> const& p) const {
@@ -60,7 +60,7 @@ struct multiple_root {
   double multiplicity = 2;  ///< m ≥ 1
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     detail::check_between("multiplicity", multiplicity,
                           multiplicity >= 1 && detail::is_finite(multiplicity), "[1, ∞)");
   }
@@ -87,7 +87,7 @@ struct halving_line_search {
   bool accept_best = false;  ///< if none is accepted, take the one with the smallest residual
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     detail::check_between("sufficient", sufficient, sufficient > 0 && sufficient < 1, "(0, 1)");
     if (max_halvings < 0) {
       throw bad_input("max_halvings", detail::show(max_halvings), "a number >= 0");

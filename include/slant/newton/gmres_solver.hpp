@@ -13,6 +13,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/detail/iteration_limit.hpp>
 #include <slant/newton/direction.hpp>
 
@@ -43,7 +44,7 @@ struct gmres_solver {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const {
+  [[gnu::cold]] void validate() const {
     if (restart < 1) throw bad_input("restart", detail::show(restart), "at least 1");
     detail::check_iteration_limit(max_iterations);
   }
@@ -76,12 +77,12 @@ struct gmres_solver {
     index const limit = detail::iteration_limit(max_iterations, f);
     direction_report<S> report;
     report.residual_norm = request.residual_norm;
-    slant::local(dy).setZero();
-    slant::local(m.basis[0]) = -slant::local(f);
+    vectors::set_zero(dy);
+    vectors::negate(f, m.basis[0]);
     S size = request.residual_norm;
     S largest(0);
     while (size > target && report.iterations < limit) {
-      slant::local(m.basis[0]) /= size;
+      vectors::divide(size, m.basis[0]);
       auto const [used, rotated] = cycle(g, target, size, limit, report, dy, largest, m);
       bool const last = rotated <= target || report.iterations >= limit;
       if (last && rotated < report.residual_norm &&
@@ -93,7 +94,7 @@ struct gmres_solver {
       if (used > 0) {
         slant::apply(g, std::as_const(dy), r, m.workspace);
         ++report.operator_applications;
-        slant::local(r) = -slant::local(f) - slant::local(r);
+        vectors::waxpby(S(-1), f, S(-1), r, r);
         size = norm(r);
       }
       if (used == 0 || !(size < report.residual_norm)) {  // no progress, or not a number
@@ -141,13 +142,13 @@ struct gmres_solver {
       largest = std::max(largest, whole);
       for (std::size_t i = 0; i <= j; ++i) {
         m.column[i] = inner_product(m.basis[i], next);
-        slant::local(next) -= m.column[i] * slant::local(m.basis[i]);
+        vectors::axpy(-m.column[i], m.basis[i], next);
       }
       S below = norm(next);
       // What is left is a rounding error: the space holds the solution, or F° is singular on it.
       bool const last = below <= S(8) * std::numeric_limits<S>::epsilon() * whole;
       if (last) below = S(0);
-      if (!last) slant::local(next) /= below;
+      if (!last) vectors::divide(below, next);
       if (!rotate(m, j, below, whole)) break;
       used = j + 1;
       using std::abs;
@@ -157,7 +158,7 @@ struct gmres_solver {
     for (std::size_t i = used; i-- > 0;) {
       for (std::size_t l = i + 1; l < used; ++l) m.t[i] -= entry(m, i, l) * m.t[l];
       m.t[i] /= entry(m, i, i);
-      slant::local(dy) += m.t[i] * slant::local(m.basis[i]);
+      vectors::axpy(m.t[i], m.basis[i], dy);
     }
     return {used, residual};
   }
@@ -167,10 +168,10 @@ struct gmres_solver {
   static void take_back(std::size_t used, direction_report<S>& report, S const& whole, V& dy,
                         Memory const& m) {
     for (std::size_t i = 0; i < used; ++i) {
-      slant::local(dy) -= m.t[i] * slant::local(m.basis[i]);
+      vectors::axpy(-m.t[i], m.basis[i], dy);
     }
     if (detail::is_finite(norm(dy))) return;
-    slant::local(dy).setZero();
+    vectors::set_zero(dy);
     report.residual_norm = whole;
   }
 

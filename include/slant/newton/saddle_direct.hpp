@@ -5,6 +5,7 @@
 // inner iteration. For a matrix A with few entries.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/detail/schur_reduction.hpp>
 #include <slant/newton/detail/sparse_lu.hpp>
 
@@ -26,7 +27,7 @@ struct saddle_direct_workspace {
 
 /// Sparse LU of F°(y) of a kkt_function whose A is a matrix. Allocates in each solve.
 struct saddle_direct {
-  void validate() const {}
+  [[gnu::cold]] void validate() const {}
 
   template <class G, class V>
     requires detail::factorable_saddle<G, V>
@@ -45,9 +46,9 @@ struct saddle_direct {
     direction_report<S> report{status::breakdown, request.residual_norm, 0, 1, 1};
     if (p.factors.factor(assembled<S>(g, p.entries))) {
       p.factors.solve(f, dy);
-      slant::local(dy) = -slant::local(dy);
+      vectors::negate(dy, dy);
       slant::apply(g, dy, p.residual, p.g_workspace);
-      slant::local(p.residual) += slant::local(f);
+      vectors::add(f, p.residual);
       S const residual_norm = norm(p.residual);
       if (detail::is_finite(residual_norm)) {
         bool const enough = residual_norm <= request.tolerance * request.residual_norm;
@@ -56,7 +57,7 @@ struct saddle_direct {
         return report;
       }
     }
-    slant::local(dy).setZero();
+    vectors::set_zero(dy);
     return report;
   }
 

@@ -13,6 +13,7 @@
 // Breakdown if K is singular. It may be indefinite.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/bicgstab_solver.hpp>
 #include <slant/newton/detail/schur_reduction.hpp>
 #include <slant/operators/diagonal.hpp>
@@ -28,7 +29,7 @@ struct schur_bicgstab {
   bicgstab_solver inner{};
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const { inner.validate(); }
+  [[gnu::cold]] void validate() const { inner.validate(); }
 
   template <class G, class V>
     requires detail::factorable_saddle<G, V>
@@ -54,7 +55,7 @@ struct schur_bicgstab {
     if (p.factors.factor(g.hessian().get(), g.curvature()) == detail::factored::failed) {
       return detail::no_factors(request, dy);
     }
-    slant::local(p.active) = S(g.rho()) * slant::local(g.active());
+    vectors::scale(S(g.rho()), g.active(), p.active);
     slant::local(p.inactive) = S(1) - slant::local(g.active()).array();
 
     p.factors.solve(f1, p.x, p.w);  // x = K⁻¹F₁

@@ -13,6 +13,7 @@
 // product is one by K⁻¹; two more frame them. Breakdown if K = LDLᵀ is not positive definite.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/cg_solver.hpp>
 #include <slant/newton/detail/schur_reduction.hpp>
 #include <slant/operators/congruence.hpp>
@@ -31,7 +32,7 @@ struct schur_cg {
   cg_solver inner{};
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const { inner.validate(); }
+  [[gnu::cold]] void validate() const { inner.validate(); }
 
   template <class G, class V>
     requires detail::factorable_saddle<G, V>
@@ -57,7 +58,7 @@ struct schur_cg {
     if (p.factors.factor(g.hessian().get(), g.curvature()) != detail::factored::definite) {
       return detail::no_factors(request, dy);
     }
-    slant::local(p.active) = slant::local(g.active());
+    vectors::copy(g.active(), p.active);
     slant::local(p.inactive) = S(1) - slant::local(g.active()).array();
 
     // dz_ℐ, and x = K⁻¹(F₁ + J_ℐᵀdz_ℐ)

@@ -15,6 +15,7 @@
 
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/definite_inverse.hpp>
 #include <slant/sets/block_diagonal_slant.hpp>
 #include <slant/sets/detail/entries.hpp>
@@ -109,7 +110,7 @@ class slant_preconditioner {
     if constexpr (effective) {
       blocks_.apply(x, y);
     } else {
-      slant::local(y) = slant::local(x);
+      vectors::copy(x, y);
     }
   }
 

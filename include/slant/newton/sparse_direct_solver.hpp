@@ -65,7 +65,7 @@ class sparse_columns {
 
 /// Sparse LU of F°(y); for operators with columns, most of whose entries are zero. Allocates.
 struct sparse_direct_solver {
-  void validate() const {}
+  [[gnu::cold]] void validate() const {}
 
   template <class G, class V>
     requires linear_operator<G, V> && has_columns<G, detail::dense_matrix_t<V>>

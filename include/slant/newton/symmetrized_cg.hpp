@@ -16,6 +16,7 @@
 // Products by A: one an iteration and one for the right-hand side; a warm start costs one more.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/newton/detail/definite_on_range.hpp>
 #include <slant/newton/detail/iteration_limit.hpp>
@@ -42,14 +43,14 @@ struct symmetrized_cg {
   bool warm_start = false;   ///< begin with what a shortened step left over
 
   /// Throws bad_input naming the option, its value and what was expected.
-  void validate() const { detail::check_iteration_limit(max_iterations); }
+  [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
   template <class N, class V>
     requires symmetrizable<N> && linear_operator<N, V>
   [[nodiscard]] auto prepare(N const& newton, V const& f) const {
     using slant_type = std::remove_cvref_t<decltype(slant::slant_of_projection(newton))>;
     auto zero = like(f, slant::local(f).size());
-    slant::local(zero).setZero();
+    vectors::set_zero(zero);
     slant_preconditioner<slant_type> m(slant::slant_of_projection(newton));
     detail::definite_on_range const h(slant::symmetrized(newton));
     auto s = cg{h, zero, m}.start(zero);
@@ -69,12 +70,12 @@ struct symmetrized_cg {
 
     symmetric.right_hand_side(f, p.b, p.s.a_workspace);
     if (!detail::is_finite(S(norm(p.b)))) {
-      slant::local(dy).setZero();
+      vectors::set_zero(dy);
       return {status::breakdown, request.residual_norm, 0, 1, 0};
     }
     p.preconditioner.assign(slant::slant_of_projection(newton));
     cg const method{h, p.b, p.preconditioner};
-    slant::local(p.s.x) *= warm_start ? request.leftover : S(0);
+    vectors::scale(warm_start ? request.leftover : S(0), p.s.x);
     method.restart(p.s);
     detail::run_until(method, p.s, target, detail::iteration_limit(max_iterations, f),
                       [](auto const&) {});

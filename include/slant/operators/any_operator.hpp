@@ -2,7 +2,8 @@
 //
 // An operator whose type is forgotten, for containers and interfaces that cannot be templates.
 // Each application costs three virtual calls, two of them for its sizes; no other operator has any.
-// What is not forgotten: the type of the vectors, and the laws, which methods ask for.
+// What is not forgotten: the type of the vectors, the laws, which methods ask for, and the diagonal
+// where there is one.
 //
 //     using spd = slant::any_operator<Eigen::VectorXd,
 //                                     slant::laws<slant::self_adjoint, slant::positive_definite>>;
@@ -75,6 +76,8 @@ class any_operator {
   [[nodiscard]] index cols() const { return model_->cols(); }
   [[nodiscard]] any_workspace workspace(V const& x) const { return model_->workspace(x); }
   void apply(V const& x, V& y, any_workspace& w) const { model_->apply(x, y, w); }
+  /// d = diag(A), if the operator gives it; whether it does.
+  [[nodiscard]] bool diagonal_if_known(V& d) const { return model_->diagonal_if_known(d); }
 
  private:
   struct interface {
@@ -86,6 +89,7 @@ class any_operator {
     [[nodiscard]] virtual index cols() const = 0;
     [[nodiscard]] virtual any_workspace workspace(V const& x) const = 0;
     virtual void apply(V const& x, V& y, any_workspace& w) const = 0;
+    [[nodiscard]] virtual bool diagonal_if_known(V& d) const = 0;
   };
   template <class A>
   struct model final : interface {
@@ -98,6 +102,9 @@ class any_operator {
     void apply(V const& x, V& y, any_workspace& w) const override {
       using inner = workspace_t<std::remove_cvref_t<A>, V>;
       slant::apply(a.get(), x, y, w.template get<inner>());
+    }
+    [[nodiscard]] bool diagonal_if_known(V& d) const override {
+      return slant::diagonal_if_known(a.get(), d);
     }
     held<A> a;
   };

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/detail/conjugate_part.hpp>
 #include <slant/operators/detail/matrix_entries.hpp>
@@ -84,14 +85,14 @@ class conjugate_projector_operator {
   template <class X, class Y, class W>
     requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
   void apply(X const& x, Y& y, W& w) const {
-    slant::local(y) = slant::local(x);
+    vectors::copy(x, y);
     sweep(&part::ku, &part::u, S(-1), x, y, w);
   }
   /// y = Qᵀx = x − K U (UᵀKU)⁻¹ Uᵀx.
   template <class X, class Y, class W>
     requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
   void apply_adjoint(X const& x, Y& y, W& w) const {
-    slant::local(y) = slant::local(x);
+    vectors::copy(x, y);
     sweep(&part::u, &part::ku, S(-1), x, y, w);
   }
   /// y ← y + α U (UᵀKU)⁻¹ Uᵀ b. Into y = 0 with α = 1 it is what minimises ½ uᵀKu − bᵀu over

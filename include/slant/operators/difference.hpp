@@ -4,6 +4,7 @@
 // known about definiteness.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/as_operator.hpp>
 #include <slant/operators/detail/accumulate.hpp>
 #include <slant/operators/detail/closure.hpp>
@@ -76,7 +77,7 @@ class difference_operator {
     auto subtrahend = slant::like(d, rows());
     a_.get().diagonal(d);
     b_.get().diagonal(subtrahend);
-    slant::local(d) -= slant::local(subtrahend);
+    vectors::subtract(subtrahend, d);
   }
   template <class Y>
     requires has_columns<left, plain_t<Y>> && has_columns<right, plain_t<Y>>
@@ -84,7 +85,7 @@ class difference_operator {
     auto subtrahend = slant::like(y, rows());
     a_.get().columns(first, y);
     b_.get().columns(first, subtrahend);
-    slant::local(y) -= slant::local(subtrahend);
+    vectors::subtract(subtrahend, y);
   }
 
  private:

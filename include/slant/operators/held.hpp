@@ -17,6 +17,10 @@ template <class T>
 using kept_t = std::conditional_t<std::is_lvalue_reference_v<T>, std::remove_reference_t<T> const&,
                                   std::remove_cvref_t<T>>;
 
+/// A type that is made of others and forgets which they were says so by
+/// `static constexpr bool forgets_types = true`.
+template <class T> concept forgets_types = requires { requires T::forgets_types; };
+
 /// One kept part. held<U const&> points to an object that must outlive it, held<U> owns a U. Both
 /// can be copied and moved if U can; access is read-only.
 template <class T>
@@ -30,6 +34,12 @@ class held {
   held(T const& value)                           // NOLINT(google-explicit-constructor)
     requires std::is_copy_constructible_v<T>
       : value_(value) {}
+
+  /// A T made of `value`, where T forgets what it is made of.
+  template <class U>
+    requires forgets_types<T> && (!std::is_same_v<std::remove_cvref_t<U>, T>) &&
+             (!std::is_same_v<std::remove_cvref_t<U>, held>) && std::is_convertible_v<U, T>
+  held(U&& value) : value_(std::forward<U>(value)) {}  // NOLINT(google-explicit-constructor)
 
   [[nodiscard]] T const& get() const noexcept { return value_; }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/checks.hpp>
 
 #include <string>
@@ -25,19 +26,19 @@ class identity_operator {
 
   template <has_local X, class Y>
   void apply(X const& x, Y& y) const {
-    slant::local(y) = slant::local(x);
+    vectors::copy(x, y);
   }
   template <has_local X, class Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y) const {
-    slant::local(y) += α * slant::local(x);
+    vectors::axpy(α, x, y);
   }
   template <has_local D>
   void diagonal(D& d) const {
-    slant::local(d).setOnes();
+    vectors::fill(scalar_t<D>(1), d);
   }
   template <has_local Y>
   void columns(index first, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     for (index j = 0; j < slant::local(y).cols(); ++j) {
       slant::local(y)(first + j, j) = scalar_t<Y>(1);
     }

@@ -7,6 +7,7 @@
 //     A_FF.assign(other);                            // no allocation up to the reserved capacity
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/as_operator.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/detail/closure.hpp>
@@ -43,7 +44,7 @@ class restriction : public detail::component_list {
   }
   template <has_local X, class Y>
   void apply_adjoint(X const& x, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     each(y, x, [](auto& to, auto const& from) { to = from; });
   }
   template <has_local X, class Y>

@@ -7,6 +7,7 @@
 //     auto P = slant::scaled(slant::positive(2.0), A);  // also definite if A is
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/as_operator.hpp>
 #include <slant/operators/detail/applicable.hpp>
 #include <slant/operators/detail/closure.hpp>
@@ -99,7 +100,7 @@ class scaled_operator {
     requires detail::applies<part, X, Y>
   void apply(X const& x, Y& y, W& w) const {
     slant::apply(a_.get(), x, y, w);
-    slant::local(y) *= factor_as<X>();
+    vectors::scale(factor_as<X>(), y);
   }
   template <class X, class Y, class W>
     requires detail::accumulates<part, X, Y>
@@ -116,7 +117,7 @@ class scaled_operator {
     requires detail::applies_adjoint<part, X, Y>
   void apply_adjoint(X const& x, Y& y, W& w) const {
     slant::apply_adjoint(a_.get(), x, y, w);
-    slant::local(y) *= factor_as<X>();
+    vectors::scale(factor_as<X>(), y);
   }
   template <class X, class Y, class W>
     requires detail::accumulates_adjoint<part, X, Y>
@@ -128,13 +129,13 @@ class scaled_operator {
     requires has_diagonal<part, D>
   void diagonal(D& d) const {
     a_.get().diagonal(d);
-    slant::local(d) *= factor_as<D>();
+    vectors::scale(factor_as<D>(), d);
   }
   template <class Y>
     requires has_columns<part, Y>
   void columns(index first, Y& y) const {
     a_.get().columns(first, y);
-    slant::local(y) *= factor_as<Y>();
+    vectors::scale(factor_as<Y>(), y);
   }
   /// c⁻¹A⁻¹. Throws bad_input if c is so small that 1/c is not finite.
   [[nodiscard]] auto inverse() const

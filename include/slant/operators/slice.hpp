@@ -6,6 +6,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/checks.hpp>
 
 #include <type_traits>
@@ -48,7 +49,7 @@ class slice_operator {
   }
   template <has_local X, class Y>
   void apply_adjoint(X const& x, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     segment(y) = slant::local(x);
   }
   template <has_local X, class Y>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/checks.hpp>
 
 #include <type_traits>
@@ -26,23 +27,23 @@ class zero_operator {
 
   template <has_local X, class Y>
   void apply(X const&, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
   }
   template <has_local X, class Y>
   void apply_add(scalar_t<X>, X const&, Y&) const {}
   template <has_local X, class Y>
   void apply_adjoint(X const&, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
   }
   template <has_local X, class Y>
   void apply_adjoint_add(scalar_t<X>, X const&, Y&) const {}
   template <has_local D>
   void diagonal(D& d) const {
-    slant::local(d).setZero();
+    vectors::set_zero(d);
   }
   template <has_local Y>
   void columns(index, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
   }
 
  private:

@@ -6,10 +6,11 @@
 //
 //     slant::any_set<> const Λ(slant::cartesian(slant::half_lines(m), slant::discs(g)));
 //
-// Intuition. Blocks of one kind that follow one another are a run, a power_product; the set is a
-// list of runs, and which kind a run is of is asked once for the whole run and not once for each
-// block. Inside the loop it is the code of the set that it was made of, with the same bits (only
-// that a free block is passed over, also if its component is NaN).
+// Intuition. Blocks of one kind that follow one another are a run, a power_product that looks at
+// the blocks of the set that it is made of; the set is a list of runs, and which kind a run is of
+// is asked once for the whole run and not once for each block. Inside the loop it is the code of
+// the given set, with the same bits (only that a free block is passed over, also if its component
+// is NaN). Bounds that the given set changes by update() have changed here as well.
 //
 // Rejected: virtual functions. Methods visit blocks with functions of their own (faces, barriers,
 // certificates), of which a base class would have to list every one; and a virtual call for each
@@ -31,6 +32,7 @@
 #include <slant/sets/symmetric_interval.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -38,23 +40,81 @@
 
 namespace slant {
 
+namespace detail {
+
+template <class C>
+inline constexpr bool repeats_one_block = false;
+template <class Block, class Layout>
+inline constexpr bool repeats_one_block<power_product<Block, Layout, identical_blocks<Block>>> =
+    true;
+
+/// The blocks of another set: a power of listed or of identical ones, or a single block.
+template <class Block>
+class viewed_blocks {
+ public:
+  /// What a loop indexes.
+  struct range {
+    Block const* first;
+    index step;  // 0 where all are the same one
+    Block const& operator[](index i) const { return first[i * step]; }
+  };
+
+  /// A power of listed or identical blocks, or a single block; it must outlive this object.
+  template <class C>
+  explicit viewed_blocks(C const& set) : set_(&set), first_(&first_of<C>) {
+    if constexpr (!std::same_as<C, Block>) {
+      count_ = set.size() / Block::dimension;
+      step_ = repeats_one_block<C> ? 0 : 1;
+    }
+  }
+
+  [[nodiscard]] index size() const { return count_; }
+  /// All are the same one, and there is one.
+  [[nodiscard]] bool repeats_one() const { return step_ == 0 && count_ > 0; }
+  [[nodiscard]] Block const& operator[](index i) const { return view()[i]; }
+  [[nodiscard]] range view() const {
+    return {count_ > 0 ? static_cast<Block const*>(first_(set_)) : nullptr, step_};
+  }
+
+ private:
+  template <class C>
+  static void const* first_of(void const* set) {
+    if constexpr (std::same_as<C, Block>) {
+      return set;
+    } else {
+      return &static_cast<C const*>(set)->block(0);
+    }
+  }
+
+  void const* set_;
+  void const* (*first_)(void const*);  // of the blocks, which lie elsewhere after an assignment
+  index count_ = 1, step_ = 1;
+};
+
+}  // namespace detail
+
 /// A run: blocks of one kind, one after the other or planar.
 template <class Block, class Layout = consecutive>
-using run_of = power_product<Block, Layout, detail::listed_blocks<Block>>;
+using run_of = power_product<Block, Layout, detail::viewed_blocks<Block>>;
 
-/// The kinds of an any_set unless others are listed.
+/// The kinds of an any_set unless others are listed. (A class and not a list of them, which would
+/// be a thousand characters in the name of each function.)
 template <class S>
-using usual_runs =
-    std::variant<run_of<half_line<S>>, run_of<interval<S>>, run_of<symmetric_interval<S>>,
-                 run_of<free_space<1, S>>, run_of<ball<2, S>>, run_of<ball<2, S>, planar>,
-                 run_of<ball<3, S>>, run_of<ellipse<S>>, run_of<ellipse<S>, planar>,
-                 run_of<plane_cone<S>>, run_of<second_order_cone<3, S>>>;
+struct usual_runs {
+  using type =
+      std::variant<run_of<half_line<S>>, run_of<interval<S>>, run_of<symmetric_interval<S>>,
+                   run_of<free_space<1, S>>, run_of<ball<2, S>>, run_of<ball<2, S>, planar>,
+                   run_of<ball<3, S>>, run_of<ellipse<S>>, run_of<ellipse<S>, planar>,
+                   run_of<plane_cone<S>>, run_of<second_order_cone<3, S>>>;
+};
 
 /// The kinds that the forces of contact with Tresca friction have: what a method is instantiated
 /// for is less.
 template <class S>
-using contact_runs =
-    std::variant<run_of<half_line<S>>, run_of<symmetric_interval<S>>, run_of<ball<2, S>>>;
+struct contact_runs {
+  using type =
+      std::variant<run_of<half_line<S>>, run_of<symmetric_interval<S>>, run_of<ball<2, S>>>;
+};
 
 namespace detail {
 
@@ -68,8 +128,16 @@ template <class C>
 struct run_type {
   using type = void;
 };
-template <class Block, class Layout, class Blocks>
-struct run_type<power_product<Block, Layout, Blocks>> {
+template <class Block, class Layout>
+struct run_type<power_product<Block, Layout, listed_blocks<Block>>> {
+  using type = run_of<Block, Layout>;
+};
+template <class Block, class Layout>
+struct run_type<power_product<Block, Layout, identical_blocks<Block>>> {
+  using type = run_of<Block, Layout>;
+};
+template <class Block, class Layout>
+struct run_type<run_of<Block, Layout>> {
   using type = run_of<Block, Layout>;
 };
 template <class C>
@@ -84,7 +152,7 @@ using run_type_t = typename run_type<C>::type;
 template <class Runs, class C>
 [[nodiscard]] consteval bool is_made_of() {
   using run = run_type_t<C>;
-  if constexpr (is_alternative<run, Runs>) {
+  if constexpr (is_alternative<run, typename Runs::type>) {
     return true;
   } else if constexpr (requires { C::part_count; }) {
     return []<std::size_t... I>(std::index_sequence<I...>) {
@@ -97,6 +165,12 @@ template <class Runs, class C>
     return false;
   }
 }
+
+/// All kinds of Others are among Runs.
+template <class Runs, class Others>
+inline constexpr bool has_kinds_of = false;
+template <class Runs, class... Run>
+inline constexpr bool has_kinds_of<Runs, std::variant<Run...>> = (is_alternative<Run, Runs> && ...);
 
 /// The slanting operator of a run; runs with blocks of one size have the same.
 template <class S>
@@ -180,11 +254,12 @@ class any_set_slant {
   index size_ = 0;
 };
 
-/// Λ₁ × … × Λ_m of the kinds listed in Runs; see the top of this file. Copies the blocks of the set
-/// that it is made of. Nothing allocates but the constructor and slant(x).
+/// Λ₁ × … × Λ_m of the kinds listed in Runs::type, a std::variant; see the top of this file. Refers
+/// to a set that it is made of as an lvalue, owns an rvalue; copies share it. Nothing allocates but
+/// the constructor and slant(x).
 template <scalar S = double, class Runs = usual_runs<S>>
 class any_set {
-  static_assert(detail::has_slants_of<S, Runs>,
+  static_assert(detail::has_slants_of<S, typename Runs::type>,
                 "any_set: runs of blocks with one, two or three components; planar ones with two");
 
  public:
@@ -194,9 +269,23 @@ class any_set {
   any_set() = default;
   /// The same set as `set`.
   template <class C>
-    requires(!std::same_as<std::remove_cvref_t<C>, any_set> && detail::is_made_of<Runs, C>())
-  explicit any_set(C const& set) {
-    add(set);
+    requires(!std::same_as<std::remove_cvref_t<C>, any_set> &&
+             detail::is_made_of<Runs, std::remove_cvref_t<C>>())
+  explicit any_set(C&& set) {
+    if constexpr (std::is_lvalue_reference_v<C>) {
+      add(set);
+    } else {
+      auto const owned = std::make_shared<std::remove_cvref_t<C> const>(std::forward<C>(set));
+      add(*owned);
+      owned_ = owned;
+    }
+  }
+
+  /// The same set as one of fewer kinds; refers to what that refers to, and shares what it owns.
+  template <class Others>
+    requires(detail::has_kinds_of<typename Runs::type, typename Others::type>)
+  explicit any_set(any_set<S, Others> const& set) : owned_(set.owned_) {
+    for (auto const& some : set.runs_) std::visit([&](auto const& run) { add(run); }, some);
   }
 
   [[nodiscard]] index size() const { return size_; }
@@ -265,21 +354,21 @@ class any_set {
   }
 
  private:
+  template <slant::scalar, class>
+  friend class any_set;
+
   template <class C>
   void add(C const& set) {
     using run = detail::run_type_t<C>;
-    if constexpr (detail::is_alternative<run, Runs>) {
-      std::vector<typename run::block_type> blocks;
-      if constexpr (has_static_dimension<C>) {
-        blocks.push_back(set);
-      } else {
-        index const count = set.block_count();
-        blocks.reserve(static_cast<std::size_t>(count));
-        for (index i = 0; i < count; ++i) blocks.push_back(set.block(i));
-      }
+    if constexpr (std::same_as<run, C>) {
+      size_ += set.size();
+      block_count_ += set.block_count();
+      runs_.emplace_back(set);
+    } else if constexpr (detail::is_alternative<run, typename Runs::type>) {
+      detail::viewed_blocks<typename run::block_type> blocks(set);
       size_ += slant::dimension_of(set);
-      block_count_ += static_cast<index>(blocks.size());
-      runs_.emplace_back(run(detail::listed_blocks<typename run::block_type>(std::move(blocks))));
+      block_count_ += blocks.size();
+      runs_.emplace_back(run(blocks));
     } else {
       [&]<std::size_t... I>(std::index_sequence<I...>) {
         (add(set.template part<I>()), ...);
@@ -302,11 +391,12 @@ class any_set {
     }
   }
 
-  std::vector<Runs> runs_{};
+  std::vector<typename Runs::type> runs_{};
   index size_ = 0, block_count_ = 0;
+  std::shared_ptr<void const> owned_{};
 };
 
 template <class C>
-any_set(C const&) -> any_set<set_scalar_t<C>>;
+any_set(C&&) -> any_set<set_scalar_t<std::remove_cvref_t<C>>>;
 
 }  // namespace slant

@@ -15,6 +15,7 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/symmetric_eigen.hpp>
@@ -177,8 +178,7 @@ class curved_face {
 
   template <class X, class Y>
   void transform(kind k, X const& x, Y& y) const {
-    // A selection, not a product with the mask: 0 · ∞ would be NaN.
-    y = mask_.binaryExpr(x, [](S const& m, S const& v) { return m == S(0) ? S(0) : v; });
+    vectors::keep(mask_, x, y);
     for_each([&](auto entry, index const* component, index n) {
       for (index j = 0; j < n; ++j) {
         S sum(0);

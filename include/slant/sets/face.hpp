@@ -6,6 +6,7 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 
 #include <Eigen/Core>
@@ -94,15 +95,15 @@ class face {
   /// y = x on the free components and 0 elsewhere; y may be x.
   template <class X, class Y>
   void keep(X const& x, Y& y) const {
-    select(slant::local(x), slant::local(y),
-           [](S const& m, S const& v) { return m == S(0) ? S(0) : v; });
+    check(x, y);
+    vectors::keep(mask_, x, y);
   }
 
   /// y = x except on the free components and 0 there; y may be x.
   template <class X, class Y>
   void keep_complement(X const& x, Y& y) const {
-    select(slant::local(x), slant::local(y),
-           [](S const& m, S const& v) { return m == S(0) ? v : S(0); });
+    check(x, y);
+    vectors::keep_complement(mask_, x, y);
   }
 
   /// The same partition of the same components.
@@ -127,11 +128,9 @@ class face {
     }
   }
 
-  // A selection, not a product with the mask: 0 · ∞ would be NaN.
-  template <class X, class Y, class Choose>
-  void select(X const& x, Y& y, Choose const& choose) const {
-    eigen_assert(x.size() == dimension() && y.size() == dimension());
-    y = mask_.binaryExpr(x, choose);
+  template <class X, class Y>
+  void check([[maybe_unused]] X const& x, [[maybe_unused]] Y const& y) const {
+    eigen_assert(slant::local(x).size() == dimension() && slant::local(y).size() == dimension());
   }
 
   std::vector<block_state> states_;

@@ -70,8 +70,9 @@ class power_product {
     if constexpr (whole_space<Block>) {
       return !entries.hasNaN();
     } else {
+      auto const blocks = blocks_.view();
       for (index i = 0; i < blocks_.size(); ++i) {
-        if (!blocks_[i].contains(at(i).value(entries))) return false;
+        if (!blocks[i].contains(at(i).value(entries))) return false;
       }
       return true;
     }
@@ -86,9 +87,10 @@ class power_product {
   {
     detail::smallest_step<S> smallest(enough);
     if constexpr (!whole_space<Block>) {
+      auto const blocks = blocks_.view();
       for (index i = 0; i < blocks_.size(); ++i) {
         auto const p = at(i);
-        if (smallest(detail::step_of(blocks_[i], p.value(x), p.value(d), enough))) break;
+        if (smallest(detail::step_of(blocks[i], p.value(x), p.value(d), enough))) break;
       }
     }
     return smallest.value();
@@ -100,7 +102,8 @@ class power_product {
     requires has_support<Block, vector_type>
   {
     scalar_t<Y> sum(0);
-    for (index i = 0; i < blocks_.size(); ++i) sum += blocks_[i].support(at(i).value(y));
+    auto const blocks = blocks_.view();
+    for (index i = 0; i < blocks_.size(); ++i) sum += blocks[i].support(at(i).value(y));
     return sum;
   }
 
@@ -122,19 +125,21 @@ class power_product {
   {
     eigen_assert(g.block_count() == blocks_.size());
     if constexpr (!whole_space<Block>) {
-      for (index i = 0; i < blocks_.size(); ++i) g.assign(i, blocks_[i].slant(at(i).value(x)));
+      auto const blocks = blocks_.view();
+      for (index i = 0; i < blocks_.size(); ++i) g.assign(i, blocks[i].slant(at(i).value(x)));
     }
   }
 
   /// f(block, place) for every innermost block.
   template <class F>
   void visit(F&& f) const {
+    auto const blocks = blocks_.view();
     for (index i = 0; i < blocks_.size(); ++i) {
       if constexpr (has_visit<Block>) {
         auto const outer = at(i);
-        blocks_[i].visit([&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+        blocks[i].visit([&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
       } else {
-        f(blocks_[i], at(i));
+        f(blocks[i], at(i));
       }
     }
   }
@@ -142,13 +147,30 @@ class power_product {
  private:
   /// Where factor i is, numbered by innermost blocks.
   [[nodiscard]] auto at(index i) const {
-    return block_place<n, Layout>(i, blocks_.size(), slant::block_count(blocks_[i]));
+    if constexpr (has_visit<Block>) {
+      return block_place<n, Layout>(i, blocks_.size(), slant::block_count(blocks_[i]));
+    } else {
+      return block_place<n, Layout>(i, blocks_.size(), index(1));
+    }
   }
 
+  // Flattened: a call for each block would cost as much as the block.
   template <class X, class Y>
-  void project_blocks(X const& from, Y& to) const {
+  [[gnu::flatten]] void project_blocks(X const& from, Y& to) const {
+    if constexpr (requires { blocks_.repeats_one(); }) {
+      if (blocks_.repeats_one()) {
+        detail::identical_blocks<Block> const same(blocks_[0], blocks_.size());
+        project_each(same.view(), from, to);
+      } else {
+        project_each(blocks_.view().first, from, to);
+      }
+    } else {
+      project_each(blocks_.view(), from, to);
+    }
+  }
+  template <class View, class X, class Y>
+  void project_each(View const& blocks, X const& from, Y& to) const {
     index const m = blocks_.size();
-    auto const blocks = blocks_.view();
     // Where `from` and `to` share memory they are the same: iterations are independent. Not knowing
     // that, a compiler vectorises for separate arrays only.
 #if defined(__GNUC__) && !defined(__clang__)

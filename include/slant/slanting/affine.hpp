@@ -5,6 +5,7 @@
 //     auto gradient = slant::affine(A, -b);     // ∇q(x) = A x − b
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/as_operator.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
 #include <slant/slanting/detail/checks.hpp>
@@ -76,7 +77,7 @@ class affine_map : public slanting_base {
              std::same_as<scalar_t<Y>, scalar_t<vector_type>>)
   void value(Y const& y, V& v, W& w) const {
     linear_.value(y, v, w);
-    slant::local(v) += slant::local(c_.get());
+    vectors::add(c_.get(), v);
   }
   template <class Y>
   [[nodiscard]] auto slant(Y const& y) const

@@ -27,6 +27,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/detail/entries.hpp>
@@ -129,7 +130,7 @@ template <int N, operand A, class Q, detail::parameter_list M, class R>
   }
   auto steps = slant::diagonal<slant::positive_definite>(plain_t<R>(rho));
   auto offset = slant::like(q, n);
-  slant::local(offset) = slant::local(q);
+  vectors::copy(q, offset);
   auto velocity = slant::affine(std::forward<A>(w), std::move(offset));
   return identity_map(n) -
          std::move(projection) * (identity_map(n) - std::move(steps) * std::move(velocity));

@@ -3,6 +3,7 @@
 // The identity y ↦ y as a slanting function.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/slanting/slanting_base.hpp>
 
@@ -19,7 +20,7 @@ class identity_map : public slanting_base {
 
   template <has_local Y, class V>
   void value(Y const& y, V& v) const {
-    slant::local(v) = slant::local(y);
+    vectors::copy(y, v);
   }
   template <has_local Y>
   [[nodiscard]] identity_operator slant(Y const&) const {

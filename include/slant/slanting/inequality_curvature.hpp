@@ -5,6 +5,7 @@
 // those of balls multiples of I, and it is looked at each time which are.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 
 #include <Eigen/Core>
@@ -55,7 +56,7 @@ class inequality_curvature {
 
   template <class X, class Y>
   void apply(X const& x, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     apply_add(S(1), x, y);
   }
   /// y ← y + α (H dx + Jᵀdz).
@@ -67,7 +68,7 @@ class inequality_curvature {
   /// y = (H x; J x); H is symmetric.
   template <class X, class Y>
   void apply_adjoint(X const& x, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     apply_adjoint_add(S(1), x, y);
   }
   template <class X, class Y>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/slanting/detail/inequality_layout.hpp>
 
 #include <Eigen/Core>
@@ -75,7 +76,7 @@ class inequality_jacobian {
   }
   template <class X, class Y>
   void apply_adjoint(X const& x, Y& y) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     apply_adjoint_add(S(1), x, y);
   }
   template <class X, class Y>

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <slant/concepts/checks.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/slice.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/inequalities.hpp>
@@ -57,7 +58,7 @@ template <class A, class V, class C, class S>
   }();
   auto gradient = [&] {
     auto c = slant::like(b, slant::local(b).size());
-    slant::local(c) = -slant::local(b);
+    vectors::negate(b, c);
     if constexpr (std::is_reference_v<A>) {
       return slant::affine(a.get(), std::move(c));
     } else {

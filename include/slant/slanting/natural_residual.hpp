@@ -8,6 +8,7 @@
 // `symmetrizable` all follow from the composition.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/checks.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
@@ -32,7 +33,7 @@ template <operand A, class B, class Set, class S>
     throw bad_input("rho", detail::show(ρ), "a finite number > 0");
   }
   auto c = slant::like(b, n);
-  slant::local(c) = -slant::local(b);
+  vectors::negate(b, c);
   auto gradient = slant::affine(std::forward<A>(a), std::move(c));
   return identity_map(n) - slant::projection(std::forward<Set>(set)) *
                                (identity_map(n) - slant::positive(ρ) * std::move(gradient));

@@ -4,6 +4,7 @@
 // hold for positive multiples only.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/scaled.hpp>
 #include <slant/slanting/detail/assembled_operator.hpp>
 #include <slant/slanting/detail/checks.hpp>
@@ -51,7 +52,7 @@ class scaled_map : public slanting_base {
     requires slanting_function<inner_type, plain_t<Y>>
   void value(Y const& y, V& v, W& w) const {
     slant::evaluate(inner(), y, v, w);
-    slant::local(v) *= static_cast<scalar_t<Y>>(c_);
+    vectors::scale(static_cast<scalar_t<Y>>(c_), v);
   }
   template <class Y>
     requires slanting_function<inner_type, plain_t<Y>>

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/slanting/symmetrizable.hpp>
 
 #include <type_traits>
@@ -68,14 +69,14 @@ class symmetrized_operator {
   template <class F, class B, class W>
   void right_hand_side(F const& residual, B& b, W& w) const {
     slant::apply(a(), residual, w.first, w.matrix_part);
-    slant::local(w.first) = ρ<F>() * slant::local(w.first) - slant::local(residual);
+    vectors::waxpby(ρ<F>(), w.first, scalar_t<F>(-1), residual, w.first);
     slant::apply(g(), w.first, b, w.slant_part);
   }
   /// dx = G s − F, the Newton step of a solution s of H s = b.
   template <class F, class S, class D, class W>
   void step(F const& residual, S const& s, D& dx, W& w) const {
     slant::apply(g(), s, dx, w.slant_part);
-    slant::local(dx) -= slant::local(residual);
+    vectors::subtract(residual, dx);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/unit.hpp>
 
 #include <algorithm>
@@ -53,15 +54,16 @@ index set_stiffness(A const& a, scalar_t<V> const& typical, V& stiffness, V& x, 
       entry = entry > S(0) ? S(S(1) / entry) : typical;
     }
   };
-  slant::local(stiffness).setConstant(typical);
-  if constexpr (has_diagonal<A, V>) {
-    a.diagonal(stiffness);
+  vectors::fill(typical, stiffness);
+  if (slant::diagonal_if_known(a, stiffness)) {
     invert();
-  } else if constexpr (probe) {
+    return 0;
+  }
+  if constexpr (probe) {
     index const n = slant::local(stiffness).size();
     if (!slant::everywhere(stiffness, n == slant::global_size(stiffness) && n <= 64)) return 0;
     for (index i = 0; i < n; ++i) {
-      slant::local(x).setZero();
+      vectors::set_zero(x);
       slant::local(x).coeffRef(i) = S(1);
       slant::apply(a, x, g, w);
       slant::local(stiffness).coeffRef(i) = slant::local(g).coeff(i);
@@ -93,17 +95,17 @@ void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& 
   using std::sqrt;
   S const bent = bend / S(sqrt(S(2)));
   for (S const factor : {S(1), S(0x1p27)}) {
-    slant::local(m) = slant::local(stiffness);
+    vectors::copy(stiffness, m);
     face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
     auto const split = balance(set, x, balanced, m, d);
-    slant::local(d) -= slant::local(remainder);
+    vectors::subtract(remainder, d);
     S const root = split.root_of_gap > bent ? split.root_of_gap : bent;
-    slant::local(m) = slant::local(stiffness).cwiseProduct(slant::local(d));
+    vectors::multiply(stiffness, d, m);
     S const bound = error_bound_of_root<S>(moved + root_of_product(d, m), root) + above;
     // A gap that is NaN may have lost the comparison.
     if (!(bound < best.bound) || !is_finite(split.root_of_gap)) continue;
     best = {bound, moved, root, above};
-    slant::local(rest) = slant::local(d);
+    vectors::copy(d, rest);
   }
 }
 

@@ -120,7 +120,8 @@ class certified_run {
   template <class... Observers>
   [[nodiscard]] solution<S> run(Observers&... observers) {
     auto const set = feasible_set(Friction{}, data_->nodes(), g_);
-    separable_qp const qp{dual_.a(C_), b_, set};
+    separable_qp const given{dual_.a(C_), b_, set};
+    compiled_problem_t<decltype((given))> const qp(given);  // with slant::compiled one for all laws
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
     vector_type const x0 = start(qp, M);
     // The reduced gradient is some 3 to 10 times smaller than the error that goes with it, and the
@@ -137,7 +138,7 @@ class certified_run {
     S best = std::numeric_limits<S>::infinity();
     auto wa = workspace(qp.a(), state.x);
     std::optional<
-        newton_estimate<std::remove_const_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
+        newton_estimate<std::remove_cvref_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
         newton_error;
     auto const tell = [&](auto const& now) {
       if (options_.progress) options_.progress({now.iteration, relative_gradient(now)});

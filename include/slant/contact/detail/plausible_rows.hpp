@@ -19,12 +19,12 @@ namespace slant::contact::detail {
 using warnings = std::vector<plausibility_warning>;
 
 /// "row 6 of T".
-[[nodiscard]] inline std::string row_text(index i, char const* of) {
+[[nodiscard, gnu::cold]] inline std::string row_text(index i, char const* of) {
   return "row " + slant::detail::show(i) + " of " + of;
 }
 /// "rows 6 and 7 of T" of a contact node.
 template <class S>
-[[nodiscard]] std::string tangents_text(contact_rows<S> const& rows, index i) {
+[[nodiscard, gnu::cold]] std::string tangents_text(contact_rows<S> const& rows, index i) {
   using slant::detail::show;
   if (rows.tangents == 1) return row_text(i, "T");
   return "rows " + show(2 * i) + " and " + show(2 * i + 1) + " of T";

@@ -20,7 +20,8 @@
 namespace slant::contact::detail {
 
 /// "body 2 (unknowns 300 … 899)".
-[[nodiscard]] inline std::string body_text(index number, std::vector<index> const& unknowns) {
+[[nodiscard, gnu::cold]] inline std::string body_text(index number,
+                                                      std::vector<index> const& unknowns) {
   using slant::detail::show;
   auto const count = static_cast<index>(unknowns.size());
   std::string text = "body " + show(number);
@@ -32,7 +33,7 @@ namespace slant::contact::detail {
 }
 
 /// "a, b and c".
-[[nodiscard]] inline std::string enumeration(std::vector<std::string> const& words) {
+[[nodiscard, gnu::cold]] inline std::string enumeration(std::vector<std::string> const& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     text.append(i == 0 ? "" : i + 1 == words.size() ? " and " : ", ").append(words[i]);
@@ -42,7 +43,7 @@ namespace slant::contact::detail {
 
 /// Three digits, for reading.
 template <class S>
-[[nodiscard]] std::string rounded(S const& value) {
+[[nodiscard, gnu::cold]] std::string rounded(S const& value) {
   char text[32];
   (void)std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value));
   return text;
@@ -50,7 +51,7 @@ template <class S>
 
 /// "(0.6, 0, 0.8)"; components that are rounding errors of the largest, or of `size`, are 0.
 template <class V>
-[[nodiscard]] std::string rounded_vector(V const& v, typename V::Scalar const& size) {
+[[nodiscard, gnu::cold]] std::string rounded_vector(V const& v, typename V::Scalar const& size) {
   using std::abs;
   std::string text = "(";
   for (index i = 0; i < v.size(); ++i) {
@@ -224,9 +225,9 @@ template <class S>
 
 /// " can move along x and turn about z"; " has 3 free motions" where places are not known.
 template <class S>
-[[nodiscard]] std::string motions_text(node_layout<S> const& layout,
-                                       std::vector<index> const& unknowns,
-                                       Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R) {
+[[nodiscard, gnu::cold]] std::string motions_text(
+    node_layout<S> const& layout, std::vector<index> const& unknowns,
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R) {
   using slant::detail::show;
   std::string const number =
       " has " + show(index(R.cols())) + (R.cols() == 1 ? " free motion" : " free motions");
@@ -246,7 +247,7 @@ template <class S>
 
 /// " moves along x", " turns about z", or only " moves".
 template <class S>
-[[nodiscard]] std::string motion_text(
+[[nodiscard, gnu::cold]] std::string motion_text(
     node_layout<S> const& layout, std::vector<index> const& unknowns,
     Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& direction) {
   if (!layout.is_known()) return " moves";

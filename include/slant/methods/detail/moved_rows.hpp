@@ -6,6 +6,7 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/constraint_rows.hpp>
 
 #include <cstddef>
@@ -90,7 +91,7 @@ template <class S, class Q, class V>
   } else {
     bool moved = false;
     rows.for_each_product(p, [&](index i, S const&, S const& size) { sizes[i] = size; });
-    slant::local(scratch) = slant::local(q) - slant::local(p);
+    vectors::difference(q, p, scratch);
     rows.for_each_product(scratch, [&](index i, S const& value, S const& size) {
       using std::abs;
       S const noise = S(1024) * std::numeric_limits<S>::epsilon() * (size + sizes[i]);

@@ -10,7 +10,8 @@
 namespace slant::detail {
 
 /// `infeasible`: no point of Λ satisfies G x = e, which has been shown.
-[[nodiscard]] inline std::string reason_with_equalities(slant::status end, bool infeasible) {
+[[nodiscard, gnu::cold]] inline std::string reason_with_equalities(slant::status end,
+                                                                   bool infeasible) {
   switch (end) {
     case slant::status::converged:
       return "the reduced gradient and the residual of the equality constraints vanish";

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/methods/active_rows.hpp>
 #include <slant/methods/schur_contact_state.hpp>
@@ -38,8 +39,8 @@ bool finds_kernel(P const& p, schur_contact_state<P>& s) {
   q.live = false;
   s.regular = false;
   if (slope >= scalar(0)) return true;
-  slant::local(q.q) *= scalar(-1);
-  slant::local(q.Ap) *= scalar(-1);
+  vectors::scale(scalar(-1), q.q);
+  vectors::scale(scalar(-1), q.Ap);
   return true;
 }
 

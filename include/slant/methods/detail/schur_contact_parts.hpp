@@ -6,6 +6,7 @@
 
 #include <slant/concepts/checks.hpp>
 #include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/schur_contact_state.hpp>
 
 #include <limits>
@@ -18,7 +19,8 @@ void compute_residual(P const& p, schur_contact_state<P>& s) {
   using scalar = typename P::scalar;
   slant::apply(p.k(), s.x, s.r, s.k_workspace);
   ++s.work.operator_applications;
-  slant::local(s.r) = (slant::local(p.f()) - slant::local(s.r)) * (scalar(1) / s.unit);
+  vectors::difference(p.f(), s.r, s.r);
+  vectors::scale(scalar(1) / s.unit, s.r);
 }
 /// (vi), (vii).
 template <class P>
@@ -39,12 +41,12 @@ void note_contact_residual(P const& p, schur_contact_state<P>& s) {
   scalar const zero = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(s.r);
   s.φ_norm = norm(s.φ);
   if (s.φ_norm <= zero) {
-    slant::local(s.φ).setZero();
+    vectors::set_zero(s.φ);
     s.φ_norm = scalar(0);
   }
   scalar const size = norm(s.d);
   s.residual_norm = s.unit * size;
-  slant::local(s.trial) = slant::local(s.d) - slant::local(s.φ);
+  vectors::difference(s.d, s.φ, s.trial);
   s.β_norm = size > zero ? norm(s.trial) : scalar(0);
   if (size <= zero) s.status = status::converged;
   if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;

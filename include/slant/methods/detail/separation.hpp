@@ -17,6 +17,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,13 +35,14 @@ template <class Set, class V>
   S last = std::numeric_limits<S>::infinity();
   S t(1);
   for (int k = 0; k <= 40; ++k, t *= S(2)) {
-    slant::local(y) = slant::local(x) - t * slant::local(w);
+    vectors::waxpy(-t, w, x, y);
     slant::project(set, slant::local(y), slant::local(projected));
-    slant::local(y) = (slant::local(projected) - slant::local(nearest)) * (S(1) / distance);
+    vectors::difference(projected, nearest, y);
+    vectors::scale(S(1) / distance, y);
     S const size = distance * norm(y);
     S const height = inner_product(w, y);
     if (!(height > S(256) * std::numeric_limits<S>::epsilon() * size)) return false;
-    slant::local(y) = slant::local(projected) - slant::local(x);
+    vectors::difference(projected, x, y);
     S const moved = norm(y);
     if (moved == last) return true;
     last = moved;
@@ -58,12 +60,12 @@ template <class Set, class C, class V>
   index momentum = 0;
   for (index k = 1; k <= 4096; ++k) {
     slant::apply(Q, ahead, w);
-    slant::local(w) -= slant::local(c.nearest());
-    slant::local(y) = slant::local(ahead) - slant::local(w);
+    vectors::subtract(c.nearest(), w);
+    vectors::difference(ahead, w, y);
     std::swap(last, point);
     slant::project(set, slant::local(y), slant::local(point));
     slant::apply(Q, point, w);
-    slant::local(w) -= slant::local(c.nearest());
+    vectors::subtract(c.nearest(), w);
     S const distance = norm(w);
     using std::sqrt;
     if (!(distance > sqrt(std::numeric_limits<S>::epsilon()) * norm(point))) return false;

@@ -3,6 +3,7 @@
 // What the two Schur complement solvers of generalised saddle-point systems share.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/detail/hessian_factors.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/operators/diagonal.hpp>
@@ -59,7 +60,7 @@ template <class G, class V>
                                                        std::move(g_workspace),
                                                        typename factors::vector_type(n)};
   w.residual = like(f, n + p);
-  for (V* v : {&w.reduced, &w.multipliers, &w.active, &w.inactive}) slant::local(*v).setZero();
+  for (V* v : {&w.reduced, &w.multipliers, &w.active, &w.inactive}) vectors::set_zero(*v);
   return w;
 }
 
@@ -87,12 +88,12 @@ void finish_direction(G const& g, V const& f, direction_request<scalar_t<V>> con
   slice(n + m, 0, n).segment(dy) = -slant::local(p.x);
   slice(n + m, n, m).segment(dy) = slant::local(p.multipliers);
   slant::apply(g, dy, p.residual, p.g_workspace);
-  slant::local(p.residual) += slant::local(f);
+  vectors::add(f, p.residual);
   S const true_norm = norm(p.residual);
   if (!is_finite(true_norm) || !is_finite(S(norm(dy)))) {
     report.status = status::breakdown;
     report.residual_norm = request.residual_norm;
-    slant::local(dy).setZero();
+    vectors::set_zero(dy);
     return;
   }
   // The rounding errors of K⁻¹ count as well.
@@ -105,7 +106,7 @@ void finish_direction(G const& g, V const& f, direction_request<scalar_t<V>> con
 template <class V>
 [[nodiscard]] direction_report<scalar_t<V>> no_factors(
     direction_request<scalar_t<V>> const& request, V& dy) {
-  slant::local(dy).setZero();
+  vectors::set_zero(dy);
   return {status::breakdown, request.residual_norm, 0, 0, 1};
 }
 

@@ -4,6 +4,7 @@
 // temporary that belongs to the workspace. The choice is made by the compiler.
 #pragma once
 
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/applicable.hpp>
 
 #include <utility>
@@ -33,7 +34,7 @@ void accumulate(A const& a, S const& α, X const& x, Y& y, W& w) {
     slant::apply_add(a, α, x, y, w);
   } else {
     slant::apply(a, x, w.product, w.inner);
-    slant::local(y) += α * slant::local(w.product);
+    vectors::axpy(α, w.product, y);
   }
 }
 
@@ -55,7 +56,7 @@ void accumulate_adjoint(A const& a, S const& α, X const& x, Y& y, W& w) {
     slant::apply_adjoint_add(a, α, x, y, w);
   } else {
     slant::apply_adjoint(a, x, w.product, w.inner);
-    slant::local(y) += α * slant::local(w.product);
+    vectors::axpy(α, w.product, y);
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace slant::detail {
 
-[[nodiscard]] inline std::string size_text(index rows, index cols) {
+[[nodiscard, gnu::cold]] inline std::string size_text(index rows, index cols) {
   return std::to_string(rows) + " x " + std::to_string(cols);
 }
 

@@ -35,7 +35,7 @@ void for_each_entry(M const& m, F f) {
   }
 }
 
-[[nodiscard]] inline std::string entry_text(std::string_view name, index i, index j) {
+[[nodiscard, gnu::cold]] inline std::string entry_text(std::string_view name, index i, index j) {
   return std::string(name)
       .append("(")
       .append(std::to_string(i))

@@ -33,8 +33,8 @@ template <class C>
   }
 }
 
-inline void require_equal_sizes(std::string_view name, index got, index expected,
-                                std::string_view what) {
+[[gnu::cold]] inline void require_equal_sizes(std::string_view name, index got, index expected,
+                                              std::string_view what) {
   if (got != expected) {
     throw bad_input(name, std::to_string(got),
                     std::to_string(expected).append(" (").append(what).append(")"));

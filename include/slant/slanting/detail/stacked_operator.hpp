@@ -6,6 +6,7 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/detail/accumulate.hpp>
 #include <slant/operators/detail/applicable.hpp>
 #include <slant/operators/held.hpp>
@@ -94,7 +95,7 @@ class stacked_operator {
   template <class X, class Y, class W>
     requires(adds_adjoint<std::remove_cvref_t<A>, plain_t<X>, Y> && ...)
   void apply_adjoint(X const& x, Y& y, W& w) const {
-    slant::local(y).setZero();
+    vectors::set_zero(y);
     for_each([&](auto const& a, auto i, index first) {
       auto& own = std::get<i()>(w);
       slant::local(own.rows) = slant::local(x).middleRows(first, a.rows());

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// Which type a method is instantiated for. slant::compiled has the usual methods for
+// any_qp<double>; in a program that links it,
+//
+//     slant::symmetric_newton{qp}     is a     symmetric_newton<any_qp<double, …>>
+//
+// for every program on Eigen::VectorXd with a semidefinite A and blocks of the usual kinds, and is
+// not instantiated anew. Without the component, or for other problems, it is an instance of its
+// own. Steps, counts and bits are the same (tests/compiled), and problems are referenced and owned
+// by the same rule. A type that is spelt out, symmetric_newton<QP const&>, is what it says.
+#pragma once
+
+#include <slant/compiled.hpp>
+#include <slant/operators/held.hpp>
+
+#if SLANT_USES_COMPILED
+#include <slant/methods/any_qp.hpp>
+#endif
+
+#include <concepts>
+#include <type_traits>
+
+namespace slant {
+
+namespace detail {
+
+template <class QP>
+struct compiled_problem {
+  using type = kept_t<QP>;
+};
+
+#if SLANT_USES_COMPILED
+template <class QP>
+concept is_compiled_problem =
+    forgettable_problem<QP, usual_runs<double>> && std::same_as<typename QP::scalar, double> &&
+    laws_of<typename QP::operator_type>.contains(semidefinite_laws);
+
+template <class QP>
+  requires is_compiled_problem<std::remove_cvref_t<QP>>
+struct compiled_problem<QP> {
+  using type = erased_t<std::remove_cvref_t<QP>, usual_runs<double>>;
+};
+#endif
+
+}  // namespace detail
+
+/// How a method keeps a problem that it is made of, a parameter of the deduced type QP&&.
+template <class QP>
+using compiled_problem_t = typename detail::compiled_problem<QP>::type;
+
+}  // namespace slant

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Do the tests find defects? Each mutation changes one expression of the library; a test must fail.
+
+    tests/mutations/mutations.py [--jobs 2] [--compiler g++] [NAME...]
+
+mutations.txt lists, for each: its name, the file, what stands there (once), what stands there
+instead, and the test files that must notice. Sources are copied, changed, compiled with those tests
+alone, and run; a test that fails, does not end or does not compile any more has found the mutation.
+First every test must pass with the library as it is. Prints a line for each, and ends with status 1
+if one survives. The include folders are those of the release build, -O1.
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+# What some tests link besides their own file, found by the header that they include.
+PARTNERS = {
+    "krylov/spd_matrices.hpp": "tests/krylov/spd_matrices.cpp",
+    "example_one.hpp": "tests/methods/example_one.cpp",
+    "oracle/random_programs.hpp": "tests/oracle/random_programs.cpp",
+    "oracle/dense_newton.hpp": "tests/oracle/dense_newton.cpp",
+    "oracle/dense_contact_reference.hpp": "tests/oracle/dense_contact_reference.cpp",
+}
+
+
+def read_mutations():
+    """Blocks of lines `key: value`, empty lines between; a line that begins with # is a remark."""
+    mutations, block = [], {}
+    for line in (ROOT / "tests/mutations/mutations.txt").read_text().split("\n") + [""]:
+        if line.startswith("#"):
+            continue
+        if not line.strip():
+            if block:
+                mutations.append(block)
+            block = {}
+            continue
+        key, _, value = line.partition(": ")
+        block[key.strip()] = value
+    return mutations
+
+
+class Workshop:
+    """Compiles tests against a folder with the library's headers."""
+
+    def __init__(self, compiler, folder):
+        self.folder = pathlib.Path(folder)
+        response = ROOT / "build/release/compile_flags.rsp"
+        if not response.exists():
+            subprocess.run(["cmake", "-S", ROOT, "--preset", "release"], check=True,
+                           stdout=subprocess.DEVNULL)
+        self.libraries = ["-lpthread"]
+        flags = response.read_text().split()
+        if any("CHOLMOD" in f for f in flags):
+            self.libraries.append("-lcholmod")
+        self.compiler = ["ccache", compiler] if shutil.which("ccache") else [compiler]
+        self.other_flags = [f for f in flags if str(ROOT) not in f.replace('"', "")]
+        self.objects = {}
+
+    def flags(self, library):
+        own = [f"-I{library}/include", f"-I{library}/concepts", f"-I{ROOT}/examples",
+               f"-I{ROOT}/tests", f'-DSLANT_TEST_DATA="{ROOT}/tests/data"']
+        return [*own, *self.other_flags, "-O1", "-w"]
+
+    def compiled(self, source, library, where):
+        result = where / (str(source).replace("/", "_") + ".o")
+        done = subprocess.run([*self.compiler, *self.flags(library), "-c", ROOT / source, "-o", result],
+                              capture_output=True, text=True, check=False)
+        return result if done.returncode == 0 else None
+
+    def shared(self, source):
+        """The object of a source that no mutation touches."""
+        if source not in self.objects:
+            where = self.folder / "shared"
+            where.mkdir(exist_ok=True)
+            self.objects[source] = self.compiled(source, ROOT, where)
+            if self.objects[source] is None:
+                sys.exit(f"mutations.py: {source} does not compile")
+        return self.objects[source]
+
+    def passes(self, test, library, where):
+        """Whether the test compiles, runs to its end and finds nothing wrong."""
+        text = (ROOT / test).read_text()
+        partners = [self.shared("tests/main.cpp"), self.shared("tests/support/allocation_guard.cpp")]
+        partners += [self.shared(p) for header, p in PARTNERS.items() if header in text]
+        unit = self.compiled(test, library, where)
+        if unit is None:
+            return False
+        program = where / "program"
+        subprocess.run([self.compiler[-1], unit, *partners, *self.libraries, "-o", program], check=True)
+        try:
+            return subprocess.run([program], capture_output=True, timeout=120,
+                                  check=False).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+
+def survives(workshop, mutation, number):
+    """The name of what is wrong, or nothing."""
+    where = workshop.folder / str(number)
+    where.mkdir()
+    library = where / "library"
+    for part in ("include", "concepts"):
+        shutil.copytree(ROOT / part, library / part)
+    changed = library / mutation["file"]
+    text = changed.read_text()
+    if text.count(mutation["from"]) != 1:
+        return f"\"{mutation['from']}\" stands {text.count(mutation['from'])} times in {mutation['file']}"
+    changed.write_text(text.replace(mutation["from"], mutation["to"]))
+    found = any(not workshop.passes(t, library, where) for t in mutation["tests"].split())
+    shutil.rmtree(where)
+    return "" if found else "survives: no test has noticed"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--compiler", default="g++")
+    options = parser.parse_args()
+    mutations = [m for m in read_mutations() if not options.names or m["name"] in options.names]
+    failures = 0
+    with tempfile.TemporaryDirectory() as folder, \
+            concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        workshop = Workshop(options.compiler, folder)
+        for source in ("tests/main.cpp", "tests/support/allocation_guard.cpp", *PARTNERS.values()):
+            workshop.shared(source)
+        tests = sorted({t for m in mutations for t in m["tests"].split()})
+
+        def as_it_is(numbered):
+            where = workshop.folder / f"as_it_is_{numbered[0]}"
+            where.mkdir()
+            return workshop.passes(numbered[1], ROOT, where)
+
+        for test, good in zip(tests, pool.map(as_it_is, enumerate(tests))):
+            if not good:
+                print(f"{test}: fails without any mutation")
+                failures += 1
+        jobs = [pool.submit(survives, workshop, m, i) for i, m in enumerate(mutations)]
+        for mutation, job in zip(mutations, jobs):
+            problem = job.result()
+            failures += 1 if problem else 0
+            print(f"{mutation['name']}: {problem or 'found'}", flush=True)
+    print(f"{len(mutations)} mutations, {failures} failures")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
