@@ -41,3 +41,4 @@ execute_process(
     "-DEXPECTED_PREFIX=${prefix}" "-DCOMPONENTS=${COMPONENTS}" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${work}/build" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${work}/build/consumer" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${work}/build/precompiled_consumer" COMMAND_ERROR_IS_FATAL ANY)

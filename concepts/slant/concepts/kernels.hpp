@@ -172,28 +172,30 @@ template <class S>
       n, [](auto const& a, auto const& b) { return a / b; }, z, x, y);
 }
 
+/// 0, or a pack of zeros.
+template <class S, class T>
+[[gnu::always_inline]] inline T zero_of(T const&) {
+  if constexpr (std::is_same_v<S, T>) {
+    return S(0);
+  } else {
+    return T{};
+  }
+}
+
 /// y ← x where the mask is not 0, and 0 elsewhere: a selection, since 0 · ∞ would be NaN. y may be
 /// x.
 template <class S>
 [[gnu::noinline]] void keep(index n, S const* mask, S const* x, S* y) {
   each(
-      n,
-      [](auto const& m, auto const& a) {
-        std::remove_cvref_t<decltype(a)> const zero{};
-        return m == zero ? zero : a;
-      },
-      y, mask, x);
+      n, [](auto const& m, auto const& a) { return m == zero_of<S>(a) ? zero_of<S>(a) : a; }, y,
+      mask, x);
 }
 /// y ← x where the mask is 0, and 0 elsewhere; y may be x.
 template <class S>
 [[gnu::noinline]] void keep_complement(index n, S const* mask, S const* x, S* y) {
   each(
-      n,
-      [](auto const& m, auto const& a) {
-        std::remove_cvref_t<decltype(a)> const zero{};
-        return m == zero ? a : zero;
-      },
-      y, mask, x);
+      n, [](auto const& m, auto const& a) { return m == zero_of<S>(a) ? a : zero_of<S>(a); }, y,
+      mask, x);
 }
 
 /// x[i] == y[i] for all i.

@@ -2,8 +2,9 @@
 //
 // Vectors: an Eigen object plus an inner product.
 //
-// Intuition. Elementwise work is done by Eigen on `local(x)`, the part of the vector that lives
-// here; only inner products, the two reductions of distributed.hpp, and operators may communicate.
+// Intuition. Elementwise work is done on `local(x)`, the part of the vector that lives here, by
+// vector_algebra.hpp; only inner products, the two reductions of distributed.hpp, and operators may
+// communicate.
 //
 // Minimal definition. Nothing for Eigen column vectors. Otherwise members
 //     local()            the local part, an Eigen column vector (lvalue, const and non-const),
@@ -18,7 +19,8 @@
 // Models. Eigen::VectorXd and friends of any scalar, slant::testing::archetype::vector.
 //
 // Rejected: a concept listing axpy, scal, pointwise maps. Every method needs a few more of those,
-// each distributed vector would have to supply them all, and Eigen fuses them better.
+// each distributed vector would have to supply them all, and they are the same for all: on
+// local(x).
 #pragma once
 
 #include <slant/concepts/kernels.hpp>

@@ -52,8 +52,8 @@ class ball {
     return ball(radius_ * s(0));
   }
 
-  /// Nearest point of the set.
-  [[nodiscard]] vector_type project(auto const& x) const {
+  /// Nearest point of the set. (Inlined: a call costs half as much as the rest.)
+  [[nodiscard, gnu::always_inline]] vector_type project(auto const& x) const {
     vector_type const v = x;
     auto const length = detail::scaled_norm<S, N>(v);
     S const g = detail::times_power_of_two<S>(radius_, -length.exponent);

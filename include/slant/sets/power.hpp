@@ -154,9 +154,8 @@ class power_product {
     }
   }
 
-  // Flattened: a call for each block would cost as much as the block.
   template <class X, class Y>
-  [[gnu::flatten]] void project_blocks(X const& from, Y& to) const {
+  void project_blocks(X const& from, Y& to) const {
     if constexpr (requires { blocks_.repeats_one(); }) {
       if (blocks_.repeats_one()) {
         detail::identical_blocks<Block> const same(blocks_[0], blocks_.size());
