@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What methods do with whole vectors besides inner products: copies, sums, multiples, products of
-// entries. Arguments are vectors, or Eigen objects with entries in memory; results come last.
+// entries. Arguments are vectors, or parts or expressions of Eigen; results come last.
 //
 //     vectors::axpy(-α, d, x);                x ← x − α d
 //     vectors::waxpy(-α, d, x, y);            y ← x − α d
@@ -20,7 +20,15 @@ namespace slant::vectors {
 
 namespace detail {
 
-/// Entries in memory, one beside the other within a column.
+/// Entries in memory; an expression has none.
+template <class X>
+concept has_memory = requires(X const& x) {
+  x.data();
+  x.innerStride();
+  x.outerStride();
+};
+
+/// One entry beside the other within a column.
 template <class X>
 [[nodiscard]] bool is_contiguous(X const& x) {
   return x.innerStride() == 1 && (x.outerSize() <= 1 || x.outerStride() == x.innerSize());
@@ -36,14 +44,20 @@ inline constexpr bool same_order =
 template <class F, class Y, class... X>
 void run(F const& f, Y& y, X const&... x) {
   eigen_assert(((x.rows() == y.rows() && x.cols() == y.cols()) && ...));
-  if constexpr (same_order<Y, X...>) {
-    if (is_contiguous(y) && (is_contiguous(x) && ...)) {
-      f(index(y.size()), x.data()..., y.data());
-      return;
+  if constexpr (has_memory<Y> && (has_memory<X> && ...)) {
+    if constexpr (same_order<Y, X...>) {
+      if (is_contiguous(y) && (is_contiguous(x) && ...)) {
+        f(index(y.size()), x.data()..., y.data());
+        return;
+      }
     }
   }
   for (index j = 0; j < y.cols(); ++j) {
-    for (index i = 0; i < y.rows(); ++i) f(index(1), &x.coeffRef(i, j)..., &y.coeffRef(i, j));
+    for (index i = 0; i < y.rows(); ++i) {
+      [&](auto const&... entry) {
+        f(index(1), &entry..., &y.coeffRef(i, j));
+      }(typename X::Scalar(x.coeff(i, j))...);
+    }
   }
 }
 

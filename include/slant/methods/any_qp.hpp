@@ -7,7 +7,8 @@
 //     auto const run = slant::solve(slant::kprgp{slant::erased(given)}, x0, stop);
 //
 // An application of A costs three virtual calls more, a visit of all blocks one question for each
-// run of blocks of one kind. Steps, counts and bits are the same.
+// run of blocks of one kind. Steps, counts and bits are the same, unless A has a twin of lower
+// precision (rounded.hpp), which is forgotten: then inner iterations take twice the time.
 //
 // slant::compiled has methods for any_qp<double>; see methods/compiled_problem.hpp.
 #pragma once

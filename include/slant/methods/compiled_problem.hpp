@@ -6,12 +6,14 @@
 //     slant::symmetric_newton{qp}     is a     symmetric_newton<any_qp<double, …>>
 //
 // for every program on Eigen::VectorXd with a semidefinite A and blocks of the usual kinds, and is
-// not instantiated anew. Without the component, or for other problems, it is an instance of its
-// own. Steps, counts and bits are the same (tests/compiled), and problems are referenced and owned
-// by the same rule. A type that is spelt out, symmetric_newton<QP const&>, is what it says.
+// not instantiated anew. (Unless A has a twin of lower precision, which any_operator forgets.)
+// Without the component, or for other problems, it is an instance of its own. Steps, counts and
+// bits are the same (tests/compiled), and problems are referenced and owned by the same rule. A
+// type that is spelt out, symmetric_newton<QP const&>, is what it says.
 #pragma once
 
 #include <slant/compiled.hpp>
+#include <slant/concepts/rounded.hpp>
 #include <slant/operators/held.hpp>
 
 #if SLANT_USES_COMPILED
@@ -34,7 +36,8 @@ struct compiled_problem {
 template <class QP>
 concept is_compiled_problem =
     forgettable_problem<QP, usual_runs<double>> && std::same_as<typename QP::scalar, double> &&
-    laws_of<typename QP::operator_type>.contains(semidefinite_laws);
+    laws_of<typename QP::operator_type>.contains(semidefinite_laws) &&
+    !has_rounded<typename QP::operator_type, typename QP::vector_type>;
 
 template <class QP>
   requires is_compiled_problem<std::remove_cvref_t<QP>>
