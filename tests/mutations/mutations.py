@@ -22,11 +22,11 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # What some tests link besides their own file, found by the header that they include.
 PARTNERS = {
-    "krylov/spd_matrices.hpp": "tests/krylov/spd_matrices.cpp",
+    "spd_matrices.hpp": "tests/krylov/spd_matrices.cpp",
     "example_one.hpp": "tests/methods/example_one.cpp",
-    "oracle/random_programs.hpp": "tests/oracle/random_programs.cpp",
-    "oracle/dense_newton.hpp": "tests/oracle/dense_newton.cpp",
-    "oracle/dense_contact_reference.hpp": "tests/oracle/dense_contact_reference.cpp",
+    "random_programs.hpp": "tests/oracle/random_programs.cpp",
+    "dense_newton.hpp": "tests/oracle/dense_newton.cpp",
+    "dense_contact_reference.hpp": "tests/oracle/dense_contact_reference.cpp",
 }
 
 
