@@ -31,6 +31,7 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/identity.hpp>
 
+#include <type_traits>
 #include <utility>
 
 namespace slant::contact {
