@@ -21,4 +21,11 @@ template class detail::symmetric_newton_steps<any_qp<double, semidefinite_laws>,
 template class detail::interior_point_steps<any_qp<double, definite_laws>, identity_operator>;
 template class detail::interior_point_steps<any_qp<double, semidefinite_laws>, identity_operator>;
 
+// With preconditioners.
+using preconditioner = any_operator<Eigen::VectorXd, semidefinite_laws>;
+template class detail::symmetric_newton_steps<any_qp<double, definite_laws>, preconditioner>;
+template class detail::symmetric_newton_steps<any_qp<double, semidefinite_laws>, preconditioner>;
+template class detail::interior_point_steps<any_qp<double, definite_laws>, preconditioner>;
+template class detail::interior_point_steps<any_qp<double, semidefinite_laws>, preconditioner>;
+
 }  // namespace slant

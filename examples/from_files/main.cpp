@@ -29,10 +29,7 @@ std::map<std::string, from_files::start_point> const starts{
     {"interior_point", from_files::start_point::interior_point}};
 
 int list_methods() {
-  from_files::for_each_method([](auto const& method) {
-    std::printf("%-20s %s%s\n", method.name.data(), method.sentence.data(),
-                method.name == from_files::recommended_method ? " (recommended)" : "");
-  });
+  from_files::print_methods(from_files::methods);
   std::printf("\nBodies with Coulomb friction (--coulomb):\n");
   from_files::print_methods(from_files::coulomb_methods);
   std::printf("\nContacts in local coordinates:\n");
@@ -76,9 +73,7 @@ from_files::settings settings_of(arguments const& a) {
 }
 
 int solve_tresca(arguments const& a) {
-  std::string const method =
-      a.method.empty() ? std::string(from_files::recommended_method) : a.method;
-  from_files::with_method(method, [](auto const&) {});
+  auto const& method = from_files::method_named(from_files::methods, a.method);
   auto const problem = from_files::read_problem_folder(a.folder);
   auto files = from_files::places_for(a, {"u.txt", "lambda.txt"});
   auto const layout = from_files::read_layout(a, problem);
@@ -88,7 +83,8 @@ int solve_tresca(arguments const& a) {
   try {
     auto const solution = from_files::solve(problem, method, settings);
     auto const warnings = from_files::warnings_about(a, problem, solution, layout);
-    return deliver_solution(a, problem, solution.motions.free.empty() ? method : "floating",
+    return deliver_solution(a, problem,
+                            solution.motions.free.empty() ? std::string(method.name) : "floating",
                             solution, warnings, files);
   } catch (slant::bad_input const& refusal) {
     throw slant::contact::with_free_motions(refusal,

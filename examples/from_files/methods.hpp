@@ -4,7 +4,7 @@
 // is asked for.
 #pragma once
 
-#include <slant/concepts/bad_input.hpp>
+#include <array>
 #include <slant/methods/gimssn.hpp>
 #include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
@@ -14,9 +14,7 @@
 #include <slant/newton/by_laws.hpp>
 #include <slant/newton/schur_bicgstab.hpp>
 #include <slant/newton/schur_cg.hpp>
-#include <string>
 #include <string_view>
-#include <tuple>
 
 #include "any_dual.hpp"
 #include "newton_methods.hpp"
@@ -24,40 +22,37 @@
 
 namespace from_files {
 
-/// A method: run(problem, dual, λ⁰, settings) → outcome. The recommended one has no run:
-/// contact::solve takes the problem itself.
-template <class Run>
+/// A method; run is none for the recommended one: contact::solve takes the problem itself.
 struct named_method {
   std::string_view name;
   std::string_view sentence;
-  Run run;
+  outcome (*run)(problem const&, any_dual const&, Eigen::VectorXd const& λ0, settings const&);
 };
-template <class Run>
-named_method(char const*, char const*, Run) -> named_method<Run>;
 
 /// A method that needs nothing but the dual problem; make(qp) makes it.
 template <class Make>
-[[nodiscard]] constexpr auto on_dual(char const* name, char const* sentence, Make make) {
-  auto run = [make](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0,
-                    settings const& s) { return run_on_dual(make(dual.qp()), λ0, s); };
-  return named_method<decltype(run)>{name, sentence, run};
+[[nodiscard]] constexpr named_method on_dual(char const* name, char const* sentence, Make) {
+  return {name, sentence,
+          [](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0, settings const& s) {
+            return run_on_dual(Make{}(dual.qp()), λ0, s);
+          }};
 }
 
 /// SSNM with one of its linear solvers.
 template <class Solver>
-[[nodiscard]] constexpr auto thesis(char const* name, char const* sentence, Solver) {
-  auto run = [](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0,
-                settings const& s) { return run_ssnm(dual, λ0, s, Solver{}); };
-  return named_method<decltype(run)>{name, sentence, run};
+[[nodiscard]] constexpr named_method thesis(char const* name, char const* sentence, Solver) {
+  return {name, sentence,
+          [](problem const&, any_dual const& dual, Eigen::VectorXd const& λ0, settings const& s) {
+            return run_ssnm(dual, λ0, s, Solver{});
+          }};
 }
 
-inline constexpr std::tuple methods{
+inline constexpr std::array methods{
     named_method{"symmetric_newton",
                  "Semismooth Newton with the curvature of the discs, preconditioned CG inside.",
                  nullptr},
     named_method{"interior_point", "Path following inside the set, preconditioned CG inside.",
-                 [](problem const& p, any_dual const& dual, Eigen::VectorXd const& λ0,
-                    settings const& s) { return run_interior_point(p, dual, λ0, s); }},
+                 run_interior_point},
     on_dual("kprgp", "Active sets: CG on a face, gradient projections to change it.",
             [](auto const& qp) { return slant::kprgp{qp}; }),
     on_dual("as", "kprgp by the name that it has on half lines and intervals.",
@@ -89,35 +84,11 @@ inline constexpr std::tuple methods{
         }},
     named_method{"ssn_primal_dual",
                  "Newton for displacements and multipliers together, without a factor of K inside.",
-                 [](problem const& p, any_dual const& dual, Eigen::VectorXd const& λ0,
-                    settings const& s) { return run_primal_dual(p, dual, λ0, s); }},
+                 run_primal_dual},
     thesis("ssnm_a", "Newton for multipliers and their multipliers: Schur complement, BiCGSTAB.",
            slant::schur_bicgstab{}),
     thesis("ssnm_b", "The same: BiCGSTAB on the whole system.", slant::bicgstab_solver{}),
     thesis("ssnm_c", "The same: Schur complement made symmetric, CG.", slant::schur_cg{}),
 };
-
-/// Name of the recommended method.
-inline constexpr std::string_view recommended_method = std::get<0>(methods).name;
-
-/// f(method) for every method.
-template <class F>
-void for_each_method(F f) {
-  std::apply([&](auto const&... method) { (f(method), ...); }, methods);
-}
-
-/// f(method) for the method of that name. Throws slant::bad_input that lists the known names.
-template <class F>
-void with_method(std::string_view name, F f) {
-  bool found = false;
-  std::string known;
-  for_each_method([&](auto const& method) {
-    known.append(known.empty() ? "" : ", ").append(method.name);
-    if (method.name != name) return;
-    found = true;
-    f(method);
-  });
-  if (!found) throw slant::bad_input("--method", name, "one of " + known);
-}
 
 }  // namespace from_files

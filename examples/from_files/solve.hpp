@@ -3,6 +3,7 @@
 // From the problem of a folder to its solution, with the time and the work that it took.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/contact/certificate.hpp>
@@ -12,8 +13,6 @@
 #include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <string>
-#include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include "any_dual.hpp"
@@ -24,6 +23,9 @@
 namespace from_files {
 
 namespace detail {
+
+/// solve(b, x) of any factorisation of K.
+using solve_with_K = std::function<void(Eigen::VectorXd const&, Eigen::VectorXd&)>;
 
 /// What it means for u that the dual problem has no minimum.
 [[nodiscard]] inline std::string contradiction(slant::contact::data<double> const& c) {
@@ -61,9 +63,26 @@ inline void add_work(outcome const& first, outcome& run) {
   run.work.setup_applications += first.work.setup_applications;
 }
 
+/// f(dual) with the dual problem for the law that T stands for, whose type f does not see.
+template <class Factor, class F>
+void with_dual(problem const& p, Factor const& factor, F f) {
+  auto const visit = [&](auto friction) {
+    slant::contact::dual const given(friction, factor, p.contact);
+    auto const qp = given.qp();
+    f(any_dual(given, qp));
+  };
+  switch (p.contact.tangents()) {
+    case 0:
+      return visit(slant::contact::frictionless{});
+    case 1:
+      return visit(slant::contact::friction_line{});
+    default:
+      return visit(slant::contact::friction_disc{});
+  }
+}
+
 /// By contact::solve, from its own start or from that of another method.
-template <class Friction>
-[[nodiscard]] solution solve_recommended(Friction friction, problem const& p, settings const& s) {
+[[nodiscard]] inline solution solve_recommended(problem const& p, settings const& s) {
   auto const begin = clock::now();
   slant::contact::solve_options<double> o{
       .tolerance = s.tolerance, .prove = s.prove, .max_steps = s.max_iterations};
@@ -79,9 +98,7 @@ template <class Friction>
     o.start = Eigen::VectorXd::Zero(p.contact.N.rows() + p.contact.T.rows()).eval();
   } else if (s.start != start_point::automatic) {
     auto const factor = slant::factorize(p.K);
-    slant::contact::dual const given(friction, factor, p.contact);
-    auto const qp = given.qp();
-    start = find_start(p, any_dual(given, qp), s);
+    with_dual(p, factor, [&](any_dual const& dual) { start = find_start(p, dual, s); });
     o.start = start.λ;
     if (hopeless(start.status)) o.max_steps = 0;
   }
@@ -89,7 +106,7 @@ template <class Friction>
   o.progress = [&](auto const& step) {
     if (step.iteration == 0) started = clock::now();
   };
-  auto found = slant::contact::solve(friction, p.K, p.contact, o);
+  auto found = slant::contact::solve(p.K, p.contact, o);
   result.run = {.status = found.status,
                 .reason = std::move(found.reason),
                 .iterations = found.iterations,
@@ -108,18 +125,11 @@ template <class Friction>
   return result;
 }
 
-/// By a method of that name, judged by the same certificate.
-template <class Friction>
-[[nodiscard]] solution solve_by_name(Friction friction, problem const& p, std::string_view method,
-                                     settings s) {
-  auto const begin = clock::now();
-  auto const factor = slant::factorize(p.K);
-  slant::contact::dual const given(friction, factor, p.contact);
-  auto const qp = given.qp();
-  any_dual const dual(given, qp);
-  slant::contact::certificate<double> error_of(p.K, p.contact);
-  auto const solve_with_K = slant::contact::solver(factor);
-  if (s.prove) error_of.prove(solve_with_K, [](auto const& K) { (void)slant::factorize(K); });
+/// By a method for the dual problem, judged by the same certificate.
+[[nodiscard]] inline solution solve_dual(problem const& p, any_dual const& dual,
+                                         slant::contact::certificate<double>& error_of,
+                                         solve_with_K const& solve, named_method const& method,
+                                         settings s) {
   Eigen::VectorXd λ, u;
   auto const M = slant::contact::lumped_preconditioner(p.K, dual.constraints());
   auto const& A = dual.a();
@@ -128,27 +138,21 @@ template <class Friction>
   s.error_of = [&](Eigen::VectorXd const& forces) {
     λ = forces;
     u = dual.displacement(slant::project(dual.set(), λ));
-    auto const error = error_of(dual.set(), λ, u, s.tolerance, solve_with_K);
+    auto const error = error_of(dual.set(), λ, u, s.tolerance, solve);
     if (!(error.relative() > s.tolerance)) return error;
     return error_of.sharpened(
         slant::dual_norm(A, M, error_of.rest(), 12, true, wa, norm_workspace).value);
   };
   solution result;
-  outcome const start = find_start(p, dual, s);
-  with_method(method, [&](auto const& chosen) {
-    if (hopeless(start.status)) {
-      result.run = start;
-      return;
-    }
-    if constexpr (!std::is_null_pointer_v<std::remove_cvref_t<decltype(chosen.run)>>) {
-      result.run = chosen.run(p, dual, start.λ, s);
-      add_work(start, result.run);
-    }
-  });
+  result.run = find_start(p, dual, s);
+  if (!hopeless(result.run.status)) {
+    outcome const start = std::move(result.run);
+    result.run = method.run(p, dual, start.λ, s);
+    add_work(start, result.run);
+  }
   result.error = s.error_of(result.run.λ);
   result.u = u;
   result.run.λ = λ;
-  result.condition = error_of.condition();
   // Whatever a method says of itself: the certificate is right.
   bool const is_accurate = result.error.relative() <= s.tolerance;
   if (result.converged() && !is_accurate) {
@@ -157,38 +161,41 @@ template <class Friction>
   } else if (result.run.status == slant::status::stalled) {
     result.run.reason += "; " + result.error.sentence();
   }
+  return result;
+}
+
+[[nodiscard]] inline solution solve_by(named_method const& method, problem const& p,
+                                       settings const& s) {
+  auto const begin = clock::now();
+  auto const factor = slant::factorize(p.K);
+  slant::contact::certificate<double> error_of(p.K, p.contact);
+  solve_with_K const solve = slant::contact::solver(factor);
+  if (s.prove) error_of.prove(solve, [](auto const& K) { (void)slant::factorize(K); });
+  solution result;
+  with_dual(p, factor, [&](any_dual const& dual) {
+    result = solve_dual(p, dual, error_of, solve, method, s);
+  });
+  result.condition = error_of.condition();
   result.take_times(begin);
   result.factorization = factor.name();
   return result;
 }
 
-template <class Friction>
-[[nodiscard]] solution solve_with(Friction friction, problem const& p, std::string_view method,
-                                  settings const& s) {
-  solution result = method == recommended_method ? solve_recommended(friction, p, s)
-                                                 : solve_by_name(friction, p, method, s);
+}  // namespace detail
+
+/// Solves with that method. The friction law is that of T. Throws slant::bad_input if K is not
+/// symmetric positive definite (naming the entry or the pivot; the recommended method takes a K
+/// that is singular by free motions).
+[[nodiscard]] inline solution solve(problem const& p, named_method const& method,
+                                    settings const& s) {
+  solution result =
+      method.run == nullptr ? detail::solve_recommended(p, s) : detail::solve_by(method, p, s);
   if (result.run.status == slant::status::unbounded && result.motions.free.empty()) {
-    result.run.reason = contradiction(p.contact);
+    result.run.reason = detail::contradiction(p.contact);
   }
   result.kkt_residual =
       slant::contact::check_optimality(p.K, p.contact, result.u, result.run.λ).residual();
   return result;
-}
-
-}  // namespace detail
-
-/// Solves with the method of that name. The friction law is that of T. Throws slant::bad_input if K
-/// is not symmetric positive definite (naming the entry or the pivot; the recommended method takes
-/// a K that is singular by free motions) or if there is no such method.
-[[nodiscard]] inline solution solve(problem const& p, std::string_view method, settings const& s) {
-  switch (p.contact.tangents()) {
-    case 0:
-      return detail::solve_with(slant::contact::frictionless{}, p, method, s);
-    case 1:
-      return detail::solve_with(slant::contact::friction_line{}, p, method, s);
-    default:
-      return detail::solve_with(slant::contact::friction_disc{}, p, method, s);
-  }
 }
 
 }  // namespace from_files

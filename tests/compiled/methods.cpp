@@ -64,6 +64,7 @@ void all_methods(QP const& qp) {
   auto const M = slant::diagonal<slant::positive_definite>(inverse);
   print("preconditioned", slant::solve(slant::symmetric_newton{qp, M}, x0, stop));
   print("interior point", slant::solve(slant::interior_point{qp}, x0, stop));
+  print("interior point with M", slant::solve(slant::interior_point{qp, M}, x0, stop));
 }
 
 }  // namespace

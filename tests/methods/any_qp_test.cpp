@@ -5,6 +5,7 @@
 #include <slant/methods/any_qp.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/solve_program.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
@@ -125,6 +126,28 @@ TEST_CASE("erased programs: they refer to an lvalue, own an rvalue, and copies s
   CHECK(&copy.b() == &owning.b());
   CHECK(slant::project(copy.set(), z)[3] == p.g[0]);
   CHECK(slant::project(copy.set(), z).tail(2).norm() == doctest::Approx(p.g[2]));
+}
+
+TEST_CASE("erased programs: solve by a tolerance, with units chosen and without") {
+  usual_program const p(6, 50);
+  auto const set = p.set();
+  for (double const spread : {1.0, 1e3}) {
+    // Half lines of very different units; the other blocks keep theirs.
+    VectorXd units = VectorXd::Ones(p.b.size());
+    for (Eigen::Index i = 0; i < p.g.size(); ++i) units[i] = i % 2 == 0 ? spread : 1;
+    Eigen::MatrixXd scaled = units.asDiagonal() * p.A * units.asDiagonal();
+    scaled = (0.5 * (scaled + scaled.transpose())).eval();
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(scaled);
+    slant::separable_qp const qp{A, p.b, set};
+    auto const expected = slant::solve(qp, 1e-9);
+    auto const run = slant::solve(slant::erased(qp), 1e-9);
+    CHECK(expected.converged());
+    CHECK(run.converged());
+    CHECK(expected.scaled == (spread > 64));
+    CHECK(run.scaled == expected.scaled);
+    CHECK(run.steps == expected.steps);
+    CHECK(run.point == expected.point);
+  }
 }
 
 TEST_CASE("erased programs: one of few kinds is one of many") {

@@ -12,6 +12,7 @@
 // Costs a factorisation for each body, and a few solves.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/detail/body_graph.hpp>
 #include <slant/contact/detail/prepared_body.hpp>
 #include <slant/contact/detail/rigid_names.hpp>
@@ -154,5 +155,13 @@ template <class S>
     throw with_free_motions(refusal, find_free_motions(K, layout));
   }
 }
+
+#if SLANT_USES_COMPILED
+extern template free_motions<double> find_free_motions<double>(Eigen::SparseMatrix<double> const&,
+                                                               node_layout<double> const&);
+extern template std::string name_motion<double, Eigen::VectorXd>(Eigen::SparseMatrix<double> const&,
+                                                                 Eigen::VectorXd const&,
+                                                                 node_layout<double> const&);
+#endif
 
 }  // namespace slant::contact

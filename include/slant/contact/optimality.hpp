@@ -12,6 +12,7 @@
 // moves, and a rounding error of u must not pass for a large part of it.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/contact_data.hpp>
 
 #include <algorithm>
@@ -113,5 +114,12 @@ template <class S, class Matrix, class V>
   o.friction = friction.stableNorm() / force;
   return o;
 }
+
+#if SLANT_USES_COMPILED
+extern template optimality<double> check_optimality<double>(Eigen::SparseMatrix<double> const&,
+                                                            data<double> const&,
+                                                            Eigen::VectorXd const&,
+                                                            Eigen::VectorXd const&);
+#endif
 
 }  // namespace slant::contact

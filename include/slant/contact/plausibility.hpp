@@ -19,6 +19,7 @@
 // determine them. N and T both in other units than d. Rows that depend on several others.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/detail/contact_rows.hpp>
 #include <slant/contact/detail/plausibility_warning.hpp>
@@ -72,5 +73,13 @@ template <class S, class V>
   if (layout.is_known()) detail::find_large_displacements(K, layout, u, found);
   return found;
 }
+
+#if SLANT_USES_COMPILED
+extern template std::vector<plausibility_warning> check_plausibility<double>(
+    Eigen::SparseMatrix<double> const&, data<double> const&, node_layout<double> const&);
+extern template std::vector<plausibility_warning> check_plausibility<double, Eigen::VectorXd>(
+    Eigen::SparseMatrix<double> const&, data<double> const&, Eigen::VectorXd const&,
+    Eigen::VectorXd const&, node_layout<double> const&);
+#endif
 
 }  // namespace slant::contact

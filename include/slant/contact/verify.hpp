@@ -21,6 +21,7 @@
 // relative figures come from numbers near 1.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/contact/friction_problem.hpp>
 #include <slant/sets/detail/entries.hpp>
 #include <slant/sets/detail/scaled_norm.hpp>
@@ -333,5 +334,10 @@ template <class S>
   }
   return all;
 }
+
+#if SLANT_USES_COMPILED
+extern template friction_check<double> verify<double>(friction_problem<double> const&,
+                                                      Eigen::VectorXd const&, double);
+#endif
 
 }  // namespace slant::contact

@@ -15,6 +15,7 @@
 // from them is amplified as fixing_rows says, and where a pivot counts as small would depend on it.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/concepts/random.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
@@ -109,5 +110,9 @@ template <class S>
     return detail::orthonormal_basis<S>(scale.asDiagonal() * X.leftCols(found));
   }
 }
+
+#if SLANT_USES_COMPILED
+extern template Eigen::MatrixXd computed_kernel<double>(Eigen::SparseMatrix<double> const&);
+#endif
 
 }  // namespace slant

@@ -13,6 +13,7 @@
 // neighbours say, would give R R_J⁻¹ the size of the ratio of length and distance.
 #pragma once
 
+#include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/operators/detail/matrix_entries.hpp>
 
@@ -127,5 +128,11 @@ template <class M>
   std::sort(rows.begin(), rows.end());
   return rows;
 }
+
+#if SLANT_USES_COMPILED
+extern template Eigen::MatrixXd detail::orthonormal_basis<double>(Eigen::MatrixXd);
+extern template std::vector<index> fixing_rows<Eigen::MatrixXd>(
+    Eigen::MatrixBase<Eigen::MatrixXd> const&);
+#endif
 
 }  // namespace slant

@@ -6,7 +6,9 @@
 //     slant::symmetric_newton{qp}     is a     symmetric_newton<any_qp<double, …>>
 //
 // for every program on Eigen::VectorXd with a semidefinite A and blocks of the usual kinds, and is
-// not instantiated anew. (Unless A has a twin of lower precision, which any_operator forgets.)
+// not instantiated anew. (Unless A has a twin of lower precision, which any_operator forgets.) A
+// preconditioner is forgotten with the problem. Making such a method allocates a few small objects;
+// its steps allocate nothing more.
 // Without the component, or for other problems, it is an instance of its own. Steps, counts and
 // bits are the same (tests/compiled), and problems are referenced and owned by the same rule. A
 // type that is spelt out, symmetric_newton<QP const&>, is what it says.
@@ -18,6 +20,8 @@
 
 #if SLANT_USES_COMPILED
 #include <slant/methods/any_qp.hpp>
+#include <slant/operators/any_operator.hpp>
+#include <slant/operators/identity.hpp>
 #endif
 
 #include <concepts>
@@ -46,10 +50,29 @@ struct compiled_problem<QP> {
 };
 #endif
 
+template <class QP, class M>
+struct compiled_preconditioner {
+  using type = kept_t<M>;
+};
+
+#if SLANT_USES_COMPILED
+template <class QP, class M>
+  requires is_compiled_problem<std::remove_cvref_t<QP>> &&
+           psd_operator<std::remove_cvref_t<M>, Eigen::VectorXd> &&
+           (!has_rounded<std::remove_cvref_t<M>, Eigen::VectorXd>) &&
+           (!std::same_as<std::remove_cvref_t<M>, identity_operator>)
+struct compiled_preconditioner<QP, M> {
+  using type = any_operator<Eigen::VectorXd, semidefinite_laws>;
+};
+#endif
+
 }  // namespace detail
 
 /// How a method keeps a problem that it is made of, a parameter of the deduced type QP&&.
 template <class QP>
 using compiled_problem_t = typename detail::compiled_problem<QP>::type;
+/// How it keeps a preconditioner M&& beside it.
+template <class QP, class M>
+using compiled_preconditioner_t = typename detail::compiled_preconditioner<QP, M>::type;
 
 }  // namespace slant

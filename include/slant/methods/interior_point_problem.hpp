@@ -100,9 +100,10 @@ template <class QP>
 interior_point(QP&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
     -> interior_point<compiled_problem_t<QP>, identity_operator>;
 template <class QP, class M>
-interior_point(QP&&, M&&) -> interior_point<compiled_problem_t<QP>, kept_t<M>>;
+interior_point(QP&&, M&&)
+    -> interior_point<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
 template <class QP, class M>
 interior_point(QP&&, M&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> interior_point<compiled_problem_t<QP>, kept_t<M>>;
+    -> interior_point<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
 
 }  // namespace slant

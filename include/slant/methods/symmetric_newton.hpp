@@ -253,6 +253,10 @@ extern template class detail::symmetric_newton_steps<any_qp<double, definite_law
                                                      identity_operator>;
 extern template class detail::symmetric_newton_steps<any_qp<double, semidefinite_laws>,
                                                      identity_operator>;
+extern template class detail::symmetric_newton_steps<
+    any_qp<double, definite_laws>, any_operator<Eigen::VectorXd, semidefinite_laws>>;
+extern template class detail::symmetric_newton_steps<
+    any_qp<double, semidefinite_laws>, any_operator<Eigen::VectorXd, semidefinite_laws>>;
 #endif
 
 }  // namespace slant

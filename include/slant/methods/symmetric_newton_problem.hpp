@@ -95,9 +95,10 @@ template <class QP>
 symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
     -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
 template <class QP, class M>
-symmetric_newton(QP&&, M&&) -> symmetric_newton<compiled_problem_t<QP>, kept_t<M>>;
+symmetric_newton(QP&&, M&&)
+    -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
 template <class QP, class M>
 symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<compiled_problem_t<QP>, kept_t<M>>;
+    -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
 
 }  // namespace slant

@@ -63,6 +63,7 @@ class any_workspace {
 template <slant::vector V, law_set L = law_set{}>
 class any_operator {
  public:
+  static constexpr bool forgets_types = true;
   static constexpr law_set laws = L;
 
   /// Keeps `a` like every composition: an lvalue is referenced, an rvalue owned.
