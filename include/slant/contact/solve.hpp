@@ -31,6 +31,8 @@
 
 #include <Eigen/SparseCore>
 
+#include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace slant::contact {
@@ -52,7 +54,11 @@ template <class Friction, class S, class... Observers>
     motions = motions_behind(refusal, K, o.layout);
     if (motions.free.empty()) throw;
   }
-  return detail::spring_supports<run, S>(K, c, o, std::move(motions)).run(observers...);
+  auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
+    return std::make_unique<detail::observed_run<run, S, std::remove_reference_t<Observers>...>>(
+        held, scene, options, observers...);
+  };
+  return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
 }
 
 /// The same with the law that T stands for.

@@ -47,9 +47,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -79,16 +81,64 @@ template <class S, class V>
   return square > S(0) ? S(size * sqrt(square) * sqrt(unit_of_K)) : S(0);
 }
 
-/// The method at the top of this file; Run(K + D, data, options) is certified_run.
-template <class Run, class S>
+/// A problem of bodies that supports or springs hold, whatever the law of friction.
+template <class S>
+class supported_problem {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  supported_problem() = default;
+  supported_problem(supported_problem const&) = delete;
+  supported_problem& operator=(supported_problem const&) = delete;
+  virtual ~supported_problem() = default;
+
+  /// New data, slips from w; see certified_run.
+  virtual void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
+                      index max_steps) = 0;
+  [[nodiscard]] virtual solution<S> solve() = 0;
+};
+
+/// certified_run for one law, with observers of its states.
+template <class Run, class S, class... Observers>
+class observed_run final : public supported_problem<S> {
+ public:
+  using typename supported_problem<S>::vector_type;
+
+  observed_run(Eigen::SparseMatrix<S> const& K, data<S> const& c, solve_options<S> const& o,
+               Observers&... observers)
+      : run_(K, c, o), observers_(observers...) {}
+
+  void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
+              index max_steps) override {
+    run_.reload(λ, w, tolerance, max_steps);
+  }
+  [[nodiscard]] solution<S> solve() override {
+    return std::apply([&](auto&... observers) { return run_.run(observers...); }, observers_);
+  }
+
+ private:
+  Run run_;
+  std::tuple<Observers&...> observers_;
+};
+
+/// The method at the top of this file; make(K + D, data, options) makes the problem of a step. One
+/// type for all laws of friction.
+template <class S>
 class spring_supports {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
+  using maker = std::function<std::unique_ptr<supported_problem<S>>(
+      sparse_type const&, data<S> const&, solve_options<S> const&)>;
 
   spring_supports(sparse_type const& K, data<S> const& c, solve_options<S> const& o,
-                  free_motions<S> motions)
-      : K_(&K), original_(&c), data_(c), options_(o), R_(kernel_of(motions, K.rows())) {
+                  free_motions<S> motions, maker make)
+      : K_(&K),
+        original_(&c),
+        data_(c),
+        options_(o),
+        make_(std::move(make)),
+        R_(kernel_of(motions, K.rows())) {
     for (index const j : fixing_unknowns(motions)) places_.push_back(j);
     sum_.motions = std::move(motions);
     origin_.setZero(K.rows());
@@ -97,19 +147,18 @@ class spring_supports {
   spring_supports(spring_supports const&) = delete;
   spring_supports& operator=(spring_supports const&) = delete;
 
-  template <class... Observers>
-  [[nodiscard]] solution<S> run(Observers&... observers) {
+  [[nodiscard]] solution<S> run() {
     if (options_.start) λ_ = *options_.start;
     origin_ = R_ * rigid_position<S>(*K_, *original_, R_)();
     is_moved_ = !(origin_.array() == S(0)).all();
     for (S soft = S(0x1p-16);; soft *= S(0x1p-10)) {
       // Stiff springs make good systems; soft ones cover distances, for which three digits do.
-      if (run_with_springs(S(0x1p-6), false, observers...)) break;
+      if (run_with_springs(S(0x1p-6), false)) break;
       if (soft < S(0x1p-40)) {
         conclude_unbounded(*K_, *original_, options_.layout, sum_);
         break;
       }
-      if (run_with_springs(soft, true, observers...)) break;
+      if (run_with_springs(soft, true)) break;
     }
     if (!sum_.converged() && sum_.status != status::unbounded) {
       go_back_to_best();
@@ -173,34 +222,33 @@ class spring_supports {
 
   /// Whether there is a verdict; none where the springs are too stiff, or after a few steps with
   /// soft ones.
-  template <class... Observers>
-  [[nodiscard]] bool run_with_springs(S const& σ, bool is_soft, Observers&... observers) {
+  [[nodiscard]] bool run_with_springs(S const& σ, bool is_soft) {
     using std::sqrt;
     S t_before = std::numeric_limits<S>::infinity();
     S θ(0.9);  // until it is measured
     S goal = is_soft ? S(1e-3) : S(S(0.3) * options_.tolerance);
     S tolerance = std::max<S>(goal, S(1e-3));
     int const steps = is_soft ? 3 : 100;
-    std::optional<Run> method;
+    std::unique_ptr<supported_problem<S>> problem;
     set_springs(σ);
     for (int step = 0, slow = 0; step < steps && slow < 4; ++step) {
       index const left = options_.max_steps - sum_.iterations;
       index const budget = is_soft ? std::min<index>(left, 200) : left;
-      if (!method) {
+      if (!problem) {
         auto o = options_;
         o.prove = false;
         o.tolerance = tolerance;
         o.max_steps = budget;
         if (λ_.size() > 0) o.start = λ_;
         data_.d = original_->d;
-        method.emplace(supported_, data_, o);
+        problem = make_(supported_, data_, o);
         ++sum_.work.factorizations;
       }
       if (sum_.springs > 0 || is_moved_) {
         move_origin();
-        method->reload(λ_, positions_, tolerance, budget);
+        problem->reload(λ_, positions_, tolerance, budget);
       }
-      auto found = method->run(observers...);
+      auto found = problem->solve();
       S const supported_size = found.error.size, inner = found.error.bound;
       vector_type const v = found.u;
       found.u += origin_;
@@ -380,6 +428,7 @@ class spring_supports {
   data<S> const* original_;
   data<S> data_;  // with the forces of the springs
   solve_options<S> options_;
+  maker make_;
   sparse_type R_, supported_{};
   std::vector<index> places_{};
   std::vector<S> stiffness_{};
