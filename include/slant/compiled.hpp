@@ -13,6 +13,8 @@
 //     contact::solve_friction       Coulomb friction from W, q, μ
 //     contact::solve_obstacle       contact without friction, on u or on λ
 //     contact::solve_floating       bodies that nothing but contact holds
+//     contact::find_free_motions    and name_motion; computed_kernel, fixing_rows
+//     contact::check_optimality     and verify, check_plausibility
 //
 // and it takes seconds instead of a minute. Other scalars, calls with observers, and everything
 // else is instantiated where it is used, as without the component.
