@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 #
-# Compares the blocks of README.md with what they were taken from:
+# Compares the blocks of README.md and of the pages in docs/ with what they were taken from:
 #   cmake -DCHECK=code|output|error -DSOURCE=folder -DPROGRAM=path -DCOMPILER=path
 #         -DFLAGS=response_file -P readme.cmake
 #
@@ -13,13 +13,18 @@ cmake_minimum_required(VERSION 3.25)
 set(ENV{LC_ALL} C)  # plain quotes in the messages of compilers
 
 file(READ "${SOURCE}/README.md" readme)
+file(GLOB_RECURSE pages "${SOURCE}/docs/*.md")
+foreach(page IN LISTS pages)
+  file(READ "${page}" text)
+  string(APPEND readme "\n${text}")
+endforeach()
 
 # shown_block(comment result): the text between the lines ``` after <!-- comment -->.
 function(shown_block comment result)
   set(mark "<!-- ${comment} -->\n```")
   string(FIND "${readme}" "${mark}" begin)
   if(begin EQUAL -1)
-    message(FATAL_ERROR "README.md has no block below <!-- ${comment} -->")
+    message(FATAL_ERROR "neither README.md nor docs/ has a block below <!-- ${comment} -->")
   endif()
   string(SUBSTRING "${readme}" ${begin} -1 rest)
   string(LENGTH "${mark}" length)
@@ -38,7 +43,7 @@ endfunction()
 # demand_same(what shown actual)
 function(demand_same what shown actual)
   if(NOT shown STREQUAL actual)
-    message(FATAL_ERROR "README.md does not show ${what}, which is now:\n${actual}")
+    message(FATAL_ERROR "README.md and docs/ do not show ${what}, which is now:\n${actual}")
   endif()
 endfunction()
 
@@ -55,8 +60,8 @@ if(CHECK STREQUAL "code")
   shown_block("the file ${name}" shown)
   file(READ "${SOURCE}/${name}" actual)
   demand_same("${name}" "// SPDX-License-Identifier: MIT\n${shown}" "${actual}")
-  foreach(stem IN ITEMS own_operator own_set own_function own_rule runs contact load_steps)
-    set(name tests/readme/${stem}_test.cpp)
+  file(GLOB tests RELATIVE "${SOURCE}" "${SOURCE}/tests/readme/*_test.cpp")
+  foreach(name IN LISTS tests ITEMS examples/first_steps/main.cpp)
     shown_block("part of the file ${name}" shown)
     file(READ "${SOURCE}/${name}" actual)
     demand_part("${name}" "${shown}" "${actual}")
