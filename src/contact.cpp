@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Tresca friction. In one unit: the laws share most of what they need.
+// Tresca friction: one instance for all laws.
 #include <slant/contact/solve.hpp>
 #include <slant/contact/solve_floating.hpp>
 
@@ -10,15 +10,9 @@ namespace slant::contact {
 
 using matrix = Eigen::SparseMatrix<double>;
 
-template solution<double> solve<frictionless, double>(frictionless, matrix const&,
-                                                      data<double> const&,
-                                                      solve_options<double> const&);
-template solution<double> solve<friction_line, double>(friction_line, matrix const&,
-                                                       data<double> const&,
-                                                       solve_options<double> const&);
-template solution<double> solve<friction_disc, double>(friction_disc, matrix const&,
-                                                       data<double> const&,
-                                                       solve_options<double> const&);
+template solution<double> solve<friction_of_data, double>(friction_of_data, matrix const&,
+                                                          data<double> const&,
+                                                          solve_options<double> const&);
 template solution<double> solve<double>(matrix const&, data<double> const&,
                                         solve_options<double> const&);
 

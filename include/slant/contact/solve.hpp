@@ -31,6 +31,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <concepts>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -49,46 +50,41 @@ template <class Friction, class S, class... Observers>
   detail::validated(friction, c, K.rows());
   free_motions<S> motions;
   try {
-    return run(K, c, o).run(observers...);
+    return run(friction, K, c, o).run(observers...);
   } catch (bad_input const& refusal) {
     motions = motions_behind(refusal, K, o.layout);
     if (motions.free.empty()) throw;
   }
   auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
     return std::make_unique<detail::observed_run<run, S, std::remove_reference_t<Observers>...>>(
-        held, scene, options, observers...);
+        friction, held, scene, options, observers...);
   };
   return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
 }
 
-/// The same with the law that T stands for.
+/// The same with the law that T stands for, one instance for all laws.
 template <class S, class... Observers>
 [[nodiscard]] solution<S> solve(Eigen::SparseMatrix<S> const& K, data<S> const& c,
                                 solve_options<S> const& o = {}, Observers&&... observers) {
   c.validate();
-  switch (c.tangents()) {
-    case 0:
-      return solve(frictionless{}, K, c, o, observers...);
-    case 1:
-      return solve(friction_line{}, K, c, o, observers...);
-    default:
-      return solve(friction_disc{}, K, c, o, observers...);
-  }
+  return solve(friction_of_data{c.tangents()}, K, c, o, observers...);
 }
 
 #if SLANT_USES_COMPILED
-extern template solution<double> solve<frictionless, double>(frictionless,
-                                                             Eigen::SparseMatrix<double> const&,
-                                                             data<double> const&,
-                                                             solve_options<double> const&);
-extern template solution<double> solve<friction_line, double>(friction_line,
-                                                              Eigen::SparseMatrix<double> const&,
-                                                              data<double> const&,
-                                                              solve_options<double> const&);
-extern template solution<double> solve<friction_disc, double>(friction_disc,
-                                                              Eigen::SparseMatrix<double> const&,
-                                                              data<double> const&,
-                                                              solve_options<double> const&);
+/// A named law: what is compiled is the instance for all of them.
+template <class Friction>
+  requires(!std::same_as<Friction, friction_of_data>)
+[[nodiscard]] solution<double> solve(Friction friction, Eigen::SparseMatrix<double> const& K,
+                                     data<double> const& c, solve_options<double> const& o = {}) {
+  o.validate();
+  detail::validated(friction, c, K.rows());
+  return solve(friction_of_data{c.tangents()}, K, c, o);
+}
+
+extern template solution<double> solve<friction_of_data, double>(friction_of_data,
+                                                                 Eigen::SparseMatrix<double> const&,
+                                                                 data<double> const&,
+                                                                 solve_options<double> const&);
 extern template solution<double> solve<double>(Eigen::SparseMatrix<double> const&,
                                                data<double> const&, solve_options<double> const&);
 #endif

@@ -47,7 +47,8 @@ class dual {
   /// One solve with K, for b. Throws bad_input if the data do not fit (see
   /// contact::data::validate), or if K⁻¹f overflows.
   dual(Friction friction, held<Factorization> factor, data<S> const& c)
-      : factor_(std::move(factor)),
+      : law_(friction),
+        factor_(std::move(factor)),
         f_(detail::validated(friction, c, factor_.get().rows()).f),
         d_(c.d),
         B_(detail::stacked_constraints(c)),
@@ -137,7 +138,7 @@ class dual {
       detail::subtract_gaps(step.d ? *step.d : d_, b);
       slant::detail::check_finite("b", b);
     }
-    if (step.g) set_ = detail::feasible_set(Friction{}, d_.size(), *step.g);
+    if (step.g) set_ = detail::feasible_set(law_, d_.size(), *step.g);
     // Nothing throws from here on.
     if (step.f) {
       f_.swap(*step.f);
@@ -177,6 +178,7 @@ class dual {
     }
   }
 
+  [[no_unique_address]] Friction law_;
   held<Factorization> factor_;
   vector_type f_;
   vector_type d_;

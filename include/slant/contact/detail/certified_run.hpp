@@ -61,11 +61,12 @@ class certified_run {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  certified_run(sparse_type const& K, data<S> const& c, solve_options<S> const& o)
-      : options_(o),
+  certified_run(Friction law, sparse_type const& K, data<S> const& c, solve_options<S> const& o)
+      : law_(law),
+        options_(o),
         data_(&c),
         factor_(K, contact_unknowns(c), o.condensation),
-        dual_(Friction{}, factor_, c),
+        dual_(law, factor_, c),
         certificate_(K, c),
         b_(dual_.b()),
         C_(dual_.constraints()) {
@@ -119,7 +120,7 @@ class certified_run {
 
   template <class... Observers>
   [[nodiscard]] solution<S> run(Observers&... observers) {
-    auto const set = feasible_set(Friction{}, data_->nodes(), g_);
+    auto const set = feasible_set(law_, data_->nodes(), g_);
     separable_qp const given{dual_.a(C_), b_, set};
     compiled_problem_t<decltype((given))> const qp(given);  // with slant::compiled one for all laws
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
@@ -264,6 +265,7 @@ class certified_run {
     }
   }
 
+  [[no_unique_address]] Friction law_;
   solve_options<S> options_;
   data<S> const* data_;
   static_condensation<S> factor_;

@@ -2,16 +2,14 @@
 //
 // Contact of bodies that supports do not hold, by springs that give way: the proximal point method
 //
-//     u⁺ = argmin { q(u) + ½ ‖u − u⁻‖²_D },     D = σ diag(K)  at the fixing rows of the kernel of
-//     K,
-//                                                   0          elsewhere.
+//     u⁺ = argmin { q(u) + ½ ‖u − u⁻‖²_D },
+//     D = σ diag(K) at the fixing rows of the kernel of K, 0 elsewhere.
 //
 // Springs at as many unknowns as there are free motions make K + D definite, so that each step is a
 // problem of bodies that supports hold, with one factorisation for all. q(u) = ½ uᵀK u − fᵀu + … on
 // the admissible u has a minimum u*, or not:
 //
-//     it has   the forces D (u⁻ − u⁺) of the springs go to 0 [Rockafellar 1976]: by about a factor
-//     σ
+//     it has   the forces D (u⁻ − u⁺) of the springs go to 0 [Rockafellar 1976]: by about a factor σ
 //              a step where contact holds the bodies as firmly as K itself does. D (u⁻ − u⁺) is a
 //              subgradient of q at u⁺ and q is strongly convex in ‖·‖_K, so that
 //
@@ -98,15 +96,16 @@ class supported_problem {
   [[nodiscard]] virtual solution<S> solve() = 0;
 };
 
-/// certified_run for one law, with observers of its states.
+/// certified_run for a law, with observers of its states.
 template <class Run, class S, class... Observers>
 class observed_run final : public supported_problem<S> {
  public:
   using typename supported_problem<S>::vector_type;
 
-  observed_run(Eigen::SparseMatrix<S> const& K, data<S> const& c, solve_options<S> const& o,
-               Observers&... observers)
-      : run_(K, c, o), observers_(observers...) {}
+  template <class Friction>
+  observed_run(Friction law, Eigen::SparseMatrix<S> const& K, data<S> const& c,
+               solve_options<S> const& o, Observers&... observers)
+      : run_(law, K, c, o), observers_(observers...) {}
 
   void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
               index max_steps) override {
