@@ -7,11 +7,11 @@
 //
 // for every program on Eigen::VectorXd with a semidefinite A and blocks of the usual kinds, and is
 // not instantiated anew. (Unless A has a twin of lower precision, which any_operator forgets.) A
-// preconditioner is forgotten with the problem. Making such a method allocates a few small objects;
-// its steps allocate nothing more.
-// Without the component, or for other problems, it is an instance of its own. Steps, counts and
-// bits are the same (tests/compiled), and problems are referenced and owned by the same rule. A
-// type that is spelt out, symmetric_newton<QP const&>, is what it says.
+// preconditioner is forgotten with the problem, unless it has a form of its own on faces. Making
+// such a method allocates a few small objects; its steps allocate nothing more. Without the
+// component, or for other problems, it is an instance of its own. Steps, counts and bits are the
+// same (tests/compiled), and problems are referenced and owned by the same rule. A type that is
+// spelt out, symmetric_newton<QP const&>, is what it says.
 #pragma once
 
 #include <slant/compiled.hpp>
@@ -20,8 +20,10 @@
 
 #if SLANT_USES_COMPILED
 #include <slant/methods/any_qp.hpp>
+#include <slant/methods/preconditioner_for.hpp>
 #include <slant/operators/any_operator.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/sets/curved_face.hpp>
 #endif
 
 #include <concepts>
@@ -60,6 +62,7 @@ template <class QP, class M>
   requires is_compiled_problem<std::remove_cvref_t<QP>> &&
            psd_operator<std::remove_cvref_t<M>, Eigen::VectorXd> &&
            (!has_rounded<std::remove_cvref_t<M>, Eigen::VectorXd>) &&
+           (!preconditions_faces<std::remove_cvref_t<M>, Eigen::VectorXd, curved_face<double>>) &&
            (!std::same_as<std::remove_cvref_t<M>, identity_operator>)
 struct compiled_preconditioner<QP, M> {
   using type = any_operator<Eigen::VectorXd, semidefinite_laws>;
