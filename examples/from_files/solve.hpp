@@ -63,22 +63,11 @@ inline void add_work(outcome const& first, outcome& run) {
   run.work.setup_applications += first.work.setup_applications;
 }
 
-/// f(dual) with the dual problem for the law that T stands for, whose type f does not see.
-template <class Factor, class F>
-void with_dual(problem const& p, Factor const& factor, F f) {
-  auto const visit = [&](auto friction) {
-    slant::contact::dual const given(friction, factor, p.contact);
-    auto const qp = given.qp();
-    f(any_dual(given, qp));
-  };
-  switch (p.contact.tangents()) {
-    case 0:
-      return visit(slant::contact::frictionless{});
-    case 1:
-      return visit(slant::contact::friction_line{});
-    default:
-      return visit(slant::contact::friction_disc{});
-  }
+/// The dual problem for the law that T stands for.
+template <class Factor>
+[[nodiscard]] auto dual_of(problem const& p, Factor const& factor) {
+  return slant::contact::dual<slant::contact::friction_of_data, Factor const&, double>(
+      slant::contact::friction_of_data(p.contact.tangents()), factor, p.contact);
 }
 
 /// By contact::solve, from its own start or from that of another method.
@@ -98,7 +87,9 @@ void with_dual(problem const& p, Factor const& factor, F f) {
     o.start = Eigen::VectorXd::Zero(p.contact.N.rows() + p.contact.T.rows()).eval();
   } else if (s.start != start_point::automatic) {
     auto const factor = slant::factorize(p.K);
-    with_dual(p, factor, [&](any_dual const& dual) { start = find_start(p, dual, s); });
+    auto const given = dual_of(p, factor);
+    auto const qp = given.qp();
+    start = find_start(p, any_dual(given, qp), s);
     o.start = start.λ;
     if (hopeless(start.status)) o.max_steps = 0;
   }
@@ -171,10 +162,9 @@ void with_dual(problem const& p, Factor const& factor, F f) {
   slant::contact::certificate<double> error_of(p.K, p.contact);
   solve_with_K const solve = slant::contact::solver(factor);
   if (s.prove) error_of.prove(solve, [](auto const& K) { (void)slant::factorize(K); });
-  solution result;
-  with_dual(p, factor, [&](any_dual const& dual) {
-    result = solve_dual(p, dual, error_of, solve, method, s);
-  });
+  auto const given = dual_of(p, factor);
+  auto const qp = given.qp();
+  solution result = solve_dual(p, any_dual(given, qp), error_of, solve, method, s);
   result.condition = error_of.condition();
   result.take_times(begin);
   result.factorization = factor.name();

@@ -153,6 +153,26 @@ TEST_CASE("contact::solve: progress is told of every iterate, as observers are")
   CHECK(gradients.back() < 1e-3 * gradients.front());
 }
 
+TEST_CASE("contact::solve: a law that is named is the one that the rows of T stand for") {
+  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::press});
+  auto data = test::contact_data(scene);
+  auto const of_data = contact::solve(scene.K, data);
+  auto const named = contact::solve(contact::friction_disc{}, scene.K, data);
+  REQUIRE(of_data.converged());
+  CHECK(named.u == of_data.u);
+  CHECK(named.multipliers == of_data.multipliers);
+  CHECK(named.iterations == of_data.iterations);
+
+  CHECK(test::complaint([&] { (void)contact::solve(contact::friction_line{}, scene.K, data); }) ==
+        "tangents per contact node is 2, expected 1 for this friction law");
+  data.T.resize(0, data.N.cols());
+  data.g.resize(0);
+  auto const without = contact::solve(scene.K, data);
+  REQUIRE(without.converged());
+  CHECK(contact::solve(contact::frictionless{}, scene.K, data).u == without.u);
+  CHECK_THROWS_AS((void)contact::solve(contact::friction_disc{}, scene.K, data), slant::bad_input);
+}
+
 TEST_CASE("contact::solve: limits, starts, bad input") {
   auto const scene = fem::make_steel_brick({.k = 1, .load = fem::brick_load::press});
   auto const data = test::contact_data(scene);

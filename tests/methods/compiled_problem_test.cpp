@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The instances that a method made of a problem is: in a build with slant::compiled those of the
-// component, in one without (the preset asan) its own. tests/compiled compares their bits.
+// component, in one without its own. tests/compiled compares their bits.
 #include <slant/methods/compiled_problem.hpp>
 
 #include <slant/iteration/solve.hpp>
@@ -40,17 +40,13 @@ struct scene {
   auto a() const { return slant::matrix<slant::self_adjoint, slant::positive_definite>(K); }
   auto set() const { return slant::cartesian(slant::half_lines(3), slant::discs(g)); }
   auto m() const { return slant::diagonal<slant::positive_definite>(inverse); }
+  auto qp() const { return slant::separable_qp{a(), vector_of<S>(b), set()}; }
 };
-
-template <class Method>
-using problem_of = typename Method::problem;
 
 TEST_CASE("compiled problems: methods of a usual program are those of the component") {
   scene<double> const s;
-  auto const A = s.a();
-  auto const set = s.set();
   auto const M = s.m();
-  slant::separable_qp const qp{A, s.b, set};
+  auto const qp = s.qp();
   using given = std::remove_const_t<decltype(qp)>;
   slant::symmetric_newton const newton{qp};
   slant::symmetric_newton const preconditioned_newton{qp, M};
@@ -92,16 +88,14 @@ TEST_CASE("compiled problems: methods of a usual program are those of the compon
 
 TEST_CASE("compiled problems: other scalars and owned programs") {
   scene<float> const s;
-  auto const A = s.a();
-  auto const set = s.set();
-  slant::separable_qp const qp{A, s.b, set};
+  auto const qp = s.qp();
   using given = std::remove_const_t<decltype(qp)>;
   slant::symmetric_newton const newton{qp};
   CHECK(std::same_as<decltype(newton), slant::symmetric_newton<given const&> const>);
 
   // What was a temporary is owned, also when its type is forgotten.
   scene<double> const t;
-  slant::symmetric_newton const owner{slant::separable_qp{t.a(), Eigen::VectorXd(t.b), t.set()}};
+  slant::symmetric_newton const owner{t.qp()};
   auto const run =
       slant::solve(owner, Eigen::VectorXd::Zero(9).eval(), slant::reduced_gradient_below(1e-10));
   CHECK(run.converged());
@@ -109,10 +103,8 @@ TEST_CASE("compiled problems: other scalars and owned programs") {
 
 TEST_CASE("compiled problems: steps allocate nothing") {
   scene<double> const s;
-  auto const A = s.a();
-  auto const set = s.set();
   auto const M = s.m();
-  slant::separable_qp const qp{A, s.b, set};
+  auto const qp = s.qp();
   slant::symmetric_newton const newton{qp, M};
   slant::interior_point const path{qp, M};
   auto x = newton.start(Eigen::VectorXd::Zero(9));

@@ -115,7 +115,7 @@ class coulomb_certificate {
     }
     bool const is_known = follow();
     data_.g = F_.cwiseProduct(λ_.head(F_.size()).cwiseMax(scalar(0)));
-    auto const set = detail::feasible_set(typename Dual::friction_type{}, data_.nodes(), data_.g);
+    auto const set = detail::feasible_set(problem_->friction(), data_.nodes(), data_.g);
     if (shift_.size() > 0) u_ -= shift_;
     e.frozen = certificate_(set, λ_, u_, goal_, solver(*factor_));
     if (e.frozen.relative() > goal_) {

@@ -35,8 +35,9 @@ class coulomb_cones {
   using vector_type = typename Dual::vector_type;
   using scalar = scalar_t<vector_type>;
   using sparse_type = typename Dual::sparse_type;
-  static_assert(!std::is_same_v<typename Dual::friction_type, frictionless>,
-                "coulomb_cones: the dual problem must have tangential multipliers");
+  static_assert(std::is_same_v<typename Dual::friction_type, friction_line> ||
+                    std::is_same_v<typename Dual::friction_type, friction_disc>,
+                "coulomb_cones: the dual problem must have the law friction_line or friction_disc");
   /// Components of a contact.
   static constexpr int dimension =
       std::is_same_v<typename Dual::friction_type, friction_line> ? 2 : 3;

@@ -59,8 +59,9 @@ class coulomb_radii {
   /// Tangential directions: 1 for friction_line, 2 for friction_disc.
   static constexpr index tangents =
       std::is_same_v<typename Dual::friction_type, friction_line> ? 1 : 2;
-  static_assert(!std::is_same_v<typename Dual::friction_type, frictionless>,
-                "coulomb_radii: the dual problem must have tangential multipliers");
+  static_assert(std::is_same_v<typename Dual::friction_type, friction_line> ||
+                    std::is_same_v<typename Dual::friction_type, friction_disc>,
+                "coulomb_radii: the dual problem must have the law friction_line or friction_disc");
   static_assert(!(orthotropic && tangents == 1),
                 "coulomb_radii: orthotropic friction needs two tangents");
 

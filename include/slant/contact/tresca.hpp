@@ -86,6 +86,8 @@ class dual {
   /// The feasible set Λ.
   [[nodiscard]] auto const& set() const& { return set_; }
   auto const& set() const&& = delete;
+  /// The law of friction.
+  [[nodiscard]] Friction friction() const { return law_; }
   /// B = [N; T].
   [[nodiscard]] sparse_type const& constraints() const& { return B_; }
   sparse_type const& constraints() const&& = delete;

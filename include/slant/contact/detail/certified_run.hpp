@@ -62,8 +62,7 @@ class certified_run {
   using sparse_type = Eigen::SparseMatrix<S>;
 
   certified_run(Friction law, sparse_type const& K, data<S> const& c, solve_options<S> const& o)
-      : law_(law),
-        options_(o),
+      : options_(o),
         data_(&c),
         factor_(K, contact_unknowns(c), o.condensation),
         dual_(law, factor_, c),
@@ -120,7 +119,7 @@ class certified_run {
 
   template <class... Observers>
   [[nodiscard]] solution<S> run(Observers&... observers) {
-    auto const set = feasible_set(law_, data_->nodes(), g_);
+    auto const set = feasible_set(dual_.friction(), data_->nodes(), g_);
     separable_qp const given{dual_.a(C_), b_, set};
     compiled_problem_t<decltype((given))> const qp(given);  // with slant::compiled one for all laws
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
@@ -265,7 +264,6 @@ class certified_run {
     }
   }
 
-  [[no_unique_address]] Friction law_;
   solve_options<S> options_;
   data<S> const* data_;
   static_condensation<S> factor_;

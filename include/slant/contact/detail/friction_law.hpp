@@ -20,7 +20,9 @@ struct friction_disc {};  ///< two tangents per node (3D bodies): ‖λ_t,i‖ �
 /// The law that data stand for by the rows of T; its set is an any_set, so that what is written for
 /// it is one type for all of them.
 struct friction_of_data {
-  index tangents = 0;  ///< per node: 0, 1 or 2
+  index tangents;  ///< per node: 0, 1 or 2
+
+  explicit friction_of_data(index k) : tangents(k) {}
 };
 
 namespace detail {
@@ -56,7 +58,8 @@ auto feasible_set(Friction friction, data<S> const& c) {
 }
 
 template <class Friction, class S>
-using feasible_set_t = decltype(detail::feasible_set(Friction{}, std::declval<data<S> const&>()));
+using feasible_set_t =
+    decltype(detail::feasible_set(std::declval<Friction>(), std::declval<data<S> const&>()));
 
 /// Tangents per node.
 [[nodiscard]] inline index tangents_of(frictionless) {
