@@ -164,7 +164,7 @@ TEST_CASE("contact::solve: a law that is named is the one that the rows of T sta
   CHECK(named.iterations == of_data.iterations);
 
   CHECK(test::complaint([&] { (void)contact::solve(contact::friction_line{}, scene.K, data); }) ==
-        "tangents per contact node is 2, expected 1 for this friction law");
+        "tangents per contact node: got 2, expected 1 for this friction law");
   data.T.resize(0, data.N.cols());
   data.g.resize(0);
   auto const without = contact::solve(scene.K, data);
