@@ -10,15 +10,11 @@
 // prints comma-separated values; an empty field was not reached. Exit status 1 if GIMSSN or KPRGP,
 // which cannot but converge, have not reached 1e-4.
 
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <fem/steel_brick.hpp>

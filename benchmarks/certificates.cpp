@@ -32,7 +32,7 @@
 #include <Eigen/Dense>
 #include <fem/steel_brick.hpp>
 #include <slant/certificates/energy_certificate.hpp>
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/contact/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/operators/matrix.hpp>

@@ -21,12 +21,12 @@
 #include <vector>
 
 #include <fem/steel_brick.hpp>
-#include <slant/concepts/rounded.hpp>
-#include <slant/contact/contact_unknowns.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
-#include <slant/factorizations/detail/large_pages.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>

@@ -18,7 +18,7 @@
 // iterative refinement, and, in the row `reference`, its distance from an interior point.
 // Exit status 1 if this distance exceeds 1e-5.
 
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/preconditioners.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -28,9 +28,9 @@
 // Successive approximations take more than 1.6 times as many on most loads, being of linear
 // convergence with a restart in every step: their ratios are printed and not judged.
 
-#include <slant/contact/contact_unknowns.hpp>
-#include <slant/contact/coulomb.hpp>
-#include <slant/contact/coulomb_newton.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
+#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/contact/solve_coulomb.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>

@@ -10,11 +10,11 @@
 // counts the instructions of a solve as the difference of two runs, in which the set-up cancels.
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/any_qp.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/any_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

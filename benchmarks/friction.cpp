@@ -35,7 +35,7 @@
 #include <cstdlib>
 #include <from_files/friction_methods.hpp>
 #include <random>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <stdexcept>
 #include <string>

@@ -11,7 +11,7 @@
 // prints comma-separated values. Exit status 1 if a run does not converge, a printed count is
 // missed, or a brick does not come within 1e-6 of its reference in the energy norm.
 
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

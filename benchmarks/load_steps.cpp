@@ -16,10 +16,10 @@
 // besides, against solutions to the last digits. Exit status 1 if it does not, or if twenty steps
 // take more than three times as long as the first one.
 
-#include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/contact/load_stepper.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/methods/unconstrained_start.hpp>

@@ -12,9 +12,8 @@
 
 #include <slant/contact/optimality.hpp>
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>

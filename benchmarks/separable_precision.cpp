@@ -15,9 +15,9 @@
 // Exit status 1 if that exceeds 1e-5.
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 
 #include <cstdio>

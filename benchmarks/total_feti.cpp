@@ -16,12 +16,11 @@
 // displacements differ by more than 1e-8; or if SMALSE-M does so with press or pull. With lift no
 // number of steps is asked of SMALSE-M.
 
-#include <slant/contact/dirichlet_preconditioner.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/contact/total_feti.hpp>
-#include <slant/contact/tresca.hpp>
-#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/smalse.hpp>
 #include <slant/methods/symmetric_newton.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // What looks at data and at solutions from outside of all methods.
+#include <slant/contact/friction/verify.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/plausibility.hpp>
-#include <slant/contact/verify.hpp>
 
 static_assert(SLANT_USES_COMPILED, "SLANT_COMPILED is not the alignment of Eigen with these flags");
 

@@ -2,8 +2,6 @@
 #include "methods.hpp"
 
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
 
 namespace random_programs {
 

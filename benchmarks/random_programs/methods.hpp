@@ -7,11 +7,11 @@
 #pragma once
 
 #include <slant/certificates/energy_certificate.hpp>
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <limits>
 #include <oracle/random_programs.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "methods.hpp"
 
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/mssn.hpp>
 
 namespace random_programs {

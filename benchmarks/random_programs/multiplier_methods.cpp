@@ -2,9 +2,8 @@
 #include "methods.hpp"
 
 #include <slant/methods/ssnm.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
-#include <slant/newton/schur_bicgstab.hpp>
-#include <slant/newton/schur_cg.hpp>
+#include <slant/newton/krylov_solvers.hpp>
+#include <slant/newton/saddle_solvers.hpp>
 
 namespace random_programs {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "methods.hpp"
 
-#include <slant/methods/equilibrated.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/solve_program.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/problems/equilibrated.hpp>
 
 namespace random_programs {
 

@@ -9,7 +9,7 @@
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
 #include <slant/contact/contact_data.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <stdexcept>
 #include <string>

@@ -4,17 +4,15 @@
 // one takes. Each starts from the matrices of the scene and ends with the displacements.
 #pragma once
 
-#include <slant/contact/contact_unknowns.hpp>
-#include <slant/contact/dirichlet_preconditioner.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/static_condensation.hpp>
-#include <slant/iteration/sequel.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
+#include <slant/iteration/solve_then.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/methods/unconstrained_start.hpp>
 #include <tuple>

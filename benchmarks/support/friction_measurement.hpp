@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>

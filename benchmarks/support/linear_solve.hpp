@@ -14,7 +14,7 @@
 #include <vector>
 
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
-#include <slant/factorizations/detail/cholmod_handles.hpp>
+#include <slant/factorizations/cholmod.hpp>
 #endif
 
 #include "cpu_clock.hpp"

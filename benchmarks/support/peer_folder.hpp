@@ -20,8 +20,8 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <slant/io/matrix_market.hpp>
 #include <slant/io/text_vector.hpp>
-#include <slant/io/write_matrix_market.hpp>
 #include <stdexcept>
 
 #include "precision_table.hpp"

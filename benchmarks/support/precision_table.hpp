@@ -16,8 +16,8 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdio>
+#include <slant/base/report.hpp>
 #include <slant/concepts/iterative_method.hpp>
-#include <slant/iteration/report.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <string>
 #include <string_view>

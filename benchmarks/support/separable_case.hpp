@@ -16,7 +16,7 @@
 #include <fem/wall_preconditioner.hpp>
 #include <membranes/runs.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/inverse.hpp>
 #include <string>
 #include <utility>

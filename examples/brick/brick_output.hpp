@@ -11,8 +11,8 @@
 #include <fem/plots/history_plot.hpp>
 #include <fem/steel_brick.hpp>
 #include <filesystem>
+#include <slant/base/report.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/iteration/report.hpp>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -6,9 +6,9 @@
 
 #include <chrono>
 #include <fem/steel_brick.hpp>
-#include <slant/contact/contact_unknowns.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/solve.hpp>

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <cstdio>
-#include <slant/contact/contact_unknowns.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <support/command_line.hpp>
 #include <type_traits>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/checks.hpp>
 #include <string>
 #include <support/command_line.hpp>
 #include <vector>

@@ -5,10 +5,10 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-#include <slant/contact/coulomb.hpp>
-#include <slant/contact/coulomb_newton.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
+#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/contact/load_stepper.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <string>
 #include <type_traits>
 #include <utility>

@@ -3,11 +3,11 @@
 // A steel brick cut into cubes that are solved one by one: Total-FETI with the semismooth Newton
 // method for multipliers and equilibrium together, or SMALSE-M, beside the brick that is not cut.
 #include <fem/decomposed_brick.hpp>
-#include <slant/contact/dirichlet_preconditioner.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/contact/total_feti.hpp>
-#include <slant/contact/tresca.hpp>
-#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/smalse.hpp>
 #include <slant/methods/symmetric_newton.hpp>

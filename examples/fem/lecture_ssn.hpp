@@ -9,8 +9,8 @@
 // and a product with A is what [K] counts: two for each step of BiCGSTAB, one for each Newton step.
 #pragma once
 
-#include <slant/methods/semismooth_newton.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/natural_residual.hpp>
 
 namespace fem {

@@ -11,11 +11,10 @@
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/step_below.hpp>
 #include <slant/iteration/stopping.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <string>

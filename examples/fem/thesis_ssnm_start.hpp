@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fem/thesis_ssnm.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/newton/saddle_direct.hpp>
+#include <slant/newton/saddle_solvers.hpp>
 
 namespace fem {
 

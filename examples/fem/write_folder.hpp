@@ -7,8 +7,8 @@
 #include <fem/contact_scene.hpp>
 #include <filesystem>
 #include <slant/io/atomic_file.hpp>
+#include <slant/io/matrix_market.hpp>
 #include <slant/io/text_vector.hpp>
-#include <slant/io/write_matrix_market.hpp>
 
 namespace fem {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/SparseCore>
 #include <functional>
-#include <slant/methods/any_qp.hpp>
+#include <slant/problems/any_qp.hpp>
 #include <utility>
 
 namespace from_files {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include "any_dual.hpp"
 

@@ -2,7 +2,7 @@
 #include "friction.hpp"
 
 #include <chrono>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 
 #include "friction_methods.hpp"

@@ -5,15 +5,10 @@
 #pragma once
 
 #include <array>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
 #include <slant/newton/by_laws.hpp>
-#include <slant/newton/schur_bicgstab.hpp>
-#include <slant/newton/schur_cg.hpp>
+#include <slant/newton/saddle_solvers.hpp>
 #include <string_view>
 
 #include "any_dual.hpp"

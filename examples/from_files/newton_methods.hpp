@@ -4,13 +4,13 @@
 #pragma once
 
 #include <algorithm>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/interior_point.hpp>
-#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/ssnm.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <utility>
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <functional>
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/iteration/solve.hpp>

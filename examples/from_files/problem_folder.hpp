@@ -18,7 +18,7 @@
 
 #include <Eigen/SparseCore>
 #include <filesystem>
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/io/matrix_market.hpp>
 #include <slant/io/text_vector.hpp>

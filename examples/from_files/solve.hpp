@@ -7,10 +7,10 @@
 #include <limits>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/contact/certificate.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <string>
 #include <utility>

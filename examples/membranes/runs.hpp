@@ -15,9 +15,9 @@
 #include <ranges>
 #include <slant/iteration/nested.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <string>
 #include <string_view>

@@ -5,7 +5,7 @@
 
 #include <fem/gmsh_mesh.hpp>
 #include <filesystem>
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <string>
 
 #ifndef SLANT_EXAMPLE_MESHES

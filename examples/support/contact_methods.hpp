@@ -3,10 +3,9 @@
 // Columns that the tables of bricks and of two bodies share; β is that of a step length β/σ_max.
 #pragma once
 
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <support/named_method.hpp>
 

@@ -6,9 +6,8 @@
 #include <fem/contact_prolongation.hpp>
 #include <fem/contact_scene.hpp>
 #include <ranges>
-#include <slant/contact/dirichlet_preconditioner.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/nested.hpp>
 #include <slant/krylov/spectral_bound.hpp>

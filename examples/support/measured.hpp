@@ -4,7 +4,7 @@
 // iterations/products.
 #pragma once
 
-#include <slant/iteration/report.hpp>
+#include <slant/base/report.hpp>
 #include <string>
 
 namespace examples {

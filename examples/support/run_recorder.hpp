@@ -7,7 +7,7 @@
 #include <fem/plots/history_plot.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/iteration/stopping.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <string>
 #include <utility>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <fem/lecture_ssn.hpp>
-#include <slant/iteration/step_below.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <support/contact_methods.hpp>
 #include <tuple>
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <string>

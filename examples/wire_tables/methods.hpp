@@ -6,13 +6,11 @@
 
 #include <fem/thesis_ssnm.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
-#include <slant/newton/saddle_direct.hpp>
-#include <slant/newton/schur_bicgstab.hpp>
-#include <slant/newton/schur_cg.hpp>
-#include <slant/newton/sparse_direct_solver.hpp>
+#include <slant/newton/direct_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
+#include <slant/newton/saddle_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <support/named_method.hpp>
 #include <tuple>

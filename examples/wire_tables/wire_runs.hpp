@@ -12,9 +12,9 @@
 #include <ranges>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/nested.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <support/measured.hpp>

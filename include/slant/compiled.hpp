@@ -6,7 +6,7 @@
 //
 //     kprgp, symmetric_newton, interior_point, as, as_s
 //                                   for programs that can be forgotten
-//                                   (methods/compiled_problem.hpp)
+//                                   (problems/compiled_problem.hpp)
 //     dense_ldlt                    also for float
 //     contact::solve                Tresca friction, each law and the choice by the data
 //     contact::certified_coulomb    Coulomb friction

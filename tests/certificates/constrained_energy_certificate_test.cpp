@@ -2,7 +2,7 @@
 #include <support/optimised.hpp>
 
 #include <slant/certificates/constrained_energy_certificate.hpp>
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/smalse.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/certificates/constrained_projection.hpp>
+#include <slant/certificates/constrained_energy_certificate.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

@@ -8,7 +8,7 @@
 
 #include <slant/operators/diagonal.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/testing/archetypes/scalar.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

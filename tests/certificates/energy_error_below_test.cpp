@@ -2,7 +2,7 @@
 #include "made_programs.hpp"
 
 #include <slant/certificates/energy_certificate.hpp>
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 

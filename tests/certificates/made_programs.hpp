@@ -3,8 +3,8 @@
 // Quadratic programs over half lines and discs whose solution is known.
 #pragma once
 
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

@@ -3,7 +3,7 @@
 
 #include <slant/sets/ball.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

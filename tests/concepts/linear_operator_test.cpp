@@ -5,7 +5,7 @@
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/operators/restriction.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

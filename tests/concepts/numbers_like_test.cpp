@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/convex_set.hpp>
-#include <slant/concepts/numbers_like.hpp>
+#include <slant/concepts/vector.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

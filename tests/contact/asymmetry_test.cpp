@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <slant/contact/asymmetry.hpp>
+#include <slant/contact/friction/friction_problem.hpp>
 
 namespace asymmetry_test {
 

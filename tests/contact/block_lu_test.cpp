@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/detail/block_lu.hpp>
+#include <slant/contact/friction/friction_newton.hpp>
 
 #include <Eigen/Dense>
 

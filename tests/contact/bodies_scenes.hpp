@@ -5,7 +5,7 @@
 #pragma once
 
 #include <slant/contact/bodies.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

@@ -2,7 +2,7 @@
 #include "scenes.hpp"
 
 #include <slant/contact/certificate.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/ldlt.hpp>
 

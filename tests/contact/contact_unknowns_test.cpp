@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/contact_data.hpp>
 
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>

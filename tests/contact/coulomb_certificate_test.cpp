@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb_certificate.hpp>
+#include <slant/contact/coulomb/coulomb_certificate.hpp>
 
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb_check.hpp>
+#include <slant/contact/coulomb/coulomb_certificate.hpp>
 
 #include "counting_factor.hpp"
 #include "scenes.hpp"
 
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 
 #include <doctest/doctest.h>
 

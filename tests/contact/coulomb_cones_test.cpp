@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb_cones.hpp>
+#include <slant/contact/coulomb/coulomb_families.hpp>
 
 #include "coulomb_scenes.hpp"
 
-#include <slant/contact/coulomb.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb_error_below.hpp>
+#include <slant/contact/coulomb/coulomb_certificate.hpp>
 
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
 #include "spring_scenes.hpp"
 
-#include <slant/contact/coulomb.hpp>
-#include <slant/contact/coulomb_newton.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
+#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/iteration/solve.hpp>
 
 #include <doctest/doctest.h>

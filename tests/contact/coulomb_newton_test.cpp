@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb_newton.hpp>
+#include <slant/contact/coulomb/coulomb_newton.hpp>
 
 #include "coulomb_scenes.hpp"
 
-#include <slant/contact/coulomb.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
 
 #include <fem/two_plates.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb_radii.hpp>
+#include <slant/contact/coulomb/coulomb_families.hpp>
 
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
 
-#include <slant/contact/coulomb.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/iteration/solve.hpp>
 
 #include <doctest/doctest.h>

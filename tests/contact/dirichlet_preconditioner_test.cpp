@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scenes.hpp"
 
-#include <slant/contact/dirichlet_preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/testing/operator_laws.hpp>
 

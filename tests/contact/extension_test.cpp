@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes.hpp"
 
-#include <slant/contact/detail/extension.hpp>
+#include <slant/contact/parts/extension.hpp>
 #include <slant/factorizations/factorize.hpp>
 
 #include <doctest/doctest.h>

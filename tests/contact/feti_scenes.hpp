@@ -3,8 +3,8 @@
 // Decomposed bricks and their undecomposed twins.
 #pragma once
 
-#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_blocks.hpp>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/friction_blocks.hpp>
+#include <slant/contact/friction/verify.hpp>
 
 #include "contact/friction_scenes.hpp"
 #include "oracle/naive_friction.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_coefficient.hpp>
+#include <slant/contact/friction_law.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_gauss_seidel.hpp>
+#include <slant/contact/friction/friction_gauss_seidel.hpp>
 
 #include "contact/friction_scenes.hpp"
 #include "support/allocation_guard.hpp"
 
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_interior_point.hpp>
+#include <slant/contact/friction/friction_interior_point.hpp>
 
 #include "contact/friction_scenes.hpp"
 #include "support/allocation_guard.hpp"
 #include "support/test_data.hpp"
 
-#include <slant/contact/friction_gauss_seidel.hpp>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/friction_gauss_seidel.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 
 #include <doctest/doctest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_newton.hpp>
+#include <slant/contact/friction/friction_newton.hpp>
 
 #include "contact/friction_scenes.hpp"
 #include "oracle/naive_friction.hpp"
 
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 
 #include <doctest/doctest.h>
 

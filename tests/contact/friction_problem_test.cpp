@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_problem.hpp>
+#include <slant/contact/friction/friction_problem.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction_sweeps.hpp>
+#include <slant/contact/friction/friction_gauss_seidel.hpp>
 
 #include "contact/friction_scenes.hpp"
 
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 
 #include <doctest/doctest.h>
 

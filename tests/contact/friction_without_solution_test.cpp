@@ -4,8 +4,8 @@
 // of numbers, or at its limits.
 #include "contact/friction_scenes.hpp"
 
+#include <slant/contact/friction/verify.hpp>
 #include <slant/contact/solve_friction.hpp>
-#include <slant/contact/verify.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include "counting_factor.hpp"
 #include "scenes.hpp"
 
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/ldlt.hpp>
 
 #include <doctest/doctest.h>

@@ -2,9 +2,9 @@
 #include "counting_factor.hpp"
 #include "scenes.hpp"
 
+#include <slant/contact/dual.hpp>
 #include <slant/contact/load_stepper.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>

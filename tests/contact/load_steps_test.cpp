@@ -2,8 +2,8 @@
 #include "counting_factor.hpp"
 #include "scenes.hpp"
 
+#include <slant/contact/dual.hpp>
 #include <slant/contact/load_steps.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/detail/lorentz_scaling.hpp>
+#include <slant/contact/friction/friction_interior_point.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/obstacle_route.hpp>
+#include <slant/contact/solve_obstacle.hpp>
 
 #include <fem/steel_brick.hpp>
 

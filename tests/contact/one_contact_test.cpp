@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/detail/one_contact.hpp>
+#include <slant/contact/friction/friction_gauss_seidel.hpp>
 
 #include "oracle/naive_friction.hpp"
 

@@ -4,9 +4,9 @@
 #include "scenes.hpp"
 
 #include <fem/lecture_ssn.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/primal_dual.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/operators/counted.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "loose_brick.hpp"
 
-#include <slant/contact/detail/rigid_position.hpp>
 #include <slant/contact/free_motions.hpp>
+#include <slant/contact/parts/rigid_position.hpp>
 
 #include <doctest/doctest.h>
 

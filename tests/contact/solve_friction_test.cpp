@@ -3,7 +3,7 @@
 
 #include "contact/friction_scenes.hpp"
 
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,9 +3,8 @@
 #include "scenes.hpp"
 
 #include <slant/certificates/constrained_energy_certificate.hpp>
-#include <slant/certificates/energy_error_below.hpp>
-#include <slant/contact/dirichlet_preconditioner.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/certificates/energy_error.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/operators/any_operator.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scenes.hpp"
 
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

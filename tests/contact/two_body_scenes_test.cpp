@@ -2,8 +2,8 @@
 //
 // Two bodies in the plane and in space, solved by a method of the library, against the dense
 // reference, which shares no factorisation, set or method with it.
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

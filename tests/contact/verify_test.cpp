@@ -8,7 +8,7 @@
 #include <limits>
 #include <oracle/naive_friction.hpp>
 #include <random>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <string>
 #include <support/friction_cases.hpp>
 

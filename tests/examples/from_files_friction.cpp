@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <sstream>
 #include <support/friction_cases.hpp>

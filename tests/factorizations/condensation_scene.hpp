@@ -3,7 +3,7 @@
 // A matrix K, and a B that touches some of the unknowns of one of its sides.
 #pragma once
 
-#include <slant/contact/contact_unknowns.hpp>
+#include <slant/contact/contact_data.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

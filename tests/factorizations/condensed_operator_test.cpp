@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/condensed_operator.hpp>
 
+#include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/concepts/rounded.hpp>
-#include <slant/factorizations/detail/packed_symmetric.hpp>
-#include <slant/factorizations/detail/tail_inverse.hpp>
+#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/tail.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/detail/contact_ordering.hpp>
+#include <slant/factorizations/parts/contact_ordering.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/ldlt.hpp>
 
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/detail/packed_symmetric.hpp>
+#include <slant/factorizations/parts/packed_symmetric.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/detail/panel_kernels_of_four.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/detail/quotient_graph.hpp>
+#include <slant/factorizations/fill_estimate.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

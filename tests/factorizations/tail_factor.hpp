@@ -3,8 +3,7 @@
 // A trailing part of a supernodal factor, made by hand, with the dense matrix that it means.
 #pragma once
 
-#include <slant/factorizations/detail/tail_columns.hpp>
-#include <slant/factorizations/detail/tail_shape.hpp>
+#include <slant/factorizations/parts/tail.hpp>
 
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/detail/tail_inverse.hpp>
+#include <slant/factorizations/parts/tail.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

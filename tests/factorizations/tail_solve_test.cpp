@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/detail/tail_solve.hpp>
-
-#include <slant/factorizations/detail/tail_columns.hpp>
-#include <slant/factorizations/detail/tail_panels.hpp>
-#include <slant/factorizations/detail/tail_shape.hpp>
+#include <slant/factorizations/parts/tail.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

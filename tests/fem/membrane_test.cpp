@@ -14,9 +14,9 @@
 #include <fem/printed_membranes.hpp>
 #include <oracle/naive_membrane.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <string>
 

@@ -8,7 +8,7 @@
 #include <fem/thesis_ssnm.hpp>
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
-#include <slant/newton/saddle_direct.hpp>
+#include <slant/newton/saddle_solvers.hpp>
 
 namespace thesis_ssnm_test {
 

@@ -5,8 +5,8 @@
 // And as contacts in local coordinates, whose law is evaluated at any forces, or they are refused.
 #include "bytes.hpp"
 
-#include <slant/contact/tresca.hpp>
-#include <slant/contact/verify.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 
 namespace {

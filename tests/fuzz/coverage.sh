@@ -35,8 +35,8 @@ done
 
 contact=$root/include/slant/contact
 "llvm-cov$suffix" report -instr-profile="$profiles/all" "${objects[@]}" \
-  "$root"/include/slant/io/*.hpp "$contact"/{contact_data,load_step,friction_problem,asymmetry}.hpp \
-  "$contact"/detail/{contact_checks,friction_law,gap_loads}.hpp |
+  "$root"/include/slant/io/*.hpp \
+  "$contact"/{contact_data,friction_law,load_stepper,friction/friction_problem}.hpp |
   awk '
     /\.hpp/ { name = $1; sub(/.*\//, "", name) }
     /\.hpp|^TOTAL/ {

@@ -4,7 +4,7 @@
 // bad_input, or give a problem that is valid and whose law can be evaluated.
 #include "bytes.hpp"
 
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 
 namespace {

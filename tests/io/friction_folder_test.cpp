@@ -3,7 +3,7 @@
 // Friction problems as folders: what is read and written, and every way in which it can be wrong.
 #include <doctest/doctest.h>
 
-#include <slant/contact/verify.hpp>
+#include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <support/test_data.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/io/matrix_market_header.hpp>
+#include <slant/io/matrix_market.hpp>
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <limits>
 #include <random>
-#include <slant/io/number_text.hpp>
+#include <slant/io/text_scanner.hpp>
 #include <string>
 
 namespace number_text_test {

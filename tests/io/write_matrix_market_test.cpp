@@ -8,7 +8,6 @@
 #include <limits>
 #include <random>
 #include <slant/io/matrix_market.hpp>
-#include <slant/io/write_matrix_market.hpp>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,7 @@
 // The driver, the range of iterates and the rules ask their archetypes for nothing more.
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/testing/archetypes/iterative_method.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

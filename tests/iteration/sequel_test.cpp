@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/sequel.hpp>
+#include <slant/iteration/solve_then.hpp>
 
 #include <doctest/doctest.h>
 

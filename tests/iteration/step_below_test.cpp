@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/step_below.hpp>
+#include <slant/iteration/stopping.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,6 @@
 #include "spd_matrices.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg_feas.hpp>
 #include <slant/krylov/face_cg.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/cartesian.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "spd_matrices.hpp"
 
-#include <slant/krylov/gradient_step.hpp>
+#include <slant/krylov/spectral_bound.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
 

@@ -9,9 +9,7 @@
 #include <slant/krylov/cg.hpp>
 #include <slant/krylov/face_cg.hpp>
 #include <slant/krylov/spectral_bound.hpp>
-#include <slant/testing/archetypes/face.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
-#include <slant/testing/archetypes/scalar.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "spd_matrices.hpp"
 
-#include <slant/iteration/report.hpp>
+#include <slant/base/report.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>

@@ -4,7 +4,7 @@
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

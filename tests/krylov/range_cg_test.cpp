@@ -6,7 +6,7 @@
 #include <slant/krylov/range_cg.hpp>
 #include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/counted.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/krylov/tridiagonal_eigenvalue.hpp>
+#include <slant/krylov/spectral_bound.hpp>
 
 #include <doctest/doctest.h>
 

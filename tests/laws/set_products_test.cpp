@@ -6,7 +6,7 @@
 #include <slant/sets/point.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/sets/shifted.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/set_laws.hpp>
 
 #include <doctest/doctest.h>

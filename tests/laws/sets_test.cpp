@@ -9,7 +9,6 @@
 #include <slant/sets/interval.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/sets/symmetric_interval.hpp>
 #include <slant/testing/set_laws.hpp>
 
 #include <doctest/doctest.h>

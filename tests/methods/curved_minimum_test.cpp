@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/curved_minimum.hpp>
+#include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>

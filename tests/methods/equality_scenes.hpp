@@ -3,11 +3,11 @@
 // Problems with equality constraints whose solutions are known.
 #pragma once
 
-#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/separable_qp.hpp>
-#include <slant/operators/equality_constraints.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/equality_constraints.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

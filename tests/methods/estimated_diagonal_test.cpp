@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/estimated_diagonal.hpp>
+#include <slant/methods/parts/interior_start.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/scaled.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Data and starts anywhere in the range of double, by the methods that keep gradients in a unit of
-// their own (methods/gradient_point.hpp): what is called converged is the solution.
+// their own (methods/parts/gradient_point.hpp): what is called converged is the solution.
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>

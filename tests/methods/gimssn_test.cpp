@@ -4,7 +4,7 @@
 
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
 

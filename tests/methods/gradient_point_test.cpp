@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mixture.hpp"
 
-#include <slant/methods/gradient_point.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
 #include <slant/operators/counted.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include "example_one.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/imssn.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/iteration/sequel.hpp>
+#include <slant/iteration/solve_then.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 

@@ -2,7 +2,7 @@
 #include "example_one.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/step_below.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/operators/counted.hpp>
 

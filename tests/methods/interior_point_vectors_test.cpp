@@ -2,8 +2,7 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -5,10 +5,7 @@
 
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
-#include <slant/testing/archetypes/face.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
-#include <slant/testing/archetypes/scalar.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/kprgp_options.hpp>
+#include <slant/methods/proportioning.hpp>
 
 #include <doctest/doctest.h>
 

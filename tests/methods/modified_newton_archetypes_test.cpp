@@ -5,17 +5,10 @@
 #include "example_one.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg_feas.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
+#include <slant/krylov/face_cg.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
-#include <slant/testing/archetypes/face.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
-#include <slant/testing/archetypes/scalar.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

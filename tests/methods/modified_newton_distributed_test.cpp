@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // MSSN, IMSSN, GIMSSN, AS, AS-S and QPQ on plane friction: half lines and intervals.
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpq.hpp>
 
 #include <doctest/doctest.h>
 

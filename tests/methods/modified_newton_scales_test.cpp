@@ -4,11 +4,8 @@
 #include "mixture.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,6 @@
 #include "mixture.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>

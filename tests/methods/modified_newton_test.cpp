@@ -6,8 +6,6 @@
 
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/operators/counted.hpp>
 

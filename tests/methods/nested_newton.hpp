@@ -4,8 +4,8 @@
 #pragma once
 
 #include <slant/iteration/nested.hpp>
-#include <slant/methods/semismooth_newton.hpp>
-#include <slant/newton/sparse_direct_solver.hpp>
+#include <slant/newton/direct_solver.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>

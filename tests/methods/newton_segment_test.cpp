@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/newton_segment.hpp>
+#include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>

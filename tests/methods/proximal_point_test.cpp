@@ -4,7 +4,7 @@
 #include "support/allocation_guard.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/step_below.hpp>
+#include <slant/iteration/stopping.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>

@@ -3,7 +3,7 @@
 
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/qpc.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

@@ -5,7 +5,6 @@
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/qpq.hpp>
 #include <slant/operators/counted.hpp>
 
 #include <doctest/doctest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/report.hpp>
-#include <slant/methods/recession.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/base/report.hpp>
+#include <slant/methods/parts/recession.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>

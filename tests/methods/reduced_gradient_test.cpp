@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mixture.hpp"
 
-#include <slant/methods/reduced_gradient.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,9 +4,8 @@
 #include "mixture.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/contact_sets.hpp>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/rounded_products.hpp>
+#include <slant/methods/symmetric_newton.hpp>
 
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/separable_qp.hpp>
-#include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "schur_contact_scenes.hpp"
 
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // SMALSE-M asks its archetypes for nothing more than the concepts name.
-#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/methods/smalse.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

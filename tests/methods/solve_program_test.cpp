@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/separable_qp.hpp>
 #include <slant/methods/solve_program.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 #include <fem/thesis_ssnm.hpp>
-#include <slant/methods/semismooth_newton.hpp>
-#include <slant/newton/saddle_direct.hpp>
+#include <slant/newton/saddle_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 
 #include <support/allocation_guard.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/successive_state.hpp>
+#include <slant/methods/successive_approximations.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,11 +2,11 @@
 #include "mixture.hpp"
 
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/slanting/natural_residual.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

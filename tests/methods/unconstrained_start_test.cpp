@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/methods/unconstrained_start.hpp>
 
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <doctest/doctest.h>

@@ -4,12 +4,8 @@
 // `converged` beside an independent residual, no `unbounded` for a definite A, and an end at the
 // rounding floor.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
 

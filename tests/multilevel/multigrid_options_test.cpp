@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/multilevel/multigrid_options.hpp>
+#include <slant/multilevel/multigrid.hpp>
 
 #include <doctest/doctest.h>
 

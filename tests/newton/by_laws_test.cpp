@@ -3,11 +3,11 @@
 // Which solver the compiler chooses, and that a client's own takes part.
 #include "newton_scene.hpp"
 
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/slanting/smooth.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/newton/cg_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <slanting/slanting_support.hpp>
 #include <support/allocation_guard.hpp>

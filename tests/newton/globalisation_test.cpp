@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/newton/globalisation.hpp>
-#include <slant/testing/archetypes/scalar.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

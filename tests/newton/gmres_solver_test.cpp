@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/newton/gmres_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
 
 #include <slant/operators/counted.hpp>
 #include <slant/operators/matrix.hpp>

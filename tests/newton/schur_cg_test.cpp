@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 #include <fem/thesis_ssnm.hpp>
-#include <slant/newton/saddle_direct.hpp>
-#include <slant/newton/schur_cg.hpp>
+#include <slant/newton/saddle_solvers.hpp>
 
 namespace schur_cg_test {
 

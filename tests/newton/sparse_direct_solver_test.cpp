@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "newton_scene.hpp"
 
-#include <slant/newton/sparse_direct_solver.hpp>
+#include <slant/newton/direct_solver.hpp>
 
 #include <doctest/doctest.h>
 

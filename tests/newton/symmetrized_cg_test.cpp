@@ -3,7 +3,7 @@
 
 #include <slant/newton/symmetrized_cg.hpp>
 #include <slant/operators/diagonal.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <support/allocation_guard.hpp>
 

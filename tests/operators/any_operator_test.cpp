@@ -5,7 +5,7 @@
 #include <slant/operators/identity.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

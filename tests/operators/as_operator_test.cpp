@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/as_operator.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <slant/operators/identity.hpp>
 #include <slant/operators/sum.hpp>

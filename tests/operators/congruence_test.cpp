@@ -4,8 +4,7 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
-#include <slant/testing/archetypes/factorization.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -3,8 +3,7 @@
 
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
-#include <slant/testing/conjugacy_laws.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/detail/definite_inverse.hpp>
+#include <slant/operators/small_blocks.hpp>
 
 #include "oracle/hard_points.hpp"
 #include "oracle/precise.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/diagonal_blocks.hpp>
+#include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/testing/operator_laws.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/diagonal.hpp>
 
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

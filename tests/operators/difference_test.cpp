@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/difference.hpp>
+#include <slant/operators/sum.hpp>
 
 #include <slant/operators/identity.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -4,7 +4,6 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/operators/zero.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/product.hpp>
-#include <slant/operators/slice.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/operators/restriction.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <support/allocation_guard.hpp>

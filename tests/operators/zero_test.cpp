@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/zero.hpp>
+#include <slant/operators/identity.hpp>
 
 #include <slant/testing/operator_laws.hpp>
 

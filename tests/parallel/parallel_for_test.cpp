@@ -2,12 +2,12 @@
 //
 // With OpenMP these tests run with one and with several threads, whose results must be the same to
 // the last bit; without, they say that nothing depends on OpenMP.
+#include <slant/base/parallel_for.hpp>
 #include <slant/contact/bodies.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/schur_contact.hpp>
+#include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/conjugate_projector.hpp>
-#include <slant/operators/detail/parallel_for.hpp>
-#include <slant/operators/diagonal_blocks.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <doctest/doctest.h>

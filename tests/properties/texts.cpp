@@ -5,7 +5,6 @@
 
 #include <slant/io/matrix_market.hpp>
 #include <slant/io/text_vector.hpp>
-#include <slant/io/write_matrix_market.hpp>
 
 #include <io/io_support.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Load steps, as README.md shows them; readme.cmake compares the two.
+#include <slant/contact/dual.hpp>
 #include <slant/contact/load_steps.hpp>
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/friction/verify.hpp>
 #include <slant/contact/solve_friction.hpp>
-#include <slant/contact/verify.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,8 +2,8 @@
 //
 // The slanting function of a client's own that README.md shows; readme.cmake compares the two.
 #include <slant/operators/diagonal.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/identity.hpp>
 
 #include <slant/testing/slanting_laws.hpp>
 

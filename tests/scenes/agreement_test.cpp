@@ -3,14 +3,13 @@
 // Each method of the list below solves every scene from zero to the accuracy that it is asked for:
 // its energy error against the reference is a small multiple of the tolerance, down to where digits
 // end. So any two of them agree to the sum of their errors, and find the same active constraints.
-#include <slant/iteration/sequel.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
+#include <slant/iteration/solve_then.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 #include <slant/slanting/natural_residual.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Contact of bodies, against the dense reference.
-#include <slant/contact/preconditioner.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/inverse.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/capabilities.hpp>
-#include <slant/sets/block_diagonal_slant.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/sets/slants.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"

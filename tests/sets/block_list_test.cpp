@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/ball.hpp>
-#include <slant/sets/detail/block_list.hpp>
+#include <slant/sets/blocks.hpp>
 #include <slant/sets/interval.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/block_scaled.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
+#include <slant/sets/scaled.hpp>
 #include <slant/testing/set_laws.hpp>
 
 #include <doctest/doctest.h>

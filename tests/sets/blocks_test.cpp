@@ -5,7 +5,7 @@
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

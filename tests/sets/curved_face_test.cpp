@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <slant/base/entries.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>
-#include <slant/sets/detail/symmetric_eigen.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/projection_slant.hpp>
 #include <slant/sets/second_order_cone.hpp>
+#include <slant/sets/slants.hpp>
 
 #include <doctest/doctest.h>
 

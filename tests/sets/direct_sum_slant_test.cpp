@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/sum.hpp>
-#include <slant/sets/block_diagonal_slant.hpp>
-#include <slant/sets/direct_sum_slant.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/slants.hpp>
 
 #include "counting_disc.hpp"
 

@@ -2,8 +2,7 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"

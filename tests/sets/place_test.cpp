@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/place.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

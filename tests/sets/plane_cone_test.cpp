@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/plane_cone.hpp>
+#include <slant/sets/second_order_cone.hpp>
 
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"

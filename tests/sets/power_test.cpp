@@ -3,7 +3,7 @@
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include "counting_disc.hpp"
 #include "oracle/precise.hpp"

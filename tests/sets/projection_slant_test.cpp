@@ -4,7 +4,7 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/projection_slant.hpp>
+#include <slant/sets/slants.hpp>
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"

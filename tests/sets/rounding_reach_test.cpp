@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/ball.hpp>
-#include <slant/sets/detail/rounding_reach.hpp>
 #include <slant/sets/half_line.hpp>
+#include <slant/sets/parts/image.hpp>
 #include <slant/sets/second_order_cone.hpp>
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/detail/secular_root.hpp>
+#include <slant/sets/elliptic_cone.hpp>
 
 #include "oracle/precise.hpp"
 

@@ -7,7 +7,7 @@
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/testing/archetypes/scalar.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/shifted.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"

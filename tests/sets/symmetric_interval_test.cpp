@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/symmetric_interval.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/affine.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -2,8 +2,8 @@
 #include "slanting_support.hpp"
 
 #include <slant/operators/matrix.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/max.hpp>
 
 #include <doctest/doctest.h>

@@ -6,12 +6,12 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/power.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <slant/slanting/symmetrized.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

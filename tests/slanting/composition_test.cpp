@@ -6,7 +6,7 @@
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/smooth.hpp>
-#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -9,9 +9,9 @@
 #include <slant/sets/elliptic_cone.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/de_saxce.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/testing/slanting_laws.hpp>
 

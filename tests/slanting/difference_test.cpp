@@ -2,10 +2,9 @@
 #include "slanting_support.hpp"
 
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/difference.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/max.hpp>
-#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/slanting/sum.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -5,10 +5,10 @@
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"
 
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/de_saxce.hpp>
 #include <slant/slanting/fischer_burmeister_cone.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -3,7 +3,6 @@
 
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
-#include <slant/slanting/identity.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/slanting/affine.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

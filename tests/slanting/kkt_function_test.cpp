@@ -5,7 +5,7 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
-#include <slant/slanting/identity.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/kkt_function.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/testing/slanting_laws.hpp>

@@ -4,7 +4,7 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/slanting/min.hpp>
+#include <slant/slanting/max.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <slant/testing/slanting_laws.hpp>
 

@@ -8,7 +8,7 @@
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/slanting/natural_residual.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <support/allocation_guard.hpp>

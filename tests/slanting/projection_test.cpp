@@ -6,7 +6,7 @@
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/slanting/projection.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <support/allocation_guard.hpp>

@@ -3,7 +3,7 @@
 
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/selection.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

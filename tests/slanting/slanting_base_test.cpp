@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/identity.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/slanting/slanting_base.hpp>
 

@@ -6,7 +6,7 @@
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/stack.hpp>
-#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <support/allocation_guard.hpp>

@@ -5,7 +5,7 @@
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/sum.hpp>
-#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <support/allocation_guard.hpp>

@@ -12,7 +12,7 @@
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <slant/slanting/smooth.hpp>
-#include <slant/slanting/symmetrizable.hpp>
+#include <slant/slanting/symmetrized.hpp>
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 #include <slant/sets/power.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <slant/slanting/symmetrized.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <support/allocation_guard.hpp>
 

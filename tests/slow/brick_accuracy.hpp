@@ -3,8 +3,8 @@
 // KPRGP on the steel brick against the independent dense reference, at one mesh and load.
 #pragma once
 
+#include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/tresca.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>

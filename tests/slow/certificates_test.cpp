@@ -5,9 +5,9 @@
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
-#include <slant/methods/separable_qp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>

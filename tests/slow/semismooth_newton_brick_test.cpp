@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The brick by the generic method alone: natural residual, CG chosen by the laws, line search.
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/slanting/natural_residual.hpp>
 

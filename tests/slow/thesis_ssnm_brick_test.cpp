@@ -3,7 +3,7 @@
 
 #include <fem/thesis_ssnm_brick.hpp>
 #include <oracle/dense_newton.hpp>
-#include <slant/newton/schur_cg.hpp>
+#include <slant/newton/saddle_solvers.hpp>
 
 namespace thesis_ssnm_brick_test {
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/gimssn.hpp>
-#include <slant/methods/imssn.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/methods/qpc.hpp>
-#include <slant/methods/qpq.hpp>
 
 #include <stability/methods.hpp>
 #include <stability/stopping.hpp>

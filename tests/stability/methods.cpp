@@ -4,7 +4,7 @@
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/contact/preconditioner.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <exception>

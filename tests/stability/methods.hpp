@@ -7,9 +7,9 @@
 
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/concepts/iterative_method.hpp>
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

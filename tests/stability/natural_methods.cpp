@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/primal_dual.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/ssnm.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
 #include <slant/newton/by_laws.hpp>
-#include <slant/newton/schur_bicgstab.hpp>
-#include <slant/newton/schur_cg.hpp>
+#include <slant/newton/krylov_solvers.hpp>
+#include <slant/newton/saddle_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/natural_residual.hpp>
 

@@ -2,15 +2,15 @@
 //
 // Some methods in other scalars than double, on programs without contact.
 #include <slant/certificates/energy_certificate.hpp>
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/by_laws.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/natural_residual.hpp>
 

@@ -3,7 +3,7 @@
 // How runs are stopped: all methods by the same rule, the energy error that a certificate shows.
 #pragma once
 
-#include <slant/certificates/energy_error_below.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 

@@ -5,7 +5,7 @@
 // exactly in floating point (small integers and binary fractions).
 #pragma once
 
-#include <slant/contact/friction_problem.hpp>
+#include <slant/contact/friction/friction_problem.hpp>
 
 #include <Eigen/Core>
 #include <initializer_list>

@@ -5,7 +5,7 @@
 // `run` says so.
 #pragma once
 
-#include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>

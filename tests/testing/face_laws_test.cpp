@@ -2,8 +2,8 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>
-#include <slant/testing/archetypes/face.hpp>
-#include <slant/testing/face_laws.hpp>
+#include <slant/testing/archetypes.hpp>
+#include <slant/testing/set_laws.hpp>
 
 #include <doctest/doctest.h>
 

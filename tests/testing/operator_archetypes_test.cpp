@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The archetypes of vectors, operators and factorisations do what they claim and nothing else.
-#include <slant/testing/archetypes/factorization.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
-#include <slant/testing/archetypes/vector.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>

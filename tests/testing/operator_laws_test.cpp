@@ -6,7 +6,7 @@
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes/linear_operator.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/QR>

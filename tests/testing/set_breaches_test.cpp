@@ -2,7 +2,7 @@
 //
 // Sets that lie about one thing each: a law check that finds none of them would be worthless.
 #include <slant/sets/power.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/set_breaches.hpp>
 
 #include "lying_sets.hpp"

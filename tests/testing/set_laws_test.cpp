@@ -2,7 +2,7 @@
 #include <slant/testing/set_laws.hpp>
 
 #include <slant/sets/ball.hpp>
-#include <slant/testing/archetypes/convex_set.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 // The law check itself: it passes right functions, also at kinks, and finds wrong ones.
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes/slanting_function.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -6,12 +6,12 @@
 
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/step_below.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/semismooth_newton.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>

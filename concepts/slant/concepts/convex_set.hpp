@@ -43,10 +43,9 @@
 // and far more from `state`.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/concepts/numbers_like.hpp>
 #include <slant/concepts/vector.hpp>
 
 namespace slant {

@@ -24,7 +24,7 @@
 // hold workspaces, and a state is saved by copying it.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
 

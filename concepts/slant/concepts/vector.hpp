@@ -3,8 +3,8 @@
 // Vectors: an Eigen object plus an inner product.
 //
 // Intuition. Elementwise work is done on `local(x)`, the part of the vector that lives here, by
-// vector_algebra.hpp; only inner products, the two reductions of distributed.hpp, and operators may
-// communicate.
+// vector_algebra.hpp; only inner products, the two reductions of section distributed, and operators
+// may communicate.
 //
 // Minimal definition. Nothing for Eigen column vectors. Otherwise members
 //     local()            the local part, an Eigen column vector (lvalue, const and non-const),
@@ -275,5 +275,132 @@ template <class V> concept owns_its_entries = std::is_same_v<plain_t<V>, V>;
 template <class V>
 concept vector = has_local<V> && local_is_lvalue<V> && has_like<V> && owns_its_entries<V> &&
                  std::copyable<V> && has_inner_product<V> && scalar<scalar_t<V>>;
+
+// --- distributed ---------------------------------------------------------------------------------
+//
+// Vectors spread over processes.
+//
+// Intuition. All processes run the same method on their own parts. Whatever decides the next step
+// must come out the same on all of them: norms do, since inner products are global, but "is x in
+// Λ?" and "how far is the boundary?" are answered by each process for its own blocks.
+//
+// Minimal definition. Nothing for vectors of one process. Otherwise, besides those of this file,
+// members
+//     minimum(s)       the smallest of the numbers s that the processes come with, the same for
+//     all, global_size()    the number of entries on all processes together.
+//
+// Laws.   minimum(s) ≤ s, with equality on one process at least;   global_size() = Σ local sizes.
+//
+// Models. Every vector; those of one process trivially. A block of a set lies on one process.
+
+template <class V>
+concept has_minimum = requires(V const& x, scalar_t<V> s) {
+  { x.minimum(s) } -> std::convertible_to<scalar_t<V>>;
+};
+template <class V>
+concept has_global_size = requires(V const& x) {
+  { x.global_size() } -> std::convertible_to<index>;
+};
+
+/// The smallest of the values that all processes holding x come with.
+template <class V>
+[[nodiscard]] scalar_t<V> minimum(V const& x, scalar_t<V> const& value) {
+  if constexpr (has_minimum<V>) {
+    return x.minimum(value);
+  } else {
+    return value;
+  }
+}
+
+/// Does it hold on all processes that hold x?
+template <class V>
+[[nodiscard]] bool everywhere(V const& x, bool holds) {
+  if constexpr (has_minimum<V>) {
+    using S = scalar_t<V>;
+    return x.minimum(holds ? S(1) : S(0)) > S(0);
+  } else {
+    return holds;
+  }
+}
+
+/// Number of entries of x on all processes.
+template <class V>
+[[nodiscard]] index global_size(V const& x) {
+  if constexpr (has_global_size<V>) {
+    return x.global_size();
+  } else {
+    return index(slant::local(x).size());
+  }
+}
+
+// --- numbers like --------------------------------------------------------------------------------
+//
+// What a member returns: numbers of the right kind, as many as expected.
+//
+// Why ask. The members of a set are often templates that take whatever they are given, and Eigen
+// converts between scalars of different precision by a constructor: a block that computes in float
+// or returns three components instead of two would pass as a block of double precision in the
+// plane, and be found out far from where the mistake is, or not at all.
+//
+// Everything is asked of the structure of a type (Scalar, RowsAtCompileTime, ColsAtCompileTime, as
+// Eigen's have them); what a type does not tell is taken for right.
+
+namespace detail {
+
+/// A number of rows or columns that is not known before the program runs.
+inline constexpr index unknown_size = -1;
+
+/// Rows and columns of M as far as its type tells, as Eigen's do.
+template <class M>
+[[nodiscard]] consteval index rows_of_type() {
+  if constexpr (requires { index(M::RowsAtCompileTime); }) {
+    return index(M::RowsAtCompileTime) < 0 ? unknown_size : index(M::RowsAtCompileTime);
+  } else {
+    return unknown_size;
+  }
+}
+template <class M>
+[[nodiscard]] consteval index cols_of_type() {
+  if constexpr (requires { index(M::ColsAtCompileTime); }) {
+    return index(M::ColsAtCompileTime) < 0 ? unknown_size : index(M::ColsAtCompileTime);
+  } else {
+    return unknown_size;
+  }
+}
+
+[[nodiscard]] consteval bool may_be_equal(index a, index b) {
+  return a == unknown_size || b == unknown_size || a == b;
+}
+
+template <class S>
+struct numbers {};
+
+/// numbers<S> if X consists of them, X itself if it does not tell.
+template <class X>
+struct made_of {
+  using type = std::remove_cvref_t<X>;
+};
+template <class X>
+  requires requires { typename scalar_t<std::remove_cvref_t<X>>; }
+struct made_of<X> {
+  using type = numbers<scalar_t<std::remove_cvref_t<X>>>;
+};
+
+}  // namespace detail
+
+/// R consists of numbers of the kind that V consists of; where V does not tell, R is V.
+template <class R, class V>
+concept same_scalar =
+    std::is_same_v<typename detail::made_of<R>::type, typename detail::made_of<V>::type>;
+
+/// R has so many rows and columns (unknown_size: any), as far as its type tells.
+template <class R, index Rows, index Cols>
+concept may_have_size =
+    detail::may_be_equal(detail::rows_of_type<local_t<std::remove_cvref_t<R>>>(), Rows) &&
+    detail::may_be_equal(detail::cols_of_type<local_t<std::remove_cvref_t<R>>>(), Cols);
+
+/// R is a vector or matrix of such size, of numbers of the kind that V consists of.
+template <class R, class V, index Rows, index Cols>
+concept numbers_like = same_scalar<R, V> && may_have_size<R, Rows, Cols>;
 
 }  // namespace slant

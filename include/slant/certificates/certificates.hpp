@@ -5,11 +5,9 @@
 
 // IWYU pragma: begin_exports
 #include <slant/certificates/constrained_energy_certificate.hpp>
-#include <slant/certificates/constrained_projection.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error.hpp>
-#include <slant/certificates/energy_error_below.hpp>
 #include <slant/certificates/face_correction.hpp>
 #include <slant/certificates/newton_estimate.hpp>
 #include <slant/certificates/normal_part.hpp>

@@ -13,13 +13,13 @@
 // sum of these terms approaches ‖t‖²_H from below [Hestenes, Stiefel 1952; Strakoš, Tichý 2002].
 #pragma once
 
+#include <slant/base/scaling.hpp>
 #include <slant/certificates/dual_norm.hpp>
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/krylov/unit.hpp>
-#include <slant/methods/face_preconditioner.hpp>
+#include <slant/krylov/preconditioner.hpp>
 
 #include <algorithm>
 #include <cmath>

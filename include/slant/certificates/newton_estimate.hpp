@@ -16,13 +16,13 @@
 // Cost: one application of A, and one for each iteration, some 10.
 #pragma once
 
-#include <slant/certificates/detail/gradient_split.hpp>
+#include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/face_correction.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/methods/detail/block_slants.hpp>
+#include <slant/sets/block_queries.hpp>
 #include <slant/sets/curved_face.hpp>
 
 #include <cmath>

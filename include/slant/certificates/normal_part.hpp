@@ -25,14 +25,13 @@
 // other set with a projection gets γ = sᵀ(x − p), where the rounding errors of P remain.
 #pragma once
 
+#include <slant/base/double_word.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/krylov/unit.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/detail/double_word.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
-#include <slant/sets/symmetric_interval.hpp>
 
 #include <Eigen/Core>
 

@@ -19,11 +19,11 @@
 // Rows with an infinite bound never act and touch nothing.
 #pragma once
 
-#include <slant/contact/detail/body_graph.hpp>
-#include <slant/contact/detail/prepared_body.hpp>
-#include <slant/methods/polyhedral_qp.hpp>
+#include <slant/contact/node_layout.hpp>
+#include <slant/contact/parts/prepared_body.hpp>
 #include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/polyhedral_qp.hpp>
 
 #include <Eigen/SparseCore>
 

@@ -18,7 +18,7 @@
 // order, so that a crude λ does. w is also the correction that refines u where ε is not small.
 // δ: v is the shortest with B v = d, which moves nothing but the contacts, and where that does not
 // show the goal, relaxed by some products with K towards the harmonic extension
-// (detail/extension.hpp). Where that is not enough either, the caller may estimate what is left to
+// (parts/extension.hpp). Where that is not enough either, the caller may estimate what is left to
 // go by a Newton step (certificates/newton_estimate.hpp), whose rest has such a bound again.
 //
 // `proven` is said if λ is a proven lower bound (smallest_eigenvalue_bound), the rows of B are
@@ -47,15 +47,14 @@
 // again for each refinement of u, and twelve products with K at most to relax v.
 #pragma once
 
+#include <slant/base/double_word.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/certificates/energy_error.hpp>
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/factorization.hpp>
 #include <slant/contact/contact_data.hpp>
-#include <slant/contact/detail/extension.hpp>
-#include <slant/contact/detail/scene_matrices.hpp>
-#include <slant/krylov/unit.hpp>
+#include <slant/contact/parts/extension.hpp>
 #include <slant/operators/inverse.hpp>
-#include <slant/sets/detail/double_word.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -245,7 +244,7 @@ class certificate {
     return extension_.relaxed(m_, d, relaxations_, S(0));
   }
 
-  /// ‖v‖_K of the shortest v with B v = d, an upper bound of ‖d‖_{A⁻¹}; see detail/extension.hpp.
+  /// ‖v‖_K of the shortest v with B v = d, an upper bound of ‖d‖_{A⁻¹}; see parts/extension.hpp.
   [[nodiscard]] S extension_by_zero(vector_type const& d) {
     slant::detail::check_size("d", d.size(), m_.B.rows());
     return extension_.by_zero(m_, d);

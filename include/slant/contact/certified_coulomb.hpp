@@ -8,7 +8,7 @@
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
 //     solve       Newton's method, and radii where that fails, or cones  contact/solve_coulomb
 //     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm the problem
-//                 of Tresca with the slip bounds F λ_ν             contact/coulomb_certificate
+//                 of Tresca with the slip bounds F λ_ν     contact/coulomb/coulomb_certificate
 //
 // `converged` only if both are at most the tolerance. Where the certificate contradicts the method
 // it goes on to a smaller residual; where that is of no use the run ends `stalled`, and the reason
@@ -18,12 +18,12 @@
 //     if (r.converged()) use(r.u, r.λ);
 #pragma once
 
+#include <slant/base/scaling.hpp>
 #include <slant/compiled.hpp>
-#include <slant/concepts/checks.hpp>
-#include <slant/contact/coulomb_certificate.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/solve_coulomb.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/krylov/unit.hpp>
 
 #include <cmath>
 #include <limits>

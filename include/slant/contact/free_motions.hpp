@@ -13,24 +13,286 @@
 #pragma once
 
 #include <slant/compiled.hpp>
-#include <slant/contact/detail/body_graph.hpp>
-#include <slant/contact/detail/prepared_body.hpp>
-#include <slant/contact/detail/rigid_names.hpp>
 #include <slant/contact/node_layout.hpp>
+#include <slant/contact/parts/prepared_body.hpp>
 #include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/factorize.hpp>
 
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+namespace slant::contact::detail {
+
+// --- rigid names ---------------------------------------------------------------------------------
+//
+// Names of rigid motions: which translations and rotations span a few motions of a body.
+
+/// "body 2 (unknowns 300 … 899)".
+[[nodiscard, gnu::cold]] inline std::string body_text(index number,
+                                                      std::vector<index> const& unknowns) {
+  using slant::detail::show;
+  auto const count = static_cast<index>(unknowns.size());
+  std::string text = "body " + show(number);
+  if (count == 0) return text;
+  if (count == 1) return text + " (unknown " + show(unknowns.front()) + ")";
+  bool const contiguous = unknowns.back() - unknowns.front() + 1 == count;
+  return text + " (" + (contiguous ? "" : show(count) + " of the ") + "unknowns " +
+         show(unknowns.front()) + " to " + show(unknowns.back()) + ")";
+}
+
+/// "a, b and c".
+[[nodiscard, gnu::cold]] inline std::string enumeration(std::vector<std::string> const& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text.append(i == 0 ? "" : i + 1 == words.size() ? " and " : ", ").append(words[i]);
+  }
+  return text;
+}
+
+/// Three digits, for reading.
+template <class S>
+[[nodiscard, gnu::cold]] std::string rounded(S const& value) {
+  char text[32];
+  (void)std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value));
+  return text;
+}
+
+/// "(0.6, 0, 0.8)"; components that are rounding errors of the largest, or of `size`, are 0.
+template <class V>
+[[nodiscard, gnu::cold]] std::string rounded_vector(V const& v, typename V::Scalar const& size) {
+  using std::abs;
+  std::string text = "(";
+  for (index i = 0; i < v.size(); ++i) {
+    bool const zero = abs(v[i]) <= typename V::Scalar(1e-6) * size;
+    text.append(i == 0 ? "" : ", ")
+        .append(zero ? std::string("0") : rounded(typename V::Scalar(v[i])));
+  }
+  return text + ")";
+}
+
+/// The rigid motions about the middle of a body in multiples of its size, restricted to its
+/// unknowns: D translations, then one rotation in the plane, three about x, y and z in space.
+template <class S>
+struct rigid_frame {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  index D = 0;
+  vector_type centre{};
+  S size = S(0);
+  matrix_type Φ{};
+
+  rigid_frame(node_layout<S> const& layout, std::vector<index> const& unknowns)
+      : D(layout.dimension()) {
+    auto const n = static_cast<index>(unknowns.size());
+    auto const place = [&](index j) -> vector_type {
+      return layout.x.col(layout.node[static_cast<std::size_t>(unknowns[std::size_t(j)])]);
+    };
+    vector_type low = place(0), high = low;
+    for (index j = 1; j < n; ++j) {
+      low = low.cwiseMin(place(j)).eval();
+      high = high.cwiseMax(place(j)).eval();
+    }
+    centre = (low + high) / S(2);
+    size = (high - low).maxCoeff();
+    S const length = size > S(0) ? size : S(1);
+    index const rotations = D == 2 ? 1 : 3;
+    Φ = matrix_type::Zero(n, D + rotations);
+    for (index j = 0; j < n; ++j) {
+      index const a = layout.axis[static_cast<std::size_t>(unknowns[std::size_t(j)])];
+      vector_type const r = (place(j) - centre) / length;
+      Φ(j, a) = S(1);
+      for (index about = D == 2 ? 2 : 0; about < 3; ++about) {  // ω × r, ω the unit vector
+        index const b = (about + 1) % 3, c = (about + 2) % 3, column = D == 2 ? D : D + about;
+        if (a == c && b < D) Φ(j, column) = r[b];
+        if (a == b && c < D) Φ(j, column) = -r[c];
+      }
+    }
+  }
+};
+
+/// What a few motions R of a body are made of. Not rigid: neither translations nor rotations.
+template <class S>
+struct rigid_parts {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  bool rigid = false;
+  matrix_type translations{};  ///< orthonormal columns
+  matrix_type rotations{};     ///< orthonormal columns: directions of the axes
+  matrix_type moved{};  ///< the velocity of the centre for each rotation, no translation in it
+};
+
+/// An orthonormal basis of the directions in which the columns of m extend by more than rounding
+/// errors of `size`, and the combinations of columns: m V = U diag(σ), first those, then the rest.
+template <class S>
+struct column_space {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  matrix_type U{}, V{};
+  Eigen::Matrix<S, Eigen::Dynamic, 1> σ{};
+  index rank = 0;
+
+  column_space(matrix_type const& m, S const& size) {
+    if (m.cols() == 0 || m.rows() == 0) {
+      V = matrix_type::Identity(m.cols(), m.cols());
+      U.resize(m.rows(), 0);
+      return;
+    }
+    // Columns of zeros make V square with a thin decomposition.
+    matrix_type padded = matrix_type::Zero(std::max<index>(m.rows(), m.cols()), m.cols());
+    padded.topRows(m.rows()) = m;
+    Eigen::JacobiSVD<matrix_type> const svd(padded, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    for (S const& s : svd.singularValues()) rank += s > S(1e-6) * size ? 1 : 0;
+    U = svd.matrixU().topLeftCorner(m.rows(), rank);
+    V = svd.matrixV();
+    σ = svd.singularValues();
+  }
+};
+
+template <class S>
+[[nodiscard]] rigid_parts<S> parts_of(rigid_frame<S> const& frame,
+                                      Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R) {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  rigid_parts<S> parts;
+  matrix_type const C = frame.Φ.colPivHouseholderQr().solve(R);
+  // Rigid up to the rounding errors of K and of coordinates that were written with seven digits.
+  parts.rigid = (frame.Φ * C - R).norm() <= S(1e-5) * R.norm();
+  if (!parts.rigid) return parts;
+  index const D = frame.D;
+  column_space<S> const turning(matrix_type(C.bottomRows(C.rows() - D)), S(C.norm()));
+  index const r = turning.rank, rest = R.cols() - r;
+  matrix_type const shifts = C.topRows(D) * turning.V.rightCols(rest);
+  parts.translations = column_space<S>(shifts, S(C.norm())).U;
+  parts.rotations = turning.U;
+  parts.moved = C.topRows(D) * turning.V.leftCols(r);
+  for (index k = 0; k < r; ++k) parts.moved.col(k) /= turning.σ[k];
+  parts.moved -= parts.translations * matrix_type(parts.translations.transpose() * parts.moved);
+  return parts;
+}
+
+/// The names of the axes that span the columns of W, orthonormal; else the columns as vectors.
+template <class M>
+[[nodiscard]] std::vector<std::string> axis_names(M const& W) {
+  using S = typename M::Scalar;
+  std::vector<std::string> names;
+  for (index a = 0; a < W.rows(); ++a) {
+    if (W.row(a).norm() >= S(1) - S(1e-5)) names.emplace_back(1, "xyz"[a]);
+  }
+  if (static_cast<index>(names.size()) == W.cols()) return names;
+  names.clear();
+  for (index k = 0; k < W.cols(); ++k) {
+    index largest = 0;
+    W.col(k).cwiseAbs().maxCoeff(&largest);
+    S const sign = W(largest, k) < S(0) ? S(-1) : S(1);
+    names.push_back(rounded_vector((sign * W.col(k)).eval(), S(1)));
+  }
+  return names;
+}
+
+/// The axes of the rotations: "z", or "an axis along z through (0, 1, 0)" where it is not free.
+template <class S>
+[[nodiscard]] std::vector<std::string> rotation_names(rigid_frame<S> const& frame,
+                                                      rigid_parts<S> const& parts) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  index const D = frame.D, count = parts.rotations.cols();
+  if (D == 2) {
+    if (parts.translations.cols() > 0) return {"z"};
+    vector_type const v = parts.moved.col(0) * parts.rotations(0, 0);
+    vector_type p(2);
+    p << -v[1], v[0];
+    p = frame.centre + frame.size * p;
+    return {"the point " + rounded_vector(p, S(frame.size + frame.centre.cwiseAbs().maxCoeff()))};
+  }
+  auto const names = axis_names(parts.rotations);
+  bool const axes = !names.empty() && names.front().size() == 1;
+  std::vector<std::string> texts;
+  for (index k = 0; k < count; ++k) {
+    vector_type ω = parts.rotations.col(k), v = parts.moved.col(k);
+    if (axes) {  // the combination that turns about this axis
+      ω = vector_type::Unit(3, names[static_cast<std::size_t>(k)][0] - 'x');
+      v = parts.moved * vector_type(parts.rotations.transpose() * ω);
+    }
+    std::string const& name = names[static_cast<std::size_t>(k)];
+    // A translation across the axis that is free as well leaves the axis anywhere.
+    matrix_type across = parts.translations;
+    for (index j = 0; j < across.cols(); ++j) across.col(j) -= ω * ω.dot(across.col(j));
+    if (column_space<S>(across, S(1)).rank > 0 || count > 1) {
+      texts.push_back(name);
+      continue;
+    }
+    vector_type p(3);
+    p << ω[1] * v[2] - ω[2] * v[1], ω[2] * v[0] - ω[0] * v[2], ω[0] * v[1] - ω[1] * v[0];
+    p = frame.centre + frame.size * p;
+    using std::abs;
+    bool const screw = abs(ω.dot(v)) > S(1e-5);
+    texts.push_back("the axis along " + name + " through " +
+                    rounded_vector(p, S(frame.size + frame.centre.cwiseAbs().maxCoeff())) +
+                    (screw ? " while it moves along it" : ""));
+  }
+  return texts;
+}
+
+/// " can move along x and turn about z"; " has 3 free motions" where places are not known.
+template <class S>
+[[nodiscard, gnu::cold]] std::string motions_text(
+    node_layout<S> const& layout, std::vector<index> const& unknowns,
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R) {
+  using slant::detail::show;
+  std::string const number =
+      " has " + show(index(R.cols())) + (R.cols() == 1 ? " free motion" : " free motions");
+  if (!layout.is_known()) return number;
+  rigid_frame<S> const frame(layout, unknowns);
+  auto const parts = parts_of<S>(frame, R);
+  if (!parts.rigid) return number + ", not all of them rigid";
+  std::string text = " can";
+  if (parts.translations.cols() > 0)
+    text += " move along " + enumeration(axis_names(parts.translations));
+  if (parts.rotations.cols() > 0) {
+    text += parts.translations.cols() > 0 ? " and turn about " : " turn about ";
+    text += enumeration(rotation_names(frame, parts));
+  }
+  return text;
+}
+
+/// " moves along x", " turns about z", or only " moves".
+template <class S>
+[[nodiscard, gnu::cold]] std::string motion_text(
+    node_layout<S> const& layout, std::vector<index> const& unknowns,
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& direction) {
+  if (!layout.is_known()) return " moves";
+  rigid_frame<S> const frame(layout, unknowns);
+  auto const parts = parts_of<S>(frame, direction);
+  if (!parts.rigid) return " moves";
+  if (parts.rotations.cols() > 0) return " turns about " + rotation_names(frame, parts).front();
+  if (parts.translations.cols() == 0) return " moves";
+  // With the sign that it has.
+  Eigen::Matrix<S, Eigen::Dynamic, 1> way =
+      (frame.Φ.colPivHouseholderQr().solve(direction)).col(0).head(frame.D);
+  way /= way.norm();
+  for (index a = 0; a < frame.D; ++a) {
+    using std::abs;
+    if (abs(way[a]) >= S(1) - S(1e-5))
+      return std::string(" moves along ") + (way[a] < S(0) ? "-" : "") + "xyz"[a];
+  }
+  return " moves along " + rounded_vector(way, S(1));
+}
+
+}  // namespace slant::contact::detail
+
 namespace slant::contact {
+
+// --- free motions --------------------------------------------------------------------------------
 
 /// A body that K does not hold.
 template <class S = double>

@@ -4,10 +4,12 @@
 // solvers do without it; checks and messages say more where it is known.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
-#include <slant/operators/detail/matrix_entries.hpp>
+#include <slant/base/matrix_entries.hpp>
+#include <slant/base/partitions.hpp>
+#include <slant/concepts/bad_input.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cstddef>
@@ -91,3 +93,32 @@ template <class M, class I>
 }
 
 }  // namespace slant::contact
+
+namespace slant::contact::detail {
+
+// --- body graph ----------------------------------------------------------------------------------
+//
+// The graph of a stiffness matrix: unknowns i, j are neighbours if K_ij is stored. Its connected
+// components are the bodies.
+
+/// Unknowns of each body, in increasing order; bodies in the order of their first unknown.
+template <class S>
+[[nodiscard]] std::vector<std::vector<index>> bodies_of(Eigen::SparseMatrix<S> const& k) {
+  slant::detail::union_find sets(k.rows());
+  for (index j = 0; j < k.outerSize(); ++j) {
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(k, j); e; ++e) sets.join(e.row(), j);
+  }
+  std::vector<index> number(static_cast<std::size_t>(k.rows()), -1);
+  std::vector<std::vector<index>> bodies;
+  for (index j = 0; j < k.rows(); ++j) {
+    index& body = number[static_cast<std::size_t>(sets.find(j))];
+    if (body < 0) {
+      body = static_cast<index>(bodies.size());
+      bodies.emplace_back();
+    }
+    bodies[static_cast<std::size_t>(body)].push_back(j);
+  }
+  return bodies;
+}
+
+}  // namespace slant::contact::detail

@@ -12,10 +12,10 @@
 // eliminated, what remains is the natural residual of the dual problem (contact::dual).
 #pragma once
 
-#include <slant/contact/detail/friction_law.hpp>
-#include <slant/contact/detail/stacked_constraints.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/friction_law.hpp>
 #include <slant/operators/adjoint.hpp>
-#include <slant/operators/slice.hpp>
+#include <slant/operators/restriction.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/slanting/stack.hpp>

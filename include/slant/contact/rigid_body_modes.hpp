@@ -4,10 +4,10 @@
 // held nowhere: translations, and the linearised rotations ω × (x − x̄) about its centre.
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
-#include <slant/krylov/unit.hpp>
-#include <slant/sets/detail/entries.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>

@@ -18,25 +18,301 @@
 //
 // Bodies that supports do not hold, so that K is singular: their free motions are computed and
 // named (contact/free_motions), and where contact or friction holds them the same method solves a
-// few problems with springs that give way (contact/detail/spring_supports), from where the load
+// few problems with springs that give way (contact/parts/spring_supports), from where the load
 // puts the bodies across their gaps. The error is then that in the seminorm ‖·‖_K, an estimate.
 // Where nothing holds them the status is `unbounded`, with the motion along which the energy falls
 // for ever.
 #pragma once
 
+#include <slant/certificates/newton_estimate.hpp>
 #include <slant/compiled.hpp>
-#include <slant/contact/detail/certified_run.hpp>
-#include <slant/contact/detail/spring_supports.hpp>
+#include <slant/contact/certificate.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/dual.hpp>
+#include <slant/contact/parts/spring_supports.hpp>
+#include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve_options.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/static_condensation.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/unconstrained_start.hpp>
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
+namespace slant::contact::detail {
+
+// --- certified run -------------------------------------------------------------------------------
+//
+// The method of this file for bodies that supports hold.
+
+/// One factor for each row of B, a power of two, the same for the tangents of a node: 2ᵏ ≈ √mᵢ, so
+/// that D A D has a diagonal of the order 1. Empty if the stiffnesses m are alike within `spread`.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> row_factors(
+    Eigen::Matrix<S, Eigen::Dynamic, 1> const& m, index nodes, index tangents, S const& spread) {
+  using std::sqrt;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> d(m.size());
+  S least = std::numeric_limits<S>::infinity(), most(0);
+  auto const assign = [&](index first, index count) {
+    S sum(0);
+    for (index j = 0; j < count; ++j) sum += m(first + j);
+    bool const acts = sum > S(0) && slant::detail::is_finite(sum);
+    S const mean = acts ? S(sum / S(count)) : S(0);
+    if (acts) {
+      least = std::min<S>(least, mean);
+      most = std::max<S>(most, mean);
+    }
+    for (index j = 0; j < count; ++j) d(first + j) = acts ? unit_near(S(sqrt(mean))) : S(0);
+  };
+  for (index i = 0; i < nodes; ++i) assign(i, 1);
+  for (index i = 0; i < nodes && tangents > 0; ++i) assign(nodes + i * tangents, tangents);
+  if (!(most > spread * least)) return {};
+  for (S& factor : d) {
+    if (factor == S(0)) factor = S(1);  // an empty row, of which nothing is asked
+  }
+  return d;
+}
+
+/// Newton's method on the scaled dual problem, under the control of the certificate.
+template <class Friction, class S>
+class certified_run {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  certified_run(Friction law, sparse_type const& K, data<S> const& c, solve_options<S> const& o)
+      : options_(o),
+        data_(&c),
+        factor_(K, contact_unknowns(c), o.condensation),
+        dual_(law, factor_, c),
+        certificate_(K, c),
+        b_(dual_.b()),
+        C_(dual_.constraints()) {
+    auto const d = o.scale
+                       ? row_factors<S>(certificate_.stiffness(), c.nodes(), c.tangents(), S(64))
+                       : vector_type();
+    result_.scaled = d.size() > 0;
+    d_ = result_.scaled ? d : vector_type::Ones(b_.size());
+    b_ = b_.cwiseProduct(d_);
+    g_ = c.g;
+    if (c.tangents() > 0) {
+      for (index i = 0; i < c.nodes(); ++i) g_(i) /= d_(c.nodes() + i * c.tangents());
+    }
+    if (result_.scaled) C_ = sparse_type(d_.asDiagonal() * C_);
+    // About 1/diag A of the scaled problem; an empty row is held by nothing and asked for nothing.
+    inverse_diagonal_ = certificate_.stiffness().cwiseQuotient(d_).cwiseQuotient(d_);
+    S sum(0);
+    for (S& entry : inverse_diagonal_) {
+      if (!slant::detail::is_finite(entry)) entry = S(1);
+      sum += S(1) / entry;
+    }
+    // A short step: from a long one Newton's step would have to come back.
+    if (sum > S(0)) step_ = S(static_cast<double>(b_.size())) / sum / S(1024);
+    ++result_.work.factorizations;
+    if (o.prove) {
+      certificate_.prove(solver(factor_), [&](sparse_type const& matrix) {
+        ++result_.work.factorizations;
+        static_cast<void>(factorize(matrix));
+      });
+    }
+  }
+  certified_run(certified_run const&) = delete;
+  certified_run& operator=(certified_run const&) = delete;
+
+  /// The same scene with the load and the gaps that the data have now, and with slips T u − w, from
+  /// λ.
+  void reload(vector_type const& λ, vector_type const& w, S const& tolerance, index max_steps) {
+    load_step<S> step{.f = data_->f, .d = data_->d};
+    if (w.size() > 0) step.w = w;
+    dual_.update(std::move(step));
+    certificate_.set_positions(w);
+    b_ = dual_.b().cwiseProduct(d_);
+    if (λ.size() > 0) options_.start = λ;
+    options_.tolerance = tolerance;
+    options_.max_steps = max_steps;
+    bool const scaled = result_.scaled;
+    solves_before_ = certificate_.solves();
+    result_ = {};
+    result_.scaled = scaled;
+  }
+
+  template <class... Observers>
+  [[nodiscard]] solution<S> run(Observers&... observers) {
+    auto const set = feasible_set(dual_.friction(), data_->nodes(), g_);
+    separable_qp const given{dual_.a(C_), b_, set};
+    compiled_problem_t<decltype((given))> const qp(given);  // with slant::compiled one for all laws
+    auto const M = lumped_preconditioner(certificate_matrix(), C_);
+    vector_type const x0 = start(qp, M);
+    // The reduced gradient is some 3 to 10 times smaller than the error that goes with it, and the
+    // bound some 2 to 10 times larger. A few products more are less than a second phase.
+    S threshold = S(0.02) * options_.tolerance;
+    index budget = options_.max_steps;
+    auto const method = [&] {
+      symmetric_newton_options<S> o;
+      o.forcing.goal = static_cast<double>(threshold);
+      return symmetric_newton{qp, M, o};
+    };
+    auto state = method().start(x0);
+    image_.resize(b_.size());
+    S best = std::numeric_limits<S>::infinity();
+    auto wa = workspace(qp.a(), state.x);
+    std::optional<
+        newton_estimate<std::remove_cvref_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
+        newton_error;
+    auto const tell = [&](auto const& now) {
+      if (options_.progress) options_.progress({now.iteration, relative_gradient(now)});
+    };
+    while (true) {
+      auto newton = method();
+      auto stop = reduced_gradient_below(threshold) || at_most(budget);
+      auto end = slant::detail::run_to_end(newton, state, stop, tell, observers...);
+      // A later phase that takes longer than all before it is at its floor.
+      bool const is_later = budget < options_.max_steps;
+      if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
+      bool const can_go_on = end.how == status::converged || end.how == status::stalled;
+      certify(state.x);
+      S error = result_.error.relative();
+      bool is_sharp = false;
+      auto const sharpen = [&] {
+        if (!(error > options_.tolerance) || is_sharp) return;
+        is_sharp = true;
+        estimate_by_newton(qp, M, wa, newton_error);
+        error = result_.error.relative();
+      };
+      // The bound is rarely off by more than 30.
+      if (!can_go_on || error <= S(64) * options_.tolerance) sharpen();
+      bool const progresses = error < best / S(2) || end.how == status::converged;
+      bool const goes_on = can_go_on && progresses && result_.corrections < 20;
+      if (!goes_on) sharpen();
+      bool const is_enough = error <= options_.tolerance && end.how != status::unbounded;
+      if (is_enough || !goes_on) {
+        finish(end, is_enough);
+        break;
+      }
+      best = std::min<S>(best, error);
+      // While nothing is known of the error there is no floor that could have been met.
+      budget = slant::detail::is_finite(best)
+                   ? std::min<index>(options_.max_steps, 4 * state.iteration + 100)
+                   : options_.max_steps;
+      // The gradient as the method computes it becomes that of the certificate.
+      slant::apply(qp.a(), state.x, image_, wa);
+      ++state.work.operator_applications;
+      b_ = image_ - d_.cwiseProduct(certificate_.gradient());
+      ++result_.corrections;
+      S const ask = S(0.3) * options_.tolerance / error;
+      S const reached = relative_gradient(state);
+      S const factor = ask < S(1e-3) || !(ask == ask) ? S(1e-3) : ask < S(0.3) ? ask : S(0.3);
+      threshold = std::min<S>(threshold, reached) * factor;
+      newton.resume(state);
+    }
+    result_.iterations = state.iteration;
+    result_.work.operator_applications += state.work.operator_applications;
+    result_.work.setup_applications += state.work.setup_applications;
+    result_.work.inner_iterations += state.work.inner_iterations;
+    result_.solves += certificate_.solves() - solves_before_;
+    result_.condition = certificate_.condition();
+    result_.factorization = std::string(factor_.name());
+    return std::move(result_);
+  }
+
+ private:
+  sparse_type const& certificate_matrix() const { return certificate_.matrix(); }
+
+  template <class State>
+  [[nodiscard]] static S relative_gradient(State const& state) {
+    return state.gradient_scale > S(0) ? S(state.reduced_gradient_norm / state.gradient_scale)
+                                       : S(0);
+  }
+
+  template <class QP, class M>
+  [[nodiscard]] vector_type start(QP const& qp, M const& m) {
+    if (options_.start) {
+      slant::detail::check_size("start", options_.start->size(), b_.size());
+      slant::detail::check_finite("start", *options_.start);
+      return options_.start->cwiseQuotient(d_);
+    }
+    if (options_.max_steps == 0) return vector_type::Zero(b_.size());
+    auto found = unconstrained_start(qp, m);
+    result_.work.setup_applications += found.applications;
+    return std::move(found.x);
+  }
+
+  /// The error at x, u and λ with it.
+  void certify(vector_type const& x) {
+    result_.multipliers = d_.cwiseProduct(x);
+    result_.u = dual_.displacement(result_.multipliers);
+    ++result_.solves;
+    result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
+                                 solver(factor_));
+  }
+  /// What a Newton step says of it, if that is less.
+  template <class QP, class M, class W>
+  void estimate_by_newton(QP const& qp, M const& m, W& wa,
+                          std::optional<newton_estimate<QP, M>>& newton) {
+    if (!certificate_.gradient().allFinite()) return;
+    if (!newton) newton.emplace(qp, m);
+    index const before = newton->applications();
+    vector_type const x = result_.multipliers.cwiseQuotient(d_);
+    vector_type const gradient = certificate_.gradient().cwiseProduct(d_);
+    auto const norm = [&](vector_type const& d) {
+      return certificate_.extended_norm(d.cwiseQuotient(d_));
+    };
+    S const distance = (*newton)({x, gradient, inverse_diagonal_, step_, 12,
+                                  gradient_size<S>{slant::norm(x), slant::norm(b_)}, false},
+                                 m, wa, norm);
+    result_.work.operator_applications += newton->applications() - before;
+    result_.error = certificate_.estimated(distance);
+  }
+
+  void finish(slant::detail::ending& end, bool is_enough) {
+    auto const known = result_.error.sentence();
+    if (is_enough) {
+      result_.status = status::converged;
+      result_.reason = known + ", at most " + slant::detail::show(options_.tolerance);
+      return;
+    }
+    result_.status = end.how == status::converged ? status::stalled : end.how;
+    if (result_.status == status::stalled) {
+      result_.reason = known + ": rounding errors allow no more (condition of K about " +
+                       slant::detail::show(certificate_.condition()) + ")";
+    } else if (result_.status == status::unbounded) {
+      result_.reason =
+          "no u satisfies the constraints, so that the contact forces grow without bound";
+    } else {
+      result_.reason = end.why + "; " + known;
+    }
+  }
+
+  solve_options<S> options_;
+  data<S> const* data_;
+  static_condensation<S> factor_;
+  dual<Friction, static_condensation<S> const&, S> dual_;
+  certificate<S> certificate_;
+  vector_type b_;
+  sparse_type C_;
+  vector_type d_{}, g_{}, image_{}, inverse_diagonal_{};
+  S step_{1};
+  solution<S> result_{};
+  index solves_before_ = 0;
+};
+
+}  // namespace slant::contact::detail
+
 namespace slant::contact {
+
+// --- solve ---------------------------------------------------------------------------------------
 
 /// Solves with this friction law, which the data must have: no other one is compiled. Observers see
 /// every state of symmetric_newton. Throws bad_input if K is not symmetric positive semidefinite,

@@ -21,10 +21,10 @@
 //     if (r.converged()) u = problem.displacement(r.λ);
 #pragma once
 
-#include <slant/concepts/checks.hpp>
-#include <slant/contact/coulomb.hpp>
-#include <slant/contact/coulomb_check.hpp>
-#include <slant/contact/coulomb_newton.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
+#include <slant/contact/coulomb/coulomb_certificate.hpp>
+#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/unconstrained_start.hpp>
 

@@ -21,17 +21,15 @@
 
 #include <slant/compiled.hpp>
 #include <slant/contact/bodies.hpp>
-#include <slant/contact/detail/falling_motion.hpp>
-#include <slant/contact/detail/rigid_position.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/optimality.hpp>
+#include <slant/contact/parts/rigid_position.hpp>
 #include <slant/contact/total_feti.hpp>
-#include <slant/iteration/feasible.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/schur_contact.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <Eigen/SparseCore>
 

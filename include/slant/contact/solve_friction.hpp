@@ -16,15 +16,378 @@
 #pragma once
 
 #include <slant/compiled.hpp>
-#include <slant/contact/asymmetry.hpp>
-#include <slant/contact/detail/friction_run.hpp>
-#include <slant/contact/friction_options.hpp>
+#include <slant/contact/friction/friction_gauss_seidel.hpp>
+#include <slant/contact/friction/friction_interior_point.hpp>
+#include <slant/contact/friction/friction_newton.hpp>
+#include <slant/contact/friction/friction_options.hpp>
+#include <slant/contact/friction/friction_problem.hpp>
+#include <slant/contact/friction/verify.hpp>
+#include <slant/methods/proximal_point.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace slant::contact::detail {
+
+// --- friction proximal step ----------------------------------------------------------------------
+//
+// The inner problems of the proximal point method for Coulomb friction: u = W r + q + α Λ (r − c),
+// solved by Newton's method, with some sweeps of Gauss–Seidel where that finds no descent. The
+// problem is the easier for both the larger α is.
+
+/// Inner solver of proximal_point; see the top of this file. Refers to its arguments.
+template <int N, class S>
+class friction_proximal_step {
+ public:
+  using vector_type = typename friction_blocks<N, S>::vector_type;
+
+  friction_proximal_step(friction_blocks<N, S> const& blocks, friction_newton<N, S>& newton,
+                         friction_options<S> const& options, friction_work& work)
+      : blocks_(&blocks),
+        newton_(&newton),
+        sweeps_(blocks),
+        memory_(sweeps_.memory()),
+        options_(&options),
+        work_(&work),
+        u_(blocks.size()) {}
+
+  proximal_inner_report operator()(vector_type const& center, S const& α, vector_type& x) {
+    proximal_inner_report report;
+    newton_->set_proximal(α, center);
+    S first(-1);
+    for (index rescue = 0; rescue <= options_->rescues; ++rescue) {
+      for (index k = 0; k < 20 * rescue * rescue && work_->sweeps < options_->sweeps; ++k) {
+        work_->block_products += sweeps_.sweep(x, memory_, k == 0, α, newton_->weight(), center);
+        ++work_->sweeps;
+      }
+      S now = newton_->begin(x);
+      if (first < S(0)) first = now;
+      for (index k = 0;; ++k) {
+        S const moved = α / (S(1) + α) * (x - center).norm();
+        S const rounding = S(16) * std::numeric_limits<S>::epsilon() * x.norm();
+        if (now <= std::max(rounding, S(S(0.01) * std::min(first, moved)))) {
+          report.solved = true;
+          return report;
+        }
+        if (k == options_->inner_steps || no_steps_left()) break;
+        ++report.steps;
+        if (!newton_->advance(x, S(0), options_->halvings)) break;
+        now = newton_->residual_norm();
+      }
+      if (no_steps_left()) break;
+    }
+    report.accept = error_at(x) < error_at(center);
+    return report;
+  }
+
+ private:
+  [[nodiscard]] bool no_steps_left() const {
+    return newton_->work().steps + work_->interior_steps >= options_->newton_steps;
+  }
+  S error_at(vector_type const& x) {
+    blocks_->velocity(x, u_);
+    ++work_->products;
+    return blocks_->error(x, u_).worst();
+  }
+
+  friction_blocks<N, S> const* blocks_;
+  friction_newton<N, S>* newton_;
+  friction_sweeps<N, S> sweeps_;
+  friction_sweep_memory<S> memory_;
+  friction_options<S> const* options_;
+  friction_work* work_;
+  vector_type u_;
+};
+
+// --- friction run --------------------------------------------------------------------------------
+//
+// One run of solve_friction: the methods, their turns and their limits.
+
+/// See the top of this file. Used once.
+template <int N, class S>
+class friction_run {
+ public:
+  using vector_type = typename friction_blocks<N, S>::vector_type;
+  using method = friction_method;
+
+  friction_run(friction_problem<S> const& problem, friction_options<S> const& options)
+      : options_(options),
+        problem_(&problem),
+        target_(options.tolerance),
+        blocks_(problem),
+        gauss_seidel_(blocks_, options.gauss_seidel),
+        newton_(blocks_, options.equations),
+        inner_(blocks_, newton_, options_, work_),
+        proximal_(inner_, options.proximal),
+        best_(vector_type::Zero(blocks_.size())),
+        best_u_(blocks_.q()),
+        u_(blocks_.size()) {}
+  friction_run(friction_run const&) = delete;
+  friction_run& operator=(friction_run const&) = delete;
+
+  [[nodiscard]] friction_result<S> result(vector_type const& start) {
+    if (blocks_.q_norm() > S(0)) {
+      best_error_.scaled = std::numeric_limits<S>::infinity();
+      consider(best_, method::automatic);
+      if (start.size() != 0) consider(blocks_.from_force(start), method::automatic);
+      if (!done()) run();
+    }  // else r = 0 is a solution, and no error can be relative to q
+    return finished();
+  }
+
+ private:
+  using proximal_type = proximal_point<friction_proximal_step<N, S>&, S>;
+  using path_type = proximal_point_state<vector_type>;
+
+  [[nodiscard]] bool solved() const { return best_error_.at_most(options_.tolerance); }
+
+  /// Whether there is nothing left to do. Where the problem is solved but the natural map of the
+  /// literature is still larger than the tolerance, the target is made smaller, and no more work
+  /// allowed than as much again.
+  bool done() {
+    if (!best_error_.at_most(target_)) return false;
+    S const most = std::max(options_.tolerance, best_error_.floor);
+    if (best_error_.plain_at_most(options_.tolerance)) return true;
+    target_ = best_error_.worst() *
+              std::max(std::numeric_limits<S>::epsilon(), S(S(0.5) * most / best_error_.plain));
+    if (target_ < S(4) * std::numeric_limits<S>::epsilon()) return true;
+    if (!pursuing_) {
+      pursuing_ = true;
+      options_.sweeps = std::min(options_.sweeps, 2 * work_.sweeps + 200);
+      options_.newton_steps = std::min(options_.newton_steps, 2 * steps_done() + 40);
+    }
+    return false;
+  }
+
+  /// Keeps x if it is the best so far; true if the problem is solved.
+  bool consider(vector_type const& x, method by) {
+    blocks_.velocity(x, u_);
+    ++work_.products;
+    auto const e = blocks_.error(x, u_);
+    if (e.worst() < best_error_.worst()) {
+      best_ = x;
+      best_u_ = u_;
+      best_error_ = e;
+      solved_by_ = by;
+    }
+    return done();
+  }
+
+  void run() {
+    auto sweeping = gauss_seidel_.start(best_);
+    if (options_.method == method::gauss_seidel) {
+      if (!sweep(sweeping, options_.sweeps)) end_with(sweeping.status, no_sweeps_left());
+      return;
+    }
+    if (options_.method == method::interior_point) {
+      if (!attempt_interior_point()) end_with(interior_status_, no_steps_left());
+      return;
+    }
+    if (sweep(sweeping, options_.first_sweeps)) return;
+    if (options_.method == method::newton) {
+      if (!attempt_newton(options_.newton_steps)) end_with(status::stalled, no_steps_left());
+    } else if (options_.method == method::proximal_newton) {
+      auto path = proximal_.start(best_);
+      if (!follow(path, options_.newton_steps)) end_with(path.status, no_steps_left());
+    } else {
+      take_turns(sweeping);
+    }
+  }
+
+  void take_turns(gauss_seidel_state<S>& sweeping) {
+    index path_steps = options_.attempt, sweeps = options_.further_sweeps;
+    index idle = 0;
+    bool first = true;  // from wherever it begins, the interior-point method takes the same steps
+    while (!out_of_work() && idle < options_.patience) {
+      index const before = work_.sweeps + steps_done();
+      S const error_before = best_error_.worst();
+      if (attempt_newton(options_.attempt)) return;
+      if (first && attempt_interior_point()) return;
+      first = false;
+      auto path = proximal_.start(best_);
+      if (follow(path, path_steps)) return;
+      // What Newton's method has found is a better start, unless the sweeps are about as far: where
+      // forces wander the error does not tell how far they have come.
+      bool const lost = sweeping.status != status::running;
+      if (lost || best_error_.worst() < S(0.1) * sweeping.best_error.worst()) restart(sweeping);
+      if (sweep(sweeping, sweeps)) return;
+      if (work_.sweeps + steps_done() == before) break;
+      idle = best_error_.worst() <= S(0.9) * error_before ? 0 : idle + 1;
+      path_steps = path_steps < options_.newton_steps / 2 ? 2 * path_steps : options_.newton_steps;
+      sweeps = sweeps < options_.sweeps / 4 ? 4 * sweeps : options_.sweeps;
+    }
+    end_with(status::stalled, out_of_work());
+  }
+
+  [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
+  [[nodiscard]] index steps_done() const { return newton_.work().steps + work_.interior_steps; }
+  [[nodiscard]] bool no_steps_left() const { return steps_done() >= options_.newton_steps; }
+  [[nodiscard]] bool out_of_work() const { return no_sweeps_left() && no_steps_left(); }
+  /// Without a solution: at a limit, or because a method has nothing left to do.
+  void end_with(status how, bool limit) {
+    if (how == status::running) how = status::stalled;
+    status_ = limit && how != status::breakdown ? status::iteration_limit : how;
+  }
+  void restart(gauss_seidel_state<S>& s) {
+    auto memory = std::move(s.memory);
+    s = gauss_seidel_.start(best_);
+    s.memory = std::move(memory);
+    work_.products += s.evaluations;
+  }
+
+  /// Gauss–Seidel until the problem is solved, `count` sweeps more are made, or it stops.
+  bool sweep(gauss_seidel_state<S>& s, index count) {
+    index const end = work_.sweeps + std::min(count, options_.sweeps - work_.sweeps);
+    while (work_.sweeps < end && s.status == status::running) {
+      if (s.best_error.at_most(target_) && consider(s.best, method::gauss_seidel)) return true;
+      index const sweeps = s.sweeps, products = s.block_products, evaluations = s.evaluations;
+      gauss_seidel_.step(s, end - work_.sweeps);
+      work_.sweeps += s.sweeps - sweeps;
+      work_.block_products += s.block_products - products;
+      work_.products += s.evaluations - evaluations;
+    }
+    return consider(s.best, method::gauss_seidel);
+  }
+
+  /// Newton's method from the best forces, with a damping that follows its success.
+  bool attempt_newton(index steps) {
+    constexpr index failures_allowed = 3;
+    S const least = S(16) * std::numeric_limits<S>::epsilon();
+    vector_type x = best_;
+    newton_.set_proximal(S(0), x);
+    newton_.begin(x);
+    S δ = options_.damping;
+    index failures = 0;
+    for (index k = 0; k < steps && !no_steps_left(); ++k) {
+      if (newton_.advance(x, δ, options_.halvings)) {
+        if (newton_.length() == S(1)) δ = std::max(least, S(δ * S(0.1)));
+        if (newton_.length() < S(0.1)) δ *= S(10);
+        if (consider(x, method::newton)) return true;
+      } else {
+        if (++failures > failures_allowed) break;
+        δ *= S(100);
+      }
+    }
+    return false;
+  }
+
+  /// The interior-point method until the problem is solved or it gets no further.
+  bool attempt_interior_point() {
+    auto o = options_.interior_point;
+    S const small = std::max(S(S(0.01) * options_.tolerance), std::numeric_limits<S>::min());
+    o.small = std::min(o.small, small);
+    friction_interior_point<N, S> const interior(blocks_, o);
+    auto s = interior.start(best_);
+    while (s.status == status::running && s.iteration < options_.interior_steps &&
+           !no_steps_left()) {
+      if (s.best_error.at_most(target_) && consider(s.best, method::interior_point)) break;
+      interior.step(s);
+      ++work_.interior_steps;
+    }
+    work_.products += s.evaluations;
+    work_.factorizations += s.factorizations;
+    work_.factored_rows += s.factored_rows;
+    work_.sparse_factorizations += s.sparse;
+    interior_status_ = s.iteration < options_.interior_steps ? s.status : status::iteration_limit;
+    return consider(s.best, method::interior_point);
+  }
+
+  /// The proximal point method for about so many Newton steps.
+  bool follow(path_type& s, index steps) {
+    index const end = newton_.work().steps + std::min(steps, options_.newton_steps - steps_done());
+    while (newton_.work().steps < end && s.status == status::running) {
+      index const before = newton_.work().steps;
+      proximal_.step(s);
+      ++work_.proximal_steps;
+      if (consider(s.x, method::proximal_newton)) return true;
+      if (newton_.work().steps == before) break;  // nothing left to do at this precision
+    }
+    return false;
+  }
+
+  /// Whether the forces in the units of the data are still those that were found.
+  [[nodiscard]] bool keeps(vector_type const& force) const {
+    if (blocks_.size() == 0) return true;
+    vector_type const back = blocks_.from_force(force);
+    return (back - best_).cwiseAbs().maxCoeff() <= options_.tolerance * blocks_.q_norm();
+  }
+
+  [[nodiscard]] friction_result<S> finished() {
+    using slant::detail::show;
+    auto const& n = newton_.work();
+    work_.products += n.evaluations;
+    work_.newton_steps = steps_done();
+    work_.factorizations += n.factorizations;
+    work_.factored_rows += n.unknowns;
+    work_.sparse_factorizations += n.sparse;
+    vector_type force = blocks_.force(best_), speed = blocks_.speed(best_u_);
+    bool const lost = !keeps(force) || !slant::detail::is_finite(S(speed.cwiseAbs().sum()));
+    auto const check = verify(*problem_, force);
+    ++work_.products;
+    friction_error<S> const error{.scaled = check.unit_free_map,
+                                  .plain = check.relative_natural_map,
+                                  .floor = check.relative_rounding,
+                                  .penetration = check.unit_free_penetration};
+    bool const holds =
+        error.at_most(options_.tolerance) && check.unit_free_rounding <= options_.tolerance;
+    if (solved()) status_ = lost ? status::breakdown : holds ? status::converged : status::stalled;
+    std::string reason = "unit-free natural map " + show(error.scaled);
+    if (error.penetration > error.scaled) reason += " and penetration " + show(error.penetration);
+    if (status_ == status::converged) {
+      reason += " at most " + show(options_.tolerance);
+    } else {
+      reason = "method " + std::string(to_string(options_.method)) + ": " +
+               std::string(to_string(status_)) + " at " + reason;
+      if (check.worst.contact >= 0) {
+        reason += ", largest at contact " + show(check.worst.contact);
+      }
+      if (!(check.unit_free_rounding <= options_.tolerance)) {
+        reason += ", of which rounding may make " + show(check.unit_free_rounding);
+      }
+      if (lost) reason += ", forces or velocities leave the range of numbers in these units";
+    }
+    bool const agree = (error.plain <= options_.tolerance) == (status_ == status::converged);
+    if (!agree) {
+      reason += "; with rho = 1 in the units given " + show(error.plain) +
+                ", of which rounding may make " + show(error.floor);
+    }
+    return {.r = std::move(force),
+            .u = std::move(speed),
+            .status = status_,
+            .reason = std::move(reason),
+            .error = error,
+            .worst = check.worst,
+            .solved_by = solved_by_,
+            .work = work_};
+  }
+
+  friction_options<S> options_;
+  friction_problem<S> const* problem_;
+  S target_;  // of the unit-free measures
+  bool pursuing_ = false;
+  friction_work work_{};
+  friction_blocks<N, S> blocks_;
+  friction_gauss_seidel<N, S> gauss_seidel_;
+  friction_newton<N, S> newton_;
+  friction_proximal_step<N, S> inner_;
+  proximal_type proximal_;
+  vector_type best_, best_u_, u_;
+  friction_error<S> best_error_{};
+  method solved_by_ = method::automatic;
+  status status_ = status::running, interior_status_ = status::running;
+};
+
+}  // namespace slant::contact::detail
 
 namespace slant::contact {
 
-/// Solves the problem of friction_problem.hpp. `start`: forces from before, in the units of the
-/// problem; empty for none. Throws bad_input if the problem, the options or the start are not
-/// valid, or W is not symmetric and the option says refused; whatever goes wrong later is the
+// --- solve friction ------------------------------------------------------------------------------
+
+/// Solves the problem of friction/friction_problem.hpp. `start`: forces from before, in the units
+/// of the problem; empty for none. Throws bad_input if the problem, the options or the start are
+/// not valid, or W is not symmetric and the option says refused; whatever goes wrong later is the
 /// status: iteration_limit, stalled (no method gets further) or breakdown, also where forces or
 /// velocities are out of the range of numbers in the units of the problem.
 template <scalar S>

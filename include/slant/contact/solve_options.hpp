@@ -4,7 +4,7 @@
 #pragma once
 
 #include <slant/certificates/energy_error.hpp>
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/factorizations/condensation_options.hpp>

@@ -11,21 +11,289 @@
 
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/concepts/factorization.hpp>
-#include <slant/factorizations/detail/cholmod_handles.hpp>
-#include <slant/factorizations/detail/cholmod_workspace.hpp>
-#include <slant/factorizations/detail/spd_checks.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <memory>
+#include <new>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#if __has_include(<cholmod.h>)
+#include <cholmod.h>
+#else
+#include <suitesparse/cholmod.h>
+#endif
+
+namespace slant::detail {
+
+// --- handles -------------------------------------------------------------------------------------
+//
+// Owners of what CHOLMOD allocates: its state and the factors.
+
+/// CHOLMOD's settings, statistics and scratch memory. Silent: failures are reported by us.
+class cholmod_state {
+ public:
+  cholmod_state() {
+    cholmod_start(&common_);
+    common_.print = 0;
+    common_.error_handler = nullptr;
+  }
+  cholmod_state(cholmod_state const&) = delete;
+  cholmod_state& operator=(cholmod_state const&) = delete;
+  ~cholmod_state() { cholmod_finish(&common_); }
+
+  [[nodiscard]] cholmod_common* get() noexcept { return &common_; }
+  [[nodiscard]] int status() const noexcept { return common_.status; }
+
+ private:
+  cholmod_common common_;
+};
+
+/// A compressed symmetric Eigen matrix as CHOLMOD sees it (lower triangle); nothing is copied.
+[[nodiscard]] inline cholmod_sparse cholmod_view(Eigen::SparseMatrix<double> const& m) {
+  cholmod_sparse view{};
+  view.nrow = static_cast<std::size_t>(m.rows());
+  view.ncol = static_cast<std::size_t>(m.cols());
+  view.nzmax = static_cast<std::size_t>(m.nonZeros());
+  view.p = const_cast<int*>(m.outerIndexPtr());  // CHOLMOD does not write to its input
+  view.i = const_cast<int*>(m.innerIndexPtr());
+  view.x = const_cast<double*>(m.valuePtr());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+/// The factors of a symmetric matrix, LLᵀ or LDLᵀ; failed_column() says whether they are complete.
+class cholmod_factors {
+ public:
+  explicit cholmod_factors(cholmod_sparse& matrix) {
+    factor_ = cholmod_analyze(&matrix, state_.get());
+    factorize(matrix);
+  }
+  /// The same for a given ordering (position → unknown); always supernodal if `supernodal`.
+  cholmod_factors(cholmod_sparse& matrix, std::vector<int> order, bool supernodal) {
+    cholmod_common& settings = *state_.get();
+    settings.nmethods = 1;
+    settings.method[0].ordering = CHOLMOD_GIVEN;
+    if (supernodal) {
+      settings.supernodal = CHOLMOD_SUPERNODAL;
+      // CHOLMOD merges large supernodes if that adds few zeros; it does not count the upper halves
+      // of what it stores as squares, a fifth of all memory when contact unknowns come late.
+      settings.zrelax[2] = 0;
+    }
+    factor_ = cholmod_analyze_p(&matrix, order.data(), nullptr, 0, state_.get());
+    factorize(matrix);
+  }
+  cholmod_factors(cholmod_factors const&) = delete;
+  cholmod_factors& operator=(cholmod_factors const&) = delete;
+  ~cholmod_factors() { cholmod_free_factor(&factor_, state_.get()); }
+
+  [[nodiscard]] cholmod_factor* get() const noexcept { return factor_; }
+  [[nodiscard]] index size() const noexcept { return static_cast<index>(factor_->n); }
+  /// The first column without a positive (supernodal) or nonzero (simplicial) pivot, else size().
+  [[nodiscard]] index failed_column() const noexcept { return static_cast<index>(factor_->minor); }
+  [[nodiscard]] index original_row(index i) const noexcept { return numbers(factor_->Perm)[i]; }
+  /// Entries of L that are stored.
+  [[nodiscard]] double entries() const noexcept {
+    return static_cast<double>(factor_->is_super != 0 ? factor_->xsize : factor_->nzmax);
+  }
+  /// The ordering, position → unknown.
+  [[nodiscard]] std::vector<int> order() const {
+    return {numbers(factor_->Perm), numbers(factor_->Perm) + size()};
+  }
+
+  /// Neighbouring columns that share their rows, stored as one dense matrix.
+  struct supernode {
+    index first;    ///< number of its first column
+    index columns;  ///< number of columns
+    index height;   ///< number of rows
+    int const* rows;
+    double const* entries;  ///< height × columns
+  };
+  /// f(supernode) for all of them in order of elimination; only for supernodal factors.
+  template <class F>
+  void for_each_supernode(F f) const {
+    int const* begin = numbers(factor_->super);
+    int const* rows = numbers(factor_->pi);
+    int const* entries = numbers(factor_->px);
+    for (index s = 0; s < static_cast<index>(factor_->nsuper); ++s) {
+      f(supernode{begin[s], begin[s + 1] - begin[s], rows[s + 1] - rows[s],
+                  numbers(factor_->s) + rows[s],
+                  static_cast<double const*>(factor_->x) + entries[s]});
+    }
+  }
+
+  /// f(column, pivot) for all columns before the failed one.
+  template <class F>
+  void for_each_pivot(F f) const {
+    auto const visit = [&](index i, double stored) {
+      if (i < failed_column()) f(i, factor_->is_ll != 0 ? stored * stored : stored);
+    };
+    auto const* x = static_cast<double const*>(factor_->x);
+    if (factor_->is_super == 0) {
+      for (index i = 0; i < size(); ++i) visit(i, x[numbers(factor_->p)[i]]);
+    } else {
+      for_each_supernode([&](supernode const& s) {
+        for (index j = 0; j < s.columns; ++j) visit(s.first + j, s.entries[j * s.height + j]);
+      });
+    }
+  }
+
+  /// The pivot of the failed column, K_ii − Σ ℓ_ij². Supernodal factors do not store it.
+  [[nodiscard]] double failed_pivot(double diagonal_entry) const {
+    index const i = failed_column();
+    if (factor_->is_super == 0) {
+      return static_cast<double const*>(factor_->x)[numbers(factor_->p)[i]];
+    }
+    double pivot = diagonal_entry;
+    for_each_supernode([&](supernode const& s) {
+      auto const* place = std::lower_bound(s.rows, s.rows + s.height, i);
+      if (place == s.rows + s.height || *place != i) return;
+      for (index j = 0; j < s.columns && s.first + j < i; ++j) {
+        double const entry = s.entries[j * s.height + (place - s.rows)];
+        pivot -= entry * entry;
+      }
+    });
+    return pivot;
+  }
+
+ private:
+  static int const* numbers(void const* p) noexcept { return static_cast<int const*>(p); }
+
+  void factorize(cholmod_sparse& matrix) {
+    if (factor_ != nullptr) {
+      make_room();
+      cholmod_factorize(&matrix, factor_, state_.get());
+    }
+    // Being indefinite is a warning of CHOLMOD; what is negative is an error.
+    if (factor_ == nullptr || state_.status() < CHOLMOD_OK) {
+      cholmod_free_factor(&factor_, state_.get());
+      throw std::bad_alloc();
+    }
+  }
+
+  /// Memory for the entries before CHOLMOD writes to it: in large pages, if there are many.
+  void make_room() {
+    if (factor_->is_super == 0) return;
+    if (cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, state_.get()) == 0) return;
+    prefer_large_pages(static_cast<double*>(factor_->x), static_cast<index>(factor_->xsize));
+  }
+
+  cholmod_state state_;
+  cholmod_factor* factor_ = nullptr;
+};
+
+// --- workspace -----------------------------------------------------------------------------------
+//
+// What solves by CHOLMOD need: its state and the vectors that it allocates.
+
+/// State and vectors of the solves of one thread, for a fixed number of right-hand sides. What it
+/// holds between two solves is scratch: a copy is as much room, and as ready for a solve.
+class cholmod_workspace {
+ public:
+  /// For solves with these factors; null for an empty matrix, with which nothing is solved. A warm
+  /// one allocates nothing later on.
+  cholmod_workspace(cholmod_factors const* factors, index columns, bool warm = true)
+      : cholmod_workspace() {
+    if (factors == nullptr) return;
+    right_.setZero(factors->size(), columns);
+    // The first solve lets CHOLMOD allocate all it needs; later ones reuse it.
+    if (warm) (void)solve(*factors);
+  }
+  cholmod_workspace(cholmod_workspace const& other) : cholmod_workspace() {
+    right_.setZero(other.right_.rows(), other.right_.cols());
+    solution_ = room_like(other.solution_);
+    y_ = room_like(other.y_);
+    e_ = room_like(other.e_);
+  }
+  cholmod_workspace(cholmod_workspace&& other) noexcept
+      : state_(std::move(other.state_)),
+        right_(std::move(other.right_)),
+        solution_(std::exchange(other.solution_, nullptr)),
+        y_(std::exchange(other.y_, nullptr)),
+        e_(std::exchange(other.e_, nullptr)) {}
+  cholmod_workspace& operator=(cholmod_workspace other) noexcept {
+    std::swap(state_, other.state_);
+    right_.swap(other.right_);
+    std::swap(solution_, other.solution_);
+    std::swap(y_, other.y_);
+    std::swap(e_, other.e_);
+    return *this;
+  }
+  ~cholmod_workspace() {
+    if (state_ == nullptr) return;
+    for (cholmod_dense** vectors : {&solution_, &y_, &e_}) {
+      cholmod_free_dense(vectors, state_->get());
+    }
+  }
+
+  /// Where the right-hand sides belong.
+  [[nodiscard]] Eigen::MatrixXd& right_hand_side() noexcept { return right_; }
+
+  /// The solutions, valid until the next solve. Throws std::bad_alloc if memory runs out.
+  [[nodiscard]] Eigen::Map<Eigen::MatrixXd const> solve(cholmod_factors const& factors) {
+    cholmod_dense b{};
+    b.nrow = b.d = static_cast<std::size_t>(right_.rows());
+    b.ncol = static_cast<std::size_t>(right_.cols());
+    b.nzmax = b.nrow * b.ncol;
+    b.x = right_.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    // A simplicial solve works on up to four right-hand sides at a time and leaves y_ with the size
+    // of the last few; the next one would allocate it anew.
+    if (y_ != nullptr && factors.get()->is_super == 0) {
+      y_->nrow = y_->d = y_->nzmax / b.nrow;
+      y_->ncol = b.nrow;
+    }
+    if (cholmod_solve2(CHOLMOD_A, factors.get(), &b, nullptr, &solution_, nullptr, &y_, &e_,
+                       state_->get()) == 0) {
+      throw std::bad_alloc();
+    }
+    return {static_cast<double const*>(solution_->x), right_.rows(), right_.cols()};
+  }
+
+ private:
+  cholmod_workspace() : state_(std::make_unique<cholmod_state>()) {}
+
+  /// A matrix of the same width that can hold as many numbers; null for null.
+  [[nodiscard]] cholmod_dense* room_like(cholmod_dense const* vectors) {
+    if (vectors == nullptr) return nullptr;
+    std::size_t const width = vectors->ncol;
+    std::size_t const height = width > 0 ? vectors->nzmax / width : 0;
+    cholmod_dense* room =
+        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, state_->get());
+    if (room == nullptr) throw std::bad_alloc();
+    return room;
+  }
+
+  std::unique_ptr<cholmod_state> state_;
+  Eigen::MatrixXd right_;
+  cholmod_dense* solution_ = nullptr;
+  cholmod_dense* y_ = nullptr;
+  cholmod_dense* e_ = nullptr;
+};
+
+}  // namespace slant::detail
+
 namespace slant {
+
+// --- cholmod -------------------------------------------------------------------------------------
 
 /// P K Pᵀ = 2^e L Lᵀ. Copies share the factors, which never change.
 class cholmod {

@@ -4,21 +4,20 @@
 // static_condensation.
 //
 // Keeping the contact unknowns for the end makes the factorisation dearer and each application of
-// B K⁻¹ Bᵀ cheaper (factorizations/detail/contact_ordering.hpp). For each ordering a symbolic
+// B K⁻¹ Bᵀ cheaper (factorizations/parts/contact_ordering.hpp). For each ordering a symbolic
 // analysis gives the operations of the factorisation and the bytes that an application reads; the
 // one with the least
 //
 //     flops / flops_per_second + applications · 2 · bytes / bytes_per_second
 //
 // is taken. Where there will be many applications it pays to form the inverse S⁻¹ of the Schur
-// complement on the contact unknowns (factorizations/detail/tail_inverse.hpp), of which each reads
+// complement on the contact unknowns (factorizations/parts/tail.hpp), of which each reads
 // half once:
 //
 //     … + forming flops / forming_per_second + applications · bytes(S⁻¹)/2 / bytes_per_second
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/checks.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -7,18 +7,15 @@
 // by two sweeps with L_tt, or by one product with S⁻¹, the part of (L_tt L_ttᵀ)⁻¹ that belongs to
 // the contact unknowns, where that was formed. Their entries have the precision T: rounded to float
 // they are read in half the time, and good for the inner iterations of methods that compute their
-// residuals with the exact ones; see concepts/slant/concepts/rounded.hpp. B_t and x are of doubles
-// either way, of any scale.
+// residuals with the exact ones; see concepts/slant/concepts/capabilities.hpp. B_t and x are of
+// doubles either way, of any scale.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/factorizations/detail/packed_symmetric.hpp>
-#include <slant/factorizations/detail/tail_columns.hpp>
-#include <slant/factorizations/detail/tail_inverse.hpp>
-#include <slant/factorizations/detail/tail_panels.hpp>
-#include <slant/factorizations/detail/tail_solve.hpp>
+#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/tail.hpp>
 
 #include <Eigen/SparseCore>
 

@@ -12,11 +12,10 @@
 // matrices with it, three seconds of the compiler in every program that factors a small matrix.
 #pragma once
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/compiled.hpp>
 #include <slant/concepts/factorization.hpp>
-#include <slant/factorizations/detail/panel_kernels.hpp>
-#include <slant/factorizations/detail/panel_kernels_of_four.hpp>
-#include <slant/factorizations/detail/spd_checks.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 
 #include <algorithm>
 #include <concepts>

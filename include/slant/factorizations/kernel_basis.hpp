@@ -13,9 +13,9 @@
 // neighbours say, would give R R_J⁻¹ the size of the ratio of length and distance.
 #pragma once
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/operators/detail/matrix_entries.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/QR>

@@ -20,12 +20,12 @@
 
 #include <slant/concepts/factorization.hpp>
 #include <slant/factorizations/condensation_options.hpp>
-#include <slant/factorizations/detail/contact_flags.hpp>
 #include <slant/factorizations/ldlt.hpp>
+#include <slant/factorizations/parts/contact_ordering.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
-#include <slant/factorizations/detail/cholmod_condensation.hpp>
+#include <slant/factorizations/parts/cholmod_condensation.hpp>
 #endif
 
 #include <concepts>

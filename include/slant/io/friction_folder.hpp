@@ -10,12 +10,10 @@
 // from the sizes.
 #pragma once
 
-#include <slant/contact/asymmetry.hpp>
-#include <slant/contact/friction_problem.hpp>
+#include <slant/contact/friction/friction_problem.hpp>
 #include <slant/io/atomic_file.hpp>
 #include <slant/io/matrix_market.hpp>
 #include <slant/io/text_vector.hpp>
-#include <slant/io/write_matrix_market.hpp>
 
 #include <filesystem>
 #include <string>

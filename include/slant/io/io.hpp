@@ -7,11 +7,8 @@
 #include <slant/io/atomic_file.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <slant/io/matrix_market.hpp>
-#include <slant/io/matrix_market_header.hpp>
-#include <slant/io/number_text.hpp>
 #include <slant/io/text_scanner.hpp>
 #include <slant/io/text_vector.hpp>
 #include <slant/io/vtu_array.hpp>
 #include <slant/io/vtu_series.hpp>
-#include <slant/io/write_matrix_market.hpp>
 // IWYU pragma: end_exports

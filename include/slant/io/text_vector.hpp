@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <optional>
 #include <slant/io/atomic_file.hpp>
-#include <slant/io/number_text.hpp>
 #include <slant/io/text_scanner.hpp>
 #include <string>
 #include <string_view>

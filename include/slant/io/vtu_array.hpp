@@ -13,7 +13,6 @@
 #include <cstring>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/io/number_text.hpp>
 #include <slant/io/text_scanner.hpp>
 #include <string>
 #include <string_view>

@@ -9,9 +9,8 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/checks.hpp>
 #include <slant/io/atomic_file.hpp>
-#include <slant/io/number_text.hpp>
+#include <slant/io/text_scanner.hpp>
 
 #include <cstddef>
 #include <filesystem>

@@ -3,7 +3,7 @@
 // The driver. It knows no mathematics: start, look, step, look, … until somebody says stop.
 #pragma once
 
-#include <slant/iteration/report.hpp>
+#include <slant/base/report.hpp>
 #include <slant/iteration/stopping.hpp>
 
 #include <string>

@@ -15,12 +15,11 @@
 // What is left is A v = 0 or a number out of range: status breakdown.
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/report.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/iteration/detail/part_to_blame.hpp>
-#include <slant/iteration/detail/refused.hpp>
-#include <slant/iteration/report.hpp>
 #include <slant/krylov/linear_system.hpp>
-#include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <limits>
@@ -38,7 +37,7 @@ struct bicgstab_state {
   V preconditioned;               ///< M p or M s
   WA a_workspace;                 ///< temporaries of A
   WM m_workspace;                 ///< temporaries of M
-  scalar_t<V> unit{1};            ///< a power of two, see unit.hpp
+  scalar_t<V> unit{1};            ///< a power of two, see base/scaling.hpp
   scalar_t<V> ρ{1}, α{1}, ω{1};   ///< the recurrence's coefficients
   bool restarted = true;          ///< p starts anew from r
   scalar_t<V> residual_norm{0};   ///< ‖r‖
@@ -51,7 +50,7 @@ struct bicgstab_state {
   slant::work work{};
 };
 
-/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+/// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class M = identity_operator>
 class bicgstab : public detail::refused_method<std::remove_cvref_t<V>> {
   using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;

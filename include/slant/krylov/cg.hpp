@@ -9,15 +9,14 @@
 // One application of A and one of M a step.
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/report.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/iteration/detail/part_to_blame.hpp>
-#include <slant/iteration/detail/refused.hpp>
-#include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/linear_system.hpp>
-#include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <concepts>
@@ -35,7 +34,7 @@ struct cg_state {
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
   WM m_workspace;                      ///< temporaries of M
-  scalar_t<V> unit{1};                 ///< a power of two, see unit.hpp
+  scalar_t<V> unit{1};                 ///< a power of two, see base/scaling.hpp
   scalar_t<V> residual_norm{0};        ///< ‖r‖
   scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
   scalar_t<V> computed_norm =
@@ -46,7 +45,7 @@ struct cg_state {
   slant::work work{};
 };
 
-/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+/// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class M = identity_operator>
 class cg : public detail::refused_method<std::remove_cvref_t<V>> {
   using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;

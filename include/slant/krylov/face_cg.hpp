@@ -10,17 +10,20 @@
 // full gradient r comes along, whose other components decide which block to release next.
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/iteration/detail/part_to_blame.hpp>
-#include <slant/iteration/detail/refused.hpp>
-#include <slant/iteration/report.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
+#include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/linear_system.hpp>
-#include <slant/operators/held.hpp>
 
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace slant {
 
@@ -32,7 +35,7 @@ struct face_cg_state {
   V φ;                                 ///< free gradient: r on the face, 0 elsewhere
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
-  scalar_t<V> unit{1};                 ///< a power of two, see unit.hpp
+  scalar_t<V> unit{1};                 ///< a power of two, see base/scaling.hpp
   scalar_t<V> residual_norm{0};        ///< ‖φ‖
   scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
   scalar_t<V> computed_norm =
@@ -43,7 +46,7 @@ struct face_cg_state {
   slant::work work{};
 };
 
-/// Arguments that lack something end here and are told so; see iteration/detail/refused.hpp.
+/// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class F>
 class face_cg : public detail::refused_method<std::remove_cvref_t<V>> {
   using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
@@ -134,5 +137,161 @@ class face_cg<A, V, F> {
 
 template <class A, class V, class F>
 face_cg(A&&, V&&, F&&) -> face_cg<kept_t<A>, kept_t<V>, kept_t<F>>;
+
+// --- cg feas -------------------------------------------------------------------------------------
+//
+// CG_feas [K §3.3.4 (ii)]: conjugate gradients on a face that do not leave a convex set Λ. Where a
+// step would, a half step is taken to the boundary and the run ends.
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over the free components of a face, as long as x ∈ Λ
+
+/// State of cg_feas.
+template <class V, class WA>
+struct cg_feas_state {
+  V x;                                 ///< iterate in Λ; equal to x₀ off the face
+  V r;                                 ///< full gradient A x − b, in multiples of unit
+  V φ;                                 ///< free gradient: r on the face, 0 elsewhere
+  V trial;                             ///< scratch
+  conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
+  WA a_workspace;                      ///< temporaries of A
+  scalar_t<V> unit{1};                 ///< a power of two, see base/scaling.hpp
+  scalar_t<V> residual_norm{0};        ///< ‖φ‖
+  scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
+  scalar_t<V> computed_norm =
+      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
+  bool updated = false;                              ///< r was updated since it was computed from x
+  index since_refresh = 0;                           ///< steps since then
+  bool at_boundary = false;                          ///< the last step was a half step
+  std::vector<index> blocked{};                      ///< the blocks that made it one
+  index iteration = 0;
+  slant::status status = slant::status::running;
+  slant::work work{};
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    return at_boundary ? "the boundary of the set is reached before the minimum on the face"
+                       : "the method reports: " + std::string(to_string(status));
+  }
+};
+
+/// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
+template <class A, class V, class C, class F>
+class cg_feas : public detail::refused_method<std::remove_cvref_t<V>> {
+  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
+  using vector_type = typename a::vector_type;
+  template <class T>
+  using asked = detail::asked_t<vector<std::remove_cvref_t<V>>, std::remove_cvref_t<T>>;
+
+  static_assert(vector<std::remove_cvref_t<V>>,
+                "cg_feas: b must be a slant::vector; an expression or a view is none");
+  static_assert(linear_operator<typename a::whole, vector_type>,
+                "cg_feas: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename a::part, vector_type>,
+                "cg_feas: a part of A cannot be used on vectors like b");
+  static_assert(psd_operator<typename a::promise, vector_type>,
+                "cg_feas: A must declare self_adjoint and positive_semidefinite");
+  static_assert(has_step_to_boundary<asked<C>, local_t<vector_type>>,
+                "cg_feas: the set must tell its step_to_boundary(x, d)");
+  static_assert(has_keep<asked<F>, vector_type>,
+                "cg_feas: the face must cut vectors down to it by keep(x, y)");
+
+ public:
+  using cg_feas::refused_method::refused_method;
+};
+
+/// CG in a set and on a face: solve(cg_feas{A, b, set, face}, x0, residual_below(1e-10)).
+/// Requires psd_operator and a convex set with step_to_boundary. Statuses: stalled with
+/// state.at_boundary after a half step, state.blocked telling whose boundary it was; unbounded if
+/// neither q nor Λ ends along −p; breakdown if A was seen not to be semidefinite.
+template <class A, class V, class C, class F>
+  requires vector<std::remove_cvref_t<V>> &&
+           psd_operator<std::remove_cvref_t<A>, std::remove_cvref_t<V>> &&
+           convex_set<std::remove_cvref_t<C>, local_t<std::remove_cvref_t<V>>> &&
+           has_step_to_boundary<std::remove_cvref_t<C>, local_t<std::remove_cvref_t<V>>> &&
+           has_keep<std::remove_cvref_t<F>, std::remove_cvref_t<V>>
+class cg_feas<A, V, C, F> {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using scalar = scalar_t<vector_type>;
+  using state_type = cg_feas_state<vector_type, workspace_t<operator_type, vector_type>>;
+
+  /// Throws bad_input if sizes do not match or b is not finite.
+  cg_feas(held<A> a, held<V> b, held<C> set, held<F> face)
+      : a_(std::move(a)), b_(std::move(b)), set_(std::move(set)), face_(std::move(face)) {
+    detail::check_linear_system(a_.get(), b_.get());
+    detail::check_size("dimension of the set", slant::dimension_of(set_.get()),
+                       index(slant::local(b_.get()).size()));
+  }
+
+  /// Throws bad_input if x0 is not in Λ, or if x0 or A x0 is not finite or of the wrong size.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    detail::check_start(x0, b_.get());
+    if (!slant::everywhere(x0, set_.get().contains(slant::local(x0)))) {
+      throw bad_input("x0", "a point outside", "a point of the set");
+    }
+    auto const n = index(slant::local(x0).size());
+    state_type s{x0,
+                 like(x0, n),
+                 like(x0, n),
+                 like(x0, n),
+                 conjugate_directions<vector_type>(x0),
+                 workspace(a_.get(), x0)};
+    s.blocked.reserve(static_cast<std::size_t>(slant::block_count(set_.get())));
+    detail::start_residual(a_.get(), b_.get(), s);
+    s.status = status::running;
+    note(s);
+    return s;
+  }
+
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    next_direction(a_.get(), s);
+    ++s.iteration;
+    auto const step = step_within(set_.get(), s, scalar(0));
+    switch (step.end) {
+      case feasible_step_end::minimum:
+        s.updated = true;
+        note(s);
+        return;
+      case feasible_step_end::boundary:
+        find_blocking(set_.get(), slant::local(s.x), slant::local(s.trial), step.length, s.blocked);
+        half_step(s, step);
+        s.updated = true;
+        note(s);
+        s.at_boundary = true;
+        if (s.status == status::running) s.status = status::stalled;
+        return;
+      case feasible_step_end::endless:
+        s.status = step.flat ? status::unbounded : status::breakdown;
+        return;
+      default:
+        s.status = status::breakdown;
+    }
+  }
+
+  /// r from x, if steps have been updating it; the next direction is φ itself.
+  bool refresh(state_type& s) const {
+    s.directions.live = false;
+    s.since_refresh = 0;
+    return detail::refresh_residual(a_.get(), b_.get(), s, [this](state_type& t) { note(t); });
+  }
+
+ private:
+  void note(state_type& s) const {
+    face_.get().keep(s.r, s.φ);
+    s.residual_norm = s.unit * norm(s.φ);
+    if (s.residual_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+  }
+
+  held<A> a_;
+  held<V> b_;
+  held<C> set_;
+  held<F> face_;
+};
+
+template <class A, class V, class C, class F>
+cg_feas(A&&, V&&, C&&, F&&) -> cg_feas<kept_t<A>, kept_t<V>, kept_t<C>, kept_t<F>>;
 
 }  // namespace slant

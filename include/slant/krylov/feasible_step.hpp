@@ -11,8 +11,8 @@
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
-#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 

@@ -18,10 +18,10 @@
 #pragma once
 
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/distributed.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/krylov/projected_directions.hpp>
 
 #include <cmath>
 #include <limits>

@@ -6,17 +6,13 @@
 // IWYU pragma: begin_exports
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/krylov/cg_feas.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/face_cg.hpp>
 #include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/flat_direction.hpp>
-#include <slant/krylov/gradient_step.hpp>
 #include <slant/krylov/linear_system.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/krylov/projected_directions.hpp>
+#include <slant/krylov/preconditioner.hpp>
 #include <slant/krylov/range_cg.hpp>
-#include <slant/krylov/range_cg_state.hpp>
 #include <slant/krylov/spectral_bound.hpp>
-#include <slant/krylov/unit.hpp>
 // IWYU pragma: end_exports

@@ -3,12 +3,12 @@
 // What the solvers of A x = b have in common: checking the data, the first residual, its norm.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/scaling.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/krylov/unit.hpp>
-#include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <algorithm>

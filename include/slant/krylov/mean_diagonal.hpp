@@ -14,10 +14,9 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/checks.hpp>
-#include <slant/concepts/distributed.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/random.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 
 namespace slant {

@@ -14,18 +14,73 @@
 // largest one.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
-#include <slant/concepts/distributed.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/random.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/krylov/tridiagonal_eigenvalue.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+namespace slant::detail {
+
+// --- tridiagonal eigenvalue ----------------------------------------------------------------------
+//
+// The extreme eigenvalues of a small symmetric tridiagonal matrix, by bisection on its Sturm
+// sequence [Barth, Martin, Wilkinson 1967]: λ exceeds all eigenvalues if and only if all pivots of
+// the LDLᵀ factorisation of T − λ I are negative. Backward stable in any scalar, and the bound errs
+// on the safe side: the upper end of the last interval is returned.
+
+/// Are all eigenvalues of the matrix with diagonal a and off-diagonal b smaller than λ?
+template <class S>
+[[nodiscard]] bool all_eigenvalues_below(S const& λ, std::vector<S> const& a,
+                                         std::vector<S> const& b) {
+  S pivot = a[0] - λ;
+  for (std::size_t i = 1; pivot < S(0) && i < a.size(); ++i) {
+    pivot = a[i] - λ - b[i - 1] * (b[i - 1] / pivot);
+  }
+  return pivot < S(0);
+}
+
+/// Largest eigenvalue of the matrix with diagonal a (n ≥ 1 entries) and off-diagonal b (n − 1
+/// entries), to a few ε of the largest entry, never too small by more than the rounding of T.
+template <class S>
+[[nodiscard]] S largest_tridiagonal_eigenvalue(std::vector<S> const& a, std::vector<S> const& b) {
+  using std::abs;
+  S lower = a[0], upper = a[0], size(0);  // λ_max is at least a_ii and at most Gershgorin's bound
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    S radius(0);
+    if (i > 0) radius += abs(b[i - 1]);
+    if (i + 1 < a.size()) radius += abs(b[i]);
+    lower = std::max<S>(lower, a[i]);
+    upper = std::max<S>(upper, S(a[i] + radius));
+    size = std::max<S>(size, S(abs(a[i]) + radius));
+  }
+  S const resolution = std::numeric_limits<S>::epsilon() * size;
+  while (upper - lower > resolution) {
+    S const middle = lower + (upper - lower) / S(2);
+    if (!(lower < middle && middle < upper)) break;
+    (all_eigenvalues_below(middle, a, b) ? upper : lower) = middle;
+  }
+  return upper;
+}
+
+/// Smallest eigenvalue of the same matrix, never too large by more than the rounding of T.
+template <class S>
+[[nodiscard]] S smallest_tridiagonal_eigenvalue(std::vector<S> a, std::vector<S> const& b) {
+  for (auto& e : a) e = -e;  // −T has the off-diagonal −b, whose signs change no eigenvalue
+  return -largest_tridiagonal_eigenvalue(a, b);
+}
+
+}  // namespace slant::detail
+
 namespace slant {
+
+// --- spectral bound ------------------------------------------------------------------------------
 
 /// Result of largest_eigenvalue_bound.
 template <class S>
@@ -108,6 +163,39 @@ template <class A, class V>
   if (exhausted || k == n) return {θ * rounding, θ, θ_min, k};
   double const root = doubt / double(2 * k - 1);
   return {θ * rounding / S(1 - root * root), θ, θ_min, k};
+}
+
+// --- gradient step -------------------------------------------------------------------------------
+//
+// A safe step of the gradient method x ← P_Λ(x − α r). Every α ∈ (0, 2/σ_max) decreases
+// q(x) = ½ xᵀA x − bᵀx. I − α A contracts best with α = 2/(σ_max + σ_min); steps close to 2/σ_max
+// are better still where A is ill-conditioned, for few components of r belong to its largest
+// eigenvalues.
+
+/// Result of safe_gradient_step.
+template <class S>
+struct gradient_step {
+  S length;            ///< α
+  S σ;                 ///< σ_max to a few digits, from below
+  index applications;  ///< products spent
+};
+
+/// α = min(factor, 2/(1 + θ_min/θ_max)) / (upper bound of σ_max), θ the extreme Ritz values.
+/// 1 if A = 0. Throws bad_input if 1/σ_max is not a finite number > 0, or as the bound does.
+template <class A, class V>
+[[nodiscard]] auto safe_gradient_step(A const& a, V const& prototype, scalar_t<V> factor,
+                                      spectral_bound_options const& options = {})
+    -> gradient_step<scalar_t<V>> {
+  using S = scalar_t<V>;
+  auto const bound = largest_eigenvalue_bound(a, prototype, options);
+  if (bound.upper == S(0)) return {S(1), S(0), bound.applications};
+  S const best = S(2) / (S(1) + bound.smallest_ritz / bound.ritz);
+  S const length = std::min<S>(factor, best) / bound.upper;
+  if (!(length > S(0)) || !detail::is_finite(length)) {
+    throw bad_input("A", "largest eigenvalue " + detail::show(bound.upper),
+                    "one whose reciprocal is a finite number > 0");
+  }
+  return {length, bound.ritz, bound.applications};
 }
 
 }  // namespace slant

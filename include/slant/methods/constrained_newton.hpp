@@ -11,7 +11,7 @@
 //     [ Π P A P Π + C/α   Π Nᵀ ] [ t  ]   [ −Π r          ]
 //     [ N Π                    ] [ dm ] = [ −N (Q x − x̄)  ]      t ∈ range(Π),  dν = Nᵀdm.
 //
-//     coarse      t₀ = −Π Nᵀ(N Π Nᵀ)⁻¹N (Q x − x̄)         the second row; methods/cut_face.hpp
+//     coarse      t₀ = −Π Nᵀ(N Π Nᵀ)⁻¹N (Q x − x̄)         the second row; problems/cut_face.hpp
 //     solve       t − t₀ ∈ range(Π) ∩ ker N                preconditioned conjugate gradients
 //     multiplier  dm from what is left of the first row
 //     shorten     β = 1, ½, … until θ(y + β dy, ν + β dν) ≤ (1 − c β) θ,   θ² = ‖F‖² + ‖Q y − x̄‖²,
@@ -20,26 +20,400 @@
 //
 // All equations are in every Newton system, and N Π Nᵀ is the coarse problem of the face: so it
 // does not matter which of the bodies of Total-FETI contact holds. A preconditioner M ≈ A⁻¹ is
-// applied in the cut face, as P W M W P with P onto range(Π) ∩ ker N (methods/curved_minimum.hpp).
+// applied in the cut face, as P W M W P with P onto range(Π) ∩ ker N
+// (methods/parts/curved_minimum.hpp).
 //
 // Where N Π Nᵀ is singular or no β is accepted, SMALSE-M takes over from x and ν until θ(x, ν) is a
 // tenth below its value at the failure. It converges from everywhere, so this takes finitely many
 // steps, and from failure to failure θ falls by a factor.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
-#include <slant/methods/constrained_newton_core.hpp>
-#include <slant/methods/constrained_newton_problem.hpp>
-#include <slant/methods/constrained_newton_state.hpp>
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/vector_algebra.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/preconditioner.hpp>
+#include <slant/methods/parts/curved_minimum.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/smalse.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/forcing.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/problems/augmented_problem.hpp>
+#include <slant/problems/cut_face.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+//
+// Options of the semismooth Newton method with equality constraints.
+
+/// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
+template <scalar S = double>
+struct constrained_newton_options {
+  S step_factor = S(0.5);                 ///< α in multiples of 1/mean(diag P A P)
+  mean_diagonal_options mean_diagonal{};  ///< how that is estimated
+  /// Inner accuracy, relative to the merit function.
+  eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
+  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
+  S sufficient =
+      S(0.1);  ///< c in (0, 1): a step of length β lowers the merit by c β of it at least
+  index halvings = 20;           ///< β = 1, ½, …: so often at most
+  index patience = 100;          ///< steps in which the merit does not fall that mean stalled
+  smalse_options<S> fallback{};  ///< of the method that takes over where Newton's fails
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
+      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
+    }
+    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
+    if (!(sufficient > S(0) && sufficient < S(1))) {
+      throw bad_input("sufficient", detail::show(sufficient), "a number in (0, 1)");
+    }
+    if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    mean_diagonal.validate();
+    forcing.validate();
+    fallback.validate();
+  }
+};
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of the semismooth Newton method with equality constraints.
+
+namespace detail {
+
+/// ½ xᵀP A P x − bᵀx with b = P (b − A x̄) − ν: its operator is owned, the rest is referenced.
+template <class QP, class C>
+using projected_qp =
+    separable_qp<decltype(slant::projected_hessian(
+                     std::declval<typename QP::operator_type const&>(), std::declval<C const&>())),
+                 typename QP::vector_type const&, typename QP::set_type const&>;
+
+}  // namespace detail
+
+/// The steps of constrained_newton.
+enum class constrained_newton_step : unsigned char { none, full, damped, fallback };
+
+/// State of constrained_newton for a separable_qp of type QP, constraints C and the preconditioner
+/// M. x ∈ Λ with the gradient r of q(x) + νᵀx, computed from x, and its reduced gradient are those
+/// of gradient_point.
+template <class QP, class C, class M>
+struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
+  using base = gradient_point<detail::projected_qp<QP, C>>;
+  using typename base::scalar;
+  using typename base::vector_type;
+
+  vector_type ν;            ///< Gᵀμ, a gradient
+  vector_type projected_b;  ///< P (b − A x̄)
+  vector_type b;            ///< P (b − A x̄) − ν
+  vector_type offset;       ///< Q x − x̄
+
+  newton_segment<vector_type> segment;   ///< y, z of Newton's iterate; x = P_Λ(z) after a step
+  vector_type offset_y;                  ///< Q y − x̄
+  vector_type target_offset;             ///< the same at the end of the full step
+  cut_face<scalar> face;                 ///< the face at z, cut by ker G
+  curved_minimum<vector_type, M> inner;  ///< the step on it
+  vector_type lifted;                    ///< the part of the step that cures Q x − x̄
+  vector_type gradient_at_end;           ///< scratch: gradients of the quadratic model
+  vector_type dν;                        ///< step of ν, in units
+  workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace;
+  forcing_history<scalar> forcing{};              ///< errors and inner tolerances so far
+  progress_watch<scalar> progress{};              ///< looks for steps that get nowhere
+  std::optional<smalse_state<QP, C>> fallback{};  ///< of SMALSE-M, once there was need for it
+  bool fallback_at_work = false;
+  scalar goal{0};            ///< what the fallback has to reach
+  index fallback_count = 0;  ///< how often it had to take over
+
+  scalar merit{0};  ///< √(‖F‖² + ‖Q y − x̄‖²)/α, in units of the gradient
+  scalar feasibility_norm{0};     ///< ‖Q x − x̄‖, distance of x from the affine space
+  scalar feasibility_scale{0};    ///< max(‖x̄‖, ‖x‖)
+  scalar load{0};                 ///< ‖P (b − A x̄)‖
+  scalar preconditioner_size{1};  ///< s = mean(diag M)
+  bool at_projection = false;     ///< x = P_Λ(z)
+  constrained_newton_step last_step = constrained_newton_step::none;
+  scalar step_fraction{1};     ///< β of the last Newton step
+  index inner_iterations = 0;  ///< of the last step
+  index iteration = 0;         ///< Newton steps and outer steps of the fallback
+  slant::status status = slant::status::running;
+  bool infeasible = false;  ///< no point of Λ satisfies G x = e, which has been shown
+
+  template <class Projected>
+  constrained_newton_state(Projected const& problem, C const& c, M const& m, vector_type const& x0,
+                           vector_type const& load_vector)
+      : base(problem, x0),
+        ν(like(x0, problem.size())),
+        projected_b(load_vector),
+        b(load_vector),
+        offset(ν),
+        segment(x0, problem.size()),
+        offset_y(ν),
+        target_offset(ν),
+        face(problem.set(), c.unit_rows()),
+        inner(x0, problem.size(), m),
+        lifted(ν),
+        gradient_at_end(ν),
+        dν(ν),
+        q_workspace(workspace(c.range_projector(), x0)) {
+    vectors::set_zero(ν);
+  }
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    return detail::reason_with_equalities(status, infeasible);
+  }
+};
+
+// --- problem -------------------------------------------------------------------------------------
+//
+// What constrained_newton asks of its problem, and the answer to arguments that lack something.
+
+/// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for symmetric_newton, and rows.
+template <class QP, class C>
+concept constrained_newton_problem =
+    symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
+
+/// Arguments that lack something end here and are told so; see base/diagnosis.hpp. The
+/// method itself is in this file.
+template <class QP, class C, class M>
+class constrained_newton
+    : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+  using problem = std::remove_cvref_t<QP>;
+  using vector_type = typename problem::vector_type;
+  static constexpr bool good_problem = symmetric_newton_problem<problem>;
+
+  static_assert(good_problem,
+                "constrained_newton: the problem must be one that symmetric_newton takes");
+  static_assert(!good_problem || affine_space_with_rows<std::remove_cvref_t<C>, vector_type>,
+                "constrained_newton: the constraints must be equality_constraints of vectors like "
+                "b, which must be an Eigen vector");
+  static_assert(psd_operator<std::remove_cvref_t<M>, vector_type>,
+                "constrained_newton: the preconditioner must be a linear operator on vectors like "
+                "b that declares self_adjoint and positive_semidefinite");
+
+ public:
+  using constrained_newton::refused_method::refused_method;
+};
+
+template <class QP, class C>
+constrained_newton(QP&&, C&&) -> constrained_newton<kept_t<QP>, kept_t<C>, identity_operator>;
+template <class QP, class C>
+constrained_newton(QP&&, C&&, constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> constrained_newton<kept_t<QP>, kept_t<C>, identity_operator>;
+template <class QP, class C, class M>
+constrained_newton(QP&&, C&&, M&&) -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
+template <class QP, class C, class M>
+constrained_newton(QP&&, C&&, M&&,
+                   constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
+
+}  // namespace slant
+
+namespace slant::detail {
+
+// --- steps ---------------------------------------------------------------------------------------
+//
+// What the steps of constrained_newton are made of: the sizes taken from the data, the multiplier
+// it begins with, what is looked at in an iterate, and the line search. Symbols as in
+// this file.
+
+/// Problem, constraints, preconditioner and options, with what is measured of an iterate.
+template <class QP, class C, class M>
+class constrained_newton_core {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using constraints = std::remove_cvref_t<C>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = constrained_newton_options<scalar>;
+  using state_type = constrained_newton_state<problem, constraints, preconditioner>;
+  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+
+  constrained_newton_core(held<QP> qp, held<C> c, options o)
+      : qp_(std::move(qp)),
+        constraints_(std::move(c)),
+        m_(identity_operator(qp_.get().size())),
+        options_(std::move(o)) {
+    check();
+  }
+  constrained_newton_core(held<QP> qp, held<C> c, held<M> m, options o)
+      : qp_(std::move(qp)), constraints_(std::move(c)), m_(std::move(m)), options_(std::move(o)) {
+    check();
+  }
+
+ protected:
+  using projected_qp = detail::projected_qp<problem, constraints>;
+
+  [[nodiscard]] projected_qp projected(vector_type const& b) const {
+    return {projected_hessian(qp_.get().a(), constraints_.get()), b, qp_.get().set()};
+  }
+  /// 0 or another ν, whichever leaves less of r̃; see smalse.
+  void choose_multiplier(state_type& s, vector_type const& other) const {
+    if (s.status != status::running) return;
+    index const spent = s.work.operator_applications;
+    scalar const with_none = s.reduced_gradient_norm;
+    s.ν = other;
+    measure(s);
+    if (!(s.reduced_gradient_norm < with_none)) {
+      s.status = status::running;
+      s.ν.setZero();
+      measure(s);
+    }
+    s.work.setup_applications += s.work.operator_applications - spent;
+    s.work.operator_applications = spent;
+  }
+
+  /// r, r̃ and Q x − x̄ of x; one product.
+  void measure(state_type& s) const {
+    s.b = s.projected_b - s.ν;
+    if (!detail::is_finite(norm(s.b))) {
+      s.status = status::breakdown;
+      return;
+    }
+    s.gradient(projected(s.b));
+    look(s);
+  }
+
+  /// What rules look at, for x and its r.
+  void look(state_type& s) const {
+    s.reduce(projected(s.b));
+    offset_of(s, s.x, s.offset);
+    s.feasibility_norm = norm(s.offset);
+    s.feasibility_scale = std::max<scalar>(norm(constraints_.get().nearest()), norm(s.x));
+    s.gradient_scale =
+        detail::gradient_scale(s.load, scalar(1) / s.step_length, s.feasibility_scale);
+    if (s.reduced_gradient_norm == scalar(0) && s.feasibility_norm == scalar(0)) {
+      s.status = status::converged;
+    }
+    if (!detail::is_finite(s.reduced_gradient_norm) || !detail::is_finite(s.feasibility_norm)) {
+      s.status = status::breakdown;
+    }
+  }
+
+  void offset_of(state_type& s, vector_type const& x, vector_type& offset) const {
+    slant::apply(constraints_.get().range_projector(), x, offset, s.q_workspace);
+    offset -= constraints_.get().nearest();
+  }
+
+  [[nodiscard]] static scalar merit_of(state_type const& s, scalar const& of_x,
+                                       scalar const& of_space) {
+    using std::hypot;
+    return hypot(of_x, of_space) / s.step_length;
+  }
+
+  /// y = x and θ there.
+  void restart(state_type& s) const {
+    s.segment.y = s.x;
+    s.segment.z = s.x - (s.step_length * s.unit) * s.r;
+    s.offset_y = s.offset;
+    s.merit = merit_at_x(s);
+    s.at_projection = false;
+  }
+  [[nodiscard]] static scalar merit_at_x(state_type const& s) {
+    return merit_of(s, s.step_length * s.reduced_gradient_norm, s.feasibility_norm);
+  }
+
+  /// t₀ in units, trial = r + P A P t₀ and gradient_at_end = the same with the curvature.
+  template <class A>
+  void lift(state_type& s, A const& a) const {
+    s.trial = s.r;
+    s.lifted.setZero();
+    scalar const noise = scalar(4) * std::numeric_limits<scalar>::epsilon() * s.feasibility_scale;
+    if (s.feasibility_norm > noise) {
+      s.face.lift(s.offset, s.lifted);
+      s.lifted *= scalar(-1) / s.unit;
+      slant::apply(a, s.lifted, s.trial, s.a_workspace);
+      ++s.work.operator_applications;
+      s.trial += s.r;
+    }
+    s.gradient_at_end = s.trial;
+    s.face.whole().add_curvature(scalar(1) / s.step_length, s.lifted, s.gradient_at_end);
+  }
+
+  /// The longest β = 2⁻ʲ that lowers θ enough; false if there is none. Spends no product.
+  bool shorten(state_type& s) const {
+    scalar β(1);
+    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
+      // residual_at needs two vectors: the gradient of the model is not needed any more.
+      scalar const of_x = s.segment.residual_at(qp_.get().set(), β, s.projected, s.gradient_at_end);
+      s.gradient_at_end = (scalar(1) - β) * s.offset_y + β * s.target_offset;
+      scalar const merit = merit_of(s, of_x, norm(s.gradient_at_end));
+      scalar const enough = (scalar(1) - options_.sufficient * β) * s.merit;
+      if (!(enough < s.merit)) return false;  // β is below the precision
+      if (merit <= enough) {
+        s.step_fraction = β;
+        s.merit = merit;
+        s.offset_y = s.gradient_at_end;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void note_progress(state_type& s) const {
+    if (s.status != status::running || s.fallback_at_work) return;
+    if (s.progress.stalled(s.iteration, s.merit, options_.patience)) {
+      s.status = status::stalled;
+    }
+  }
+
+  /// α, and s = mean(diag M).
+  void set_sizes(state_type& s) const {
+    auto const& qp = qp_.get();
+    scalar const whole = detail::size_on_ones(qp.a(), s.x);
+    scalar mean(0);
+    ++s.work.setup_applications;
+    if (!detail::is_one_point(constraints_.get())) {
+      auto const of_a = slant::mean_diagonal(projected_hessian(qp.a(), constraints_.get()), s.x,
+                                             options_.mean_diagonal);
+      mean = of_a.value;
+      s.work.setup_applications += of_a.applications;
+    }
+    // P A P may consist of rounding errors of A; any α will do then.
+    if (!(mean > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole)) mean = whole;
+    scalar const size = mean > scalar(0) ? scalar(scalar(1) / mean) : scalar(1);
+    s.step_length = options_.step_factor * size;
+    s.preconditioner_size = size;
+    if constexpr (preconditioned) {
+      s.preconditioner_size = slant::mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
+    }
+  }
+
+  held<QP> qp_;
+  held<C> constraints_;
+  held<M> m_;
+  options options_;
+
+ private:
+  void check() const {
+    index const n = qp_.get().size();
+    detail::check_size("columns of G", index(constraints_.get().size()), n, "the size of b,");
+    detail::check_size("rows of the preconditioner", index(m_.get().rows()), n);
+    detail::check_size("columns of the preconditioner", index(m_.get().cols()), n);
+    options_.validate();
+  }
+};
+
+}  // namespace slant::detail
+
+namespace slant {
+
+// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(constrained_newton{qp, constraints}, x0,
 /// energy_error_below(1e-8, constrained_energy_certificate{qp, constraints}) || at_most(100)), or

@@ -3,15 +3,17 @@
 // The state of the interior-point method.
 #pragma once
 
-#include <slant/iteration/report.hpp>
-#include <slant/methods/barrier.hpp>
-#include <slant/methods/barrier_minimum.hpp>
-#include <slant/methods/gradient_point.hpp>
-#include <slant/methods/lorentz_pairs.hpp>
-#include <slant/methods/progress_watch.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/methods/parts/barrier.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
+#include <slant/methods/parts/lorentz_pairs.hpp>
 #include <slant/newton/forcing.hpp>
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace slant {
@@ -99,6 +101,133 @@ struct interior_point_state : gradient_point<QP> {
         return "the function decreases for ever along step";
       default:
         return std::string(to_string(status));
+    }
+  }
+};
+
+// --- options -------------------------------------------------------------------------------------
+//
+// Options of the interior-point method.
+
+namespace detail {
+
+/// The option if it is set. Not inlined: g++ 12 would see a value read where there is none.
+template <class S>
+[[nodiscard, gnu::noinline]] S set_or(std::optional<S> const& option, S const& otherwise) {
+  return option ? *option : otherwise;
+}
+
+}  // namespace detail
+
+/// Options of interior_point. Defaults are the constants of [K §3.2.4] but for c_min (1e-30 there),
+/// the inner accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with
+/// the fewest products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples
+/// of those of the data).
+
+template <scalar S = double>
+struct interior_point_options {
+  /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
+  std::optional<S> step_length{};
+  mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
+
+  /// c_z > 0: first slacks of sets without an end, in natural lengths; c_ν > 0: first multipliers,
+  /// in natural forces. On bricks 3 and 0.6 take fewer products than 3 and 0.3; with a tenth of
+  /// these lengths there are twice as many steps.
+  S start_length = S(3);
+  /// None: 0.6 where the set has discs or cones, else 0.3.
+  std::optional<S> start_force{};
+  /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
+  /// more of x0 and lies nearer to the boundary, which costs more steps than it saves.
+  S start_depth = S(1);
+
+  /// > 1: where, before any long step, a Newton step would leave Λ within 1/raise_above of its
+  /// length and predicts multipliers so many times as large, ν and ϑ are raised to them. Halves the
+  /// steps of a flow past an obstacle (examples/stokes, g = 10) and leaves the bricks as they are.
+  S raise_above = S(5);
+  index raises = 10;  ///< at most so often in all; 0: never
+
+  /// In [0, 1]: a step shorter than this is computed again with its own second-order term
+  /// [Mehrotra]; the longer of the two is made. 0: never.
+  /// None: 0.3 where the set has discs or cones, else 0.
+  std::optional<S> correct_below{};
+
+  /// c_min in [0, c_max]; 0: pure Newton steps. None: 0.2 where the set has discs or cones, on
+  /// which force and point turn into line at the rate of ϑ, else 0.1.
+  std::optional<S> centring_least{};
+  S centring_most = S(0.5);       ///< c_max in (0, 1)
+  S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
+  S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
+  S residual_factor = S(1e9);  ///< β₀ ≥ 1: ‖∇L‖ ≤ β ϑ with β₀ times the β of the start
+  /// ϑ⁺ ≥ ahead · φ ϑ⁰, φ = Π(1 − α) what the steps leave of the first ∇L: ϑ that falls faster
+  /// brings the iterates to the boundary at the wrong place. In [0, 1).
+  S ahead = S(0.1);
+  /// ≥ 0: ϑ may also grow up to grow · φ ϑ⁰.
+  S grow = S(10);
+  S sufficient = S(0.1);        ///< ω in (0, 1): ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
+  S to_boundary = S(0.999);     ///< δ in (0, 1): at most so much of the way to the boundary
+  S shorten_centred = S(0.9);   ///< ρ₁ in (0, 1): shortens α until ν_i z_i ≥ γ ϑ
+  S shorten_measure = S(0.9);   ///< ρ₂ in (0, 1): until ϑ falls enough
+  S shorten_residual = S(0.5);  ///< ρ₃ in (0, 1): until ‖∇L‖ ≤ β ϑ
+  index shortenings = 200;      ///< at most so often in one step
+
+  adaptive_precision forcing{.r_tol = 0.3,
+                             .c_fact = 0.99};  ///< inner accuracy, relative to the right-hand side
+  bool warm_start = true;    ///< inner iterations begin at a multiple of the last step
+  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
+  index patience = 30;       ///< steps without progress that mean stalled
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    if (step_length) positive("step_length", *step_length);
+    positive("start_length", start_length);
+    if (start_force) positive("start_force", *start_force);
+    if (!(start_depth > S(0) && start_depth <= S(1))) {
+      throw bad_input("start_depth", detail::show(start_depth), "a number in (0, 1]");
+    }
+    if (!(raise_above > S(1))) {
+      throw bad_input("raise_above", detail::show(raise_above), "a number > 1");
+    }
+    if (raises < 0) throw bad_input("raises", detail::show(raises), "a number >= 0");
+    fraction("centring_most", centring_most);
+    if (centring_least && !(*centring_least >= S(0) && *centring_least <= centring_most)) {
+      throw bad_input("centring_least", detail::show(*centring_least),
+                      "a number in [0, centring_most]");
+    }
+    positive("centring_scale", centring_scale);
+    fraction("closeness", closeness);
+    if (!(residual_factor >= S(1)) || !detail::is_finite(residual_factor)) {
+      throw bad_input("residual_factor", detail::show(residual_factor), "a number >= 1");
+    }
+    fraction("sufficient", sufficient);
+    if (correct_below && !(*correct_below >= S(0) && *correct_below <= S(1))) {
+      throw bad_input("correct_below", detail::show(*correct_below), "a number in [0, 1]");
+    }
+    if (!(ahead >= S(0) && ahead < S(1))) {
+      throw bad_input("ahead", detail::show(ahead), "a number in [0, 1)");
+    }
+    if (!(grow >= S(0)) || !detail::is_finite(grow)) {
+      throw bad_input("grow", detail::show(grow), "a number >= 0");
+    }
+    fraction("to_boundary", to_boundary);
+    fraction("shorten_centred", shorten_centred);
+    fraction("shorten_measure", shorten_measure);
+    fraction("shorten_residual", shorten_residual);
+    if (shortenings < 1) throw bad_input("shortenings", detail::show(shortenings), "at least 1");
+    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    mean_diagonal.validate();
+    forcing.validate();
+  }
+
+ private:
+  static void positive(char const* name, S const& value) {
+    if (!(value > S(0)) || !detail::is_finite(value)) {
+      throw bad_input(name, detail::show(value), "a number > 0");
+    }
+  }
+  static void fraction(char const* name, S const& value) {
+    if (!(value > S(0) && value < S(1))) {
+      throw bad_input(name, detail::show(value), "a number in (0, 1)");
     }
   }
 };

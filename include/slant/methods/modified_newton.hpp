@@ -21,22 +21,273 @@
 // step, unless λ^(k+1,0) = λ^(k); one for (4°), if λ^(k+1) has left Λ.
 #pragma once
 
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/krylov/gradient_step.hpp>
-#include <slant/methods/modified_newton_options.hpp>
-#include <slant/methods/modified_newton_parts.hpp>
-#include <slant/methods/modified_newton_problem.hpp>
-#include <slant/methods/modified_newton_state.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
+#include <slant/krylov/feasible_step.hpp>
+#include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
+#include <slant/methods/parts/recession.hpp>
+#include <slant/newton/forcing.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/problems/separable_qp.hpp>
+#include <slant/sets/face.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
 
-/// The frame of mssn, imssn and gimssn. Start and Inner are parts of modified_newton_parts.hpp,
+// --- parts ---------------------------------------------------------------------------------------
+//
+// What distinguishes MSSN, IMSSN and GIMSSN [K §3.3.3, §3.3.4]: where a step starts, which
+// conjugate gradients minimise q on the face, and how accurately (newton/forcing.hpp).
+
+/// Step (3.2°) of IMSSN, (57): the blocks off the face are frozen at P(λ − ρ r), the others stay.
+struct frozen_start {
+  /// s.trial becomes λ^(k+1,0); s.φ is scratch.
+  template <class State>
+  static void place(State& s) {
+    s.face.keep(s.x, s.φ);
+    s.face.keep_complement(s.projected, s.trial);
+    vectors::add(s.φ, s.trial);
+  }
+};
+
+/// Step (3.2°) of GIMSSN, (63) on all blocks: λ^(k+1,0) = P_Λ(λ − ρ r), a projected gradient step.
+struct projected_start {
+  /// s.trial becomes λ^(k+1,0).
+  template <class State>
+  static void place(State& s) {
+    vectors::copy(s.projected, s.trial);
+  }
+};
+
+/// How the inner iterations of a step ended.
+enum class inner_end : unsigned char {
+  going_on,  ///< not yet
+  accurate,  ///< to the accuracy asked for
+  boundary,  ///< at the boundary of Λ, by a half step
+  limit,     ///< after max_inner iterations
+  endless,   ///< q has no minimum along p in floating point, and −p does not leave Λ
+  broken     ///< A is not positive definite on the face, or a number is not finite
+};
+
+/// CG [K (62)]: to the minimum on the face, in Λ or not.
+struct unlimited_cg {
+  static constexpr bool stays_inside = false;
+
+  /// One step along −p.
+  template <class Set, class State, class S>
+  static inner_end advance(Set const&, State& s, S const& noise) {
+    auto const& d = s.directions;
+    S const slope = inner_product(s.r, d.p);
+    if (!(d.curvature > noise)) {
+      bool const flat = d.curvature >= -noise;
+      bool const minimal = flat && !is_descent(slope, d.p, S(s.size_of_b + norm(s.r)));
+      return minimal ? inner_end::accurate : inner_end::broken;
+    }
+    S const α = slope / d.curvature;
+    vectors::axpy(-(s.unit * α), d.p, s.x);
+    vectors::axpy(-α, d.Ap, s.r);
+    ++s.since_refresh;
+    return inner_end::going_on;
+  }
+};
+
+/// CG_feas [K §3.3.4 (ii)]: ends where it would leave Λ, with a half step to the boundary.
+struct feasible_cg {
+  static constexpr bool stays_inside = true;
+
+  /// One step along −p.
+  template <class Set, class State, class S>
+  static inner_end advance(Set const& set, State& s, S const& noise) {
+    auto const step = step_within(set, s, noise);
+    if (step.end == feasible_step_end::minimum) return inner_end::going_on;
+    if (step.end == feasible_step_end::broken) return inner_end::broken;
+    bool const descent = is_descent(step.slope, s.directions.p, S(s.size_of_b + norm(s.r)));
+    if (step.flat && !descent) return inner_end::accurate;
+    if (step.end == feasible_step_end::endless) {
+      return step.flat ? inner_end::endless : inner_end::broken;
+    }
+    half_step(s, step);
+    return inner_end::boundary;
+  }
+};
+
+/// What the options of mssn, imssn and gimssn begin with.
+template <class Forcing>
+inline constexpr Forcing default_forcing{};
+/// The minimum on the face, for practical purposes.
+template <>
+inline constexpr fixed_forcing default_forcing<fixed_forcing>{.tolerance = 1e-8};
+/// [K] does not print r_tol and c_fact. Where discs slide there are hundreds of steps, after which
+/// c_fact^k, not the error, would decide: on bricks and wires with the proposal of [K §3.2.4], 0.1
+/// and 0.9, most products go into accuracy that nobody needs, ten times as many at worst.
+template <>
+inline constexpr adaptive_precision default_forcing<adaptive_precision>{.r_tol = 0.5,
+                                                                        .c_fact = 0.999};
+
+/// The inner iterations end at ‖φ‖ ≤ η err^(0) [K (3.1°)] for the adaptive precision of the
+/// documents, whose η falls with err^(k)/err^(0); at ‖φ‖ ≤ η err^(k) for all other rules.
+template <class Forcing, class S>
+[[nodiscard]] S inner_accuracy(Forcing const&, S const& η, forcing_history<S> const& h) {
+  return η * (std::is_same_v<Forcing, adaptive_precision> ? h.first_error : h.error);
+}
+
+// --- options -------------------------------------------------------------------------------------
+//
+// The parameters of MSSN, IMSSN and GIMSSN.
+
+/// Options of mssn, imssn and gimssn. Forcing is a rule of newton/forcing.hpp.
+template <class S, class Forcing>
+struct modified_newton_options {
+  Forcing forcing = default_forcing<Forcing>;  ///< how accurately q is minimised on a face
+  std::optional<S> step_length{};  ///< ρ > 0 of z = λ − ρ r; not given: β / σ_max
+  S step_factor = S(1.9);          ///< β > 0; below 2 for gimssn, whose descent it guarantees
+  index max_inner = 1000;          ///< inner iterations a step at most
+  index refresh = 50;              ///< inner iterations after which a step computes r anew even
+                                   ///< where it could be kept; 0: never
+  index patience = 100;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
+  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    forcing.validate();
+    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
+      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
+    }
+    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
+      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
+    }
+    if (max_inner < 1) throw bad_input("max_inner", detail::show(max_inner), "a number >= 1");
+    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    spectrum.validate();
+  }
+};
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of MSSN, IMSSN and GIMSSN: everything that one step hands to the next, and all vectors
+// it works in.
+
+/// An iterate λ that has left Λ: the state's x is then P_Λ(λ).
+template <class V>
+struct outside_point {
+  V x;                      ///< λ
+  V r;                      ///< its gradient, in multiples of the state's unit
+  index since_refresh = 0;  ///< steps since r was computed from λ
+  bool in_use = false;      ///< false: λ is the state's x
+
+  explicit outside_point(V const& prototype)
+      : x(like(prototype, slant::local(prototype).size())),
+        r(like(prototype, slant::local(prototype).size())) {}
+};
+
+/// Methods that stay in Λ need none.
+struct never_outside {
+  template <class V>
+  explicit never_outside(V const&) {}
+};
+
+/// State of mssn, imssn and gimssn for a separable_qp of type QP and the inner iterations Inner.
+template <class QP, class Inner>
+struct modified_newton_state : gradient_point<QP> {
+  using typename gradient_point<QP>::vector_type;
+  using typename gradient_point<QP>::scalar;
+  using outside_type =
+      std::conditional_t<Inner::stays_inside, never_outside, outside_point<vector_type>>;
+
+  vector_type φ;                                 ///< r on the face; between steps scratch
+  conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
+  outside_type outside;                          ///< λ, where it is not x
+  recession_watch<vector_type> recession;        ///< looks for descent without end
+  progress_watch<scalar> progress;               ///< looks for steps that get nowhere
+  face_t<typename QP::set_type, local_t<vector_type>> face;  ///< of the last step; free blocks: 𝒜
+
+  forcing_history<scalar> forcing{};  ///< err^(k), err^(0), and the last tolerance η
+  scalar σ{0};                        ///< σ_max to a few digits; known if ρ was not given
+  index inner_iterations = 0;         ///< of the last step; those of all steps are in work
+  inner_end last_inner = inner_end::going_on;  ///< how they ended
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  modified_newton_state(QP const& qp, vector_type const& x0)
+      : gradient_point<QP>(qp, x0),
+        φ(like(x0, qp.size())),
+        directions(x0),
+        outside(x0),
+        recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the reduced gradient vanishes";
+      case slant::status::unbounded:
+        return "the function decreases for ever along a direction of the set";
+      case slant::status::stalled:
+        return stagnation() + ": " + this->accuracy();
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or A is not positive definite on a face";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+
+ private:
+  [[nodiscard, gnu::cold]] std::string stagnation() const {
+    if (last_inner == inner_end::endless) {
+      return "along a direction that does not leave the set the curvature is lost in rounding "
+             "errors";
+    }
+    return std::string("neither the reduced gradient nor the function falls any more; the ") +
+           (last_inner == inner_end::limit ? "inner iterations end at their limit"
+                                           : "active sets may recur");
+  }
+};
+
+// --- problem -------------------------------------------------------------------------------------
+//
+// What MSSN, IMSSN and GIMSSN ask of their problem, and the answer to one that lacks something.
+
+namespace detail {
+
+template <class QP, class Inner, class Forcing>
+using refused_modified_newton =
+    refused_method<typename QP::vector_type, modified_newton_state<QP, Inner>,
+                   modified_newton_options<typename QP::scalar, Forcing>>;
+
+}  // namespace detail
+
+/// A problem that lacks something ends here; see problems/quadratic_program.hpp. The
+/// method itself is in this file.
+template <class QP, class Start, class Inner, class Forcing>
+class modified_newton
+    : public detail::refused_modified_newton<std::remove_cvref_t<QP>, Inner, Forcing> {
+ public:
+  using modified_newton::refused_method::refused_method;
+};
+
+/// No problem at all.
+template <class QP, class Start, class Inner, class Forcing>
+  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
+           !detail::was_refused<std::remove_cvref_t<QP>>)
+class modified_newton<QP, Start, Inner, Forcing> : public detail::refused_method<void, void> {
+ public:
+  using modified_newton::refused_method::refused_method;
+};
+
+// --- method --------------------------------------------------------------------------------------
+
+/// The frame of mssn, imssn and gimssn. Start and Inner are parts of section parts,
 /// Forcing is a rule of newton/forcing.hpp. Requires: psd_operator (A positive definite on the
 /// faces that occur) and separable_set with step_to_boundary.
 template <class QP, class Start, class Inner, class Forcing>

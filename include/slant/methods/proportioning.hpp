@@ -12,18 +12,150 @@
 //                                q or the boundary of Λ
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector_algebra.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
-#include <slant/krylov/gradient_step.hpp>
-#include <slant/methods/kprgp_options.hpp>
-#include <slant/methods/kprgp_problem.hpp>
-#include <slant/methods/kprgp_state.hpp>
-#include <slant/methods/separable_qp.hpp>
+#include <slant/krylov/spectral_bound.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
+#include <slant/methods/parts/recession.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/problems/separable_qp.hpp>
+#include <slant/sets/face.hpp>
 
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+//
+// The parameters of KPRGP.
+
+/// Which blocks count as free when a face is chosen.
+enum class active_set_rule : unsigned char {
+  boundary,  ///< those in which x is not on the boundary: f_i < 0 [K §3.1.1]
+  semismooth  ///< those in which P_Λ(x − α̃ r) is not: the sets of semismooth Newton [K (60), (61)]
+};
+
+/// Options of kprgp.
+template <class S>
+struct kprgp_options {
+  S proportioning = S(1);  ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
+  std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectral_bound.hpp
+  S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
+  active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
+  bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
+  index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
+  index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
+  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    if (!(proportioning > S(0)) || !detail::is_finite(proportioning)) {
+      throw bad_input("proportioning", detail::show(proportioning), "a number > 0");
+    }
+    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
+      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
+    }
+    if (!(step_factor > S(0) && step_factor < S(2))) {
+      throw bad_input("step_factor", detail::show(step_factor), "a number in (0, 2)");
+    }
+    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    spectrum.validate();
+  }
+};
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of KPRGP, QPQ and QPC: everything that one step hands to the next, and all vectors it
+// works in.
+
+/// The three steps of KPRGP, QPQ and QPC.
+enum class kprgp_step : unsigned char { conjugate_gradient, expansion, proportioning };
+
+/// State of kprgp, qpq and qpc for a separable_qp of type QP.
+template <class QP>
+struct kprgp_state : gradient_point<QP> {
+  using typename gradient_point<QP>::vector_type;
+  using typename gradient_point<QP>::scalar;
+
+  vector_type φ;                                 ///< free gradient; between steps scratch
+  conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
+  recession_watch<vector_type> recession;        ///< looks for descent without end
+  progress_watch<scalar> progress;               ///< looks for steps that get nowhere
+  face_t<typename QP::set_type, local_t<vector_type>> face;  ///< that of x at the last restart
+
+  scalar φr{0};  ///< φ̃ᵀr / unit², what the free set can still gain; of qpq and qpc: ‖φ‖² / unit²
+  scalar βr{0};  ///< β̃ᵀr / unit², what the active set can still gain; of qpq and qpc: ‖β‖² / unit²
+  scalar φr_at_restart{0};  ///< φr when the face was chosen
+  scalar σ{0};              ///< σ_max to a few digits; known if A is not declared definite
+  bool no_minimum = false;  ///< ended by a direction along which q has no minimum in floating point
+  kprgp_step last_step = kprgp_step::conjugate_gradient;
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  kprgp_state(QP const& qp, vector_type const& x0)
+      : gradient_point<QP>(qp, x0),
+        φ(like(x0, qp.size())),
+        directions(x0),
+        recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the reduced gradient vanishes";
+      case slant::status::unbounded:
+        return "the function decreases for ever along a direction of the set";
+      case slant::status::stalled:
+        return (no_minimum
+                    ? "along a direction that does not leave the set the curvature is lost "
+                      "in rounding errors: "
+                    : "neither the reduced gradient nor the function has fallen any more: ") +
+               this->accuracy();
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or A is not positive semidefinite";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+// --- refusal -------------------------------------------------------------------------------------
+
+namespace detail {
+
+template <class QP, class Rule>
+using refused_proportioning = refused_method<typename QP::vector_type, kprgp_state<QP>,
+                                             typename Rule::template options<typename QP::scalar>>;
+
+}  // namespace detail
+
+/// A problem that lacks something ends here; see problems/quadratic_program.hpp. The
+/// method itself is in this file.
+template <class QP, class Rule>
+class proportioning : public detail::refused_proportioning<std::remove_cvref_t<QP>, Rule> {
+ public:
+  using proportioning::refused_method::refused_method;
+};
+
+/// No problem at all.
+template <class QP, class Rule>
+  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
+           !detail::was_refused<std::remove_cvref_t<QP>>)
+class proportioning<QP, Rule> : public detail::refused_method<void, void> {
+ public:
+  using proportioning::refused_method::refused_method;
+};
+
+// --- method --------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -289,8 +421,8 @@ bool proportioning_steps<QP, Rule>::refresh(state_type& s) const {
 
 }  // namespace detail
 
-/// Active set method with a rule of release_rules.hpp. Requires: psd_operator (A symmetric positive
-/// semidefinite) and separable_set with step_to_boundary.
+/// Active set method with a rule of parts/release_rules.hpp. Requires: psd_operator (A symmetric
+/// positive semidefinite) and separable_set with step_to_boundary.
 template <class QP, class Rule>
   requires kprgp_problem<std::remove_cvref_t<QP>>
 class proportioning<QP, Rule> : public detail::proportioning_steps<QP, Rule> {

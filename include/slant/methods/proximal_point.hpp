@@ -13,11 +13,11 @@
 // find it the most robust method at high accuracy).
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/iteration/report.hpp>
 
 #include <algorithm>
 #include <concepts>

@@ -16,7 +16,7 @@
 // definite.
 #pragma once
 
-#include <slant/methods/barrier.hpp>
+#include <slant/methods/parts/barrier.hpp>
 #include <slant/operators/adjoint.hpp>
 #include <slant/operators/block.hpp>
 #include <slant/operators/declare.hpp>

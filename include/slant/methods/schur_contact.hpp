@@ -38,25 +38,339 @@
 // run; how one is told from a direction of small curvature is in krylov/flat_direction.hpp.
 //
 // Rows leave in any number. More than one at a time enter by a search along the boundary, see
-// projected_search.hpp.
+// section projected search.
 #pragma once
 
-#include <slant/concepts/distributed.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/base/scaling.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/krylov/unit.hpp>
-#include <slant/methods/detail/moved_rows.hpp>
-#include <slant/methods/detail/schur_contact_kernel.hpp>
-#include <slant/methods/detail/schur_contact_parts.hpp>
-#include <slant/methods/projected_search.hpp>
-#include <slant/methods/schur_contact_options.hpp>
-#include <slant/methods/schur_contact_state.hpp>
+#include <slant/krylov/conjugate_directions.hpp>
+#include <slant/krylov/flat_direction.hpp>
+#include <slant/methods/parts/active_rows.hpp>
+#include <slant/problems/polyhedral_qp.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+//
+// Options of the Schur complement contact algorithm.
+
+/// Options of schur_contact.
+template <scalar S = double>
+struct schur_contact_options {
+  /// Γ ≥ 0 in the test of the residuum [D (ix)]: rows are released where ‖φ‖ ≤ Γ ‖β‖, φ = V Vᵀr
+  /// what the face can still gain and β what releasing rows can. 0: only where φ = 0 up to
+  /// rounding, as the paper has it. Measured on stacks of bricks: ½ and 1 alike, 0 three to four
+  /// times the steps.
+  S release = S(0.5);
+  /// Points P(u + t q), t = α, α/2, …, that are tried where the step to the minimum along q leaves
+  /// the set, before the step to the first constraint. Each costs one product and one application
+  /// of Q. 0: the paper's update, by one index as a rule. Measured on stacks of bricks with gaps: 1
+  /// and 3 alike, half of the products and a sixth of the changes of J that 0 needs; without gaps
+  /// no difference.
+  index projected_trials = 1;
+  index patience = 1000;  ///< steps in which neither the residual nor the energy falls: stalled
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    if (!(release >= S(0)) || !detail::is_finite(release)) {
+      throw bad_input("release", detail::show(release), "a number >= 0");
+    }
+    if (projected_trials < 0) {
+      throw bad_input("projected_trials", detail::show(projected_trials), "a number >= 0");
+    }
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+  }
+};
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of the Schur complement contact algorithm.
+
+/// What the last step did: a conjugate gradient step to the minimum along q, one to the first
+/// constraint, or one beyond it along the boundary. Rows may have been released before it.
+enum class schur_contact_step : unsigned char { none, conjugate_gradient, blocked, projected };
+
+/// Why a run has ended as stalled or with a breakdown.
+enum class schur_contact_trouble : unsigned char { none, precision, patience, moved_row };
+
+/// State of schur_contact for a polyhedral_qp of type P.
+template <class P>
+struct schur_contact_state {
+  using vector_type = typename P::vector_type;
+  using scalar = typename P::scalar;
+  using row_vector = typename constraint_rows<scalar>::vector_type;
+  static constexpr bool definite = declares_positive_definite<typename P::operator_type>;
+
+  vector_type x;                                 ///< u, with B u ≤ c
+  vector_type r;                                 ///< f − K u, in multiples of unit
+  vector_type φ;                                 ///< V Vᵀr
+  vector_type d;                                 ///< r − Bᵀλ, the projected gradient, as r
+  vector_type trial;                             ///< scratch
+  vector_type correction;                        ///< scratch
+  vector_type descent;                           ///< direction without end, if unbounded
+  row_vector λ;                                  ///< multipliers, see multipliers()
+  row_vector row_units;                          ///< in which the rows of B are kept
+  row_slacks<scalar> rows;                       ///< c − B u and J
+  projected_directions<vector_type> directions;  ///< p, q = Q p, K q, qᵀKq
+  workspace_t<typename P::operator_type, vector_type> k_workspace;
+  workspace_t<typename P::projector_type, vector_type> q_workspace;
+  slant::work work{};
+  flat_direction<vector_type, definite> flat;  ///< tells directions of the kernel of K
+  progress_watch<scalar> progress;             ///< looks for steps that get nowhere
+
+  scalar unit{1};            ///< a power of two, see base/scaling.hpp
+  scalar residual_norm{0};   ///< ‖d‖, zero exactly at a solution
+  scalar residual_scale{0};  ///< ‖f‖, or ‖K u₀‖ if f = 0
+  scalar φ_norm{0};          ///< ‖φ‖ / unit
+  scalar β_norm{0};          ///< ‖d − φ‖ / unit
+  bool regular = false;      ///< K has no kernel on this face
+  bool updated = false;      ///< x has moved since slacks were measured at it
+
+  scalar computed_norm = std::numeric_limits<scalar>::infinity();  ///< when it last seemed stalled
+  schur_contact_trouble trouble = schur_contact_trouble::none;     ///< see reason()
+
+  index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
+  index releases = 0;                ///< how often rows were released
+  schur_contact_step last_step = schur_contact_step::none;
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  schur_contact_state(P const& p, vector_type const& x0)
+      : x(x0),
+        r(like(x0, p.size())),
+        φ(r),
+        d(r),
+        trial(r),
+        correction(r),
+        descent(r),
+        λ(row_vector::Zero(p.rows().count())),
+        row_units(p.rows().units()),
+        rows(p.rows()),
+        directions(x0),
+        k_workspace(workspace(p.k(), x0)),
+        q_workspace(workspace(p.projection(), x0)),
+        flat(p.k(), x0, work.setup_applications) {
+    vectors::set_zero(descent);
+  }
+
+  /// The Lagrange multipliers of B u ≤ c, ≥ 0: forces. In λ they are in multiples of unit, and
+  /// belong to the rows of B in the units of those.
+  [[nodiscard]] row_vector multipliers() const { return unit * λ.cwiseQuotient(row_units); }
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the residual vanishes and no multiplier is negative";
+      case slant::status::unbounded:
+        return "no solution: the energy falls for ever along `descent`";
+      case slant::status::stalled:
+        if (trouble == schur_contact_trouble::patience) {
+          return "neither the residual nor the energy has fallen any more";
+        }
+        return "rounding errors leave no direction in which the energy falls";
+      case slant::status::breakdown:
+        if (trouble == schur_contact_trouble::moved_row) {
+          return "the projector moves a row of B: it is not that of a U with B U = 0";
+        }
+        return "a number left the range of the scalar, or K is not positive semidefinite";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+}  // namespace slant
+
+namespace slant::detail {
+
+// --- parts ---------------------------------------------------------------------------------------
+//
+// Parts C and D of the Schur complement contact algorithm [D §5]: the residual, and what the active
+// set makes of it.
+
+/// (vii).
+template <class P>
+void compute_residual(P const& p, schur_contact_state<P>& s) {
+  using scalar = typename P::scalar;
+  slant::apply(p.k(), s.x, s.r, s.k_workspace);
+  ++s.work.operator_applications;
+  vectors::difference(p.f(), s.r, s.r);
+  vectors::scale(scalar(1) / s.unit, s.r);
+}
+/// (vi), (vii).
+template <class P>
+void minimise_inside(P const& p, schur_contact_state<P>& s) {
+  p.projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
+  ++s.projector_applications;
+  compute_residual(p, s);
+}
+/// (viii), (x): φ, d, λ of r, and what follows from them for the status.
+template <class P>
+void note_contact_residual(P const& p, schur_contact_state<P>& s) {
+  using scalar = typename P::scalar;
+  auto const& rows = p.rows();
+  s.rows.active.project_on_kernel(rows, s.r, s.φ);
+  s.rows.active.project_on_cone(rows, s.r, s.d, s.λ);
+  // What both are differences of has rounding errors of this size; along such a φ, which is in no
+  // kernel, a step can be long.
+  scalar const zero = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(s.r);
+  s.φ_norm = norm(s.φ);
+  if (s.φ_norm <= zero) {
+    vectors::set_zero(s.φ);
+    s.φ_norm = scalar(0);
+  }
+  scalar const size = norm(s.d);
+  s.residual_norm = s.unit * size;
+  vectors::difference(s.d, s.φ, s.trial);
+  s.β_norm = size > zero ? norm(s.trial) : scalar(0);
+  if (size <= zero) s.status = status::converged;
+  if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+}
+
+/// Slacks, J and r of s.x from s.x alone. What rounding errors of iterates far away have made of it
+/// is put right: rows that are violated by more than those of x itself, or that have left their
+/// bound while they were in J. u is minimised over U again if `inside`, and
+/// where that has moved x.
+template <class P>
+void measure_anew(P const& p, schur_contact_state<P>& s, bool inside) {
+  s.updated = false;
+  s.directions.live = false;
+  s.rows.forget();
+  s.rows.measure(p.rows(), s.x);
+  bool const sound = everywhere(s.x, s.rows.is_feasible() && s.rows.are_tight(p.rows(), s.x));
+  if (!sound) {
+    (void)s.rows.active.project_on_set(p.rows(), s.x, s.λ);
+    s.rows.measure(p.rows(), s.x);
+    s.rows.take_tight(p.rows());
+    s.regular = false;
+  }
+  compute_residual(p, s);
+  note_contact_residual(p, s);
+  if (sound && !inside) return;
+  minimise_inside(p, s);
+  note_contact_residual(p, s);
+}
+
+// --- kernel --------------------------------------------------------------------------------------
+//
+// Where the Schur complement contact algorithm cannot go on by conjugate gradients: directions of
+// the kernel of K, and progress that has ended.
+
+/// Replaces q by a direction of the kernel near it in which j falls, if there is one.
+template <class P>
+bool finds_kernel(P const& p, schur_contact_state<P>& s) {
+  using scalar = typename P::scalar;
+  auto& q = s.directions;
+  kernel_projector<scalar> const c(p.rows(), s.rows.active);
+  no_workspace none;
+  auto const search = s.flat.split(q, p.k(), s.k_workspace, c, none, p.projection(), s.q_workspace,
+                                   global_size(s.x));
+  s.work.operator_applications += search.products;
+  s.projector_applications += search.projections;
+  s.regular = true;  // until a row leaves
+  if (!search.found) return false;
+  scalar const slope = inner_product(s.r, q.q);
+  scalar const size = (s.residual_scale + s.flat.force(s.x)) / s.unit;
+  using std::abs;
+  if (!is_descent(scalar(abs(slope)), q.q, size)) {
+    s.flat.restore(q);
+    return false;
+  }
+  q.live = false;
+  s.regular = false;
+  if (slope >= scalar(0)) return true;
+  vectors::scale(scalar(-1), q.q);
+  vectors::scale(scalar(-1), q.Ap);
+  return true;
+}
+
+/// Stalled if neither the residual nor the energy has fallen for `patience` steps.
+template <class P>
+void note_progress(P const& p, schur_contact_state<P>& s, index patience) {
+  using scalar = typename P::scalar;
+  auto const energy = [&] {
+    scalar const of_load = inner_product(p.f(), s.x);
+    scalar const of_rest = s.unit * inner_product(s.r, s.x);
+    using std::abs;
+    return std::pair(
+        scalar(-(of_load + of_rest) / scalar(2)),
+        scalar(scalar(8) * std::numeric_limits<scalar>::epsilon() * (abs(of_load) + abs(of_rest))));
+  };
+  if (s.progress.stalled(s.iteration, s.residual_norm, patience, energy)) {
+    s.trouble = schur_contact_trouble::patience;
+    s.status = status::stalled;
+  }
+}
+
+}  // namespace slant::detail
+
+namespace slant {
+
+// --- projected search ----------------------------------------------------------------------------
+//
+// More than one row at a time [D §6; Calamai, Moré 1987]: where the step α to the minimum along q
+// leaves B u ≤ c, the points
+//
+//     P(u + t q),   t = α, α/2, … > α₁,     P onto { B u ≤ c },
+//
+// are tried before the step α₁ to the first constraint. P changes no unknown of U, which follow by
+// Q: with e = P(u + t q) − (u + t q) the trial point is u + t q + Q e, and its residual r − t K q −
+// K Q e is again orthogonal to U. It is taken if j falls by as much as it would with α₁, and if no
+// row of J has left its bound: J then grows, as it does with α₁, and what is known of the finite
+// termination remains. One product and one application of Q for each. Directions that are flat to
+// half of the digits are not followed so far.
+
+/// Moves s to the first trial point that is good enough, with its r and J; false if there is none.
+template <class P>
+[[nodiscard]] bool projected_search(P const& p, schur_contact_state<P>& s, index trials,
+                                    typename P::scalar const& α, typename P::scalar const& α1) {
+  using scalar = typename P::scalar;
+  auto const& q = s.directions;
+  if (trials == 0 || s.flat.is_nearly_flat(q)) return false;
+  scalar const gain = α1 * (inner_product(s.r, q.q) - α1 * q.curvature / scalar(2));
+  scalar t = α;
+  for (index i = 0; i < trials && t > α1; ++i, t /= scalar(2)) {
+    vectors::waxpy(s.unit * t, q.q, s.x, s.trial);
+    vectors::copy(s.trial, s.d);
+    s.rows.note_sizes(p.rows(), s.trial);
+    (void)s.rows.active.project_on_set(p.rows(), s.trial, s.λ);
+    if (!everywhere(s.x, s.rows.are_tight(p.rows(), s.trial))) continue;
+    vectors::difference(s.trial, s.d, s.d);
+    vectors::scale(scalar(1) / s.unit, s.d);
+    slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
+    slant::apply(p.k(), s.correction, s.d, s.k_workspace);
+    ++s.work.operator_applications;
+    ++s.projector_applications;
+    vectors::axpy(t, q.q, s.correction);
+    vectors::difference(s.r, s.d, s.d);
+    vectors::axpy(-t, q.Ap, s.d);
+    vectors::sum(s.r, s.d, s.trial);
+    if (!(inner_product(s.correction, s.trial) / scalar(2) >= gain)) continue;
+    vectors::axpy(s.unit, s.correction, s.x);
+    vectors::copy(s.d, s.r);
+    s.updated = true;
+    s.rows.measure(p.rows(), s.x);
+    s.rows.take_tight(p.rows());
+    s.directions.live = false;
+    s.last_step = schur_contact_step::projected;
+    return true;
+  }
+  return false;
+}
+
+// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(schur_contact{problem}, u0, residual_below(1e-10) ||
 /// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d

@@ -20,23 +20,387 @@
 // constrained_newton is the method to use; it falls back on this one.
 //
 // Rows of G need not be orthonormal: they enter by the projectors Q onto range Gᵀ and P = I − Q
-// only, see methods/augmented_problem.hpp, and ‖Q x − x̄‖, the distance of x from { G x = e },
+// only, see problems/augmented_problem.hpp, and ‖Q x − x̄‖, the distance of x from { G x = e },
 // stands for ‖G x − e‖.
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/spectral_bound.hpp>
-#include <slant/methods/smalse_core.hpp>
-#include <slant/methods/smalse_options.hpp>
-#include <slant/methods/smalse_problem.hpp>
-#include <slant/methods/smalse_state.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/proportioning.hpp>
+#include <slant/problems/augmented_problem.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+//
+// Options of SMALSE-M.
+
+/// Options of smalse.
+template <class S = double>
+struct smalse_options {
+  /// ρ in multiples of σ_max(P A P); it does not grow. Measured with Total-FETI on bricks: 4 halves
+  /// the outer steps and doubles the products of KPRGP.
+  S penalty = S(1);
+  /// M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖. Of 0.3, 1 and 5 the first took
+  /// the least products, down to half of those of the last.
+  S balance = S(0.3);
+  S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
+  S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
+  index inner_steps = 5000;  ///< of one inner problem at most
+  index patience = 30;       ///< outer steps in which the error does not fall that mean stalled
+  spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
+  kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    require_positive("penalty", penalty);
+    require_positive("balance", balance);
+    require_positive("precision", precision);
+    if (!(shrink > S(0) && shrink < S(1))) {
+      throw bad_input("shrink", detail::show(shrink), "a number in (0, 1)");
+    }
+    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
+    if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
+    spectrum.validate();
+    inner.validate();
+  }
+
+ private:
+  static void require_positive(char const* name, S const& value) {
+    if (!(value > S(0)) || !detail::is_finite(value)) {
+      throw bad_input(name, detail::show(value), "a finite number > 0");
+    }
+  }
+};
+
+}  // namespace slant
+
+namespace slant::detail {
+
+// --- reason with equalities ----------------------------------------------------------------------
+//
+// What the statuses of methods for problems with equality constraints mean.
+
+/// `infeasible`: no point of Λ satisfies G x = e, which has been shown.
+[[nodiscard, gnu::cold]] inline std::string reason_with_equalities(slant::status end,
+                                                                   bool infeasible) {
+  switch (end) {
+    case slant::status::converged:
+      return "the reduced gradient and the residual of the equality constraints vanish";
+    case slant::status::stalled:
+      return infeasible ? "no point of the set satisfies the equality constraints"
+                        : "neither the reduced gradient nor the residual of the equality "
+                          "constraints falls any further at this precision";
+    case slant::status::unbounded:
+      return "the function decreases for ever along a direction of the set";
+    case slant::status::breakdown:
+      return "a number left the range of the scalar, or A is not positive semidefinite";
+    default:
+      return std::string(to_string(end));
+  }
+}
+
+}  // namespace slant::detail
+
+namespace slant {
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of SMALSE-M.
+
+namespace detail {
+
+/// The inner problem: its operator is owned, its linear term and set are referenced.
+template <class QP, class C>
+using augmented_qp = separable_qp<decltype(slant::augmented_hessian(
+                                      std::declval<typename QP::operator_type const&>(),
+                                      std::declval<C const&>(), typename QP::scalar(1))),
+                                  typename QP::vector_type const&, typename QP::set_type const&>;
+
+}  // namespace detail
+
+/// State of smalse for a separable_qp of type QP and constraints C.
+template <class QP, class C>
+struct smalse_state {
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+  using inner_state = kprgp_state<detail::augmented_qp<QP, C>>;
+
+  vector_type x;            ///< in Λ; close to the affine space
+  vector_type ν;            ///< Gᵀμ, the multiplier of G x = e, a gradient
+  vector_type projected_b;  ///< P (b − A x̄)
+  vector_type b;            ///< linear term of the last inner problem
+  vector_type offset;       ///< Q x − x̄
+  inner_state inner;        ///< of the method for L(·, ν, ρ); its r, r̃ belong to b
+  workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace;
+
+  scalar σ{1};           ///< σ_max(P A P), from above
+  scalar ρ{1};           ///< penalty
+  scalar M{1};           ///< inner problems are solved until ‖r̃‖ ≤ M ‖Q x − x̄‖
+  scalar η{0};           ///< and ‖r̃‖ ≤ η
+  scalar lagrangian{0};  ///< L(x, ν, ρ) of the last inner problem, in units of inner.unit
+  scalar feasibility_norm{0};   ///< ‖Q x − x̄‖, distance of x from the affine space
+  scalar feasibility_scale{0};  ///< max(‖x̄‖, ‖x‖)
+  scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of L(·, ν, 0) with the new ν: of A x − b + ν on ker G
+  scalar gradient_scale{0};    ///< min(‖P (b − A x̄)‖, ρ feasibility_scale), see step
+  scalar load{0};              ///< ‖P (b − A x̄)‖
+  index inner_iterations = 0;  ///< of the last outer step
+  index iteration = 0;         ///< outer steps: updates of ν
+  slant::status status = slant::status::running;
+  slant::work work{};
+
+  progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  bool resumed = true;                ///< the inner method has been told of ν already
+  bool comparable = false;            ///< L may be compared with that of the step before
+  bool infeasible = false;            ///< no point of Λ satisfies G x = e, which has been shown
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    return detail::reason_with_equalities(status, infeasible);
+  }
+};
+
+// --- problem -------------------------------------------------------------------------------------
+//
+// What smalse asks of its problem, and the answer to arguments that lack something.
+
+/// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for kprgp, and an affine space.
+template <class QP, class C>
+concept smalse_problem = kprgp_problem<QP> && affine_space<C, typename QP::vector_type>;
+
+/// Arguments that lack something end here and are told so; see base/diagnosis.hpp. The
+/// method itself is in this file.
+template <class QP, class C>
+class smalse : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+  using problem = std::remove_cvref_t<QP>;
+  using vector_type = typename problem::vector_type;
+  using a = detail::questions_about<typename problem::operator_type, vector_type>;
+  static constexpr bool good_problem = kprgp_problem<problem>;
+
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "smalse: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
+                "smalse: a part of A cannot be used on vectors like b");
+  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
+                "smalse: A must declare that it is self-adjoint and positive semidefinite");
+  static_assert(active_set_domain<typename problem::set_type, local_t<vector_type>>,
+                "smalse: the set must be made of blocks with state(x) and step_to_boundary(x, d)");
+  static_assert(!good_problem || affine_space<std::remove_cvref_t<C>, vector_type>,
+                "smalse: the constraints must be equality_constraints of vectors like b");
+
+ public:
+  using smalse::refused_method::refused_method;
+};
+
+/// A problem that was told so already.
+template <class QP, class C>
+  requires detail::was_refused<std::remove_cvref_t<QP>>
+class smalse<QP, C> : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+ public:
+  using smalse::refused_method::refused_method;
+};
+
+/// No problem at all.
+template <class QP, class C>
+  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
+           !detail::was_refused<std::remove_cvref_t<QP>>)
+class smalse<QP, C> : public detail::refused_method<void, void> {
+  static_assert(quadratic_program<std::remove_cvref_t<QP>>, "smalse: expected a separable_qp");
+
+ public:
+  using smalse::refused_method::refused_method;
+};
+
+template <class QP, class C>
+smalse(QP&&, C&&) -> smalse<kept_t<QP>, kept_t<C>>;
+template <class QP, class C>
+smalse(QP&&, C&&, smalse_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> smalse<kept_t<QP>, kept_t<C>>;
+
+}  // namespace slant
+
+namespace slant::detail {
+
+// --- separation ----------------------------------------------------------------------------------
+//
+// Does a plane separate the set Λ from the affine space { Q x = x̄ }? Every point z of the space has
+// wᵀz = wᵀx̄ if w ∈ range Q; so none is in Λ if wᵀy > wᵀx̄ for all y ∈ Λ. The least value of wᵀy is
+// approached by
+//
+//     y(t) = P_Λ(x − t w),     t = 1, 2, 4, …,
+//
+// the minimisers of wᵀy + ‖y − x‖²/(2t), for w = Q x − x̄, the way from the space to x. The answer
+// is yes only if the plane lies between the space and all y(t) until y(t) stays where it is, or up
+// to t = 2⁴⁰: no point of Λ within that many times the distance ‖w‖ is in the space then.
+//
+// The right w is the one at the point of Λ next to the space, which minimises ½ ‖Q x − x̄‖² over Λ:
+// accelerated projected gradients find it, at the price of a projection onto both a step.
+
+/// y and projected are scratch of the size of x. Mostly the first few t say no.
+template <class Set, class V>
+[[nodiscard]] bool separates(Set const& set, V const& x, V const& w, V const& nearest, V& y,
+                             V& projected) {
+  using S = scalar_t<V>;
+  S const distance = norm(w);
+  S last = std::numeric_limits<S>::infinity();
+  S t(1);
+  for (int k = 0; k <= 40; ++k, t *= S(2)) {
+    vectors::waxpy(-t, w, x, y);
+    slant::project(set, slant::local(y), slant::local(projected));
+    vectors::difference(projected, nearest, y);
+    vectors::scale(S(1) / distance, y);
+    S const size = distance * norm(y);
+    S const height = inner_product(w, y);
+    if (!(height > S(256) * std::numeric_limits<S>::epsilon() * size)) return false;
+    vectors::difference(projected, x, y);
+    S const moved = norm(y);
+    if (moved == last) return true;
+    last = moved;
+  }
+  return true;
+}
+
+/// Is it shown that no point of Λ is in the space c? Starts at x. Allocates.
+template <class Set, class C, class V>
+[[nodiscard]] bool is_apart(Set const& set, C const& c, V const& x) {
+  using S = scalar_t<V>;
+  V point = x, last = x, ahead = x, w = x, y = x, projected = x;
+  auto const Q = c.range_projector();
+  S shortest = std::numeric_limits<S>::infinity();
+  index momentum = 0;
+  for (index k = 1; k <= 4096; ++k) {
+    slant::apply(Q, ahead, w);
+    vectors::subtract(c.nearest(), w);
+    vectors::difference(ahead, w, y);
+    std::swap(last, point);
+    slant::project(set, slant::local(y), slant::local(point));
+    slant::apply(Q, point, w);
+    vectors::subtract(c.nearest(), w);
+    S const distance = norm(w);
+    using std::sqrt;
+    if (!(distance > sqrt(std::numeric_limits<S>::epsilon()) * norm(point))) return false;
+    if ((k & (k - 1)) == 0 && separates(set, point, w, c.nearest(), y, projected)) return true;
+    momentum = distance > shortest ? 0 : momentum + 1;
+    shortest = std::min(shortest, distance);
+    S const factor = S(static_cast<double>(momentum)) / S(static_cast<double>(momentum + 3));
+    slant::local(ahead) = slant::local(point) + factor * (slant::local(point) - slant::local(last));
+  }
+  return false;
+}
+
+// --- steps ---------------------------------------------------------------------------------------
+//
+// What smalse needs besides its steps (1°) to (3°): the inner problems, what rules look at, and the
+// judgement of progress.
+
+/// Problem, constraints and options of smalse; symbols as in this file.
+template <class QP, class C>
+class smalse_core {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using constraints = std::remove_cvref_t<C>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = smalse_options<scalar>;
+  using state_type = smalse_state<problem, constraints>;
+
+  smalse_core(held<QP> qp, held<C> c, options o)
+      : qp_(std::move(qp)), constraints_(std::move(c)), options_(std::move(o)) {
+    check_size("columns of G", index(constraints_.get().size()), qp_.get().size(),
+               "the size of b,");
+    options_.validate();
+  }
+
+ protected:
+  using inner_qp = augmented_qp<problem, constraints>;
+
+  /// min L(·, ν, ρ) over Λ; refers to b.
+  [[nodiscard]] inner_qp augmented(vector_type const& b, scalar const& ρ) const {
+    return {augmented_hessian(qp_.get().a(), constraints_.get(), ρ), b, qp_.get().set()};
+  }
+  [[nodiscard]] auto inner_method(inner_qp const& qp, scalar const& σ) const {
+    auto own = options_.inner;
+    if (!own.step_length) own.step_length = own.step_factor / σ;
+    return kprgp<inner_qp const&>{qp, own};
+  }
+
+  void form_linear_term(state_type& s) const {
+    vectors::difference(s.projected_b, s.ν, s.b);
+    vectors::axpy(s.ρ, constraints_.get().nearest(), s.b);
+    if (!is_finite(norm(s.b))) s.status = status::breakdown;
+  }
+
+  /// The inner method at s.inner.x with the linear term s.b.
+  void restart(state_type& s) const {
+    auto const inner_problem = augmented(s.b, s.ρ);
+    inner_method(inner_problem, s.σ).resume(s.inner);
+    ++s.work.operator_applications;
+    s.resumed = true;
+  }
+
+  void measure_offset(state_type& s, vector_type const& x) const {
+    slant::apply(constraints_.get().range_projector(), x, s.offset, s.q_workspace);
+    vectors::subtract(constraints_.get().nearest(), s.offset);
+    s.feasibility_norm = norm(s.offset);
+  }
+
+  /// What rules look at.
+  void look(state_type& s) const {
+    vectors::copy(s.inner.x, s.x);
+    measure_offset(s, s.x);
+    s.feasibility_scale = std::max<scalar>(norm(constraints_.get().nearest()), norm(s.x));
+    s.gradient_scale = gradient_scale(s.load, s.ρ, s.feasibility_scale);
+    s.reduced_gradient_norm = s.inner.reduced_gradient_norm;
+    bool const solved = s.reduced_gradient_norm == scalar(0) && s.feasibility_norm == scalar(0);
+    if (solved) s.status = status::converged;
+    if (s.inner.status == status::unbounded || s.inner.status == status::breakdown) {
+      s.status = s.inner.status;
+    }
+    if (!is_finite(s.feasibility_norm)) s.status = status::breakdown;
+  }
+
+  /// In lengths, by a factor that does not change: x may be much larger on the way than at its end.
+  [[nodiscard]] static scalar error(state_type const& s) {
+    return std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
+  }
+
+  /// Infeasible constraints are recognised by a plane that separates them from Λ, and by nothing
+  /// else: where the two meet at a small angle, progress is as slow as if they did not.
+  void note_progress(state_type& s) const {
+    if (s.status != status::running) return;
+    if (!s.progress.stalled(s.iteration, error(s), options_.patience)) return;
+    s.status = status::stalled;
+    s.infeasible = is_apart(qp_.get().set(), constraints_.get(), s.x);
+  }
+
+  held<QP> qp_;
+  held<C> constraints_;
+  options options_;
+};
+
+}  // namespace slant::detail
+
+namespace slant {
+
+// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(smalse{qp, constraints}, x0, energy_error_below(1e-8,
 /// constrained_energy_certificate{qp, constraints}) || at_most(100)), or by residuals,

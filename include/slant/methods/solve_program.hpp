@@ -6,7 +6,7 @@
 //     auto const run = slant::solve(qp, M, 1e-8);      // with a preconditioner M ≈ A⁻¹
 //
 //     scale      blocks whose stiffness diag(A) differs by more than 64 become alike
-//     (equilibrated.hpp),
+//     (problems/equilibrated.hpp),
 //                where A gives its diagonal
 //     solve      symmetric_newton to a reduced gradient of a tenth of the tolerance
 //     certify    the energy error by energy_certificate; while that is too large, a smaller one
@@ -19,10 +19,10 @@
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/equilibrated.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/problems/equilibrated.hpp>
 
 #include <algorithm>
 #include <concepts>

@@ -17,20 +17,218 @@
 // semismooth_newton; the default method is another one.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/slanting_function.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/methods/estimated_multipliers.hpp>
-#include <slant/methods/separable_qp.hpp>
-#include <slant/methods/ssnm_options.hpp>
-#include <slant/methods/ssnm_problem.hpp>
-#include <slant/methods/ssnm_state.hpp>
+#include <slant/newton/direction.hpp>
+#include <slant/newton/forcing.hpp>
+#include <slant/newton/saddle_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/problems/separable_qp.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/slanting/inequality_jacobian.hpp>
+#include <slant/slanting/kkt_function.hpp>
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+//
+// The parameters of SSNM.
+
+/// Where the multipliers of SSNM begin.
+enum class ssnm_multipliers : unsigned char {
+  zero,      ///< z = 0, whatever x is
+  estimated  ///< those that x asks for, see estimated_multipliers
+};
+
+/// Options of ssnm.
+template <class S>
+struct ssnm_options {
+  /// ρ > 0 of [T (2.8)], in units of A for half lines and intervals, of A over length for balls:
+  /// the only place where the scale of A matters. [T] takes 1 with A = tridiag(−1, 2, −1).
+  S rho = S(1);
+  /// r_tol and c_fact of the adaptive precision [T §3.4]. Inner iterations of solvers that have any
+  /// end where their residual is below tol⁽ᵏ⁾ times ‖F(y)‖.
+  adaptive_precision precision{.r_tol = 0.01, .c_fact = 0.9};
+  /// Not the adaptive precision but this tolerance in all steps; 0: the adaptive one.
+  S inner_tolerance = S(0);
+  /// tol⁽ᵏ⁾ is absolute, in units of F, as in [T]; it then depends on the units of A and b.
+  bool absolute_precision = false;
+  ssnm_multipliers multipliers = ssnm_multipliers::zero;
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    if (!(rho > S(0)) || !detail::is_finite(rho)) {
+      throw bad_input("rho", detail::show(rho), "a number > 0");
+    }
+    precision.validate();
+    if (!(inner_tolerance >= S(0) && inner_tolerance < S(1))) {
+      throw bad_input("inner_tolerance", detail::show(inner_tolerance), "a number in [0, 1)");
+    }
+  }
+};
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of SSNM: everything that one step hands to the next, and all vectors it works in.
+
+/// State of ssnm for the function F, vectors V and a linear solver.
+template <class F, class V, class Solver>
+struct ssnm_state {
+  using scalar = scalar_t<V>;
+  using slant_type = slant_operator_t<F, V>;
+
+  V x;                                         ///< iterate
+  V multipliers;                               ///< z, one per inequality
+  V y;                                         ///< (x, z)
+  V residual;                                  ///< F(y)
+  V direction;                                 ///< dy of the last step
+  slant_type slant_operator;                   ///< F°(y)
+  workspace_t<F, V> f_workspace;               ///< temporaries of F
+  prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
+
+  scalar residual_norm{0};                                     ///< ‖F(y)‖
+  scalar residual_scale{0};                                    ///< ‖b‖
+  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖x⁺ − x‖ of the last step
+  scalar x_norm{0};                                            ///< ‖x‖
+  scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
+  forcing_history<scalar> forcing{};  ///< err, and tol of the last step
+
+  index inner_iterations = 0;  ///< of the linear solver in the last step
+  index active = 0;            ///< inequalities in 𝒜 at y
+  index iteration = 0;
+  slant::status status = slant::status::running;
+  slant::status solver_status = slant::status::running;  ///< how the last linear solve ended
+  slant::work work{};  ///< operator_applications: those of K⁻¹ in schur_bicgstab and schur_cg,
+                       ///< those of F° in bicgstab_solver; evaluations of F are `iteration` + 1
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the optimality conditions hold exactly";
+      case slant::status::breakdown:
+        return "the Newton system could not be solved (" + std::string(to_string(solver_status)) +
+               "): A + Σ z ∇²f is singular, or not definite where the solver needs it, or an "
+               "active "
+               "gradient vanishes or depends on others";
+      case slant::status::stalled:
+        return "no direction reduces ‖F‖ any more: it is down to rounding, or the inner iteration "
+               "stagnates (" +
+               std::string(to_string(solver_status)) + ")";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+// --- problem -------------------------------------------------------------------------------------
+//
+// What SSNM asks of its problem and of its linear solver, and the answer to those that lack
+// something.
+
+/// F of [T (2.11)] for a quadratic program, of which it refers to A and the set.
+template <quadratic_program QP>
+using ssnm_function = kkt_function<typename QP::operator_type const&, typename QP::vector_type,
+                                   typename QP::set_type const&>;
+
+/// A quadratic program, and a linear solver for its F°.
+template <class QP, class LinearSolver>
+concept ssnm_parts =
+    quadratic_program<QP> && !detail::was_refused<QP> &&
+    direction_solver<LinearSolver, slant_operator_t<ssnm_function<QP>, typename QP::vector_type>,
+                     typename QP::vector_type>;
+
+/// Parts that lack something end here and are told so; see base/diagnosis.hpp. The method
+/// itself is in this file.
+template <class QP, class LinearSolver = schur_bicgstab>
+class ssnm : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+  using problem = std::remove_cvref_t<QP>;
+  using V = typename problem::vector_type;
+
+  static consteval bool told() {
+    detail::refuse_solver<LinearSolver, slant_operator_t<ssnm_function<problem>, V>, V>();
+    return true;
+  }
+  static_assert(told());
+
+ public:
+  using ssnm::refused_method::refused_method;
+};
+
+/// A problem that was told so already.
+template <class QP, class LinearSolver>
+  requires detail::was_refused<std::remove_cvref_t<QP>>
+class ssnm<QP, LinearSolver>
+    : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+ public:
+  using ssnm::refused_method::refused_method;
+};
+
+/// No problem at all.
+template <class QP, class LinearSolver>
+  requires(!quadratic_program<std::remove_cvref_t<QP>>)
+class ssnm<QP, LinearSolver> : public detail::refused_method<void> {
+  static_assert(quadratic_program<std::remove_cvref_t<QP>>, "ssnm: expected a separable_qp");
+
+ public:
+  using ssnm::refused_method::refused_method;
+};
+
+// --- estimated multipliers -----------------------------------------------------------------------
+//
+// Multipliers for a point that another method has found, so that SSNM can go on from there: [T
+// Remark 4.2] "appropriately modifies" λ and μ without saying how. Here, block by block, from
+//
+//     r + Σ zᵢ ∇fᵢ(x) = 0,   zᵢ ≥ 0,   zᵢ = 0 in the interior;        r = A x − b
+//
+// zᵢ = max(0, −∇fᵢᵀr / ‖∇fᵢ‖²) for the blocks that x is not inside of, else 0: least squares for
+// each inequality by itself. At the solution these are the multipliers (of blocks with one
+// inequality, or of which one at a time can be active).
+
+/// One multiplier per smooth inequality of the set, in its order; r is the gradient A x − b. z has
+/// as many entries as the set has inequalities and is overwritten.
+template <class Set, class V, class Z>
+void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
+  using S = scalar_t<V>;
+  auto&& multipliers = slant::local(z);
+  index row = 0;
+  slant::visit_blocks(set, [&](auto const& block, auto const& place) {
+    using block_type = std::remove_cvref_t<decltype(block)>;
+    constexpr int n = static_dimension_of<block_type>;
+    constexpr int k = detail::inequalities_of<block_type>;
+    if constexpr (k > 0) {
+      Eigen::Matrix<S, n, 1> const point = place.value(x);
+      Eigen::Matrix<S, n, 1> const force = place.value(r);
+      Eigen::Matrix<S, n, k> const gradients = block.inequality_gradient(point);
+      bool const inside = [&] {
+        if constexpr (has_state<block_type, Eigen::Matrix<S, n, 1>>) {
+          return block.state(point) == block_state::free;
+        } else {
+          return (block.inequality(point).array() < S(0)).all();
+        }
+      }();
+      for (int i = 0; i < k; ++i) {
+        S const slope = gradients.col(i).squaredNorm();
+        S const push = -gradients.col(i).dot(force);
+        multipliers[row++] = !inside && push > S(0) && slope > S(0) ? S(push / slope) : S(0);
+      }
+    }
+  });
+}
+
+// --- method --------------------------------------------------------------------------------------
 
 /// SSNM: solve(ssnm{qp, solver, options}, x0, step_below(tol, 1.0) || at_most(1000)); step_below
 /// with the offset 1 is the rule of [T], in which 1 has the unit of x.

@@ -27,17 +27,498 @@
 // and the values of ‖F‖ tend to zero whatever the start and ρ are.
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/methods/symmetric_newton_core.hpp>
-#include <slant/methods/symmetric_newton_problem.hpp>
-#include <slant/methods/symmetric_newton_state.hpp>
-#include <slant/operators/held.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/preconditioner.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/parts/curved_minimum.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
+#include <slant/methods/proportioning.hpp>
+#include <slant/newton/forcing.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/problems/compiled_problem.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/sets/block_queries.hpp>
+#include <slant/sets/curved_face.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+//
+// Options of the symmetric semismooth Newton method.
+
+/// Options of symmetric_newton; the defaults are those of README's tables.
+template <scalar S = double>
+struct symmetric_newton_options {
+  /// ρ in x − P_Λ(x − ρ r), in units of 1/A; none: step_factor / mean(diag A).
+  std::optional<S> step_length{};
+  /// > 0, of the order 1. An undamped step leaves r = 0 on blocks that were free and x on its bound
+  /// where it was fixed, so that signs decide what is free next and not ρ; damped steps mix the
+  /// two. Measured on bricks (k = 4 … 16): ¼ and ½ alike, 1 up to a quarter more products. On the
+  /// wire from zero, with A⁻¹ as preconditioner, 2 needs half of the steps that ½ needs.
+  S step_factor = S(0.5);
+  mean_diagonal_options mean_diagonal{};  ///< how mean(diag A) is estimated, if it is needed
+  /// Inner accuracy. The exponent 3/2 makes the steps superlinear of that order; η_max is what a
+  /// step deserves that will be shortened; with a goal the last step is not solved too well.
+  eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.5, .η_first = 0.3};
+  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
+  S sufficient = S(0.1);  ///< c in (0, 1): a step of length β lowers ‖F‖ by c β ‖F‖ at least
+  index halvings = 30;   ///< β = 1, ½, …: so often at most
+  index patience = 100;  ///< steps in which ‖F‖ does not fall that mean stalled
+  kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
+      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
+    }
+    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
+      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
+    }
+    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
+    if (!(sufficient > S(0) && sufficient < S(1))) {
+      throw bad_input("sufficient", detail::show(sufficient), "a number in (0, 1)");
+    }
+    if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    mean_diagonal.validate();
+    forcing.validate();
+    descent.validate();
+  }
+};
+
+// --- descent takeover ----------------------------------------------------------------------------
+//
+// A method that converges from everywhere takes over where a faster one fails: KPRGP, until its
+// iterate is better than the point of failure by a factor. Since KPRGP converges to the solution
+// from every x ∈ Λ [K Theorem 1] this happens after finitely many of its steps; so failures cannot
+// follow one another without the residual tending to zero.
+
+/// KPRGP at work on a point s that derives from gradient_point<QP>. Nothing is computed or
+/// allocated before the first failure, σ_max included.
+template <class QP>
+class descent_takeover {
+ public:
+  using scalar = typename QP::scalar;
+  using options = kprgp_options<scalar>;
+  /// Refers to the problem; one that forgets its types is as good as a reference.
+  using method_type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
+
+  [[nodiscard]] bool at_work() const { return at_work_; }
+  /// No longer at work: the problem has changed.
+  void leave() { at_work_ = false; }
+  /// How often it had to take over.
+  [[nodiscard]] index count() const { return count_; }
+  /// The state of KPRGP, once there was need for it.
+  [[nodiscard]] std::optional<kprgp_state<QP>> const& state() const { return state_; }
+
+  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if KPRGP
+  /// finds A or A x unusable, which it would refuse as input.
+  template <class State>
+  [[gnu::cold]] status begin(QP const& qp, options o, State& s, scalar const& goal) {
+    scalar const σ = state_ ? state_->σ : scalar(0);
+    if (state_) o.step_length = state_->step_length;  // σ_max is known by now
+    try {
+      state_.emplace(method_type{qp, std::move(o)}.start(s.x));
+    } catch (bad_input const&) {
+      return status::breakdown;
+    }
+    if (σ > scalar(0)) state_->σ = σ;
+    s.work.setup_applications += state_->work.setup_applications;
+    s.work.operator_applications += state_->work.operator_applications;
+    goal_ = goal;
+    at_work_ = true;
+    ++count_;
+    return follow(qp, s);
+  }
+
+  /// r from x, if KPRGP has been updating it; whether it has. One product.
+  template <class State>
+  [[gnu::cold]] bool refresh(QP const& qp, options const& o, State& s) {
+    if (!method_type{qp, o}.refresh(*state_)) return false;
+    ++s.work.operator_applications;
+    s.status = follow(qp, s);
+    return true;
+  }
+
+  /// One step of KPRGP.
+  template <class State>
+  [[gnu::cold]] status step(QP const& qp, options const& o, State& s) {
+    index const before = state_->work.operator_applications;
+    method_type const method{qp, o};
+    method.step(*state_);
+    copy(qp, s);
+    // r̃ = 0 counts if r was computed from x.
+    if (s.reduced_gradient_norm == scalar(0) && method.refresh(*state_)) copy(qp, s);
+    s.work.operator_applications += state_->work.operator_applications - before;
+    return judged(s);
+  }
+
+ private:
+  /// s.x, s.r and s.reduced become those of KPRGP's iterate, which is no longer at work if that is
+  /// good enough.
+  template <class State>
+  status follow(QP const& qp, State& s) {
+    copy(qp, s);
+    return judged(s);
+  }
+  template <class State>
+  void copy(QP const& qp, State& s) {
+    vectors::copy(state_->x, s.x);
+    vectors::copy(state_->r, s.r);
+    // In that of a start far away it might vanish.
+    if (s.unit != state_->unit) s.progress.forget_energy();
+    s.unit = state_->unit;
+    s.size_of_b = state_->size_of_b;
+    s.since_refresh = state_->since_refresh;
+    s.reduce(qp);
+  }
+  /// By the reduced gradient of s, whose step length is another one.
+  template <class State>
+  status judged(State const& s) {
+    if (s.reduced_gradient_norm == scalar(0)) return status::converged;
+    if (state_->status == status::running) at_work_ = s.reduced_gradient_norm > goal_;
+    return state_->status == status::converged ? status::stalled : state_->status;
+  }
+
+  std::optional<kprgp_state<QP>> state_;
+  scalar goal_{0};
+  bool at_work_ = false;
+  index count_ = 0;
+};
+
+// --- rounded products ----------------------------------------------------------------------------
+//
+// The operator that inner iterations apply: the rounded twin of A where A has one, else A itself.
+//
+// The step t that conjugate gradients find with the twin is as good as its products are; its image
+// A t is then computed by A, so that whoever takes the step knows the residual as exactly as
+// without a twin. If that residual is not what the twin promised, because A is too badly
+// conditioned for its precision, or a number has left its range, the step is computed anew with A,
+// and so are all others.
+
+/// Nothing to round: everything is done with A.
+template <class A, class V>
+class rounded_products {
+ public:
+  rounded_products(A const&, V const&) {}
+
+  /// Whether steps are computed with rounded products.
+  [[nodiscard]] static constexpr bool at_work() noexcept { return false; }
+  static constexpr void give_up() noexcept {}
+  /// inner.minimise with these products.
+  template <class Inner, class WA, class M, class Face, class S>
+  static auto minimise(Inner& inner, A const& a, WA& wa, M const& m, V const& r, Face const& face,
+                       S const& ρ, S const& s, S const& target, index most) {
+    return inner.minimise(a, wa, m, r, face, ρ, s, target, most);
+  }
+};
+
+/// The twin with its workspace. A copy shares what the operator shares.
+template <class A, class V>
+  requires has_rounded<A, V>
+class rounded_products<A, V> {
+  using twin = decltype(std::declval<A const&>().rounded());
+
+ public:
+  rounded_products(A const& a, V const& prototype)
+      : twin_(a.rounded()), workspace_(slant::workspace(*twin_, prototype)) {}
+
+  [[nodiscard]] bool at_work() const noexcept { return twin_.has_value(); }
+  void give_up() { twin_.reset(); }
+
+  template <class Inner, class WA, class M, class Face, class S>
+  auto minimise(Inner& inner, A const& a, WA& wa, M const& m, V const& r, Face const& face,
+                S const& ρ, S const& s, S const& target, index most) {
+    auto const exactly = [&] { return inner.minimise(a, wa, m, r, face, ρ, s, target, most); };
+    if (!at_work()) return exactly();
+    auto found = inner.minimise(*twin_, workspace_, m, r, face, ρ, s, target, most, least_progress);
+    slant::apply(a, inner.t, inner.image, wa);
+    ++found.iterations;
+    S const residual = inner.residual(r, face, ρ);
+    S const enough = std::max(S(4) * found.residual, S(16) * least_progress * found.first_residual);
+    if (found.finite && residual <= enough) {
+      found.residual = residual;
+      return found;
+    }
+    give_up();
+    auto again = exactly();
+    again.iterations += found.iterations;
+    return again;
+  }
+
+ private:
+  /// With products of this precision a residual is not worth lowering further in one step.
+  static constexpr scalar_t<V> least_progress = scalar_t<V>(1) / scalar_t<V>(4096);
+
+  std::optional<twin> twin_;  // empty once given up
+  workspace_t<twin, V> workspace_;
+};
+
+// --- state ---------------------------------------------------------------------------------------
+//
+// The state of the symmetric semismooth Newton method.
+
+/// The steps of symmetric_newton.
+enum class symmetric_newton_step : unsigned char { none, full, damped, descent };
+
+/// State of symmetric_newton for a separable_qp of type QP with the preconditioner M. x ∈ Λ with
+/// its gradient r, computed from x, and its reduced gradient are those of gradient_point.
+template <class QP, class M>
+struct symmetric_newton_state : gradient_point<QP> {
+  using typename gradient_point<QP>::vector_type;
+  using typename gradient_point<QP>::scalar;
+
+  newton_segment<vector_type> segment;   ///< y, z of Newton's iterate; x = P_Λ(z) after a step
+  curved_face<scalar> face;              ///< range(G) and C at z
+  curved_minimum<vector_type, M> inner;  ///< the step t on it
+  rounded_products<typename QP::operator_type, vector_type> products;  ///< what it spends
+  forcing_history<scalar> forcing{};  ///< errors and inner tolerances so far
+  progress_watch<scalar> progress;    ///< looks for steps that get nowhere
+  descent_takeover<QP> descent;       ///< the method that takes over where Newton's fails
+
+  scalar residual_norm{0};  ///< ‖F(y)‖/ρ = ‖y − P_Λ(z)‖/ρ, in units of the gradient
+  scalar preconditioner_size{1};  ///< s = mean(diag M)
+  bool at_projection = false;     ///< x = P_Λ(z)
+  symmetric_newton_step last_step = symmetric_newton_step::none;
+  scalar step_fraction{1};     ///< β of the last Newton step
+  index inner_iterations = 0;  ///< of the last Newton step
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  symmetric_newton_state(QP const& qp, M const& m, vector_type const& x0)
+      : gradient_point<QP>(qp, x0),
+        segment(x0, qp.size()),
+        face(qp.set()),
+        inner(x0, qp.size(), m),
+        products(qp.a(), x0) {}
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const;
+};
+
+template <class QP, class M>
+std::string symmetric_newton_state<QP, M>::reason() const {
+  switch (status) {
+    case slant::status::converged:
+      return "the reduced gradient is zero: x is the solution";
+    case slant::status::stalled:
+      return "no step lowers the residual any further at this precision: " + this->accuracy();
+    case slant::status::breakdown:
+      return "a number left the range of the scalar, or A is not semidefinite";
+    case slant::status::unbounded:
+      return "the function decreases for ever along −descent.state()->directions.p";
+    default:
+      return std::string(to_string(status));
+  }
+}
+
+// --- problem -------------------------------------------------------------------------------------
+//
+// What the symmetric semismooth Newton method asks of its problem, and the answer to a problem that
+// lacks something.
+
+/// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x).
+template <class QP>
+concept symmetric_newton_problem =
+    kprgp_problem<QP> && has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
+
+namespace detail {
+
+template <class QP>
+using refused_symmetric_newton =
+    refused_method<typename QP::vector_type, symmetric_newton_state<QP, identity_operator>,
+                   symmetric_newton_options<typename QP::scalar>>;
+
+}  // namespace detail
+
+/// A problem that lacks something ends here and is told so; see base/diagnosis.hpp. The
+/// method itself is in this file.
+template <class QP, class M = identity_operator>
+class symmetric_newton : public detail::refused_symmetric_newton<std::remove_cvref_t<QP>> {
+  using problem = std::remove_cvref_t<QP>;
+  using vector_type = typename problem::vector_type;
+  using a = detail::questions_about<typename problem::operator_type, vector_type>;
+  using m = detail::questions_about<std::remove_cvref_t<M>, vector_type>;
+  using set_type = typename problem::set_type;
+  using points = local_t<vector_type>;
+  static constexpr bool good_domain = active_set_domain<set_type, points>;
+
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "symmetric_newton: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
+                "symmetric_newton: a part of A cannot be used on vectors like b");
+  static_assert(
+      psd_operator<typename a::promise, typename a::vector_type>,
+      "symmetric_newton: A must declare that it is self-adjoint and positive semidefinite");
+  static_assert(good_domain,
+                "symmetric_newton: the set must be made of blocks with state(x) and "
+                "step_to_boundary(x, d)");
+  static_assert(!good_domain || has_block_slants<set_type, points>,
+                "symmetric_newton: the set must be made of blocks with slant(x)");
+  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
+                "symmetric_newton: the preconditioner must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename m::part, typename m::vector_type>,
+                "symmetric_newton: a part of the preconditioner cannot be used on vectors like b");
+  static_assert(psd_operator<typename m::promise, typename m::vector_type>,
+                "symmetric_newton: the preconditioner must declare self_adjoint and "
+                "positive_semidefinite");
+
+ public:
+  using symmetric_newton::refused_method::refused_method;
+};
+
+/// A problem that was told so already.
+template <class QP, class M>
+  requires detail::was_refused<std::remove_cvref_t<QP>>
+class symmetric_newton<QP, M> : public detail::refused_symmetric_newton<std::remove_cvref_t<QP>> {
+ public:
+  using symmetric_newton::refused_method::refused_method;
+};
+
+/// No problem at all.
+template <class QP, class M>
+  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
+           !detail::was_refused<std::remove_cvref_t<QP>>)
+class symmetric_newton<QP, M> : public detail::refused_method<void, void> {
+  static_assert(quadratic_program<std::remove_cvref_t<QP>>,
+                "symmetric_newton: expected a separable_qp");
+
+ public:
+  using symmetric_newton::refused_method::refused_method;
+};
+
+template <class QP>
+symmetric_newton(QP&&) -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
+template <class QP>
+symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
+template <class QP, class M>
+symmetric_newton(QP&&, M&&)
+    -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
+template <class QP, class M>
+symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
+
+}  // namespace slant
+
+namespace slant::detail {
+
+// --- steps ---------------------------------------------------------------------------------------
+//
+// What the steps of symmetric_newton are made of: the sizes taken from A and M, what is measured of
+// an iterate, and the search for a length. Symbols as in this file.
+
+/// Problem, preconditioner and options of symmetric_newton, with its smaller steps.
+template <class QP, class M>
+class symmetric_newton_core {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = symmetric_newton_options<scalar>;
+  using state_type = symmetric_newton_state<problem, preconditioner>;
+  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+
+  symmetric_newton_core(held<QP> qp, options o)
+      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
+    options_.validate();
+  }
+  symmetric_newton_core(held<QP> qp, held<M> m, options o)
+      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
+    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
+    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
+    options_.validate();
+  }
+
+ protected:
+  /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
+  [[gnu::noinline]] void set_sizes(state_type& s) const {
+    if (options_.step_length) {
+      s.step_length = *options_.step_length;
+    } else {
+      auto const step = mean_step(qp_.get().a(), s.x, options_.step_factor, options_.mean_diagonal);
+      s.step_length = step.length;
+      s.work.setup_applications += step.applications;
+    }
+    // What knows the inverse on each face is not weighed against the curvature of its boundary.
+    if constexpr (!preconditioned ||
+                  preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
+      s.preconditioner_size = s.step_length / options_.step_factor;
+    } else {
+      s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
+    }
+  }
+
+  /// r and r̃ of x; one product.
+  void measure(state_type& s) const {
+    static_cast<void>(s.gradient_and_unit(qp_.get()));
+    s.reduce(qp_.get());
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (!is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+  }
+
+  /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
+  void project(state_type& s) const {
+    if (s.at_projection) return;
+    std::swap(s.x, s.projected);
+    s.at_projection = true;
+    measure(s);
+  }
+
+  /// y = x, with its z and ‖F(y)‖.
+  void restart(state_type& s) const {
+    vectors::copy(s.x, s.segment.y);
+    vectors::waxpy(-ρ(s), s.r, s.x, s.segment.z);
+    s.residual_norm = s.reduced_gradient_norm;
+    s.at_projection = false;
+  }
+
+  /// The longest β = 2⁻ʲ that lowers ‖F‖ enough; false if there is none. Spends no product.
+  bool shorten(state_type& s) const {
+    scalar β(1);
+    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
+      scalar const size =
+          s.segment.residual_at(qp_.get().set(), β, s.projected, s.trial) / s.step_length;
+      scalar const enough = (scalar(1) - options_.sufficient * β) * s.residual_norm;
+      if (!(enough < s.residual_norm)) return false;  // β is below the precision
+      if (size <= enough) {
+        s.step_fraction = β;
+        s.residual_norm = size;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// ρ per unit of the gradient: z = y − ρ r.
+  static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
+};
+
+}  // namespace slant::detail
+
+namespace slant {
+
+// --- method --------------------------------------------------------------------------------------
 
 namespace detail {
 

@@ -11,14 +11,14 @@
 // single scenes from half as many to a few more.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/base/scaling.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/concepts/rounded.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/krylov/unit.hpp>
-#include <slant/methods/preconditioner_for.hpp>
+#include <slant/krylov/preconditioner.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <utility>

@@ -6,5 +6,4 @@
 // IWYU pragma: begin_exports
 #include <slant/multilevel/aggregation.hpp>
 #include <slant/multilevel/multigrid.hpp>
-#include <slant/multilevel/multigrid_options.hpp>
 // IWYU pragma: end_exports

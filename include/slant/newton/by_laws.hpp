@@ -9,10 +9,9 @@
 //     bicgstab_solver     whatever else
 #pragma once
 
-#include <slant/newton/bicgstab_solver.hpp>
-#include <slant/newton/cg_solver.hpp>
 #include <slant/newton/direct_solver.hpp>
 #include <slant/newton/direction.hpp>
+#include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 
 #include <type_traits>

@@ -12,7 +12,7 @@
 // Models. fixed_forcing, adaptive_precision, eisenstat_walker.
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 
 #include <concepts>

@@ -13,13 +13,13 @@
 // A slanting operator whose blocks are not accessible is not preconditioned: M = I.
 #pragma once
 
+#include <slant/base/entries.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/operators/detail/definite_inverse.hpp>
-#include <slant/sets/block_diagonal_slant.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/direct_sum_slant.hpp>
+#include <slant/operators/small_blocks.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/slants.hpp>
 
 #include <Eigen/Core>
 

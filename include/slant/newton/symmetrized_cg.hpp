@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Conjugate gradients for Newton systems (I − G (I − ρA)) dy = −F that can be symmetrised
-// (slanting/symmetrizable.hpp):
+// (slanting/symmetrized.hpp):
 //
 //     H s = G (ρA − I) F,     H = G (I − G) + ρ G A G,     dy = G s − F,
 //
@@ -16,10 +16,9 @@
 // Products by A: one an iteration and one for the right-hand side; a warm start costs one more.
 #pragma once
 
+#include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/newton/detail/definite_on_range.hpp>
-#include <slant/newton/detail/iteration_limit.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/newton/slant_preconditioner.hpp>
 #include <slant/slanting/symmetrized.hpp>
@@ -27,7 +26,43 @@
 #include <type_traits>
 #include <utility>
 
+namespace slant::detail {
+
+// --- definite on range ---------------------------------------------------------------------------
+//
+// H = G (I − G) + ρ G A G is semidefinite. Its kernel is that of G, and right-hand sides lie in
+// range(G): there it is definite, ⟨H x, x⟩ ≥ ρ ⟨A G x, G x⟩ > 0, and conjugate gradients need no
+// more. The library's CG asks for a promise, which is given here for that reason.
+
+/// H as CG meets it.
+template <class M>
+class definite_on_range {
+ public:
+  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+
+  explicit definite_on_range(symmetrized_operator<M> h) : h_(std::move(h)) {}
+
+  [[nodiscard]] index rows() const { return h_.rows(); }
+  [[nodiscard]] index cols() const { return h_.cols(); }
+
+  template <class X>
+  [[nodiscard]] auto workspace(X const& x) const {
+    return h_.workspace(x);
+  }
+  template <class X, class Y, class W>
+  void apply(X const& x, Y& y, W& w) const {
+    h_.apply(x, y, w);
+  }
+
+ private:
+  symmetrized_operator<M> h_;
+};
+
+}  // namespace slant::detail
+
 namespace slant {
+
+// --- symmetrized cg ------------------------------------------------------------------------------
 
 /// What symmetrized_cg keeps.
 template <class V, class M, class State>

@@ -4,8 +4,8 @@
 // (‖2A − I‖ ≤ 1, which is firm nonexpansiveness, is the same for Aᵀ).
 #pragma once
 
-#include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/applicable.hpp>
+#include <slant/operators/composition.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <type_traits>
 #include <utility>

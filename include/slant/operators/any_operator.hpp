@@ -9,7 +9,7 @@
 //                                     slant::laws<slant::self_adjoint, slant::positive_definite>>;
 #pragma once
 
-#include <slant/operators/as_operator.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <memory>
 #include <utility>

@@ -7,10 +7,9 @@
 // which only the caller can know: `congruence(full_row_rank(B), A)`.
 #pragma once
 
-#include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/applicable.hpp>
-#include <slant/operators/detail/closure.hpp>
-#include <slant/operators/detail/refused_operator.hpp>
+#include <slant/base/diagnosis.hpp>
+#include <slant/operators/composition.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <utility>
 

@@ -4,8 +4,8 @@
 // included. What "n applications of K⁻¹" means in every report is counted here.
 #pragma once
 
-#include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/decorator.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <atomic>
 #include <memory>

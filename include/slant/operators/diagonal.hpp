@@ -6,9 +6,9 @@
 //     auto P = slant::diagonal<slant::positive_definite>(d);    // throws unless all d_i > 0
 #pragma once
 
+#include <slant/base/held.hpp>
+#include <slant/base/sizes.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/operators/detail/checks.hpp>
-#include <slant/operators/held.hpp>
 
 #include <string>
 #include <type_traits>

@@ -4,12 +4,11 @@
 // its own inverse. Closure: self-adjoint and definite if K is.
 #pragma once
 
+#include <slant/base/held.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/factorization.hpp>
 #include <slant/concepts/member_names.hpp>
-#include <slant/operators/detail/applicable.hpp>
-#include <slant/operators/detail/closure.hpp>
-#include <slant/operators/held.hpp>
+#include <slant/operators/composition.hpp>
 
 #include <type_traits>
 #include <utility>

@@ -6,7 +6,6 @@
 // IWYU pragma: begin_exports
 #include <slant/operators/adjoint.hpp>
 #include <slant/operators/any_operator.hpp>
-#include <slant/operators/as_operator.hpp>
 #include <slant/operators/block.hpp>
 #include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/congruence.hpp>
@@ -14,20 +13,13 @@
 #include <slant/operators/counted.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
-#include <slant/operators/diagonal_blocks.hpp>
-#include <slant/operators/difference.hpp>
-#include <slant/operators/equality_constraints.hpp>
-#include <slant/operators/held.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/operators/node_blocks.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/restriction.hpp>
 #include <slant/operators/scaled.hpp>
 #include <slant/operators/schur_complement.hpp>
-#include <slant/operators/slice.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/operators/sum.hpp>
-#include <slant/operators/zero.hpp>
 // IWYU pragma: end_exports

@@ -4,13 +4,31 @@
 // is not self-adjoint; for B A Bᵀ use congruence(B, A), which knows more.
 #pragma once
 
-#include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/applicable.hpp>
-#include <slant/operators/detail/chain.hpp>
+#include <slant/operators/composition.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <utility>
 
+namespace slant::detail {
+
+// --- chain ---------------------------------------------------------------------------------------
+//
+// Workspace of two operators applied one after the other.
+
+template <class Inner, class Between, class Outer>
+struct chain_workspace {
+  Inner inner;      ///< of the operator applied first
+  Between between;  ///< its result
+  Outer outer;      ///< of the operator applied second
+};
+template <class Inner, class Between, class Outer>
+chain_workspace(Inner, Between, Outer) -> chain_workspace<Inner, Between, Outer>;
+
+}  // namespace slant::detail
+
 namespace slant {
+
+// --- product -------------------------------------------------------------------------------------
 
 /// y = A B x. A and B are `Operator const&` (referenced) or operator types (owned).
 template <class A, class B>

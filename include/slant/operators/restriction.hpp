@@ -7,16 +7,88 @@
 //     A_FF.assign(other);                            // no allocation up to the reserved capacity
 #pragma once
 
+#include <slant/base/sizes.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/scalar.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/operators/as_operator.hpp>
+#include <slant/operators/composition.hpp>
 #include <slant/operators/congruence.hpp>
-#include <slant/operators/detail/closure.hpp>
-#include <slant/operators/detail/component_list.hpp>
+#include <slant/operators/matrix.hpp>
 
+#include <cstddef>
 #include <initializer_list>
+#include <type_traits>
 #include <utility>
+#include <vector>
+
+namespace slant::detail {
+
+// --- component list ------------------------------------------------------------------------------
+//
+// A list of different components of a vector, which can be replaced without allocating.
+
+class component_list {
+ public:
+  explicit component_list(index full_size) {
+    if (full_size < 0) throw bad_input("n", show(full_size), "a size >= 0");
+    taken_.assign(static_cast<std::size_t>(full_size), 0);
+    components_.reserve(taken_.size());
+  }
+
+  /// Replaces the components by those of a range of integers. Throws bad_input unless they are
+  /// different numbers in [0, full_size()); the list is then as before.
+  template <class Components>
+  void assign(Components const& components) {
+    require_valid(components);
+    components_.clear();
+    for (auto const& c : components) components_.push_back(static_cast<index>(c));
+  }
+
+  [[nodiscard]] index size() const noexcept { return static_cast<index>(components_.size()); }
+  [[nodiscard]] index full_size() const noexcept { return static_cast<index>(taken_.size()); }
+  [[nodiscard]] index component(index i) const { return components_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::vector<index> const& components() const noexcept { return components_; }
+
+ private:
+  template <class Components>
+  void require_valid(Components const& components) {
+    index position = 0;
+    char const* expectation = nullptr;
+    index offender = 0;
+    for (auto const& c : components) {
+      offender = static_cast<index>(c);
+      if (offender < 0 || offender >= full_size()) {
+        expectation = "a component of the vector (>= 0 and less than its size)";
+        break;
+      }
+      auto& taken = taken_[static_cast<std::size_t>(offender)];
+      if (taken != 0) {
+        expectation = "different components";
+        break;
+      }
+      taken = 1;
+      ++position;
+    }
+    index unmark = position;  // the marks are only needed while checking
+    for (auto const& c : components) {
+      if (unmark-- == 0) break;
+      taken_[static_cast<std::size_t>(c)] = 0;
+    }
+    if (expectation != nullptr) {
+      throw bad_input("components", show(offender), expectation).at(position);
+    }
+  }
+
+  std::vector<index> components_;
+  std::vector<unsigned char> taken_;  // all zero between calls; its size is the full size
+};
+
+}  // namespace slant::detail
 
 namespace slant {
+
+// --- restriction ---------------------------------------------------------------------------------
 
 /// y = R x: y_i = x_{c_i} for the components c.
 class restriction : public detail::component_list {
@@ -159,6 +231,67 @@ template <operand A, class Components>
   detail::require_square("A", part.get());
   restriction r(part.get().rows(), components);
   return restricted_operator<part_t<A>>{std::move(part), std::move(r)};
+}
+
+// --- slice ---------------------------------------------------------------------------------------
+//
+// Consecutive components of a vector: S gathers a segment, Sᵀ puts it back among zeros, S Sᵀ = I.
+// For unknowns that come in blocks, y = (x, λ, μ). Other than with restriction(), no list of
+// components is kept, and a product A S hands the segment to A without copying it.
+
+/// y = (x_first, …, x_{first + count − 1}) of n components. Made by slant::slice.
+class slice_operator {
+ public:
+  /// Throws bad_input unless first, count >= 0 and first + count <= n.
+  slice_operator(index n, index first, index count) : n_(n), first_(first), count_(count) {
+    if (n < 0) throw bad_input("n", detail::show(n), "a size >= 0");
+    if (first < 0 || first > n) {
+      throw bad_input("first", detail::show(first), "a number in [0, " + detail::show(n) + "]");
+    }
+    if (count < 0 || count > n - first) {
+      throw bad_input("count", detail::show(count),
+                      "a number in [0, " + detail::show(n - first) + "]");
+    }
+  }
+
+  [[nodiscard]] index rows() const noexcept { return count_; }
+  [[nodiscard]] index cols() const noexcept { return n_; }
+  [[nodiscard]] index first() const noexcept { return first_; }
+
+  /// The segment of x itself, a view; writable if x is.
+  template <class X>
+    requires has_local<std::remove_const_t<X>>
+  [[nodiscard]] auto segment(X& x) const {
+    return slant::local(x).middleRows(first_, count_);
+  }
+
+  template <has_local X, class Y>
+  void apply(X const& x, Y& y) const {
+    slant::local(y) = segment(x);
+  }
+  template <has_local X, class Y>
+  void apply_add(scalar_t<X> α, X const& x, Y& y) const {
+    slant::local(y) += α * segment(x);
+  }
+  template <has_local X, class Y>
+  void apply_adjoint(X const& x, Y& y) const {
+    vectors::set_zero(y);
+    segment(y) = slant::local(x);
+  }
+  template <has_local X, class Y>
+  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y) const {
+    segment(y) += α * slant::local(x);
+  }
+
+ private:
+  index n_;
+  index first_;
+  index count_;
+};
+
+/// `count` components of n from component `first` on. Throws bad_input unless they exist.
+[[nodiscard]] inline slice_operator slice(index n, index first, index count) {
+  return {n, first, count};
 }
 
 }  // namespace slant

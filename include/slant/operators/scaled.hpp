@@ -8,9 +8,8 @@
 #pragma once
 
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/applicable.hpp>
-#include <slant/operators/detail/closure.hpp>
+#include <slant/operators/composition.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <type_traits>
 #include <utility>

@@ -9,9 +9,9 @@
 // of B are asserted to be independent: schur_complement(Kinv, full_row_rank(B), D).
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
 #include <slant/operators/adjoint.hpp>
 #include <slant/operators/congruence.hpp>
-#include <slant/operators/detail/refused_operator.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>

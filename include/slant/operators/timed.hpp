@@ -3,8 +3,8 @@
 // Measures the wall-clock time spent in an operator; laws and capabilities are unchanged.
 #pragma once
 
-#include <slant/operators/as_operator.hpp>
-#include <slant/operators/detail/decorator.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <atomic>
 #include <chrono>

@@ -2,7 +2,7 @@
 //
 // A product of blocks of which only the scalar is in the type: how many there are, of which kinds
 // and in which order is known at run time. With any_operator.hpp it makes one type of many
-// quadratic programs, so that a method is compiled once for all of them (methods/any_qp.hpp).
+// quadratic programs, so that a method is compiled once for all of them (problems/any_qp.hpp).
 //
 //     slant::any_set<> const Λ(slant::cartesian(slant::half_lines(m), slant::discs(g)));
 //
@@ -26,10 +26,8 @@
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
-#include <slant/sets/plane_cone.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/sets/symmetric_interval.hpp>
 
 #include <cstddef>
 #include <memory>

@@ -3,15 +3,14 @@
 // The ball { x : ‖x‖ <= g }: the friction set of a node of a spatial problem is the disc ball<2>.
 #pragma once
 
+#include <slant/base/double_word.hpp>
+#include <slant/base/entries.hpp>
+#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/double_word.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/exit_root.hpp>
-#include <slant/sets/detail/scaled_norm.hpp>
-#include <slant/sets/detail/scaling.hpp>
-#include <slant/sets/detail/stretch.hpp>
+#include <slant/sets/parts/bounds.hpp>
 
 #include <Eigen/Core>
 

@@ -4,15 +4,125 @@
 // (which takes and returns its few numbers by value) or itself a product (which works in place).
 #pragma once
 
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
-#include <slant/sets/place.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/concepts/vector.hpp>
 
 #include <Eigen/Core>
 
+#include <concepts>
+#include <cstddef>
 #include <limits>
+#include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace slant {
+
+// --- place ---------------------------------------------------------------------------------------
+//
+// Where the block of a product lives inside the vector: component j of the block is entry
+// first + j · stride. Such places are closed under nesting, so a product of products of blocks
+// still tells each block in three numbers where its part is.
+
+/// Layout of a power of blocks with n components each: block i owns entries n·i … n·i + n − 1.
+struct consecutive {};
+
+/// Layout of a power of m blocks: component j of block i is entry i + j·m. This is the numbering
+/// λ = (all first components, all second components, …) of [T] and [K].
+struct planar {};
+
+/// The place of one block. N is its dimension (Eigen::Dynamic: known at run time only).
+template <int N = Eigen::Dynamic, class Layout = consecutive>
+class place {
+  static constexpr bool strided = std::is_same_v<Layout, planar>;
+  static_assert(!strided || N != Eigen::Dynamic, "only blocks of static dimension can be planar");
+
+ public:
+  static constexpr int dimension = N;
+
+  constexpr place(slant::index number, slant::index first, slant::index size,
+                  slant::index stride = 1)
+      : number_(number), first_(first), size_(size), stride_(stride) {}
+
+  /// Number of the block, counted over all blocks of the outermost product.
+  [[nodiscard]] constexpr slant::index index() const { return number_; }
+  /// Number of components of the block.
+  [[nodiscard]] constexpr slant::index size() const { return N == Eigen::Dynamic ? size_ : N; }
+  /// Position of component j of the block in the whole vector.
+  [[nodiscard]] constexpr slant::index component(slant::index j) const {
+    return strided ? first_ + j * stride_ : first_ + j;
+  }
+
+  /// The block's part of x as an Eigen view, writable if x is; a copy if x is an expression without
+  /// memory of its own and the layout is planar.
+  template <class X>
+  [[nodiscard]] auto in(X& x) const {
+    auto& entries = slant::local(x);
+    using L = std::remove_reference_t<decltype(entries)>;
+    if constexpr (!strided && N == Eigen::Dynamic) {
+      return entries.segment(first_, size_);
+    } else if constexpr (!strided) {
+      return entries.template segment<N>(first_);
+    } else if constexpr (bool(L::Flags & Eigen::DirectAccessBit)) {
+      using block = Eigen::Matrix<typename L::Scalar, N, 1>;
+      constexpr bool is_const = std::is_const_v<std::remove_pointer_t<decltype(entries.data())>>;
+      using target = std::conditional_t<is_const, block const, block>;
+      auto const inner = entries.innerStride();
+      return Eigen::Map<target, Eigen::Unaligned, Eigen::InnerStride<>>(
+          entries.data() + first_ * inner, Eigen::InnerStride<>(stride_ * inner));
+    } else {
+      return value(x);
+    }
+  }
+
+  /// A copy of the block's part of x, in registers for small static N.
+  template <class X>
+  [[nodiscard]] auto value(X const& x) const {
+    auto const& entries = slant::local(x);
+    using S = scalar_t<X>;
+    Eigen::Matrix<S, N, 1> v;
+    if constexpr (N == Eigen::Dynamic) v.resize(size_);
+    for (slant::index j = 0; j < size(); ++j) v.coeffRef(j) = entries.coeff(component(j));
+    return v;
+  }
+
+  /// The block's part of y = v.
+  template <class Y, class V>
+  void put(Y& y, V const& v) const {
+    auto& entries = slant::local(y);
+    for (slant::index j = 0; j < size(); ++j) entries.coeffRef(component(j)) = v.coeff(j);
+  }
+
+  /// The place in the whole vector of something at `inner` within this block.
+  template <int M, class L>
+  [[nodiscard]] constexpr auto then(place<M, L> const& inner) const {
+    constexpr bool both = !strided && std::is_same_v<L, consecutive>;
+    return place<M, std::conditional_t<both, consecutive, planar>>(
+        number_ + inner.index(), component(inner.component(0)), inner.size(),
+        component(inner.component(1)) - component(inner.component(0)));
+  }
+
+ private:
+  slant::index number_;
+  slant::index first_;
+  slant::index size_;
+  slant::index stride_;
+};
+
+/// The place of factor i of a power of m factors with N components and `inner` blocks each.
+template <int N, class Layout>
+[[nodiscard]] constexpr auto block_place(index i, index m, index inner = 1) {
+  if constexpr (std::is_same_v<Layout, planar>) {
+    return place<N, planar>(i * inner, i, N, m);
+  } else {
+    return place<N, consecutive>(i * inner, i * N, N);
+  }
+}
+
+// --- blocks --------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -164,3 +274,155 @@ inline constexpr detail::block_count_fn block_count{};
 inline constexpr detail::visit_blocks_fn visit_blocks{};
 
 }  // namespace slant
+
+namespace slant::detail {
+
+// --- inequality count ----------------------------------------------------------------------------
+//
+// The member `inequalities` of a set made from other sets: there only if all of them have it.
+
+template <class... Parts>
+inline constexpr bool all_smooth = (has_inequality_form<Parts, point_t<Parts>> && ...);
+
+struct no_inequality_form {};
+
+template <class... Parts>
+struct inequality_form {
+  /// Number of smooth inequalities f_i(x) <= 0 that describe the set.
+  static constexpr int inequalities = (Parts::inequalities + ...);
+};
+
+template <class... Parts>
+[[nodiscard]] consteval auto inequality_form_of() {
+  if constexpr (all_smooth<Parts...>) {
+    return inequality_form<Parts...>{};
+  } else {
+    return no_inequality_form{};
+  }
+}
+
+/// Base class that has `inequalities`, or nothing.
+template <class... Parts>
+using inequality_count = decltype(inequality_form_of<Parts...>());
+
+// --- block list ----------------------------------------------------------------------------------
+//
+// The blocks of a power: either one block and how often it occurs, or one block per set of
+// parameters. Parameters are looked at once, here, and never again.
+
+/// Anything with one entry per block; whatever is not such a list is one value for all blocks.
+template <class P>
+concept parameter_list = requires(P const& p) {
+  { slant::local(p).size() } -> std::convertible_to<index>;
+  slant::local(p)[0];
+};
+
+template <class P>
+[[nodiscard]] decltype(auto) parameter_at(P const& p, index i) {
+  if constexpr (requires { typename P::Scalar; }) {
+    return p.coeff(i);
+  } else if constexpr (parameter_list<P>) {
+    auto const& entries = slant::local(p);
+    return entries[static_cast<decltype(entries.size())>(i)];
+  } else {
+    return (p);
+  }
+}
+
+template <class Shape, class... Params>
+concept takes_parameters = requires(Shape const& shape, Params const&... params) {
+  { shape.with(parameter_at(params, 0)...) } -> std::convertible_to<Shape>;
+};
+
+/// A number of copies instead of parameters.
+template <class... Params>
+inline constexpr bool is_count = sizeof...(Params) == 1 && (std::integral<Params> && ...);
+
+/// What power(shape, …) accepts after the shape.
+template <class Shape, class... Params>
+concept power_parameters =
+    is_count<Params...> || (takes_parameters<Shape, Params...> && (parameter_list<Params> || ...));
+
+/// The common length of the lists among the parameters.
+template <class... Params>
+[[nodiscard]] index parameter_count(Params const&... params) {
+  index count = -1;
+  int position = 0;
+  auto const look = [&](auto const& p) {
+    ++position;
+    if constexpr (parameter_list<std::remove_cvref_t<decltype(p)>>) {
+      auto const n = index(slant::local(p).size());
+      if (count >= 0 && n != count) {
+        throw bad_input("length of parameter list " + show(position), show(n),
+                        show(count) + ", the length of the list before it");
+      }
+      count = n;
+    }
+  };
+  (look(params), ...);
+  return count;
+}
+
+template <class Shape, class... Params>
+[[nodiscard]] Shape block_with(Shape const& shape, index i, Params const&... params) {
+  try {
+    return shape.with(parameter_at(params, i)...);
+  } catch (bad_input const& e) {
+    throw e.at(i);
+  }
+}
+
+/// m equal blocks: no memory per block.
+template <class Block>
+class identical_blocks {
+ public:
+  identical_blocks(Block const& block, index count) : block_(block), count_(count) {
+    if (count < 0) throw bad_input("number of blocks", show(count), "a number >= 0");
+  }
+  [[nodiscard]] index size() const { return count_; }
+  [[nodiscard]] Block const& operator[](index) const { return block_; }
+  /// What a loop should index: nothing that the loop writes can be part of it.
+  [[nodiscard]] identical_blocks view() const { return *this; }
+
+ private:
+  Block block_;
+  index count_;
+};
+
+/// One block per entry of the parameter lists.
+template <class Block>
+class listed_blocks {
+ public:
+  template <class... Params>
+  explicit listed_blocks(Block const& shape, Params const&... params) : shape_(shape) {
+    index const n = parameter_count(params...);
+    blocks_.reserve(std::size_t(n));
+    for (index i = 0; i < n; ++i) blocks_.push_back(block_with(shape_, i, params...));
+  }
+
+  /// These blocks; the first one is the shape of those that update() makes.
+  explicit listed_blocks(std::vector<Block> blocks)
+      : shape_(blocks.empty() ? Block{} : blocks.front()), blocks_(std::move(blocks)) {}
+
+  /// New parameters, no allocation. If one of them is bad nothing changes.
+  template <class... Params>
+  void update(Params const&... params) {
+    index const n = parameter_count(params...);
+    if (n >= 0 && n != size()) {
+      throw bad_input("number of parameters", show(n), show(size()) + ", the number of blocks");
+    }
+    for (index i = 0; i < size(); ++i) static_cast<void>(block_with(shape_, i, params...));
+    for (index i = 0; i < size(); ++i) {
+      blocks_[std::size_t(i)] = shape_.with(parameter_at(params, i)...);
+    }
+  }
+  [[nodiscard]] index size() const { return index(blocks_.size()); }
+  [[nodiscard]] Block const& operator[](index i) const { return blocks_[std::size_t(i)]; }
+  [[nodiscard]] Block const* view() const { return blocks_.data(); }
+
+ private:
+  Block shape_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace slant::detail

@@ -7,10 +7,8 @@
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
-#include <slant/sets/plane_cone.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/sets/symmetric_interval.hpp>
 
 #include <concepts>
 #include <type_traits>

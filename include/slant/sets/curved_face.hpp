@@ -7,18 +7,17 @@
 //
 //     minimise  q(x + t) + ½ tᵀ(C/ρ) t   over   t ∈ range(G),        C = G⁺ − I on range(G) ⪰ 0
 //
-// (derivation in slanting/symmetrizable.hpp). C/ρ is the curvature of the boundary times the force
+// (derivation in slanting/symmetrized.hpp). C/ρ is the curvature of the boundary times the force
 // that presses x against it: 0 for a block inside its set and for flat boundaries, (1 − τ)/(τρ)
 // with τ = g/‖z‖ on the tangent of a disc. Both spaces are known block by block, and blocks inside
 // their sets (G_i = I) or fixed (G_i = 0) are told by a mask: only curved ones store matrices.
 #pragma once
 
+#include <slant/base/entries.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/symmetric_eigen.hpp>
 
 #include <Eigen/Core>
 

@@ -5,19 +5,16 @@
 //
 // By Moreau's decomposition u = P_K*(u) − P_K(−u). The projection is not computed as that sum,
 // which cancels near −K, but by the formula of its own that the sum gives; see
-// detail/cone_projection.hpp.
+// parts/cone_projection.hpp.
 #pragma once
 
+#include <slant/base/double_word.hpp>
+#include <slant/base/entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/cone_projection.hpp>
-#include <slant/sets/detail/cone_slant.hpp>
-#include <slant/sets/detail/cone_step.hpp>
-#include <slant/sets/detail/double_word.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/mapped_power.hpp>
-#include <slant/sets/detail/stretch.hpp>
+#include <slant/sets/parts/bounds.hpp>
+#include <slant/sets/parts/cone_projection.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
 

@@ -3,10 +3,10 @@
 // The whole space: components without any constraint, such as the pressures of a Stokes problem.
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/scaling.hpp>
 
 #include <Eigen/Core>
 

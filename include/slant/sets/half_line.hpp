@@ -6,7 +6,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/bounds.hpp>
+#include <slant/sets/parts/bounds.hpp>
 
 #include <Eigen/Core>
 

@@ -16,12 +16,11 @@
 // projection, does not take them.
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaled_norm.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/checks.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/mapped_power.hpp>
-#include <slant/sets/detail/scaled_norm.hpp>
+#include <slant/sets/power.hpp>
 
 #include <Eigen/Core>
 

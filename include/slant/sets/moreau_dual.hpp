@@ -4,8 +4,8 @@
 // Moreau's decomposition u = P_K*(u) − P_K(−u). For round friction cones there is dual_cone.
 #pragma once
 
+#include <slant/base/entries.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/detail/entries.hpp>
 #include <slant/sets/elliptic_cone.hpp>
 
 #include <Eigen/Core>

@@ -3,12 +3,12 @@
 // A set of one point: components with a prescribed value.
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/scaled_norm.hpp>
-#include <slant/sets/detail/scaling.hpp>
 
 #include <Eigen/Core>
 

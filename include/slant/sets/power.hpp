@@ -4,15 +4,14 @@
 // friction discs of m nodes.
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
 #include <slant/concepts/convex_set.hpp>
-#include <slant/sets/block_diagonal_slant.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/detail/block_list.hpp>
-#include <slant/sets/detail/refused_set.hpp>
-#include <slant/sets/place.hpp>
+#include <slant/sets/slants.hpp>
 
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace slant {
 
@@ -204,3 +203,23 @@ template <class Layout = consecutive, class Block, class... Params>
 }
 
 }  // namespace slant
+
+namespace slant::detail {
+
+// --- mapped power --------------------------------------------------------------------------------
+//
+// A power of other blocks, each made of a block of a given power.
+
+/// The power of the blocks f(block, number) in the layout of `set`; allocates.
+template <class Block, class Layout, class Blocks, class F>
+[[nodiscard]] auto mapped_power(power_product<Block, Layout, Blocks> const& set, F const& f) {
+  using image = std::remove_cvref_t<std::invoke_result_t<F const&, Block const&, index>>;
+  index const m = set.size() / Block::dimension;
+  std::vector<image> blocks;
+  blocks.reserve(static_cast<std::size_t>(m));
+  for (index i = 0; i < m; ++i) blocks.push_back(f(set.block(i), i));
+  return power_product<image, Layout, listed_blocks<image>>(
+      listed_blocks<image>(std::move(blocks)));
+}
+
+}  // namespace slant::detail

@@ -4,10 +4,9 @@
 // of Q.
 #pragma once
 
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/sets/detail/scaling.hpp>
-#include <slant/sets/image_block.hpp>
-#include <slant/sets/image_product.hpp>
+#include <slant/sets/parts/image.hpp>
 
 #include <string>
 #include <utility>

@@ -4,16 +4,14 @@
 // together.
 #pragma once
 
+#include <slant/base/double_word.hpp>
+#include <slant/base/entries.hpp>
+#include <slant/base/scaled_norm.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/cone_projection.hpp>
-#include <slant/sets/detail/cone_slant.hpp>
-#include <slant/sets/detail/cone_step.hpp>
-#include <slant/sets/detail/double_word.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/scaled_norm.hpp>
-#include <slant/sets/detail/stretch.hpp>
+#include <slant/sets/parts/bounds.hpp>
+#include <slant/sets/parts/cone_projection.hpp>
 
 #include <Eigen/Core>
 
@@ -26,7 +24,7 @@ namespace slant {
 ///
 /// μ = 0 is the ray along the axis. Every component of the projection is within 4 ulp at any scale
 /// and for any μ (components below the smallest normal number excepted); see
-/// detail/cone_projection.hpp. "On the mantle" means | ‖x_t‖ − μ x_n | <= 8 ε μ x_n, ε the machine
+/// parts/cone_projection.hpp. "On the mantle" means | ‖x_t‖ − μ x_n | <= 8 ε μ x_n, ε the machine
 /// epsilon. The apex is 0 only: a cone has no length with which "nearly 0" could be measured. NaN
 /// in, NaN out; so does an infinite component.
 template <int N, scalar S = double>
@@ -177,6 +175,57 @@ class second_order_cone {
   }
 
   S mu_{1};
+};
+
+// --- plane cone ----------------------------------------------------------------------------------
+//
+// The friction cone of a plane problem, { (x_n, x_t) : |x_t| <= μ x_n }, as the polyhedron that it
+// is: the same set as second_order_cone<2>, with linear inequalities in place of the quadratic one.
+// An interior-point method has nothing to curve around then.
+
+/// { x ∈ R² : |x_t| <= μ x_n }, μ >= 0 finite. All but the inequality form is that of
+/// second_order_cone<2>.
+template <scalar S = double>
+class plane_cone : public second_order_cone<2, S> {
+  using base = second_order_cone<2, S>;
+
+ public:
+  using typename base::matrix_type;
+  using typename base::vector_type;
+
+  plane_cone() = default;
+
+  /// @throws bad_input if mu is NaN, negative or infinite.
+  explicit plane_cone(S const& mu) : base(mu) {}
+
+  [[nodiscard]] plane_cone with(S const& mu) const { return plane_cone(mu); }
+
+  /// { diag(s) x : x in the set }; s > 0.
+  [[nodiscard]] plane_cone stretched(vector_type const& s) const {
+    return plane_cone(base::stretched(s).mu());
+  }
+
+  /// f(x) = (x_t − μ x_n, −x_t − μ x_n) <= 0, each within an ulp.
+  [[nodiscard]] vector_type inequality(auto const& x) const {
+    vector_type const v = x;
+    detail::double_word<S> const bound = detail::exact_product<S>(this->mu(), v(0));
+    detail::double_word<S> const slip(v(1));
+    return {(slip - bound).hi, (-slip - bound).hi};
+  }
+
+  /// Column i is the gradient of fᵢ.
+  [[nodiscard]] matrix_type inequality_gradient(auto const&) const {
+    matrix_type gradient;
+    gradient << -this->mu(), -this->mu(), S(1), S(-1);
+    return gradient;
+  }
+
+  [[nodiscard]] matrix_type inequality_hessian(auto const&, auto const&) const {
+    return matrix_type::Zero();
+  }
+
+  /// It has flat sides, and f is linear.
+  void lorentz_point(auto const& x) const = delete;
 };
 
 }  // namespace slant

@@ -6,8 +6,6 @@
 // IWYU pragma: begin_exports
 #include <slant/sets/any_set.hpp>
 #include <slant/sets/ball.hpp>
-#include <slant/sets/block_product.hpp>
-#include <slant/sets/block_scaled.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
@@ -21,14 +19,11 @@
 #include <slant/sets/in_metric.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/moreau_dual.hpp>
-#include <slant/sets/place.hpp>
-#include <slant/sets/plane_cone.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/projection_slant.hpp>
 #include <slant/sets/rotated.hpp>
 #include <slant/sets/scaled.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/sets/shifted.hpp>
-#include <slant/sets/symmetric_interval.hpp>
+#include <slant/sets/slants.hpp>
 // IWYU pragma: end_exports

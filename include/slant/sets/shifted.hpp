@@ -4,9 +4,7 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/checks.hpp>
-#include <slant/sets/image_block.hpp>
-#include <slant/sets/image_product.hpp>
+#include <slant/sets/parts/image.hpp>
 
 #include <type_traits>
 #include <utility>

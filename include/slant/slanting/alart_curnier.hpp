@@ -25,15 +25,15 @@
 // Newton like solution methods", Comput. Methods Appl. Mech. Engrg. 92 (1991).
 #pragma once
 
+#include <slant/base/entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/sets/ball.hpp>
-#include <slant/sets/detail/entries.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/blockwise.hpp>
-#include <slant/slanting/identity.hpp>
 
 #include <Eigen/Core>
 

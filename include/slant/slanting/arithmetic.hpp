@@ -15,7 +15,6 @@
 
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/composition.hpp>
-#include <slant/slanting/difference.hpp>
 #include <slant/slanting/scaled.hpp>
 #include <slant/slanting/sum.hpp>
 

@@ -11,8 +11,8 @@
 // known about it.
 #pragma once
 
-#include <slant/sets/block_diagonal_slant.hpp>
-#include <slant/sets/detail/block_list.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/slants.hpp>
 #include <slant/slanting/slanting_base.hpp>
 
 #include <Eigen/Core>

@@ -7,8 +7,7 @@
 #pragma once
 
 #include <slant/operators/product.hpp>
-#include <slant/slanting/detail/assembled_operator.hpp>
-#include <slant/slanting/detail/checks.hpp>
+#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_base.hpp>
 
 #include <type_traits>

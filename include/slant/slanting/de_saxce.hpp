@@ -30,10 +30,10 @@
 // complete contact law with friction", Math. Comput. Modelling 28 (1998).
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaled_norm.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/sets/detail/scaled_norm.hpp>
 #include <slant/slanting/blockwise.hpp>
 
 #include <Eigen/Core>

@@ -15,7 +15,7 @@
 // slopes are negative, so F̃° is as regular as there.
 #pragma once
 
-#include <slant/slanting/detail/pointwise_pair.hpp>
+#include <slant/slanting/parts/pairs.hpp>
 
 #include <cmath>
 #include <utility>

@@ -20,7 +20,7 @@
 // paper, opposite to slant::fischer_burmeister.
 //
 // Accuracy and kinks (x² + y² on the boundary of the cone): see
-// detail/jordan_fischer_burmeister.hpp. As for the scalar function the slope at a kink is the limit
+// section jordan fischer burmeister. As for the scalar function the slope at a kink is the limit
 // along (x + τ, y + τ), τ ↓ 0.
 //
 // Source: M. Fukushima, Z.-Q. Luo, P. Tseng, "Smoothing functions for second-order-cone
@@ -28,18 +28,263 @@
 // Math. Program. 103 (2005).
 #pragma once
 
+#include <slant/base/double_word.hpp>
+#include <slant/base/entries.hpp>
+#include <slant/base/scaled_norm.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/sets/detail/entries.hpp>
-#include <slant/slanting/detail/blockwise_pair.hpp>
-#include <slant/slanting/detail/jordan_fischer_burmeister.hpp>
+#include <slant/operators/product.hpp>
+#include <slant/operators/sum.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/slants.hpp>
+#include <slant/slanting/assembled_operator.hpp>
+#include <slant/slanting/parts/pairs.hpp>
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
+namespace slant::detail {
+
+// --- jordan fischer burmeister -------------------------------------------------------------------
+//
+// φ(x, y) = x + y − (x² + y²)^½ in the Jordan algebra of the second-order cone ‖x_t‖ <= x₀,
+//
+//     x∘y = (xᵀy, x₀y_t + y₀x_t) = L_x y,      x² = x∘x.
+//
+// With w = x² + y², e = w_t/‖w_t‖, c± = (1, ±e)/√2 and λ± = w₀ ± ‖w_t‖ >= 0 the root is
+// z = (√λ₊ + √λ₋, (√λ₊ − √λ₋) e)/2, and L_z dz = L_x dx + L_y dy gives
+//
+//     φ° = (I − L_z⁻¹L_x,  I − L_z⁻¹L_y),
+//     L_z⁻¹ = c₊c₊ᵀ/√λ₊ + c₋c₋ᵀ/√λ₋ + 2/(√λ₊ + √λ₋) (0 ⊕ (I − eeᵀ)).
+//
+// All is bounded, as ‖L_x c₋‖² + ‖L_y c₋‖² <= λ₋. λ₋ and the difference x + y − z cancel where it
+// matters, at complementary x and y: both are had in double words.
+
+template <class S, int N>
+class jordan_fischer_burmeister {
+ public:
+  using vector_type = Eigen::Matrix<S, N, 1>;
+  using matrix_type = Eigen::Matrix<S, N, N>;
+
+  /// Everything of φ that x and y determine.
+  jordan_fischer_burmeister(vector_type const& x, vector_type const& y)
+      : exponent_(unit(x, y)),
+        x_(times_power_of_two<S, N>(x, -exponent_)),
+        y_(times_power_of_two<S, N>(y, -exponent_)) {
+    word const w0 = precise_dot<S>(x_, x_) + precise_dot<S>(y_, y_);
+    word squares;
+    for (int i = 1; i < N; ++i) {
+      word const half = exact_product<S>(x_(0), x_(i)) + exact_product<S>(y_(0), y_(i));
+      e_at(i) = half + half;
+      squares = squares + e_at(i) * e_at(i);
+    }
+    word const length = square_root(squares);
+    larger_ = square_root(w0 + length);
+    word const λ = w0 - length;
+    smaller_ = λ.hi > S(0) ? square_root(λ) : word(S(0));
+    if (length.hi > S(0)) {
+      for (auto& entry : e_) entry = entry / length;
+    } else {  // z is a multiple of the unit: any e will do
+      e_.fill(word(S(0)));
+      e_[0] = word(S(1));
+    }
+  }
+
+  [[nodiscard]] vector_type value() const {
+    word const half(S(0.5));
+    vector_type φ;
+    φ(0) = (exact_sum<S>(x_(0), y_(0)) - half * (larger_ + smaller_)).hi;
+    for (int i = 1; i < N; ++i) {
+      φ(i) = (exact_sum<S>(x_(i), y_(i)) - half * (larger_ - smaller_) * e_at(i)).hi;
+    }
+    return times_power_of_two<S, N>(φ, exponent_);
+  }
+
+  /// {∂φ/∂x, ∂φ/∂y}. Where λ₋ = 0 (x and y on one line of the mantle, or 0) or cannot be told from
+  /// it, the limit along (x + τ, y + τ), τ ↓ 0: of the products by c₋ remain c₋ᵀ/√2 each.
+  [[nodiscard]] std::pair<matrix_type, matrix_type> slants() const {
+    using std::sqrt;
+    S const root = sqrt(S(0.5)), a = larger_.hi, b = smaller_.hi;
+    std::pair<matrix_type, matrix_type> result{matrix_type::Identity(), matrix_type::Identity()};
+    if (a == S(0)) {
+      result.first *= S(1) - root;
+      result.second *= S(1) - root;
+      return result;
+    }
+    vector_type e, plus, minus;
+    e(0) = S(0);
+    for (int i = 1; i < N; ++i) e(i) = e_at(i).hi;
+    plus = root * e;
+    minus = -plus;
+    plus(0) = minus(0) = root;
+    vector_type u = root * minus, v = u;
+    if (b > S(4) * std::numeric_limits<S>::epsilon() * a) {
+      u = across(x_) / b;
+      v = across(y_) / b;
+      S const size = u.squaredNorm() + v.squaredNorm();
+      if (size > S(1)) {
+        u /= S(sqrt(size));
+        v /= S(sqrt(size));
+      }
+    }
+    S const mean = S(2) / (a + b);
+    auto const subtract = [&](matrix_type& m, vector_type const& p, vector_type const& q) {
+      vector_type along = p(0) * plus;  // L_p c₊
+      along(0) = root * (p(0) + e.dot(p));
+      for (int i = 1; i < N; ++i) along(i) = root * p(i) + p(0) * plus(i);
+      m.noalias() -= plus * (along / a).transpose() + minus * q.transpose();
+      // 2/(√λ₊ + √λ₋) (0 ⊕ (I − eeᵀ)) L_p
+      S const slip = e.dot(p);
+      for (int i = 1; i < N; ++i) {
+        m(i, 0) -= mean * (p(i) - slip * e(i));
+        for (int j = 1; j < N; ++j) {
+          m(i, j) -= mean * (p(0) * (S(i == j ? 1 : 0) - e(i) * e(j)));
+        }
+      }
+    };
+    subtract(result.first, x_, u);
+    subtract(result.second, y_, v);
+    return result;
+  }
+
+ private:
+  using word = double_word<S>;
+
+  /// Component i >= 1 of (0, e).
+  [[nodiscard]] word& e_at(int i) { return e_[static_cast<std::size_t>(i - 1)]; }
+  [[nodiscard]] word const& e_at(int i) const { return e_[static_cast<std::size_t>(i - 1)]; }
+
+  [[nodiscard]] static int unit(vector_type const& x, vector_type const& y) {
+    int const a = binary_exponent(x), b = binary_exponent(y);
+    bool const has_x = !all_zero(x), has_y = !all_zero(y);
+    return has_x && (!has_y || a > b) ? a : b;
+  }
+
+  /// L_p c₋, of which the digits count.
+  [[nodiscard]] vector_type across(vector_type const& p) const {
+    using std::sqrt;
+    S const root = sqrt(S(0.5));
+    vector_type q;
+    word sum(p(0));
+    for (int i = 1; i < N; ++i) {
+      sum = sum - e_at(i) * word(p(i));
+      q(i) = root * (word(p(i)) - e_at(i) * word(p(0))).hi;
+    }
+    q(0) = root * sum.hi;
+    return q;
+  }
+
+  int exponent_;
+  vector_type x_, y_;
+  std::array<word, N - 1> e_;
+  word larger_, smaller_;  // √λ₊, √λ₋
+};
+
+// --- blockwise pair ------------------------------------------------------------------------------
+//
+// Functions of two slanting functions, block by block: y ↦ κ_i(F(y)_i, G(y)_i), and their chain
+// rule P F° + Q G° with block diagonal P and Q.
+
+/// P A + Q B.
+struct block_weighted_rule {
+  template <class P, class Q, class A, class B>
+  [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
+    using left = product_operator<P const&, A const&>;
+    using right = product_operator<Q const&, B const&>;
+    return sum_operator<left, right>(held<left>(left(p, a)), held<right>(right(q, b)));
+  }
+};
+
+/// κ has `dimension` N, `scalar`, value(a, b) → N numbers, slants(a, b) → {∂κ/∂a, ∂κ/∂b} and
+/// with(parameters…).
+template <class Kernel, class F, class G>
+class blockwise_pair : public evaluated_pair<F, G> {
+  using pair = evaluated_pair<F, G>;
+  static constexpr int n = Kernel::dimension;
+  using scalar = typename Kernel::scalar;
+  using blocks_type = block_diagonal_slant<scalar, n, consecutive, false, law_set{}>;
+
+ public:
+  using pair::left;
+  using pair::right;
+  using pair::rows;
+
+  /// @throws bad_input unless F and G have the sizes of the list.
+  blockwise_pair(listed_blocks<Kernel> kernels, held<F> f, held<G> g)
+      : pair(std::move(f), std::move(g)), kernels_(std::move(kernels)) {
+    require_equal_sizes("f.rows()", rows(), n * kernels_.size(), "the components of all blocks");
+  }
+
+  /// New parameters for all blocks; does not allocate.
+  template <class... Params>
+    requires takes_parameters<Kernel, Params...>
+  void update(Params const&... params) {
+    kernels_.update(params...);
+  }
+
+  template <class Y, class V, class W>
+    requires pair::template
+  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
+    this->evaluate_parts(y, w);
+    for_each(w, [&](auto const& kernel, index i, auto const& a, auto const& b) {
+      place_of(i).put(slant::local(v), kernel.value(a, b));
+    });
+  }
+  template <class Y>
+    requires pair::template
+  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
+    auto w = this->workspace(y);
+    this->evaluate_parts(y, w);
+    assembled_operator s(block_weighted_rule{}, blocks_type(kernels_.size()),
+                         blocks_type(kernels_.size()), left().slant(y), right().slant(y));
+    set_slants(s, w);
+    return s;
+  }
+  template <class Y, class S, class W>
+  void slant(Y const& y, S& s, W& w) const {
+    this->evaluate_parts(y, w);
+    slant_after_value(y, s, w);
+  }
+  template <class Y, class S, class W>
+  void slant_after_value(Y const& y, S& s, W& w) const {
+    set_slants(s, w);
+    this->update_parts(y, s, w);
+  }
+
+ private:
+  [[nodiscard]] auto place_of(index i) const {
+    return block_place<n, consecutive>(i, kernels_.size());
+  }
+  /// f(kernel, number, its part of F(y), its part of G(y)).
+  template <class W, class Function>
+  void for_each(W const& w, Function const& f) const {
+    for (index i = 0; i < kernels_.size(); ++i) {
+      f(kernels_[i], i, place_of(i).value(w.f), place_of(i).value(w.g));
+    }
+  }
+  template <class S, class W>
+  void set_slants(S& s, W const& w) const {
+    for_each(w, [&](auto const& kernel, index i, auto const& a, auto const& b) {
+      auto const [at_f, at_g] = kernel.slants(a, b);
+      s.template part<0>().assign(i, at_f);
+      s.template part<1>().assign(i, at_g);
+    });
+  }
+
+  listed_blocks<Kernel> kernels_;
+};
+
+}  // namespace slant::detail
+
 namespace slant {
+
+// --- fischer burmeister cone ---------------------------------------------------------------------
 
 namespace detail {
 

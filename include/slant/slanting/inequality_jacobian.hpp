@@ -7,7 +7,7 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/slanting/detail/inequality_layout.hpp>
+#include <slant/sets/blocks.hpp>
 
 #include <Eigen/Core>
 
@@ -17,7 +17,138 @@
 #include <utility>
 #include <vector>
 
+namespace slant::detail {
+
+// --- inequality layout ---------------------------------------------------------------------------
+//
+// Where the gradients of the smooth inequalities of a product of blocks stand in the matrix
+// J = ∇f(x)ᵀ, one row per inequality. Equal blocks that follow one another form a run, which a few
+// numbers describe: no list of components is read when J or Jᵀ is applied.
+
+/// `blocks` equal blocks. Component j of block i is entry first + i·step + j·stride of the vector.
+struct inequality_run {
+  index blocks;
+  index dimension;
+  index inequalities;  ///< per block
+  index first;
+  index step;
+  index stride;
+  index row;       ///< first row of J
+  index gradient;  ///< first of the entries of J, `dimension` per row
+  index hessian;   ///< first of the entries of the Hessians, dimension² per block
+};
+
+/// Number of smooth inequalities of a block; 0 also of one without an inequality form, which
+/// slant::inequalities refuses in words.
+template <class Block>
+inline constexpr int inequalities_of = [] {
+  if constexpr (has_inequality_form<Block, point_t<Block>>) {
+    return int(Block::inequalities);
+  } else {
+    return 0;
+  }
+}();
+
+/// The runs of a set, in the order of its blocks.
+class inequality_layout {
+ public:
+  template <class Set>
+  explicit inequality_layout(Set const& set) : cols_(slant::dimension_of(set)) {
+    slant::visit_blocks(set, [this](auto const& block, auto const& place) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      constexpr index n = static_dimension_of<block_type>;
+      constexpr index k = inequalities_of<block_type>;
+      if constexpr (k > 0) {
+        append(n, k, place.component(0), n > 1 ? place.component(1) - place.component(0) : 1);
+      }
+    });
+  }
+
+  /// Number of inequalities.
+  [[nodiscard]] index rows() const noexcept { return rows_; }
+  /// Number of components of the set.
+  [[nodiscard]] index cols() const noexcept { return cols_; }
+  [[nodiscard]] index gradients() const noexcept { return gradients_; }
+  [[nodiscard]] index hessians() const noexcept { return hessians_; }
+  [[nodiscard]] std::vector<inequality_run> const& runs() const noexcept { return runs_; }
+
+ private:
+  void append(index n, index k, index first, index stride) {
+    if (runs_.empty() || !continues(runs_.back(), n, k, first, stride)) {
+      runs_.push_back({0, n, k, first, n * stride, stride, rows_, gradients_, hessians_});
+    }
+    ++runs_.back().blocks;
+    rows_ += k;
+    gradients_ += k * n;
+    hessians_ += n * n;
+  }
+  /// The second block of a run sets its step.
+  static bool continues(inequality_run& run, index n, index k, index first, index stride) {
+    if (run.dimension != n || run.inequalities != k || run.stride != stride) return false;
+    if (run.blocks == 1) run.step = first - run.first;
+    return first == run.first + run.blocks * run.step;
+  }
+
+  index rows_ = 0;
+  index cols_;
+  index gradients_ = 0;
+  index hessians_ = 0;
+  std::vector<inequality_run> runs_;
+};
+
+/// f(0), …, f(n − 1), written out where n is a constant: compilers that optimise for size as well
+/// do not unroll a loop of two.
+template <class N, class F>
+void repeat(N n, F const& f) {
+  if constexpr (std::is_same_v<N, index>) {
+    for (index j = 0; j < n; ++j) f(j);
+  } else {
+    [&]<index... J>(std::integer_sequence<index, J...>) {
+      (f(std::integral_constant<index, J>{}), ...);
+    }(std::make_integer_sequence<index, N::value>{});
+  }
+}
+
+/// f(x, y) for each of several right-hand sides x and results y.
+template <class X, class Y, class F>
+void by_columns(X const& x, Y& y, F const& f) {
+  if constexpr (X::ColsAtCompileTime == 1 && Y::ColsAtCompileTime == 1) {
+    f(x, y);
+  } else {
+    for (index j = 0; j < index(x.cols()); ++j) {
+      auto const from = x.col(j);
+      auto to = y.col(j);
+      f(from, to);
+    }
+  }
+}
+
+template <class N>
+inline constexpr bool is_one = std::is_same_v<N, std::integral_constant<index, 1>>;
+
+/// f(dimension, inequalities, stride, step), as constants where the blocks are of the usual kinds
+/// and lie one behind the other, so that the loops over them are unrolled.
+template <class F>
+void with_block_size(inequality_run const& run, F const& f) {
+  using one = std::integral_constant<index, 1>;
+  using two = std::integral_constant<index, 2>;
+  bool const dense = run.stride == 1 && run.step == run.dimension;
+  if (dense && run.dimension == 1 && run.inequalities == 1) {
+    f(one{}, one{}, one{}, one{});
+  } else if (dense && run.dimension == 2 && run.inequalities == 1) {
+    f(two{}, one{}, one{}, two{});
+  } else if (dense && run.dimension == 1 && run.inequalities == 2) {
+    f(one{}, two{}, one{}, one{});
+  } else {
+    f(run.dimension, run.inequalities, run.stride, run.step);
+  }
+}
+
+}  // namespace slant::detail
+
 namespace slant {
+
+// --- inequality jacobian -------------------------------------------------------------------------
 
 /// y = J x. Made by the slanting function `inequalities`.
 template <class S>

@@ -16,12 +16,12 @@
 // itself, so nothing cancels where z is large; and ties are inactive, as in [T].
 #pragma once
 
-#include <slant/concepts/checks.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/operators/slice.hpp>
+#include <slant/operators/restriction.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/inequalities.hpp>
-#include <slant/slanting/min.hpp>
+#include <slant/slanting/max.hpp>
 #include <slant/slanting/stack.hpp>
 
 #include <utility>

@@ -8,13 +8,12 @@
 // `symmetrizable` all follow from the composition.
 #pragma once
 
+#include <slant/base/sizes.hpp>
 #include <slant/concepts/vector_algebra.hpp>
-#include <slant/operators/detail/checks.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/detail/checks.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/projection.hpp>
+#include <slant/slanting/slanting_base.hpp>
 
 #include <utility>
 

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
-#include <slant/sets/projection_slant.hpp>
-#include <slant/slanting/detail/derivative.hpp>
+#include <slant/sets/slants.hpp>
+#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_base.hpp>
 
 #include <concepts>

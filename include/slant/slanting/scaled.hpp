@@ -6,8 +6,7 @@
 
 #include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/scaled.hpp>
-#include <slant/slanting/detail/assembled_operator.hpp>
-#include <slant/slanting/detail/checks.hpp>
+#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_base.hpp>
 
 #include <type_traits>

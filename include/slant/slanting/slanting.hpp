@@ -9,16 +9,12 @@
 #include <slant/slanting/blockwise.hpp>
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/de_saxce.hpp>
-#include <slant/slanting/difference.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
 #include <slant/slanting/fischer_burmeister_cone.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/inequalities.hpp>
-#include <slant/slanting/inequality_curvature.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 #include <slant/slanting/kkt_function.hpp>
 #include <slant/slanting/max.hpp>
-#include <slant/slanting/min.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/slanting/scaled.hpp>
@@ -27,5 +23,4 @@
 #include <slant/slanting/smooth.hpp>
 #include <slant/slanting/stack.hpp>
 #include <slant/slanting/sum.hpp>
-#include <slant/slanting/symmetrizable.hpp>
 #include <slant/slanting/symmetrized.hpp>

@@ -9,11 +9,16 @@
 // not.
 #pragma once
 
+#include <slant/base/held.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/member_names.hpp>
 #include <slant/concepts/slanting_function.hpp>
-#include <slant/operators/held.hpp>
+#include <slant/concepts/vector.hpp>
 
+#include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace slant {
 
@@ -35,3 +40,52 @@ concept slanting_part =
     has_value_member<std::remove_cvref_t<F>> && has_slant_member<std::remove_cvref_t<F>>;
 
 }  // namespace slant
+
+namespace slant::detail {
+
+// --- vectors and sizes ---------------------------------------------------------------------------
+//
+// Vectors that slanting functions keep, and checks of sizes, all at construction.
+
+/// Vectors are kept like any part; expressions are evaluated, lest they refer to what is gone.
+template <class C>
+inline constexpr bool is_plain_vector =
+    std::is_same_v<plain_t<std::remove_cvref_t<C>>, std::remove_cvref_t<C>>;
+
+template <class C>
+using kept_vector_t =
+    std::conditional_t<is_plain_vector<C>, kept_t<C>, plain_t<std::remove_cvref_t<C>>>;
+
+/// The vector itself, or the value of an expression.
+template <class C>
+[[nodiscard]] decltype(auto) plain_vector(C&& c) {
+  if constexpr (is_plain_vector<C>) {
+    return std::forward<C>(c);
+  } else {
+    return plain_t<std::remove_cvref_t<C>>(c);
+  }
+}
+
+[[gnu::cold]] inline void require_equal_sizes(std::string_view name, index got, index expected,
+                                              std::string_view what) {
+  if (got != expected) {
+    throw bad_input(name, std::to_string(got),
+                    std::to_string(expected).append(" (").append(what).append(")"));
+  }
+}
+
+/// Throws unless the vector called `name` has n finite entries.
+template <class C>
+void require_offset(std::string_view name, C const& c, index n) {
+  auto const& v = slant::local(c);
+  require_equal_sizes(std::string(name).append(".size()"), v.size(), n,
+                      "the number of rows of the operator");
+  for (index i = 0; i < n; ++i) {
+    scalar_t<C> const entry = v.coeff(i);
+    if (!is_finite(entry)) {
+      throw bad_input(name, show(entry), "a finite number").at(i);
+    }
+  }
+}
+
+}  // namespace slant::detail

@@ -8,7 +8,7 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
-#include <slant/slanting/detail/derivative.hpp>
+#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_base.hpp>
 
 #include <concepts>

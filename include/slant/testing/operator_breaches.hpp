@@ -12,16 +12,318 @@
 // matrix may need options.roundings of the order of the condition.
 #pragma once
 
-#include <slant/testing/detail/capability_laws.hpp>
-#include <slant/testing/detail/concurrency.hpp>
-#include <slant/testing/detail/declared_laws.hpp>
-#include <slant/testing/detail/operator_sampler.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/testing/parts/operator_sampler.hpp>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
 #include <limits>
+#include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
+namespace slant::testing::detail {
+
+// --- capability laws -----------------------------------------------------------------------------
+//
+// Checks that the capabilities which an operator has agree with its apply.
+
+/// ⟨Ax, y⟩ = ⟨x, Aᵀy⟩; the adjoint overwrites.
+template <class V>
+void check_adjoint(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                   scalar_t<V> const& size) {
+  using S = scalar_t<V>;
+  if (!a.apply_adjoint) return;
+  for (int k = 0; k < a.options.samples; ++k) {
+    V const x = sampler.random(a.cols);
+    V const y = sampler.random(a.rows);
+    S const difference = S(slant::inner_product(sampler.image(x), y)) -
+                         S(slant::inner_product(x, sampler.adjoint_image(y)));
+    sampler.expect_small("adjoint, <Ax, y> = <x, A'y>", difference,
+                         S(size * slant::norm(x) * slant::norm(y)));
+  }
+}
+
+/// apply_add(α, x, y) = y + α A x and apply_adjoint_add(α, x, y) = y + α Aᵀx.
+template <class V>
+void check_accumulation(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                        scalar_t<V> const& size) {
+  using S = scalar_t<V>;
+  for (S const& α : {S(1), S(S(-3) / S(4)), S(0)}) {
+    auto const check = [&](char const* law, auto const& add, V const& x, V const& start,
+                           V const& image) {
+      V result = start;
+      add(α, x, result);
+      V sum = start;
+      slant::local(sum) += α * slant::local(image);
+      sampler.expect_close(law, result, sum, S(size * slant::norm(x) + slant::norm(start)));
+    };
+    V const x = sampler.random(a.cols);
+    V const y = sampler.random(a.rows);
+    if (a.apply_add) {
+      check("apply_add(c, x, y) = y + c A x", a.apply_add, x, y, sampler.image(x));
+    }
+    if (a.apply_adjoint_add) {
+      check("apply_adjoint_add(c, x, y) = y + c A'x", a.apply_adjoint_add, y, x,
+            sampler.adjoint_image(y));
+    }
+  }
+}
+
+/// diagonal_i = ⟨A e_i, e_i⟩.
+template <class V>
+void check_diagonal(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                    scalar_t<V> const& size) {
+  if (!a.diagonal) return;
+  V d = sampler.garbage(a.rows);
+  a.diagonal(d);
+  if (slant::local(d).size() != a.rows) {
+    sampler.report("diagonal", "the result has a wrong size");
+    return;
+  }
+  for (index const i : sampler.places(a.rows, 64)) {
+    V const ae = sampler.image(sampler.unit(a.cols, i));
+    sampler.expect_small("diagonal_i = <A e_i, e_i>",
+                         scalar_t<V>(slant::local(ae)[i] - slant::local(d)[i]), size);
+  }
+}
+
+/// The columns of `result` are A applied to the columns of `x`.
+template <class V>
+void expect_images(operator_sampler<V>& sampler, char const* law, operator_probe<V> const& a,
+                   typename operator_probe<V>::matrix const& x,
+                   typename operator_probe<V>::matrix const& result, scalar_t<V> const& size) {
+  if (result.rows() != a.rows || result.cols() != x.cols()) {
+    sampler.report(law, "the result has a wrong size");
+    return;
+  }
+  for (index j = 0; j < x.cols(); ++j) {
+    V one = sampler.garbage(a.cols);
+    slant::local(one) = x.col(j);
+    V column = sampler.garbage(a.rows);
+    slant::local(column) = result.col(j);
+    sampler.expect_close(law, column, sampler.image(one), scalar_t<V>(size * slant::norm(one)));
+  }
+}
+
+/// columns(first, Y)_k = A e_{first + k}, and A [x₁ … x_k] = [A x₁ … A x_k] in either storage
+/// order.
+template <class V>
+void check_columns(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                   scalar_t<V> const& size) {
+  using S = scalar_t<V>;
+  using matrix = typename operator_probe<V>::matrix;
+  S const nan = std::numeric_limits<S>::quiet_NaN();
+  if (a.columns) {
+    index const k = std::min<index>(3, a.cols);
+    for (index const first : {index(0), a.cols - k}) {
+      matrix y = matrix::Constant(a.rows, k, nan);
+      a.columns(first, y);
+      matrix const units = matrix::Identity(a.cols, a.cols).middleCols(first, k);
+      expect_images(sampler, "columns(j)_k = A e_{j+k}", a, units, y, size);
+    }
+  }
+  auto const check_many = [&](char const* law, auto const& apply_to_many) {
+    if (!apply_to_many) return;
+    matrix x(a.cols, 3);
+    for (index j = 0; j < x.cols(); ++j) x.col(j) = slant::local(sampler.random(a.cols));
+    matrix y = matrix::Constant(a.rows, x.cols(), nan);
+    apply_to_many(x, y);
+    expect_images(sampler, law, a, x, y, size);
+  };
+  check_many("A [x1 x2 x3] = [A x1, A x2, A x3]", a.apply_to_many);
+  check_many("stored by rows, A [x1 x2 x3] = [A x1, A x2, A x3]", a.apply_to_many_by_rows);
+}
+
+/// inverse()(A x) = x, up to the condition of A.
+template <class V>
+void check_inverse(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                   scalar_t<V> const& size) {
+  using S = scalar_t<V>;
+  if (!a.inverse) return;
+  for (int k = 0; k < a.options.samples; ++k) {
+    V const x = sampler.random(a.cols);
+    V const ax = sampler.image(x);
+    V back = sampler.garbage(a.cols);
+    a.inverse(ax, back);
+    // ‖A⁻¹‖ is at least this; the product with ‖A‖ estimates the condition.
+    S const image_size = slant::norm(ax);
+    S const inverse_size = image_size > S(0) ? S(slant::norm(x) / image_size) : S(0);
+    sampler.expect_close("inverse()(A x) = x", back, x,
+                         S((S(1) + size * inverse_size) * slant::norm(x)));
+  }
+}
+
+// --- declared laws -------------------------------------------------------------------------------
+//
+// Samples the laws that an operator type declares.
+
+/// x ↦ Aᵀx by what there is: self-adjointness, apply_adjoint, or all columns of a small A. Else
+/// empty.
+template <class V>
+[[nodiscard]] std::function<V(V const&)> adjoint_map(operator_sampler<V>& sampler,
+                                                     operator_probe<V> const& a) {
+  constexpr index small = 200;
+  if (a.laws.contains(law::self_adjoint)) return [&](V const& x) { return sampler.image(x); };
+  if (a.apply_adjoint) return [&](V const& x) { return sampler.adjoint_image(x); };
+  if (a.cols > small) return {};
+  std::vector<V> columns;
+  for (index j = 0; j < a.cols; ++j) columns.push_back(sampler.image(sampler.unit(a.cols, j)));
+  return [columns = std::move(columns)](V const& x) {
+    V y = x;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      slant::local(y)[static_cast<index>(j)] = slant::inner_product(columns[j], x);
+    }
+    return y;
+  };
+}
+
+/// Directions in which to try laws about ⟨Ax, x⟩: random ones, unit vectors, and the ends of the
+/// spectrum of (A + Aᵀ)/2, where that can be applied.
+template <class V>
+[[nodiscard]] std::vector<V> telling_directions(operator_sampler<V>& sampler,
+                                                operator_probe<V> const& a) {
+  using S = scalar_t<V>;
+  std::vector<V> directions;
+  for (int k = 0; k < a.options.samples; ++k) directions.push_back(sampler.random(a.cols));
+  for (index const i : sampler.places(a.cols, 16)) directions.push_back(sampler.unit(a.cols, i));
+  if (auto const adjoint_image = adjoint_map(sampler, a)) {
+    auto const symmetric_part = [&](V const& x) {
+      V y = sampler.image(x);
+      V const z = adjoint_image(x);
+      slant::local(y) = (slant::local(y) + slant::local(z)) / S(2);
+      return y;
+    };
+    for (V& x :
+         extreme_directions(symmetric_part, sampler.random(a.cols), a.options.lanczos_steps)) {
+      directions.push_back(std::move(x));
+    }
+  }
+  return directions;
+}
+
+/// Every law that `a` declares, in one direction x. `size` is an estimate of ‖A‖; y is any other
+/// direction.
+template <class V>
+void check_laws_along(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                      scalar_t<V> const& size, V const& x, V const& y) {
+  using S = scalar_t<V>;
+  V const ax = sampler.image(x);
+  S const length = slant::norm(x);
+  S const form = slant::inner_product(ax, x);
+  S const scale = size * length * length;
+  if (a.laws.contains(law::self_adjoint)) {
+    S const difference =
+        S(slant::inner_product(ax, y)) - S(slant::inner_product(x, sampler.image(y)));
+    sampler.expect_small("self_adjoint, <Ax, y> = <x, Ay>", difference,
+                         S(size * length * slant::norm(y)));
+  }
+  if (a.laws.contains(law::positive_definite)) {
+    // Zero up to rounding is not positive: here rounding counts against the operator.
+    S const rounding =
+        std::numeric_limits<S>::epsilon() * S(8 + int(std::min<index>(a.cols, 1000))) * scale;
+    if (!(form > rounding)) sampler.report("positive_definite, <Ax, x> > 0", -form, S(0));
+  } else if (a.laws.contains(law::positive_semidefinite)) {
+    S const bound = sampler.allowed(scale);
+    if (!(form >= -bound)) {
+      sampler.report("positive_semidefinite, <Ax, x> >= 0", -form, bound);
+    }
+  }
+  if (a.laws.contains(law::projector)) {
+    sampler.expect_close("projector, A A x = A x", sampler.image(ax), ax,
+                         S(size * (S(1) + size) * length));
+  }
+  if (a.laws.contains(law::firmly_nonexpansive)) {
+    S const square = slant::inner_product(ax, ax);
+    S const bound = sampler.allowed(scale * (S(1) + size));
+    if (!(form >= square - bound)) {
+      sampler.report("firmly_nonexpansive, <Ax, x> >= |Ax|^2", square - form, bound);
+    }
+  }
+}
+
+/// `size` is an estimate of ‖A‖.
+template <class V>
+void check_declared_laws(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                         scalar_t<V> const& size) {
+  if (a.laws == law_set{} || a.cols == 0) return;
+  auto const directions = telling_directions(sampler, a);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    check_laws_along(sampler, a, size, directions[k], directions[(k + 1) % directions.size()]);
+  }
+}
+
+// --- concurrency ---------------------------------------------------------------------------------
+//
+// One operator applied from two threads at the same time, each with its own workspace.
+
+/// Applies to `other` as long as it lives, and counts.
+template <class V>
+class applied_beside {
+ public:
+  applied_beside(operator_probe<V> const& a, V const& other, V result)
+      : thread_([this, &a, &other, y = std::move(result)]() mutable {
+          auto const apply_beside = a.with_one_workspace(other);
+          while (!stop_.load(std::memory_order_relaxed)) {
+            apply_beside(other, y);
+            finished_.fetch_add(1, std::memory_order_relaxed);
+          }
+        }) {}
+  ~applied_beside() {
+    stop_ = true;
+    thread_.join();
+  }
+  applied_beside(applied_beside const&) = delete;
+  applied_beside& operator=(applied_beside const&) = delete;
+
+  /// Applications that are finished.
+  [[nodiscard]] long finished() const { return finished_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<bool> stop_ = false;
+  std::atomic<long> finished_ = 0;
+  std::thread thread_;  // last: it uses the others from its first moment
+};
+
+/// A x is the same while another thread applies A to something else. The two must meet, and often:
+/// an application counts where one of the other thread's ended during it. On a busy machine with
+/// one free core they meet only where the system interrupts one of them, so time is limited as
+/// well.
+template <class V>
+void check_concurrency(operator_sampler<V>& sampler, operator_probe<V> const& a,
+                       scalar_t<V> const& size) {
+  using S = scalar_t<V>;
+  constexpr int meetings = 2000;
+  constexpr std::chrono::milliseconds patience(50);
+  std::string const law = "repeatability, beside another thread with its own workspace";
+
+  V const x = sampler.random(a.cols);
+  V const other = sampler.random(a.cols);
+  V const expected = sampler.image(x);
+  S const image_size = size * slant::norm(x);
+  auto const apply = a.with_one_workspace(x);
+  V y = sampler.garbage(a.rows);
+
+  applied_beside<V> const beside(a, other, y);
+  while (beside.finished() == 0) std::this_thread::yield();
+  auto const end = std::chrono::steady_clock::now() + patience;
+  for (int met = 0; met < meetings && std::chrono::steady_clock::now() < end;) {
+    long const before = beside.finished();
+    apply(x, y);
+    met += beside.finished() != before;
+    sampler.expect_close(law, y, expected, image_size);
+    if (sampler.has_found(law)) return;
+  }
+}
+
+}  // namespace slant::testing::detail
+
 namespace slant::testing {
+
+// --- operator breaches ---------------------------------------------------------------------------
 
 namespace detail {
 
@@ -135,6 +437,51 @@ template <class A, slant::vector V = Eigen::VectorXd>
 [[nodiscard]] std::vector<breach> operator_breaches(A const& a, V const& prototype = V(),
                                                     operator_law_options const& options = {}) {
   return detail::operator_breaches_of(detail::probe_operator<V>(a, options), prototype);
+}
+
+// --- conjugacy breaches --------------------------------------------------------------------------
+//
+// The laws of a conjugate projector, sampled [D (5)]:
+//
+//     K Q = Qᵀ K Q = Qᵀ K
+//
+// for a symmetric K; equivalently ⟨K Q x, y − Q y⟩ = 0 for all x, y: what Q keeps is K-orthogonal
+// to what it removes. That Q² = Q, and that Qᵀ is its adjoint, is for operator_breaches.
+
+/// The laws that Q was found to break, each once, with the numbers that show it. Tolerances are
+/// multiples of ε max(‖K x‖, ‖K Q x‖) (1 + ‖Q x‖ / ‖x‖)² for the sample x; a U'KU of large
+/// condition may need options.roundings.
+template <class Q, class K, slant::vector V = Eigen::VectorXd>
+  requires has_adjoint<Q, V> && linear_operator<Q, V> && linear_operator<K, V>
+[[nodiscard]] std::vector<breach> conjugacy_breaches(Q const& q, K const& k,
+                                                     V const& prototype = V(),
+                                                     operator_law_options const& options = {}) {
+  using S = scalar_t<V>;
+  auto const probe = detail::probe_operator<V>(q, options);
+  detail::operator_sampler<V> sampler(probe, prototype);
+  index const n = index(q.rows());
+  if (index(q.cols()) != n || index(k.rows()) != n || index(k.cols()) != n) {
+    sampler.report("sizes", "Q and K are not square of the same size");
+    return sampler.found();
+  }
+  auto const image = [&](V const& x) {
+    V y = sampler.garbage(n);
+    slant::apply(k, x, y);
+    return y;
+  };
+  for (int sample = 0; sample < std::max(options.samples, 1); ++sample) {
+    V const x = sampler.random(n);
+    V const qx = sampler.image(x);
+    V const kx = image(x);
+    V const kqx = image(qx);
+    S const length = slant::norm(x);
+    if (!(length > S(0))) continue;
+    S const growth = S(1) + slant::norm(qx) / length;
+    S const size = std::max<S>(slant::norm(kx), slant::norm(kqx)) * growth * growth;
+    sampler.expect_close("conjugacy, K Q x = Q'K x", kqx, sampler.adjoint_image(kx), size);
+    sampler.expect_close("conjugacy, K Q x = Q'K Q x", kqx, sampler.adjoint_image(kqx), size);
+  }
+  return sampler.found();
 }
 
 }  // namespace slant::testing

@@ -37,4 +37,25 @@ void check_operator_laws(A const& a, operator_law_options const& options) {
   slant::testing::check_operator_laws(a, Eigen::VectorXd(), options);
 }
 
+// --- conjugacy laws ------------------------------------------------------------------------------
+//
+// The laws of a conjugate projector as a check for doctest suites:
+//
+//     TEST_CASE("my projector keeps its word") {
+//       slant::testing::check_operator_laws(Q);      // Q² = Q, the adjoint
+//       slant::testing::check_conjugacy_laws(Q, K);  // K Q = QᵀK Q = QᵀK
+//     }
+
+/// One doctest CHECK, with each broken law and the numbers that show it.
+template <class Q, class K, slant::vector V = Eigen::VectorXd>
+  requires has_adjoint<Q, V> && linear_operator<Q, V> && linear_operator<K, V>
+void check_conjugacy_laws(Q const& q, K const& k, V const& prototype = V(),
+                          operator_law_options const& options = {}) {
+  std::string text;
+  for (auto const& broken : conjugacy_breaches(q, k, prototype, options)) {
+    text += broken.law + " (" + broken.evidence + ")\n";
+  }
+  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+}
+
 }  // namespace slant::testing

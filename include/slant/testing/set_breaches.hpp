@@ -9,19 +9,238 @@
 // cannot see.
 #pragma once
 
+#include <slant/concepts/face.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/testing/breach.hpp>
-#include <slant/testing/detail/boundary_breaches.hpp>
-#include <slant/testing/detail/inequality_breaches.hpp>
-#include <slant/testing/detail/product_breaches.hpp>
-#include <slant/testing/detail/projection_breaches.hpp>
-#include <slant/testing/detail/set_sampler.hpp>
-#include <slant/testing/detail/slant_breaches.hpp>
-#include <slant/testing/detail/state_breaches.hpp>
+#include <slant/testing/parts/projection_breaches.hpp>
+#include <slant/testing/parts/set_sampler.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
 #include <vector>
 
+namespace slant::testing::detail {
+
+// --- product breaches ----------------------------------------------------------------------------
+//
+// Laws of a product Λ₁ × … × Λ_m:
+//     visit numbers the blocks 0, 1, …, block_count − 1 and their places share out all components;
+//     projection, slant, membership, step and support are those of the blocks.
+
+template <class C>
+void check_places(C const& set, breach_log& log) {
+  index const n = slant::dimension_of(set);
+  std::vector<int> owners(std::size_t(n), 0);
+  index next = 0;
+  bool in_order = true;
+  set.visit([&](auto const& block, auto const& place) {
+    in_order = in_order && place.index() == next && place.size() == slant::dimension_of(block);
+    ++next;
+    for (index j = 0; j < place.size(); ++j) {
+      index const c = place.component(j);
+      if (c >= 0 && c < n) ++owners[std::size_t(c)];
+    }
+  });
+  if (!in_order || next != slant::block_count(set)) {
+    log("visit numbers the blocks",
+        "visited " + text_of(next) + " of " + text_of(slant::block_count(set)));
+  }
+  for (index i = 0; i < n; ++i) {
+    if (owners[std::size_t(i)] != 1) {
+      log("places share out the components",
+          "component " + text_of(i) + " belongs to " + text_of(owners[std::size_t(i)]) + " blocks");
+    }
+  }
+}
+
+/// The same set, block by block.
+template <class C, class S>
+[[nodiscard]] set_probe<S> blockwise_probe(C const& set, set_probe<S> const& whole) {
+  using dense = typename set_probe<S>::dense;
+  set_probe<S> probe = whole;
+  probe.project = [&set](dense const& x) {
+    dense y = x;
+    set.visit([&](auto const& block, auto const& place) {
+      auto const part = slant::project(block, place.value(x));
+      place.put(y, part);
+    });
+    return y;
+  };
+  probe.contains = [&set](dense const& x) {
+    bool inside = true;
+    set.visit([&](auto const& block, auto const& place) {
+      inside = inside && block.contains(place.value(x));
+    });
+    return inside;
+  };
+  if (whole.slant) {
+    probe.slant = [&set](dense const& x) {
+      typename set_probe<S>::matrix g(x.size(), x.size());
+      g.setZero();
+      set.visit([&](auto const& block, auto const& place) {
+        if constexpr (requires { block.slant(place.value(x)); }) {
+          auto const b = matrix_of(block.slant(place.value(x)), place.value(x), place.size());
+          for (index i = 0; i < place.size(); ++i) {
+            for (index j = 0; j < place.size(); ++j) {
+              g(place.component(i), place.component(j)) = b(i, j);
+            }
+          }
+        }
+      });
+      return g;
+    };
+  }
+  if (whole.step) {
+    probe.step = [&set](dense const& x, dense const& d) {
+      S step = std::numeric_limits<S>::infinity();
+      set.visit([&](auto const& block, auto const& place) {
+        if constexpr (requires { block.step_to_boundary(place.value(x), place.value(d)); }) {
+          S const s = block.step_to_boundary(place.value(x), place.value(d));
+          if (s < step) step = s;
+        }
+      });
+      return step;
+    };
+  }
+  if (whole.support) {
+    probe.support = [&set](dense const& y) {
+      S sum(0);
+      set.visit([&](auto const& block, auto const& place) {
+        if constexpr (requires { block.support(place.value(y)); }) {
+          sum += block.support(place.value(y));
+        }
+      });
+      return sum;
+    };
+  }
+  return probe;
+}
+
+/// Equal up to the accepted error; equal infinities are equal.
+template <class S>
+[[nodiscard]] bool agree(S const& a, S const& b, S const& allowed) {
+  return a == b || (a - b <= allowed && b - a <= allowed);
+}
+
+template <class S>
+void check_blockwise(set_probe<S> const& probe, set_probe<S> const& blocks,
+                     typename set_probe<S>::dense const& x, typename set_probe<S>::dense const& d,
+                     breach_log& log) {
+  using dense = typename set_probe<S>::dense;
+  dense const p = probe.project(x);
+  S const size = probe.magnitude(x) + slant::norm(p);
+  if (!(slant::norm(dense(blocks.project(x) - p)) <= probe.rounding(size))) {
+    log("projection is blockwise", "at x = " + text_of(x));
+  }
+  if (probe.contains(x) != blocks.contains(x)) {
+    log("membership is blockwise", "at x = " + text_of(x));
+  }
+  if (probe.slant && !((probe.slant(x) - blocks.slant(x)).norm() <= probe.rounding(S(1)))) {
+    log("slant is blockwise", "at x = " + text_of(x));
+  }
+  if (probe.step) {
+    S const step = blocks.step(p, d);
+    if (!agree(probe.step(p, d), step, probe.rounding(step))) {
+      log("step is blockwise", "at x = " + text_of(p) + ", d = " + text_of(d));
+    }
+  }
+  if (probe.support) {
+    S const support = blocks.support(d);
+    if (!agree(probe.support(d), support, probe.rounding(slant::norm(d) * size + support))) {
+      log("support is blockwise", "at y = " + text_of(d));
+    }
+  }
+}
+
+// --- state breaches ------------------------------------------------------------------------------
+//
+// Laws of the state of a point x ∈ Λ, one block:
+//     free      in the interior; not for P(y), y outside
+//     sliding   P moves at every point near y, where x = P(y), y outside
+//     fixed     P is constant near some point next to y (y itself may be at a kink of P)
+// and a point with a whole neighbourhood in Λ is free: one that reaches 1/256 of the size of
+// things. So the band around the boundary that is not free may be as wide as that, and must be as
+// wide as the rounding error of P.
+
+[[nodiscard]] inline std::string name_of(block_state s) {
+  return s == block_state::free ? "free" : s == block_state::sliding ? "sliding" : "fixed";
+}
+
+/// x ± ρ e_j all lie in the set: so does the neighbourhood they span.
+template <class S>
+[[nodiscard]] bool has_neighbourhood(set_probe<S> const& probe,
+                                     typename set_probe<S>::dense const& x, S const& ρ) {
+  for (index j = 0; j < x.size(); ++j) {
+    auto moved = x;
+    moved[j] = x[j] + ρ;
+    if (!probe.contains(moved)) return false;
+    moved[j] = x[j] - ρ;
+    if (!probe.contains(moved)) return false;
+  }
+  return true;
+}
+
+/// P is not constant, up to noise, within a distance of about `radius` of y.
+template <class S>
+[[nodiscard]] bool moves_near(set_probe<S> const& probe, typename set_probe<S>::dense const& y,
+                              S const& radius, S const& noise, set_sampler<S>& sample) {
+  auto const p = probe.project(y);
+  S farthest(0);
+  for (int k = 0; k < 4; ++k) {
+    auto const q = probe.project(y + radius * sample.box());
+    farthest = std::max(farthest, S((p - q).cwiseAbs().maxCoeff()));
+  }
+  return farthest > noise;
+}
+
+template <class S>
+void check_state(set_probe<S> const& probe, std::vector<typename set_probe<S>::dense> const& points,
+                 breach_log& log) {
+  using dense = typename set_probe<S>::dense;
+  set_sampler<S> sample(probe);
+  for (auto const& y : points) {
+    dense const x = probe.project(y);
+    block_state const state = probe.state(x);
+    std::string const claim = name_of(state) + " at x = P(y), y = " + text_of(y);
+    S const size = probe.extent(y) + slant::norm(x);
+    S const gap = slant::norm(dense(y - x));
+    S const noticeable = size / S(1 << 8);
+    if (gap <= noticeable) {
+      S const ρ = std::max(size, S(probe.options.size)) / S(1 << 8);
+      if (state != block_state::free && has_neighbourhood(probe, x, ρ)) {
+        log("free in the interior", claim);
+      }
+      continue;
+    }
+    if (state == block_state::free) {
+      log("not free on the boundary", claim);
+      continue;
+    }
+    using std::sqrt;
+    S const ε = S(4) * std::numeric_limits<S>::epsilon();
+    S const small = gap * S(8) * S(sqrt(std::numeric_limits<S>::epsilon()));
+    bool always = true;
+    bool ever = false;
+    for (int k = 0; k < 8 * probe.options.directions; ++k) {
+      dense const nearby = y + gap / S(64) * sample.box();
+      always = always && moves_near(probe, nearby, small, ε * probe.magnitude(x), sample);
+      ever = ever || moves_near(probe, nearby, S(gap / S(64)), ε * probe.extent(x), sample);
+    }
+    if (state == block_state::sliding && !ever) log("sliding leaves motion", claim);
+    if (state == block_state::fixed && always) log("fixed leaves no motion", claim);
+  }
+}
+
+}  // namespace slant::testing::detail
+
 namespace slant::testing {
+
+// --- set breaches --------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -91,6 +310,86 @@ template <class C>
 [[nodiscard]] std::vector<breach> set_breaches(C const& set, set_options const& options = {}) {
   return slant::testing::set_breaches(set, point_t<C>(point_t<C>::Zero(slant::dimension_of(set))),
                                       options);
+}
+
+// --- face breaches -------------------------------------------------------------------------------
+//
+// The laws of faces, sampled; needs no test framework (set_laws.hpp does).
+//
+//     keep ∘ keep = keep,   ⟨keep x, y⟩ = ⟨x, keep y⟩,   keep x + keep_complement x = x,
+//     y may be x, may hold NaN on entry; an infinite entry off the face is cut to 0, not to NaN;
+//     block states are those of the enumeration.
+
+/// The laws that a face breaks, with evidence; empty if none was seen to break. `prototype` is a
+/// vector that it cuts down.
+template <class F, vector V>
+  requires block_partition<F, V>
+[[nodiscard]] std::vector<breach> face_breaches(F const& face, V const& prototype) {
+  using S = scalar_t<V>;
+  index const n = slant::local(prototype).size();
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> gaussian;
+  breach_log log;
+  auto const blank = [&] {
+    V v = slant::like(prototype, n);
+    slant::local(v).setConstant(std::numeric_limits<S>::quiet_NaN());
+    return v;
+  };
+  auto const random = [&] {
+    V v = slant::like(prototype, n);
+    for (index i = 0; i < n; ++i) slant::local(v).coeffRef(i) = S(gaussian(generator));
+    return v;
+  };
+  auto const same = [&](V const& a, V const& b, std::string const& law) {
+    for (index i = 0; i < n; ++i) {
+      if (!(slant::local(a).coeff(i) == slant::local(b).coeff(i))) {
+        log(law, "entry " + std::to_string(i));
+        return;
+      }
+    }
+  };
+
+  V const x = random(), y = random();
+  V kept = blank(), rest = blank(), kept_y = blank(), twice = blank();
+  face.keep(x, kept);
+  face.keep(y, kept_y);
+  face.keep_complement(x, rest);
+  face.keep(kept, twice);
+  same(twice, kept, "keep twice is keep");
+  V sum = kept;
+  slant::local(sum) += slant::local(rest);
+  same(sum, x, "keep and keep_complement add up to x");
+  V in_place = x;
+  face.keep(in_place, in_place);
+  same(in_place, kept, "keep in place");
+  in_place = x;
+  face.keep_complement(in_place, in_place);
+  same(in_place, rest, "keep_complement in place");
+  // All products but those of entries that are kept in both vanish, exactly.
+  if (!(slant::inner_product(kept, y) == slant::inner_product(kept, kept_y)) ||
+      !(slant::inner_product(x, kept_y) == slant::inner_product(kept, kept_y))) {
+    log("keep is self-adjoint", "the products differ");
+  }
+
+  V infinite = x;
+  slant::local(infinite).setConstant(std::numeric_limits<S>::infinity());
+  face.keep(infinite, kept_y);
+  for (index i = 0; i < n; ++i) {
+    bool const cut = slant::local(kept).coeff(i) == S(0);
+    if (cut && !(slant::local(kept_y).coeff(i) == S(0))) {
+      log("an infinite entry off the face is cut", "entry " + std::to_string(i));
+    }
+  }
+
+  index counts[3] = {0, 0, 0};
+  for (index i = 0; i < face.size(); ++i) {
+    auto const s = static_cast<unsigned>(face.state(i));
+    if (s < 3) ++counts[s];
+  }
+  if (counts[0] + counts[1] + counts[2] != face.size()) {
+    log("every block is free, sliding or fixed", std::to_string(face.size()) + " blocks");
+  }
+  return log.found();
 }
 
 }  // namespace slant::testing

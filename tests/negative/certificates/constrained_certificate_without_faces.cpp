@@ -5,8 +5,8 @@
 //
 // A set that can be projected onto and does not tell its faces.
 #include <slant/certificates/constrained_energy_certificate.hpp>
-#include <slant/methods/separable_qp.hpp>
-#include <slant/operators/equality_constraints.hpp>
+#include <slant/problems/equality_constraints.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/power.hpp>
 
 struct upper_half_plane {

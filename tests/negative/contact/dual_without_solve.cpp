@@ -3,7 +3,7 @@
 // expect-clang: constraints not satisfied for class template 'dual'
 //
 // A factorisation of K minus its solve.
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 
 struct half {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;

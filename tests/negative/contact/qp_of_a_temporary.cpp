@@ -5,7 +5,7 @@
 // max-lines-clang: 12
 //
 // The quadratic program refers to its contact problem, which is gone after the same line.
-#include <slant/contact/tresca.hpp>
+#include <slant/contact/dual.hpp>
 #include <slant/factorizations/ldlt.hpp>
 
 auto unknowns(slant::ldlt<> const& factor, slant::contact::data<double> const& scene) {

@@ -4,7 +4,7 @@
 // max-lines-clang: 20
 //
 // Two methods minus a rule that understands the second one: cg has no reduced gradient.
-#include <slant/iteration/sequel.hpp>
+#include <slant/iteration/solve_then.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/identity.hpp>
 

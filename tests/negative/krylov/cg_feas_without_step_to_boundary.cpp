@@ -6,7 +6,7 @@
 //
 // A set minus the step to its boundary: where would a half step end?
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg_feas.hpp>
+#include <slant/krylov/face_cg.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>

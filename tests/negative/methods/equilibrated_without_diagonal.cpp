@@ -4,7 +4,7 @@
 // max-lines-clang: 14
 //
 // An operator that does not give its diagonal.
-#include <slant/methods/equilibrated.hpp>
+#include <slant/problems/equilibrated.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 struct twice {

@@ -4,8 +4,8 @@
 // max-lines-clang: 12
 //
 // An any_set is a list of known kinds; another block keeps its type.
-#include <slant/methods/any_qp.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/problems/any_qp.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/power.hpp>
 

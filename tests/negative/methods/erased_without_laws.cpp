@@ -4,7 +4,7 @@
 // max-lines-clang: 12
 //
 // Methods ask the forgotten program for laws, so they must be promised before.
-#include <slant/methods/any_qp.hpp>
+#include <slant/problems/any_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 struct twice {

@@ -5,7 +5,7 @@
 //
 // The blocks of the set minus the step to their boundary.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/gimssn.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/sets/power.hpp>
 

@@ -5,7 +5,7 @@
 //
 // An operator minus its laws: nobody has promised that q(x) = ½ xᵀA x − bᵀx is convex.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/imssn.hpp>
+#include <slant/methods/mssn.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 struct twice {

@@ -5,7 +5,7 @@
 //
 // A self-adjoint operator that has not promised to be semidefinite.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/qpc.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 struct twice {

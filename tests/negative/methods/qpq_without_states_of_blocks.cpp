@@ -5,7 +5,7 @@
 //
 // The blocks of the set minus the state of their points: no face is known.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/qpq.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/sets/power.hpp>
 

@@ -5,8 +5,8 @@
 // max-lines-clang: 30
 //
 // A matrix is not an operator: slant::matrix(A) makes one of it.
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 auto problem(Eigen::MatrixXd const& A, Eigen::VectorXd const& b) {

@@ -4,8 +4,8 @@
 // max-lines-clang: 25
 //
 // A linear term that is an expression: nothing is said of A and the set.
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <Eigen/Core>

@@ -5,10 +5,10 @@
 // max-lines-clang: 35
 //
 // A sum of multiples, one of which is of an operator on vectors of float: that one is named.
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/scaled.hpp>
 #include <slant/operators/sum.hpp>
+#include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 struct twice {

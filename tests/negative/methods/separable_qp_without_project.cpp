@@ -4,8 +4,8 @@
 // max-lines-clang: 35
 //
 // A set minus its projection.
-#include <slant/methods/separable_qp.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/problems/separable_qp.hpp>
 
 #include <Eigen/Core>
 

@@ -6,7 +6,7 @@
 // G alone instead of G x = e.
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/smalse.hpp>
-#include <slant/operators/equality_constraints.hpp>
+#include <slant/problems/equality_constraints.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 auto solution(Eigen::VectorXd const& b, Eigen::SparseMatrix<double> const& G) {

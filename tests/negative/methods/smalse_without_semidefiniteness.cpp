@@ -7,7 +7,7 @@
 // An operator that promises to be self-adjoint and not that q(x) = ½ xᵀA x − bᵀx is convex.
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/smalse.hpp>
-#include <slant/operators/equality_constraints.hpp>
+#include <slant/problems/equality_constraints.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 struct twice {

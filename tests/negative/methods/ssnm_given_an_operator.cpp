@@ -6,7 +6,7 @@
 // The operator alone instead of the quadratic program.
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/ssnm.hpp>
-#include <slant/newton/bicgstab_solver.hpp>
+#include <slant/newton/krylov_solvers.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/contact_sets.hpp>
 

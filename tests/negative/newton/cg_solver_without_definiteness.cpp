@@ -5,7 +5,7 @@
 //
 // The gradient of a convex function whose Hessian nobody has declared definite.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/affine.hpp>
 
 auto run(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& b) {

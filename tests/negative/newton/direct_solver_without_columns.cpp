@@ -5,7 +5,7 @@
 //
 // A derivative that can only be applied.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/affine.hpp>
 
 struct twice {

@@ -5,7 +5,7 @@
 //
 // A tolerance in the place of a rule.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/affine.hpp>
 
 auto run(Eigen::MatrixXd const& A, Eigen::VectorXd const& b) {

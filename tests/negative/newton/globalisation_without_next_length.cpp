@@ -5,7 +5,7 @@
 //
 // A client's globalisation minus what it does after a refusal.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/affine.hpp>
 
 struct monotone {

@@ -5,7 +5,7 @@
 //
 // A client's solver minus the state that it works in.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/affine.hpp>
 
 struct picard {

@@ -5,7 +5,7 @@
 //
 // A matrix is not a function F: for A y = b there is affine(A, -b).
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/affine.hpp>
 
 auto run(Eigen::MatrixXd const& A, Eigen::VectorXd const& b) {

@@ -5,7 +5,7 @@
 //
 // A function of vectors of float, started from one of double.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 
 struct squares {
 #ifdef SLANT_COMPLETE

@@ -5,7 +5,7 @@
 //
 // A natural residual with a matrix about which nothing is promised.
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/semismooth_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/slanting/natural_residual.hpp>
 

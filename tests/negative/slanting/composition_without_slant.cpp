@@ -4,8 +4,8 @@
 // max-lines-clang: 30
 //
 // The inner function of a composition minus its slanting operator.
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/composition.hpp>
-#include <slant/slanting/identity.hpp>
 
 struct doubling {
   slant::index rows() const { return 2; }

@@ -4,7 +4,7 @@
 // max-lines-clang: 30
 //
 // A row of a stack minus its value.
-#include <slant/slanting/identity.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/slanting/stack.hpp>
 
 struct doubling {

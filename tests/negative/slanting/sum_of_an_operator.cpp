@@ -5,7 +5,6 @@
 //
 // An operator is not a function: the sum needs y ↦ A y, slant::linear(A).
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/identity.hpp>
 #include <slant/slanting/sum.hpp>
 
 #ifdef SLANT_COMPLETE

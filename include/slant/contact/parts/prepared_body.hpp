@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+//
+// One body of contact/bodies.hpp: U and its factors, with the numbers of the body alone, so that a
+// body costs what it has unknowns, however many bodies there are.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/factorizations/computed_kernel.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
+#include <slant/operators/conjugate_projector.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace slant::contact::detail {
+
+/// What becomes of a body.
+template <class S, class F>
+struct prepared_body {
+  std::optional<slant::detail::conjugate_part<S, F>>
+      inside;  // rows numbered as in the body; none if U is empty
+  Eigen::Matrix<S, Eigen::Dynamic, 1> displacement;  // if idle
+  index attempts = 0;
+  bool idle = false;
+  bool fixed = false;
+};
+
+/// The columns of K of some unknowns of a body with the rows of the body, or of these unknowns.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> columns_of_body(Eigen::SparseMatrix<S> const& k,
+                                                     std::vector<index> const& number,
+                                                     std::vector<index> const& body,
+                                                     std::vector<index> const& inside,
+                                                     bool square) {
+  auto const& rows = square ? inside : body;
+  std::vector<index> row(body.size(), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    row[static_cast<std::size_t>(number[static_cast<std::size_t>(rows[i])])] =
+        static_cast<index>(i);
+  }
+  index entries = 0;
+  for (index const j : inside) entries += k.col(j).nonZeros();
+  Eigen::SparseMatrix<S> m(static_cast<index>(rows.size()), static_cast<index>(inside.size()));
+  m.reserve(entries);
+  for (index j = 0; j < m.cols(); ++j) {
+    m.startVec(j);
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(k, inside[static_cast<std::size_t>(j)]);
+         e; ++e) {
+      index const i = row[static_cast<std::size_t>(number[static_cast<std::size_t>(e.row())])];
+      if (i >= 0) m.insertBack(i, j) = e.value();
+    }
+  }
+  m.finalize();
+  return m;
+}
+
+/// Takes U of these unknowns, if the factorisation takes the block of K.
+template <class S, class F, class Factor>
+[[nodiscard]] bool take_inside(Eigen::SparseMatrix<S> const& k, std::vector<index> const& number,
+                               std::vector<index> const& body, std::vector<index> const& inside,
+                               Eigen::SparseMatrix<S> const& block, Factor const& factor,
+                               prepared_body<S, F>& result) {
+  ++result.attempts;
+  try {
+    auto factors_of_block = factor(block);
+    Eigen::SparseMatrix<S> u(static_cast<index>(body.size()), block.cols());
+    u.reserve(block.cols());
+    for (index j = 0; j < u.cols(); ++j) {
+      u.startVec(j);
+      u.insertBack(number[static_cast<std::size_t>(inside[static_cast<std::size_t>(j)])], j) = S(1);
+    }
+    u.finalize();
+    result.inside.emplace(slant::detail::conjugate_part<S, F>{
+        std::move(u), columns_of_body(k, number, body, inside, false),
+        std::move(factors_of_block)});
+    return true;
+  } catch (bad_input const&) {
+    return false;
+  }
+}
+
+/// Tries U = what no row touches, then without fixing rows, then none.
+template <class F, class S, class V, class Factor>
+[[nodiscard]] prepared_body<S, F> prepare_body(Eigen::SparseMatrix<S> const& k, V const& f,
+                                               std::vector<index> const& body,
+                                               std::vector<index> const& number,
+                                               std::vector<unsigned char> const& touched,
+                                               Factor const& factor) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using list = std::vector<index>;
+  prepared_body<S, F> result;
+  list inside;
+  for (index const i : body) {
+    if (touched[static_cast<std::size_t>(i)] == 0) inside.push_back(i);
+  }
+  bool const free = inside.size() == body.size();
+  if (inside.empty()) return result;
+  Eigen::SparseMatrix<S> block = columns_of_body(k, number, body, inside, true);
+  if (!take_inside(k, number, body, inside, block, factor, result)) {
+    result.fixed = true;
+    try {
+      ++result.attempts;
+      list const fixing = fixing_rows(computed_kernel(block));
+      for (std::size_t j = fixing.size(); j-- > 0;) {
+        inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(fixing[j]));
+      }
+      if (inside.empty() || fixing.empty()) return result;
+      block = columns_of_body(k, number, body, inside, true);
+      (void)take_inside(k, number, body, inside, block, factor, result);
+    } catch (bad_input const&) {  // no kernel that can be told from the rest
+    }
+  } else if (free) {
+    vector_type load(static_cast<index>(body.size()));
+    for (std::size_t i = 0; i < body.size(); ++i) load[static_cast<index>(i)] = f[body[i]];
+    result.displacement.resize(load.size());
+    auto w = slant::workspace(result.inside->factors, load);
+    if constexpr (requires { result.inside->factors.solve(load, result.displacement, w); }) {
+      result.inside->factors.solve(load, result.displacement, w);
+    } else {
+      result.inside->factors.solve(load, result.displacement);
+    }
+    result.idle = true;
+  }
+  return result;
+}
+
+}  // namespace slant::contact::detail

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//
+// Preconditioners of the dual operator A = B K⁻¹Bᵀ: lumped, and Dirichlet.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/laws.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/operators/congruence.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/inverse.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/operators/sum.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <utility>
+#include <vector>
+
+namespace slant::contact::detail {
+
+// --- scaled constraints --------------------------------------------------------------------------
+//
+// The constraints that both preconditioners of the dual operator are made of.
+
+/// D B with D = diag(B Bᵀ)⁻¹, so that D B Bᵀ = I where rows of B are orthogonal. Empty rows stay
+/// empty. Throws bad_input if K is not square or B has not as many columns.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> scaled_constraints(Eigen::SparseMatrix<S> const& K,
+                                                        Eigen::SparseMatrix<S> const& B) {
+  slant::detail::check_size("columns of K", K.cols(), K.rows(), "as many as rows,");
+  slant::detail::check_size("columns of B", B.cols(), K.rows(), "the size of K,");
+  Eigen::Matrix<S, Eigen::Dynamic, 1> D = Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(B.rows());
+  for (index j = 0; j < B.outerSize(); ++j) {
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(B, j); e; ++e) {
+      D(e.row()) += e.value() * e.value();
+    }
+  }
+  for (S& d : D) d = d > S(0) ? S(S(1) / d) : S(0);
+  return D.asDiagonal() * B;
+}
+
+}  // namespace slant::contact::detail
+
+namespace slant::contact {
+
+// --- preconditioner ------------------------------------------------------------------------------
+//
+// The lumped preconditioner of the dual operator A = B K⁻¹ Bᵀ [Farhat, Roux 1991],
+//
+//     M = D B K Bᵀ D,     D = diag(B Bᵀ)⁻¹,
+//
+// an approximation of A⁻¹ that costs a product by a sparse matrix of the size of the contact: where
+// A maps forces of the contact nodes to displacements by way of all bodies, M maps displacements
+// back to forces as if their neighbours did not move.
+
+/// M for a stiffness matrix K (n_u × n_u, both triangles) and constraints B (n × n_u), for example
+/// dual::constraints(). An empty row of B, which nothing acts on, gives an empty row of M. The
+/// result owns its matrix. Throws bad_input if sizes do not match.
+template <class S>
+[[nodiscard]] auto lumped_preconditioner(Eigen::SparseMatrix<S> const& K,
+                                         Eigen::SparseMatrix<S> const& B) {
+  Eigen::SparseMatrix<S> const scaled = detail::scaled_constraints(K, B);
+  Eigen::SparseMatrix<S> const forces = K * Eigen::SparseMatrix<S>(scaled.transpose());
+  Eigen::SparseMatrix<S> M = scaled * forces;
+  return slant::matrix<self_adjoint, positive_semidefinite>(std::move(M));
+}
+
+// --- dirichlet preconditioner --------------------------------------------------------------------
+//
+// The Dirichlet preconditioner of the dual operator A = B K⁻¹ Bᵀ [Farhat, Mandel, Roux 1994],
+//
+//     M = D B_c S B_cᵀ D,     S = K_cc − K_ci K_ii⁻¹ K_ic,     D = diag(B Bᵀ)⁻¹,
+//
+// c the unknowns that B touches, i all others. M maps displacements of the contact nodes to the
+// forces that hold them there while the bodies behind them are at rest: the lumped preconditioner
+// leaves the bodies out. For one body of which B sees every contact unknown once, M = A⁻¹.
+//
+// It costs a factorisation of K_ii and a solve with it an application, as much as a product by A:
+// worth while where it saves more than half of the products.
+
+namespace detail {
+
+/// Selections of the unknowns that B touches and of the others: C x = x_c, I x = x_i.
+template <class S>
+struct touched_unknowns {
+  Eigen::SparseMatrix<S> C;
+  Eigen::SparseMatrix<S> I;
+
+  explicit touched_unknowns(Eigen::SparseMatrix<S> const& B) {
+    std::vector<Eigen::Triplet<S>> contact, interior;
+    for (index j = 0; j < B.cols(); ++j) {
+      bool touched = false;
+      for (typename Eigen::SparseMatrix<S>::InnerIterator e(B, j); e && !touched; ++e) {
+        touched = e.value() != S(0);
+      }
+      auto& list = touched ? contact : interior;
+      list.emplace_back(static_cast<int>(list.size()), static_cast<int>(j), S(1));
+    }
+    C = selection(contact, B.cols());
+    I = selection(interior, B.cols());
+  }
+
+ private:
+  static Eigen::SparseMatrix<S> selection(std::vector<Eigen::Triplet<S>> const& entries, index n) {
+    Eigen::SparseMatrix<S> m(static_cast<index>(entries.size()), n);
+    m.setFromTriplets(entries.begin(), entries.end());
+    return m;
+  }
+};
+
+}  // namespace detail
+
+/// M for a stiffness matrix K (n_u × n_u, positive definite, both triangles) and constraints B
+/// (n × n_u), for example dual::constraints(). The result owns all it needs. Throws bad_input if
+/// sizes do not match or K_ii is not positive definite.
+template <class S>
+[[nodiscard]] auto dirichlet_preconditioner(Eigen::SparseMatrix<S> const& K,
+                                            Eigen::SparseMatrix<S> const& B) {
+  using matrix_type = Eigen::SparseMatrix<S>;
+  matrix_type const scaled = detail::scaled_constraints(K, B);
+  detail::touched_unknowns<S> const select(B);
+  matrix_type const rows = select.C * K, interior_rows = select.I * K;
+  matrix_type K_cc = rows * matrix_type(select.C.transpose());
+  matrix_type K_ci = rows * matrix_type(select.I.transpose());
+  matrix_type const K_ii = interior_rows * matrix_type(select.I.transpose());
+  matrix_type B_c = scaled * matrix_type(select.C.transpose());
+  auto complement = declare<self_adjoint, positive_semidefinite>(
+      difference(matrix<self_adjoint>(std::move(K_cc)),
+                 congruence(matrix(std::move(K_ci)), inverse(factorize(K_ii)))));
+  return congruence(matrix(std::move(B_c)), std::move(complement));
+}
+
+}  // namespace slant::contact

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+//
+// The two loops in which sweeps with a factor spend their time: eight columns R, side by side, and
+// rows y beside them,
+//
+//     y ← y − R p        forward,          Rᵀy        backward,
+//
+// and both in one, for products with symmetric matrices. For four right-hand sides at a time:
+// section four at a time.
+//
+// Each is written once with the vectors of the compiler, 16 or 32 bytes long, and compiled for
+// both; which one runs is asked of the processor. Compilers that are told nothing of it would use
+// the short ones only, and a factor that lies in the cache would be read at half the speed.
+#pragma once
+
+#include <slant/concepts/scalar.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+
+#include <cstdint>
+#endif
+
+namespace slant::detail {
+
+/// Columns of a panel.
+inline constexpr index panel_width = 8;
+/// Rows of a panel that are stored together, 32 bytes of a column.
+template <class T>
+inline constexpr index tile_rows = 32 / static_cast<index>(sizeof(T));
+
+/// Eight columns: row i of tile t in column j is column[j][t · step + i]. In a matrix stored by
+/// columns a tile is just the next rows.
+template <class T>
+struct panel_columns {
+  std::array<T const*, static_cast<std::size_t>(panel_width)> column;
+  index step;
+};
+
+template <class T, int Bytes>
+struct panel_loops {
+  static constexpr index lanes = Bytes / static_cast<index>(sizeof(T));
+  static_assert(tile_rows<T> % lanes == 0);
+  typedef T vector __attribute__((vector_size(Bytes), aligned(sizeof(T)), may_alias));
+
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void subtract(panel_columns<T> const& r, T const* p, T* y,
+                                                     index rows, std::index_sequence<J...>) {
+    vector const factor[] = {(p[J] - vector{})...};
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, y += lanes) {
+        vector v = *reinterpret_cast<vector const*>(y);
+        ((v -= factor[J] * *reinterpret_cast<vector const*>(column[J] + place + i)), ...);
+        *reinterpret_cast<vector*>(y) = v;
+      }
+      place += r.step;
+    }
+    for (index i = 0; i < rows; ++i) ((y[i] -= p[J] * column[J][place + i]), ...);
+  }
+
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void products(panel_columns<T> const& r, T const* y,
+                                                     index rows, T* result,
+                                                     std::index_sequence<J...>) {
+    vector sum[] = {(static_cast<void>(J), vector{})...};
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, y += lanes) {
+        vector const v = *reinterpret_cast<vector const*>(y);
+        ((sum[J] += v * *reinterpret_cast<vector const*>(column[J] + place + i)), ...);
+      }
+      place += r.step;
+    }
+    ((result[J] = 0), ...);
+    for (index i = 0; i < lanes; ++i) ((result[J] += sum[J][i]), ...);
+    for (index i = 0; i < rows; ++i) {
+      ((result[J] += y[i] * column[J][place + i]), ...);
+    }
+  }
+
+  /// Both at once, of rows x and y: y ← y − R p, result ← Rᵀx.
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void both(panel_columns<T> const& r, T const* p, T const* x,
+                                                 T* y, index rows, T* result,
+                                                 std::index_sequence<J...>) {
+    vector const factor[] = {(p[J] - vector{})...};
+    vector sum[] = {(static_cast<void>(J), vector{})...};
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, x += lanes, y += lanes) {
+        vector const w = *reinterpret_cast<vector const*>(x);
+        vector const entries[] = {*reinterpret_cast<vector const*>(column[J] + place + i)...};
+        vector v = *reinterpret_cast<vector const*>(y);
+        ((sum[J] += w * entries[J]), ...);
+        ((v -= factor[J] * entries[J]), ...);
+        *reinterpret_cast<vector*>(y) = v;
+      }
+      place += r.step;
+    }
+    ((result[J] = 0), ...);
+    for (index i = 0; i < lanes; ++i) ((result[J] += sum[J][i]), ...);
+    for (index i = 0; i < rows; ++i) {
+      ((result[J] += x[i] * column[J][place + i]), ...);
+      ((y[i] -= p[J] * column[J][place + i]), ...);
+    }
+  }
+};
+
+using panel_sequence = std::make_index_sequence<static_cast<std::size_t>(panel_width)>;
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+/// Whether this processor has vectors of 32 bytes.
+[[nodiscard]] inline bool has_long_vectors() {
+  static bool const has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return has;
+}
+
+template <class T>
+[[gnu::target("avx2,fma")]] void subtract_long(panel_columns<T> const& r, T const* p, T* y,
+                                               index rows) {
+  panel_loops<T, 32>::subtract(r, p, y, rows, panel_sequence{});
+}
+template <class T>
+[[gnu::target("avx2,fma")]] void products_long(panel_columns<T> const& r, T const* y, index rows,
+                                               T* result) {
+  panel_loops<T, 32>::products(r, y, rows, result, panel_sequence{});
+}
+template <class T>
+[[gnu::target("avx2,fma")]] void both_long(panel_columns<T> const& r, T const* p, T const* x, T* y,
+                                           index rows, T* result) {
+  panel_loops<T, 32>::both(r, p, x, y, rows, result, panel_sequence{});
+}
+#else
+
+[[nodiscard]] inline bool has_long_vectors() {
+  return false;
+}
+
+template <class T>
+void subtract_long(panel_columns<T> const&, T const*, T*, index) {}
+template <class T>
+void products_long(panel_columns<T> const&, T const*, index, T*) {}
+template <class T>
+void both_long(panel_columns<T> const&, T const*, T const*, T*, index, T*) {}
+#endif
+
+/// y ← y − R p; p: panel_width numbers, y: so many rows.
+template <class T>
+void subtract_panel(bool long_vectors, panel_columns<T> const& r, T const* p, T* y, index rows) {
+  if (long_vectors) {
+    subtract_long(r, p, y, rows);
+  } else {
+    panel_loops<T, 16>::subtract(r, p, y, rows, panel_sequence{});
+  }
+}
+
+/// result ← Rᵀy; result: panel_width numbers.
+template <class T>
+void panel_products(bool long_vectors, panel_columns<T> const& r, T const* y, index rows,
+                    T* result) {
+  if (long_vectors) {
+    products_long(r, y, rows, result);
+  } else {
+    panel_loops<T, 16>::products(r, y, rows, result, panel_sequence{});
+  }
+}
+
+/// y ← y − R p and result ← Rᵀx; p, result: panel_width numbers, x, y: so many rows.
+template <class T>
+void subtract_panel_and_products(bool long_vectors, panel_columns<T> const& r, T const* p,
+                                 T const* x, T* y, index rows, T* result) {
+  if (long_vectors) {
+    both_long(r, p, x, y, rows, result);
+  } else {
+    panel_loops<T, 16>::both(r, p, x, y, rows, result, panel_sequence{});
+  }
+}
+
+// --- four at a time ------------------------------------------------------------------------------
+//
+// The loops of this file for four right-hand sides at a time: a panel is loaded once for
+// all of them, and what limits is no longer the cache but the arithmetic.
+
+template <class T, int Bytes>
+struct panel_loops_of_four {
+  static constexpr index lanes = panel_loops<T, Bytes>::lanes;
+  using vector = typename panel_loops<T, Bytes>::vector;
+
+  /// `subtract`; each right-hand side is `stride` behind the one before.
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void subtract(panel_columns<T> const& r, T const* p, T* y,
+                                                     index stride, index rows,
+                                                     std::index_sequence<J...>) {
+    T const* const column[] = {r.column[J]...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, y += lanes) {
+        vector const entries[] = {*reinterpret_cast<vector const*>(column[J] + place + i)...};
+        for (index k = 0; k < 4; ++k) {
+          vector v = *reinterpret_cast<vector const*>(y + k * stride);
+          ((v -= p[k * panel_width + index(J)] * entries[J]), ...);
+          *reinterpret_cast<vector*>(y + k * stride) = v;
+        }
+      }
+      place += r.step;
+    }
+    for (index i = 0; i < rows; ++i) {
+      for (index k = 0; k < 4; ++k) {
+        ((y[k * stride + i] -= p[k * panel_width + index(J)] * column[J][place + i]), ...);
+      }
+    }
+  }
+  /// `products` of four columns for two right-hand sides: as many sums as there are registers for.
+  template <std::size_t... J>
+  [[gnu::always_inline]] static inline void products_of_two(T const* const* column, index step,
+                                                            T const* y, index stride, index rows,
+                                                            T* result, std::index_sequence<J...>) {
+    T* const second = result + panel_width;
+    vector sum[] = {(static_cast<void>(J), vector{})...};
+    vector other[] = {(static_cast<void>(J), vector{})...};
+    index place = 0;
+    for (; rows >= tile_rows<T>; rows -= tile_rows<T>) {
+      for (index i = 0; i < tile_rows<T>; i += lanes, y += lanes) {
+        vector const entries[] = {*reinterpret_cast<vector const*>(column[J] + place + i)...};
+        vector const v = *reinterpret_cast<vector const*>(y);
+        vector const w = *reinterpret_cast<vector const*>(y + stride);
+        ((sum[J] += v * entries[J]), ...);
+        ((other[J] += w * entries[J]), ...);
+      }
+      place += step;
+    }
+    ((result[J] = second[J] = 0), ...);
+    for (index i = 0; i < lanes; ++i) {
+      ((result[J] += sum[J][i], second[J] += other[J][i]), ...);
+    }
+    for (index i = 0; i < rows; ++i) {
+      ((result[J] += y[i] * column[J][place + i]), ...);
+      ((second[J] += y[stride + i] * column[J][place + i]), ...);
+    }
+  }
+  [[gnu::always_inline]] static inline void products(panel_columns<T> const& r, T const* y,
+                                                     index stride, index rows, T* result) {
+    for (index k = 0; k < 4; k += 2) {
+      for (index j = 0; j < panel_width; j += 4) {
+        products_of_two(r.column.data() + j, r.step, y + k * stride, stride, rows,
+                        result + k * panel_width + j, std::make_index_sequence<4>{});
+      }
+    }
+  }
+};
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+template <class T>
+[[gnu::target("avx2,fma")]] void subtract_from_four_long(panel_columns<T> const& r, T const* p,
+                                                         T* y, index stride, index rows) {
+  panel_loops_of_four<T, 32>::subtract(r, p, y, stride, rows, panel_sequence{});
+}
+template <class T>
+[[gnu::target("avx2,fma")]] void products_of_four_long(panel_columns<T> const& r, T const* y,
+                                                       index stride, index rows, T* result) {
+  panel_loops_of_four<T, 32>::products(r, y, stride, rows, result);
+}
+
+#else
+
+template <class T>
+void subtract_from_four_long(panel_columns<T> const&, T const*, T*, index, index) {}
+template <class T>
+void products_of_four_long(panel_columns<T> const&, T const*, index, index, T*) {}
+
+#endif
+
+/// subtract_panel for four right-hand sides, y to y + 3 stride; p: panel_width numbers for each.
+template <class T>
+void subtract_panel_from_four(bool long_vectors, panel_columns<T> const& r, T const* p, T* y,
+                              index stride, index rows) {
+  if (long_vectors) {
+    subtract_from_four_long(r, p, y, stride, rows);
+  } else {
+    panel_loops_of_four<T, 16>::subtract(r, p, y, stride, rows, panel_sequence{});
+  }
+}
+
+/// panel_products for four right-hand sides, y to y + 3 stride; result: panel_width numbers each.
+template <class T>
+void panel_products_of_four(bool long_vectors, panel_columns<T> const& r, T const* y, index stride,
+                            index rows, T* result) {
+  if (long_vectors) {
+    products_of_four_long(r, y, stride, rows, result);
+  } else {
+    panel_loops_of_four<T, 16>::products(r, y, stride, rows, result);
+  }
+}
+
+// --- rounded entry -------------------------------------------------------------------------------
+//
+// Entries of factors in a shorter precision.
+
+/// The value as a T. What is smaller than any entry that matters becomes zero, because processors
+/// are slow with numbers below the smallest normal one; what is too large the largest number.
+template <class T, class U>
+[[nodiscard]] T rounded_entry(U const& value) {
+  U const least = U(std::numeric_limits<T>::min()) / U(std::numeric_limits<T>::epsilon());
+  U const most = U(std::numeric_limits<T>::max());
+  U const v = std::clamp(value, -most, most);
+  return v < least && -v < least ? T(0) : static_cast<T>(v);
+}
+
+// --- large pages ---------------------------------------------------------------------------------
+//
+// Large pages for large arrays. A sweep over a factor of a hundred megabytes in pages of 4 kB
+// spends a third of its time on looking up where they are.
+
+/// Asks the system to use large pages for the array of n numbers at `place`, before it is written
+/// to. Where there are none, nothing happens.
+template <class T>
+void prefer_large_pages([[maybe_unused]] T* place, [[maybe_unused]] index n) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  constexpr std::uintptr_t page = std::uintptr_t(1) << 21;
+  auto const begin = reinterpret_cast<std::uintptr_t>(place);
+  auto const first = (begin + page - 1) / page * page;
+  auto const last = (begin + static_cast<std::uintptr_t>(n) * sizeof(T)) / page * page;
+  if (last > first) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#endif
+}
+
+}  // namespace slant::detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// Preconditioners of quadratic programs: what is asked of one, and its form on a face.
+#pragma once
+
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <concepts>
+#include <type_traits>
+
+namespace slant {
+
+// --- for -----------------------------------------------------------------------------------------
+//
+// What may precondition a method for a quadratic program.
+
+/// A self-adjoint semidefinite M ≈ A⁻¹ for the vectors of the problem.
+template <class M, class QP> concept preconditioner_for = psd_operator<M, typename QP::vector_type>;
+
+/// A preconditioner with a form of its own for each face without curved blocks: after enter(face,
+/// w) y ≈ (A_FF)⁻¹ x by apply_on_face(x, y, w), self-adjoint and definite on the face, 0 off it.
+/// Such as multigrid, whose sweeps pass over what is held.
+template <class M, class V, class Face>
+concept preconditions_faces =
+    linear_operator<M, V> &&
+    requires(M const& m, V const& x, V& y, Face const& face, workspace_t<M, V>& w) {
+      m.enter(face, w);
+      m.apply_on_face(x, y, w);
+      { face.curved_count() } -> std::convertible_to<index>;
+    };
+
+// --- face preconditioner -------------------------------------------------------------------------
+//
+// A preconditioner for H = Π A Π + C/ρ on a face (sets/curved_face.hpp), made of M ≈ A⁻¹.
+//
+// Where the boundary is flat (C = 0), M is the one to use; where its curvature outweighs A,
+// (C/ρ)⁻¹. With s = mean(diag M) ≈ 1/mean(diag A) and W = (I + (s/ρ) C)⁻¹
+//
+//     z = W M W g + s W (I − W) g
+//
+// is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
+// leaves z = s W g, and z = W g does as well. An M that knows the inverse on a face
+// (preconditions_faces) is asked for that where all is flat.
+
+/// z for g ∈ range(G); `weighed` is scratch, of no size without an M.
+template <class M, class Face, class V, class WM>
+void precondition_on_face(M const& m, Face const& face, scalar_t<V> const& s, V const& g, V& z,
+                          V& weighed, WM& of_m) {
+  if constexpr (std::is_same_v<M, identity_operator>) {
+    face.weigh(g, z);
+  } else {
+    if constexpr (preconditions_faces<M, V, Face>) {
+      if (face.curved_count() == 0) {
+        m.apply_on_face(g, z, of_m);
+        return;
+      }
+    }
+    face.weigh(g, z);
+    slant::apply(m, z, weighed, of_m);
+    slant::local(weighed) += s * (slant::local(g) - slant::local(z));
+    face.weigh(weighed, z);
+  }
+}
+
+}  // namespace slant

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+//
+// The quadratic program of a Newton step (sets/curved_face.hpp),
+//
+//     minimise  rᵀt + ½ tᵀ(A + C/ρ) t   over   t ∈ range(G),     H = Π A Π + C/ρ,
+//
+// by preconditioned conjugate gradients from t = 0:
+//
+//     p ← z − …,  t ← t + α p,  A t ← A t + α A p,  g ← g + α H p.
+//
+// A t comes along, so whoever takes the step knows the gradient r + A t at its end: one product by
+// A a step and none besides.
+//
+// Preconditioner: krylov/preconditioner.hpp.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
+#include <slant/krylov/preconditioner.hpp>
+#include <slant/operators/identity.hpp>
+
+#include <type_traits>
+
+namespace slant {
+
+/// What became of the minimisation.
+template <class S>
+struct inner_result {
+  index iterations;     ///< products spent
+  S residual;           ///< ‖Π r + H t‖, in units of r
+  bool finite;          ///< no number left the range of the scalar
+  S first_residual{0};  ///< ‖Π r‖, where it is of interest
+};
+
+/// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
+/// of A and M.
+template <class V, class M>
+class curved_minimum {
+ public:
+  using scalar = scalar_t<V>;
+
+  V t;      ///< the step, in range(G)
+  V image;  ///< A t
+
+  curved_minimum(V const& prototype, index n, M const& m)
+      : t(like(prototype, n)),
+        image(like(prototype, n)),
+        g_(like(prototype, n)),
+        p_(like(prototype, n)),
+        Ap_(like(prototype, n)),
+        z_(like(prototype, n)),
+        weighed_(like(prototype, preconditioned ? n : 0)),
+        m_workspace_(workspace(m, prototype)) {}
+
+  /// t with ‖Π r + H t‖ ≤ max(target, floor ‖Π r‖), or the last one after at most `most` steps. t
+  /// has the units of r over those of A. r is the gradient at t = 0, s = mean(diag M).
+  template <class A, class WA, class Face>
+  inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
+                                Face const& face, scalar const& ρ, scalar const& s, scalar target,
+                                index most, scalar const& floor = scalar(0)) {
+    vectors::set_zero(t);
+    vectors::set_zero(image);
+    // Twice: r may be nearly normal to the face, and what rounding leaves of that is no residual.
+    face.keep(r, z_);
+    face.keep(z_, g_);
+    scalar size = norm(g_);
+    scalar gz(0);
+    scalar const first = size;
+    if (target < floor * size) target = floor * size;
+    if constexpr (preconditions_faces<M, V, Face>) {
+      if (face.curved_count() == 0) m.enter(face, m_workspace_);
+    }
+    bool finite = detail::is_finite(size);
+    index k = 0;
+    while (k < most && size > target) {
+      precondition_on_face(m, face, s, g_, z_, weighed_, m_workspace_);
+      scalar const next = inner_product(g_, z_);
+      finite = finite && detail::is_finite(next);
+      if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
+      if (k == 0) {
+        vectors::negate(z_, p_);
+      } else {
+        vectors::waxpby(next / gz, p_, scalar(-1), z_, p_);
+      }
+      gz = next;
+      slant::apply(a, p_, Ap_, a_workspace);
+      ++k;
+      face.keep(Ap_, z_);
+      face.add_curvature(scalar(1) / ρ, p_, z_);
+      scalar const bend = inner_product(p_, z_);
+      finite = finite && detail::is_finite(bend);
+      if (!(bend > scalar(0))) break;  // a direction of the kernel of H: the step ends here
+      scalar const α = gz / bend;
+      vectors::axpy(α, p_, t);
+      vectors::axpy(α, Ap_, image);
+      vectors::axpy(α, z_, g_);
+      size = norm(g_);
+    }
+    return {k, size, finite && detail::is_finite(size), first};
+  }
+
+  /// ‖Π r + H t‖ from t and its image.
+  template <class Face>
+  scalar residual(V const& r, Face const& face, scalar const& ρ) {
+    vectors::sum(r, image, z_);
+    face.keep(z_, g_);
+    face.add_curvature(scalar(1) / ρ, t, g_);
+    return norm(g_);
+  }
+
+ private:
+  static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
+
+  V g_;        // Π r + H t
+  V p_;        // direction
+  V Ap_;       // its image
+  V z_;        // preconditioned g, then H p
+  V weighed_;  // M W g
+  workspace_t<M, V> m_workspace_;
+};
+
+// --- newton segment ------------------------------------------------------------------------------
+//
+// The segment from an iterate y of Newton's method for the natural residual
+//
+//     F(y) = y − P_Λ(z),     z = y − ρ (A y − b),
+//
+// to the end of its full step. Both y and z are linear along it, so F is known everywhere on it at
+// the price of a projection: the search for a step length spends no product by A.
+
+/// y and z, and the same at the end of the step.
+template <class V>
+struct newton_segment {
+  using scalar = scalar_t<V>;
+
+  V y;         ///< may leave Λ by terms of second order
+  V z;         ///< y − ρ (A y − b)
+  V target_y;  ///< y at the end of the full step
+  V target_z;  ///< z at the end of the full step
+
+  newton_segment(V const& prototype, index n)
+      : y(like(prototype, n)),
+        z(like(prototype, n)),
+        target_y(like(prototype, n)),
+        target_z(like(prototype, n)) {}
+
+  /// ‖F‖ at the fraction β of the step; projected = P_Λ(z) there, trial is scratch.
+  template <class Set>
+  [[nodiscard]] scalar residual_at(Set const& set, scalar const& β, V& projected, V& trial) const {
+    between(z, target_z, β, trial);
+    slant::project(set, slant::local(trial), slant::local(projected));
+    between(y, target_y, β, trial);
+    vectors::subtract(projected, trial);
+    return norm(trial);
+  }
+
+  /// Takes the fraction β of the step.
+  void advance(scalar const& β) {
+    between(y, target_y, β, y);
+    between(z, target_z, β, z);
+  }
+
+ private:
+  /// Exact at both ends, however far they are apart.
+  static void between(V const& from, V const& to, scalar const& β, V& point) {
+    vectors::waxpby(scalar(1) - β, from, β, to, point);
+  }
+};
+
+}  // namespace slant

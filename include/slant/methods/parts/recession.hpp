@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+//
+// Descent without end. For a semidefinite A the function q(x) = ½ xᵀA x − bᵀx has no minimum over Λ
+// if there is a direction d with
+//
+//     A d = 0,   rᵀd < 0,   x + t d ∈ Λ for all t ≥ 0.
+//
+// In floating point: ‖A d‖ is below its own rounding error, the slope bᵀd above its. A curvature
+// dᵀA d below its rounding error is a reason to look, no proof: it only bounds ‖A d‖ by √ε σ ‖d‖.
+#pragma once
+
+#include <slant/base/scaling.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/concepts/vector_algebra.hpp>
+#include <slant/krylov/flat_direction.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace slant {
+
+/// Curvature pᵀAp below which p counts as a direction of the kernel: ε σ ‖p‖², σ ≈ σ_max.
+template <class V, class S>
+[[nodiscard]] S flatness(V const& p, S σ) {
+  S const size = norm(p);
+  return std::numeric_limits<S>::epsilon() * size * (size * σ);
+}
+
+/// The same for the direction of a CG method; 0 if A is declared definite, which has no kernel.
+/// `learn`: σ is not known and grows with the curvatures that are seen.
+template <bool Definite, class Directions, class S>
+[[nodiscard]] S kernel_curvature(Directions const& d, S& σ, bool learn) {
+  if constexpr (Definite) {
+    return S(0);
+  } else {
+    if (learn) {
+      S const seen = d.curvature / inner_product(d.p, d.p);
+      if (seen > σ) σ = seen;
+    }
+    return flatness(d.p, σ);
+  }
+}
+
+/// ‖A d‖ up to which d counts as a direction of the kernel: rounding errors of the product.
+template <class V, class S>
+[[nodiscard]] S kernel_image(V const& d, S σ) {
+  using std::sqrt;
+  return S(32) * std::numeric_limits<S>::epsilon() * sqrt(S(slant::global_size(d))) * norm(d) * σ;
+}
+
+/// Is q unbounded along d = s.trial? With the image A d in s.φ:
+///
+///     x + t d ∈ Λ for all t ≥ 0,   ‖A d‖ at rounding level,   bᵀd > 0 beyond its rounding errors.
+///
+/// Where A d = 0 the slope is −bᵀd, whatever of x is in r.
+template <class QP, class State>
+[[nodiscard, gnu::cold]] bool is_endless_descent(QP const& qp, State const& s) {
+  using S = typename State::scalar;
+  S const slope = inner_product(s.trial, qp.b()) / s.unit;
+  return norm(s.φ) <= kernel_image(s.trial, s.σ) &&
+         is_descent(slope, s.trial, S(4) * s.size_of_b) &&
+         !(slant::minimum(s.x,
+                          qp.set().step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
+           std::numeric_limits<S>::infinity());
+}
+
+/// Takes the part in range(A) out of a direction of descent d = −s.directions.p that is flat and
+/// does not leave Λ: conjugate gradients for
+///
+///     minimise   ½ δᵀA δ − (A d)ᵀδ   over the face,      d ← d − δ.
+///
+/// A curvature of ε σ ‖d‖² leaves ‖A d‖ of √ε σ ‖d‖, no proof that there is no minimum. True if d
+/// then is one, with A d computed anew; s.directions.p is −d. Scratch: φ, trial, projected,
+/// reduced. One application for each of at most `steps` steps and one for the proof.
+template <class QP, class State>
+[[nodiscard, gnu::cold]] bool confirm_descent(QP const& qp, State& s, index steps) {
+  using S = typename State::scalar;
+  using std::abs;
+  auto& d = s.directions.p;
+  auto& image = s.directions.Ap;
+  auto& w = s.projected;
+  auto& Aw = s.reduced;
+  s.directions.live = false;
+  S const first = norm(d);
+  if (!(first > S(0)) || !detail::is_finite(first)) return false;
+  S const size = unit_near(first), least = first / size / S(128);
+  vectors::scale(S(-1) / size, d);
+  vectors::scale(S(-1) / size, image);
+  S curvature(0);
+  for (index k = 0; k < steps && norm(d) > least; ++k) {
+    s.face.keep(image, s.trial);
+    S const residual = norm(s.trial);
+    if (!(residual > kernel_image(d, s.σ) / S(8))) break;
+    if (k == 0) {
+      vectors::copy(s.trial, w);
+    } else {
+      S const γ = inner_product(s.trial, Aw) / curvature;
+      vectors::waxpy(-γ, w, s.trial, w);
+    }
+    slant::apply(qp.a(), w, Aw, s.a_workspace);
+    ++s.work.operator_applications;
+    curvature = inner_product(w, Aw);
+    if (!(curvature > flatness(w, s.σ))) break;
+    S const α = inner_product(s.trial, w) / curvature;
+    vectors::axpy(-α, w, d);
+    vectors::axpy(-α, Aw, image);
+  }
+  // What is left of components that d does not have are rounding errors of the others.
+  S const nothing = S(8) * std::numeric_limits<S>::epsilon() * norm(d);
+  for (index i = 0; i < index(slant::local(d).size()); ++i) {
+    S const& entry = slant::local(d).coeff(i);
+    slant::local(s.trial).coeffRef(i) = abs(entry) <= nothing ? S(0) : entry;
+  }
+  slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
+  ++s.work.operator_applications;
+  vectors::negate(s.trial, d);
+  return norm(s.trial) > least && is_endless_descent(qp, s);
+}
+
+/// Compares iterates with an earlier one, which is replaced whenever the number of comparisons is a
+/// power of two (Brent's cycle detection): steps may repeat in cycles of any length and add up to
+/// such a direction, although none of them is one. A difference of iterates that looks like one by
+/// the difference of its gradients, which is free of charge and has their rounding errors, is
+/// confirmed by one application. The more steps lie between two iterates, the less the first of
+/// them disturb; so after a failure the next one is confirmed only after twice as many.
+template <class V>
+class recession_watch {
+ public:
+  /// For vectors of n entries like the prototype.
+  recession_watch(V const& prototype, index n) : x_(like(prototype, n)), r_(like(prototype, n)) {}
+
+  /// Forgets the iterates so far: they belong to another gradient.
+  void forget() { seen_ = next_ = 0; }
+
+  /// Looks at s.x and its gradient s.r, in multiples of s.unit. If true, s.directions.p is the
+  /// negative direction. Scratch: φ and trial.
+  template <class QP, class State>
+  [[nodiscard]] bool found(QP const& qp, State& s) {
+    using S = scalar_t<V>;
+    bool yes = false;
+    if (seen_ > 0 && seen_ >= next_) {
+      vectors::waxpy(-(unit_ / s.unit), r_, s.r, s.φ);
+      vectors::difference(s.x, x_, s.trial);
+      S const slope = -inner_product(s.trial, s.r);
+      auto const& set = qp.set();
+      if (!(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
+          is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
+          !(slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
+            std::numeric_limits<S>::infinity())) {
+        vectors::scale(S(1) / unit_near(norm(s.trial)), s.trial);
+        slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
+        ++s.work.operator_applications;
+        yes = is_endless_descent(qp, s);
+        next_ = 2 * seen_;
+      }
+    }
+    if (yes) vectors::negate(s.trial, s.directions.p);
+    if ((seen_ & (seen_ - 1)) == 0) {
+      vectors::copy(s.x, x_);
+      vectors::copy(s.r, r_);
+      unit_ = s.unit;
+    }
+    ++seen_;
+    return yes;
+  }
+
+ private:
+  V x_;                  // the earlier iterate
+  V r_;                  // its gradient
+  scalar_t<V> unit_{1};  // of that
+  index seen_ = 0;       // comparisons so far
+  index next_ = 0;       // at which a direction is confirmed
+};
+
+}  // namespace slant

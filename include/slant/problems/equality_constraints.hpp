@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+//
+// The affine space { x : G x = e } with its projectors:
+//
+//     Q = Gᵀ(GGᵀ)⁻¹G  onto range Gᵀ,     P = I − Q  onto ker G,
+//     x̄ = Gᵀ(GGᵀ)⁻¹e  the point next to 0.
+//
+// ‖Q x − x̄‖ is the distance of x from the space: ‖G x − e‖ if the rows of G are orthonormal, and
+// what takes its place if they are not. GGᵀ is dense and factored once; for the rows of Total-FETI,
+// six for a subdomain, it is the coarse problem.
+//
+// Rows that depend on others are left out (redundant() names them; which of them it is depends on
+// pivoting), and what they say must agree with the others up to rounding. GGᵀ sees the square of a
+// row's distance from the span of others, so the distance of rows left out is computed once more,
+// by Gram–Schmidt done twice; a row that is independent, but by less than √ε of its length, cannot
+// be treated by way of GGᵀ and is refused.
+#pragma once
+
+#include <slant/factorizations/dense_ldlt.hpp>
+#include <slant/operators/adjoint.hpp>
+#include <slant/operators/congruence.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/operators/inverse.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/operators/sum.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace slant {
+
+/// G x = e with p rows and n columns. Not movable: its operators refer to it.
+///
+///     slant::equality_constraints constraints(G, e);
+///     auto P = constraints.kernel_projector();
+template <class S>
+class equality_constraints {
+ public:
+  using scalar = S;
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// Throws bad_input if sizes do not match, an entry is not finite, a redundant row contradicts
+  /// the others (argument "e"), or a row is too close to the span of others (argument "G").
+  equality_constraints(sparse_type const& G, vector_type const& e)
+      : equality_constraints(G, e, vector_type::Zero(G.rows())) {}
+  /// The same for e with errors of the given size, one for each row: redundant rows agree with
+  /// others up to these.
+  equality_constraints(sparse_type const& G, vector_type const& e, vector_type const& error_of_e)
+      : rows_(G.rows()),
+        lengths_(row_lengths(G, e)),
+        unit_rows_(lengths_.cwiseInverse().asDiagonal() * G),
+        kept_(independent_rows(unit_rows_)),
+        G_(rows_of(unit_rows_, kept_)),
+        factors_(dense_type(G_ * sparse_type(G_.transpose()))),
+        nearest_(G.cols()) {
+    vector_type const unit_e = e.cwiseQuotient(lengths_);
+    vector_type weights(G_.rows());
+    slant::apply(slant::inverse(factors_), vector_type(unit_e(kept_)), weights);
+    nearest_.noalias() = G_.transpose() * weights;
+    detail::check_size("error_of_e", error_of_e.size(), G.rows(), "the rows of G,");
+    require_agreement(unit_e, e, vector_type(error_of_e.cwiseQuotient(lengths_)));
+  }
+  equality_constraints(equality_constraints const&) = delete;
+  equality_constraints& operator=(equality_constraints const&) = delete;
+
+  /// Number of unknowns n.
+  [[nodiscard]] index size() const { return G_.cols(); }
+  /// Number of rows of G, p.
+  [[nodiscard]] index rows() const { return rows_; }
+  /// The rows of G that depend on others, in increasing order.
+  [[nodiscard]] std::vector<index> redundant() const {
+    std::vector<index> rest;
+    for (index i = 0; i < rows_; ++i) {
+      if (!std::binary_search(kept_.begin(), kept_.end(), i)) rest.push_back(i);
+    }
+    return rest;
+  }
+
+  /// Q, the projector onto range Gᵀ.
+  [[nodiscard]] auto range_projector() const& {
+    return declare<self_adjoint, projector>(
+        congruence(adjoint(matrix(G_)), slant::inverse(factors_)));
+  }
+  auto range_projector() const&& = delete;
+  /// P = I − Q, the projector onto ker G.
+  [[nodiscard]] auto kernel_projector() const& {
+    return declare<self_adjoint, projector>(difference(identity(size()), range_projector()));
+  }
+  auto kernel_projector() const&& = delete;
+  /// The rows of G that are independent, each divided by its length.
+  [[nodiscard]] sparse_type const& unit_rows() const& { return G_; }
+  sparse_type const& unit_rows() const&& = delete;
+  /// x̄.
+  [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
+  vector_type const& nearest() const&& = delete;
+
+  /// μ with Gᵀμ = Q v, as many as G has rows; 0 for redundant ones.
+  [[nodiscard]] vector_type multipliers(vector_type const& v) const {
+    detail::check_size("v", v.size(), size(), "the columns of G,");
+    vector_type weights(G_.rows());
+    slant::apply(slant::inverse(factors_), vector_type(G_ * v), weights);
+    vector_type μ = vector_type::Zero(rows_);
+    for (index i = 0; i < weights.size(); ++i) {
+      index const row = kept_[static_cast<std::size_t>(i)];
+      μ[row] = weights[i] / lengths_[row];
+    }
+    return μ;
+  }
+
+ private:
+  /// ‖G_i‖, 1 for a row of zeros.
+  static vector_type row_lengths(sparse_type const& G, vector_type const& e) {
+    using std::abs;
+    using std::sqrt;
+    detail::check_size("e", e.size(), G.rows(), "the rows of G,");
+    detail::check_finite("e", e);
+    detail::require_finite_entries("G", G);
+    vector_type largest = vector_type::Zero(G.rows()), squares = vector_type::Zero(G.rows());
+    detail::for_each_entry(G, [&](index i, index, S const& value) {
+      largest[i] = std::max<S>(largest[i], abs(value));
+    });
+    for (S& l : largest) l = l > S(0) ? l : S(1);
+    detail::for_each_entry(G, [&](index i, index, S const& value) {
+      S const part = value / largest[i];
+      squares[i] += part * part;
+    });
+    for (index i = 0; i < G.rows(); ++i) {
+      if (squares[i] > S(0)) largest[i] *= sqrt(squares[i]);
+    }
+    return largest;
+  }
+
+  /// Pivots of GGᵀ, G with rows of length 1, that can be told from zero.
+  [[nodiscard]] static S smallest_square(index rows) { return detail::smallest_pivot(rows, S(1)); }
+
+  /// Cholesky of GGᵀ with diagonal pivoting (that of Eigen::LDLT looks at the diagonal before the
+  /// elimination), up to the first pivot that may be zero.
+  static std::vector<index> independent_rows(sparse_type const& unit_rows) {
+    using std::sqrt;
+    index const p = unit_rows.rows();
+    dense_type rest = dense_type(unit_rows * sparse_type(unit_rows.transpose()));
+    vector_type column(p);
+    std::vector<index> kept;
+    while (static_cast<index>(kept.size()) < p) {
+      index i = 0;
+      S const pivot = rest.diagonal().maxCoeff(&i);
+      if (!(pivot > smallest_square(p))) break;
+      column = rest.col(i) / sqrt(pivot);
+      rest.noalias() -= column * column.transpose();
+      rest.col(i).setZero();
+      rest.row(i).setZero();
+      kept.push_back(i);
+    }
+    std::sort(kept.begin(), kept.end());
+    return kept;
+  }
+
+  static sparse_type rows_of(sparse_type const& G, std::vector<index> const& rows) {
+    std::vector<int> place(static_cast<std::size_t>(G.rows()), -1);
+    int count = 0;
+    for (index const row : rows) place[static_cast<std::size_t>(row)] = count++;
+    std::vector<Eigen::Triplet<S>> entries;
+    detail::for_each_entry(G, [&](index i, index j, S const& value) {
+      int const row = place[static_cast<std::size_t>(i)];
+      if (row >= 0) entries.emplace_back(row, static_cast<int>(j), value);
+    });
+    sparse_type selected(count, G.cols());
+    selected.setFromTriplets(entries.begin(), entries.end());
+    return selected;
+  }
+
+  /// Each row that was left out is a combination of the others up to rounding, and says the same.
+  void require_agreement(vector_type const& unit_e, vector_type const& e,
+                         vector_type const& error) const {
+    using std::abs;
+    auto const left_out = redundant();
+    if (left_out.empty()) return;
+    S const rounding = S(4096) * std::numeric_limits<S>::epsilon();
+    vector_type const kept_e = unit_e(kept_), kept_error = error(kept_);
+    sparse_type const columns = unit_rows_.transpose();
+    for (index const i : left_out) {
+      vector_type rest = columns.col(i);
+      vector_type combination = vector_type::Zero(G_.rows()), h(G_.rows());
+      for (int pass = 0; pass < 2; ++pass) {
+        slant::apply(slant::inverse(factors_), vector_type(G_ * rest), h);
+        rest.noalias() -= G_.transpose() * h;
+        combination += h;
+      }
+      if (rest.norm() > rounding) refuse_row(i, rest.norm());
+      S const implied = combination.dot(kept_e);
+      S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(kept_e.cwiseAbs());
+      S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
+      if (abs(implied - unit_e[i]) <= allowed) continue;
+      throw bad_input(
+          "e", detail::show(S(e[i])),
+          detail::show(S(implied * lengths_[i])) + ", which other rows of G imply for this one")
+          .at(i);
+    }
+  }
+  [[noreturn]] static void refuse_row(index i, S const& distance) {
+    throw bad_input("G",
+                    "row " + detail::show(i) + " at the distance " + detail::show(distance) +
+                        " times its length from the span of others",
+                    "rows that are independent, or dependent up to rounding");
+  }
+
+  index rows_;
+  vector_type lengths_;      // ‖G_i‖
+  sparse_type unit_rows_;    // G_i / ‖G_i‖
+  std::vector<index> kept_;  // rows that are independent
+  sparse_type G_;            // these, of length 1
+  dense_ldlt<S> factors_;    // of GGᵀ
+  vector_type nearest_;      // x̄
+};
+
+template <class S>
+equality_constraints(Eigen::SparseMatrix<S> const&, Eigen::Matrix<S, Eigen::Dynamic, 1> const&)
+    -> equality_constraints<S>;
+
+}  // namespace slant

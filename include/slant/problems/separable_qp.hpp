@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// The problem that everything here is about [K (29)]:
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m,
+//
+// A symmetric positive semidefinite, often only an action; Λᵢ small closed convex sets.
+// Gradient r(x) = A x − b.
+#pragma once
+
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/linear_operator.hpp>
+
+#include <utility>
+
+namespace slant {
+
+/// What separable_qp asks of A, b and the set.
+template <class A, class V, class C>
+concept separable_qp_parts = vector<V> && linear_operator<A, V> && convex_set<C, local_t<V>>;
+
+/// Arguments that lack something end here and are told so; see
+/// base/diagnosis.hpp.
+template <class A, class V, class C>
+class separable_qp : public detail::refused, public detail::scalar_of<std::remove_cvref_t<V>> {
+  using asked = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
+
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using set_type = std::remove_cvref_t<C>;
+
+  static_assert(vector<vector_type>,
+                "separable_qp: b must be a slant::vector; an expression or a view is none");
+  static_assert(linear_operator<typename asked::whole, typename asked::vector_type>,
+                "separable_qp: A must be a linear operator on vectors like b");
+  static_assert(detail::usable_part<typename asked::part, typename asked::vector_type>,
+                "separable_qp: a part of A cannot be used on vectors like b");
+  static_assert(convex_set<detail::asked_t<vector<vector_type>, set_type>,
+                           local_t<typename asked::vector_type>>,
+                "separable_qp: the set must be a convex set of vectors like b");
+
+  separable_qp(held<A>, held<V>, held<C>);
+  operator_type const& a() const;
+  vector_type const& b() const;
+  set_type const& set() const;
+  index size() const;
+};
+
+/// A quadratic program with separable convex constraints: separable_qp{A, b, set}.
+/// Lvalues are referenced, rvalues owned. A is n × n, b has n finite entries, set has dimension n;
+/// otherwise bad_input.
+template <class A, class V, class C>
+  requires separable_qp_parts<std::remove_cvref_t<A>, std::remove_cvref_t<V>,
+                              std::remove_cvref_t<C>>
+class separable_qp<A, V, C> {
+ public:
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = std::remove_cvref_t<V>;
+  using set_type = std::remove_cvref_t<C>;
+  using scalar = scalar_t<vector_type>;
+
+  separable_qp(held<A> a, held<V> b, held<C> set)
+      : a_(std::move(a)), b_(std::move(b)), set_(std::move(set)) {
+    auto const n = index(slant::local(this->b()).size());
+    detail::check_size("A.rows()", index(this->a().rows()), n, "the size of b,");
+    detail::check_size("A.cols()", index(this->a().cols()), n, "the size of b,");
+    detail::check_size("dimension of the set", slant::dimension_of(this->set()), n,
+                       "the size of b,");
+    detail::check_finite("b", this->b());
+  }
+
+  /// The operator A.
+  [[nodiscard]] operator_type const& a() const { return a_.get(); }
+  /// The linear term b.
+  [[nodiscard]] vector_type const& b() const { return b_.get(); }
+  /// The feasible set Λ.
+  [[nodiscard]] set_type const& set() const { return set_.get(); }
+  /// Number of unknowns n.
+  [[nodiscard]] index size() const { return slant::local(b()).size(); }
+
+ private:
+  held<A> a_;
+  held<V> b_;
+  held<C> set_;
+};
+
+template <class A, class V, class C>
+separable_qp(A&&, V&&, C&&) -> separable_qp<kept_t<A>, kept_t<V>, kept_t<C>>;
+
+/// q(x) = ½ xᵀ(A x) − bᵀx = ½ xᵀ(r − b) from the gradient r = A x − b: no product is spent.
+template <class QP, class V>
+[[nodiscard]] auto energy(QP const& qp, V const& x, V const& r) {
+  using S = scalar_t<V>;
+  return S(inner_product(x, r) - inner_product(x, qp.b())) / S(2);
+}
+
+}  // namespace slant

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+//
+// Functions of two slanting functions, and what they share.
+#pragma once
+
+#include <slant/concepts/capabilities.hpp>
+#include <slant/operators/composition.hpp>
+#include <slant/slanting/assembled_operator.hpp>
+#include <slant/slanting/slanting_base.hpp>
+
+#include <type_traits>
+#include <utility>
+
+namespace slant::detail {
+
+// --- function pair -------------------------------------------------------------------------------
+//
+// Two slanting functions of the same argument with equally many values.
+
+/// F and G are `Function const&` (referenced) or function types (owned).
+template <class F, class G>
+class function_pair : public slanting_base {
+ public:
+  using left_type = std::remove_cvref_t<F>;
+  using right_type = std::remove_cvref_t<G>;
+
+  /// Throws bad_input if the numbers of values or of arguments differ.
+  function_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
+    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
+    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
+  }
+
+  [[nodiscard]] index rows() const { return left().rows(); }
+  [[nodiscard]] index cols() const { return left().cols(); }
+  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
+  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
+
+ protected:
+  template <class V>
+  static constexpr bool usable =
+      slanting_function<left_type, V> && slanting_function<right_type, V>;
+
+ private:
+  held<F> f_;
+  held<G> g_;
+};
+
+// --- evaluated pair ------------------------------------------------------------------------------
+//
+// Two slanting functions whose values F(y) and G(y) a function of both is computed from: what
+// functions by components and by blocks share.
+
+/// `f` and `g` hold F(y) and G(y).
+template <class First, class Second, class Vector>
+struct evaluated_pair_workspace {
+  First first;
+  Second second;
+  Vector f;
+  Vector g;
+};
+
+/// F and G with their values. Of the parts of an assembled operator the third and the fourth are
+/// F°(y) and G°(y).
+template <class F, class G>
+class evaluated_pair : public function_pair<F, G> {
+  using pair = function_pair<F, G>;
+
+ public:
+  using pair::left;
+  using pair::pair;
+  using pair::right;
+  using pair::rows;
+
+  template <class Y>
+  [[nodiscard]] auto workspace(Y const& y) const {
+    using first = decltype(slant::workspace(left(), y));
+    using second = decltype(slant::workspace(right(), y));
+    return evaluated_pair_workspace<first, second, plain_t<Y>>{
+        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
+        slant::like(y, rows())};
+  }
+
+ protected:
+  template <class Y, class W>
+  void evaluate_parts(Y const& y, W& w) const {
+    slant::evaluate(left(), y, w.f, w.first);
+    slant::evaluate(right(), y, w.g, w.second);
+  }
+  template <class Y, class S, class W>
+  void update_parts(Y const& y, S& s, W& w) const {
+    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
+    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
+  }
+};
+
+// --- weighted sum operator -----------------------------------------------------------------------
+//
+// diag(p) A + diag(q) B, the slanting operator of a function of two functions, componentwise. A
+// writes the result, B a temporary (or nothing, if it is a slice), and one pass over both weighs
+// and adds: as a sum of products with diagonal operators it would take two temporaries and four
+// passes. Of a maximum or minimum each row is that of A or that of B, and the pass only copies the
+// latter.
+
+/// `product` holds A x or B x, or p∘x or q∘x for the adjoint.
+template <class First, class Second, class Vector>
+struct weighted_sum_workspace {
+  First first;
+  Second second;
+  Vector product;
+};
+
+/// y = p∘(A x) + q∘(B x). Refers to all four. With Chooses all pᵢ are 0 or 1, qᵢ = 1 − pᵢ, or both
+/// are NaN.
+template <bool Chooses, class P, class Q, class A, class B>
+class weighted_sum_operator {
+ public:
+  static constexpr law_set laws{};
+
+  weighted_sum_operator(P const& p, Q const& q, A const& a, B const& b)
+      : p_(&p), q_(&q), a_(&a), b_(&b) {}
+
+  [[nodiscard]] index rows() const { return a_->rows(); }
+  [[nodiscard]] index cols() const { return a_->cols(); }
+
+  template <class X>
+    requires linear_operator<A, plain_t<X>> && linear_operator<B, plain_t<X>>
+  [[nodiscard]] auto workspace(X const& x) const {
+    return make_workspace(slant::workspace(*a_, x), slant::workspace(*b_, x),
+                          slant::like(x, rows()));
+  }
+  template <class X, class Y, class W>
+    requires applies<A, X, Y> && applies<B, X, plain_t<X>>
+  void apply(X const& x, Y& y, W& w) const {
+    slant::apply(*a_, x, y, w.first);
+    auto& result = slant::local(y);
+    auto const add = [&](auto const& product) {
+      for (index j = 0; j < result.cols(); ++j) {
+        if constexpr (Chooses) {
+          choose(result.col(j), product.col(j));
+        } else {
+          result.col(j) = p().cwiseProduct(result.col(j)) + q().cwiseProduct(product.col(j));
+        }
+      }
+    };
+    if constexpr (shows_segment<B, X>) {
+      add(b_->segment(x));
+    } else {
+      slant::apply(*b_, x, w.product, w.second);
+      add(slant::local(w.product));
+    }
+  }
+  template <class X, class Y, class W>
+    requires applies<A, X, plain_t<X>> && applies<B, X, plain_t<X>>
+  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    auto& result = slant::local(y);
+    auto const& product = slant::local(w.product);
+    auto const add = [&](auto const& weights) {
+      for (index j = 0; j < result.cols(); ++j) {
+        result.col(j) += α * weights.cwiseProduct(product.col(j));
+      }
+    };
+    slant::apply(*a_, x, w.product, w.first);
+    add(p());
+    slant::apply(*b_, x, w.product, w.second);
+    add(q());
+  }
+
+  template <class X>
+    requires has_adjoint<A, plain_t<X>> && has_adjoint<B, plain_t<X>>
+  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+    return make_workspace(slant::adjoint_workspace(*a_, x), accumulate_adjoint_workspace(*b_, x),
+                          slant::like(x, rows()));
+  }
+  /// y = Aᵀ(p∘x) + Bᵀ(q∘x).
+  template <class X, class Y, class W>
+    requires applies_adjoint<A, plain_t<X>, Y> && adds_adjoint<B, plain_t<X>, Y>
+  void apply_adjoint(X const& x, Y& y, W& w) const {
+    weigh(p(), x, w.product);
+    slant::apply_adjoint(*a_, w.product, y, w.first);
+    weigh(q(), x, w.product);
+    accumulate_adjoint(*b_, scalar_t<X>(1), w.product, y, w.second);
+  }
+
+ private:
+  [[nodiscard]] decltype(auto) p() const { return slant::local(*p_); }
+  [[nodiscard]] decltype(auto) q() const { return slant::local(*q_); }
+
+  /// yᵢ = bᵢ where pᵢ = 0; NaN where pᵢ is.
+  template <class Column, class B2>
+  void choose(Column&& y, B2 const& b) const {
+    using S = typename B2::Scalar;
+    for (index i = 0; i < index(y.size()); ++i) {
+      S const weight = p().coeff(i);
+      if (!(weight > S(0))) y.coeffRef(i) = weight == S(0) ? b.coeff(i) : weight;
+    }
+  }
+
+  template <class First, class Second, class Vector>
+  static weighted_sum_workspace<First, Second, Vector> make_workspace(First first, Second second,
+                                                                      Vector product) {
+    return {std::move(first), std::move(second), std::move(product)};
+  }
+  template <class Weights, class X, class Z>
+  static void weigh(Weights const& weights, X const& x, Z& z) {
+    for (index j = 0; j < slant::local(x).cols(); ++j) {
+      slant::local(z).col(j) = weights.cwiseProduct(slant::local(x).col(j));
+    }
+  }
+
+  P const* p_;
+  Q const* q_;
+  A const* a_;
+  B const* b_;
+};
+
+// --- pointwise pair ------------------------------------------------------------------------------
+//
+// Slanting functions of the form v_i = κ(F(y)_i, G(y)_i) with a function κ of two numbers. With the
+// slopes p_i, q_i of κ in its two arguments
+//
+//     F̃°(y) = diag(p) F°(y) + diag(q) G°(y).
+//
+// The maximum, the minimum and the Fischer–Burmeister function are three choices of κ.
+
+/// diag(p) A + diag(q) B; Chooses: each row is that of A or that of B.
+template <bool Chooses>
+struct weighted_sum_rule {
+  template <class P, class Q, class A, class B>
+  [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
+    return weighted_sum_operator<Chooses, P, Q, A, B>(p, q, a, b);
+  }
+};
+
+/// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
+/// the slopes are always (1, 0) or (0, 1), or NaN.
+template <class Kernel, class F, class G>
+class pointwise_pair : public evaluated_pair<F, G> {
+  using pair = evaluated_pair<F, G>;
+
+ public:
+  using pair::left;
+  using pair::pair;
+  using pair::right;
+  using pair::rows;
+
+  template <class Y, class V, class W>
+    requires pair::template
+  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
+    this->evaluate_parts(y, w);
+    slant::local(v) = slant::local(w.f).binaryExpr(
+        slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
+  }
+  template <class Y>
+    requires pair::template
+  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
+    auto w = this->workspace(y);
+    this->evaluate_parts(y, w);
+    assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()),
+                         slant::like(y, rows()), left().slant(y), right().slant(y));
+    set_slopes(s, w);
+    return s;
+  }
+  template <class Y, class S, class W>
+  void slant(Y const& y, S& s, W& w) const {
+    this->evaluate_parts(y, w);
+    slant_after_value(y, s, w);
+  }
+  template <class Y, class S, class W>
+  void slant_after_value(Y const& y, S& s, W& w) const {
+    set_slopes(s, w);
+    this->update_parts(y, s, w);
+  }
+
+ private:
+  template <class S, class W>
+  void set_slopes(S& s, W const& w) const {
+    auto& p = slant::local(s.template part<0>());
+    auto& q = slant::local(s.template part<1>());
+    for (index i = 0; i < rows(); ++i) {
+      auto const [at_f, at_g] = Kernel::slopes(slant::local(w.f)[i], slant::local(w.g)[i]);
+      p[i] = at_f;
+      q[i] = at_g;
+    }
+  }
+};
+
+}  // namespace slant::detail

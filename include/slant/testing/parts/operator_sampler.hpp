@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+//
+// What the checks of operator laws share: random vectors, the tolerance, the list of broken laws.
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/testing/breach.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::testing {
+
+// --- operator probe ------------------------------------------------------------------------------
+//
+// An operator as the law checks see it: its type forgotten, what it cannot do left empty. So the
+// checks are compiled once for each vector type, not once for each operator.
+
+/// How hard to look, and how much rounding to allow.
+struct operator_law_options {
+  int samples = 8;         ///< random vectors per law
+  int lanczos_steps = 60;  ///< of the search for directions that break a law about ⟨Ax, x⟩
+  double roundings = 0;  ///< rounding errors allowed, in units of ε ‖A‖ ‖x‖; 0: 64 + 8 (m + n)
+  unsigned seed = 20230817;
+};
+
+namespace detail {
+
+template <class V>
+struct operator_probe {
+  using scalar = scalar_t<V>;
+  using matrix = Eigen::Matrix<scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using map = std::function<void(V const&, V&)>;
+  using scaled_map = std::function<void(scalar, V const&, V&)>;
+
+  index rows = 0;
+  index cols = 0;
+  law_set laws;
+  operator_law_options options;
+
+  map apply;  ///< with a new workspace each time
+  /// apply with one workspace for many calls; a copy of this map has a copy of the workspace
+  std::function<map(V const&)> with_one_workspace;
+  map apply_adjoint;
+  scaled_map apply_add;
+  scaled_map apply_adjoint_add;
+  std::function<void(V&)> diagonal;
+  std::function<void(index, matrix&)> columns;
+  std::function<void(matrix const&, matrix&)> apply_to_many;
+  std::function<void(matrix const&, matrix&)> apply_to_many_by_rows;  ///< on row-major copies
+  map inverse;
+};
+
+/// `a` must outlive the probe.
+template <class V, class A>
+[[nodiscard]] operator_probe<V> probe_operator(A const& a, operator_law_options const& options) {
+  using S = scalar_t<V>;
+  using matrix = typename operator_probe<V>::matrix;
+  operator_probe<V> probe;
+  probe.rows = a.rows();
+  probe.cols = a.cols();
+  probe.laws = laws_of<A>;
+  probe.options = options;
+  probe.apply = [&a](V const& x, V& y) { slant::apply(a, x, y); };
+  probe.with_one_workspace = [&a](V const& like) -> typename operator_probe<V>::map {
+    return
+        [&a, w = slant::workspace(a, like)](V const& x, V& y) mutable { slant::apply(a, x, y, w); };
+  };
+  if constexpr (has_adjoint<A, V>) {
+    probe.apply_adjoint = [&a](V const& x, V& y) { slant::apply_adjoint(a, x, y); };
+  }
+  if constexpr (has_accumulate<A, V>) {
+    probe.apply_add = [&a](S α, V const& x, V& y) {
+      auto w = slant::workspace(a, x);
+      slant::apply_add(a, α, x, y, w);
+    };
+  }
+  if constexpr (has_adjoint_accumulate<A, V>) {
+    probe.apply_adjoint_add = [&a](S α, V const& x, V& y) {
+      auto w = slant::adjoint_workspace(a, x);
+      slant::apply_adjoint_add(a, α, x, y, w);
+    };
+  }
+  if constexpr (has_diagonal<A, V>) {
+    if (a.rows() == a.cols()) probe.diagonal = [&a](V& d) { a.diagonal(d); };
+  }
+  if constexpr (has_columns<A, matrix>) {
+    probe.columns = [&a](index first, matrix& y) { a.columns(first, y); };
+  }
+  if constexpr (applies_to_many<A, matrix>) {
+    probe.apply_to_many = [&a](matrix const& x, matrix& y) { slant::apply(a, x, y); };
+  }
+  using matrix_by_rows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  if constexpr (applies_to_many<A, matrix_by_rows>) {
+    probe.apply_to_many_by_rows = [&a](matrix const& x, matrix& y) {
+      matrix_by_rows const from = x;
+      matrix_by_rows to = y;
+      slant::apply(a, from, to);
+      y = to;
+    };
+  }
+  if constexpr (has_inverse<A, V>) {
+    using inverse_type = std::remove_cvref_t<decltype(a.inverse())>;
+    auto inverse = std::make_shared<inverse_type>(a.inverse());
+    probe.inverse = [inverse](V const& x, V& y) { slant::apply(*inverse, x, y); };
+  }
+  return probe;
+}
+
+}  // namespace detail
+
+}  // namespace slant::testing
+
+namespace slant::testing::detail {
+
+// --- operator sampler ----------------------------------------------------------------------------
+
+/// Draws vectors of the kind of a prototype, applies the operator, and judges differences.
+template <class V>
+class operator_sampler {
+ public:
+  using scalar = scalar_t<V>;
+
+  operator_sampler(operator_probe<V> const& a, V const& prototype)
+      : a_(a), prototype_(prototype), generator_(a.options.seed) {
+    double const roundings =
+        a.options.roundings > 0 ? a.options.roundings : 64 + 8 * double(a.rows + a.cols);
+    tolerance_ = scalar(roundings) * std::numeric_limits<scalar>::epsilon();
+  }
+
+  /// A vector with n entries from a normal distribution.
+  [[nodiscard]] V random(index n) {
+    V x = slant::like(prototype_, n);
+    auto&& entries = slant::local(x);
+    for (index i = 0; i < n; ++i) entries[i] = scalar(normal_(generator_));
+    return x;
+  }
+  [[nodiscard]] V constant(index n, scalar const& value) const {
+    V x = slant::like(prototype_, n);
+    slant::local(x).setConstant(value);
+    return x;
+  }
+  /// A vector with n entries that are NaN: what an operator must overwrite.
+  [[nodiscard]] V garbage(index n) const {
+    return constant(n, std::numeric_limits<scalar>::quiet_NaN());
+  }
+  [[nodiscard]] V unit(index n, index i) const {
+    V x = constant(n, scalar(0));
+    slant::local(x)[i] = scalar(1);
+    return x;
+  }
+  /// Up to `count` different numbers below n, the first and the last among them.
+  [[nodiscard]] std::vector<index> places(index n, index count) {
+    std::vector<index> all(static_cast<std::size_t>(n));
+    for (index i = 0; i < n; ++i) all[static_cast<std::size_t>(i)] = i;
+    if (n > count) {
+      std::shuffle(all.begin() + 1, all.end() - 1, generator_);
+      std::swap(all[1], all.back());
+      all.resize(static_cast<std::size_t>(count));
+    }
+    return all;
+  }
+
+  /// A x, from a result vector full of NaN.
+  [[nodiscard]] V image(V const& x) const {
+    V y = garbage(a_.rows);
+    a_.apply(x, y);
+    return y;
+  }
+  [[nodiscard]] V adjoint_image(V const& x) const {
+    V y = garbage(a_.cols);
+    a_.apply_adjoint(x, y);
+    return y;
+  }
+
+  /// Rounding allowed in a number of this size.
+  [[nodiscard]] scalar allowed(scalar const& size) const { return tolerance_ * size; }
+
+  /// `law` is broken: `measured` was found where rounding would be at most `bound`.
+  void report(std::string const& law, scalar const& measured, scalar const& bound) {
+    report(law, std::string("off by ")
+                    .append(slant::detail::show(measured))
+                    .append(", rounding would be at most ")
+                    .append(slant::detail::show(bound)));
+  }
+  void report(std::string const& law, std::string evidence) { log_(law, std::move(evidence)); }
+
+  /// Reports a breach unless |difference| ≤ allowed(size); NaN is a breach.
+  void expect_small(std::string const& law, scalar const& difference, scalar const& size) {
+    scalar const bound = allowed(size);
+    if (!(difference <= bound && -difference <= bound)) report(law, difference, bound);
+  }
+  /// Reports a breach unless ‖x − y‖ ≤ allowed(size).
+  void expect_close(std::string const& law, V const& x, V const& y, scalar const& size) {
+    if (slant::local(x).size() != slant::local(y).size()) {
+      report(law, "the result has a wrong size");
+      return;
+    }
+    V difference = x;
+    slant::local(difference) -= slant::local(y);
+    expect_small(law, slant::norm(difference), size);
+  }
+
+  [[nodiscard]] std::vector<breach> const& found() const noexcept { return log_.found(); }
+  [[nodiscard]] bool has_found(std::string const& law) const { return log_.has(law); }
+
+ private:
+  operator_probe<V> const& a_;
+  V const& prototype_;
+  std::mt19937 generator_;
+  std::normal_distribution<double> normal_;
+  scalar tolerance_;
+  breach_log log_;
+};
+
+// --- jacobi eigenvectors -------------------------------------------------------------------------
+//
+// Eigenvectors of a small symmetric matrix by Jacobi's rotations: for any scalar, and quick to
+// compile (Eigen's solver alone would take longer than all law checks together).
+
+/// A square matrix of finite numbers, by rows.
+template <class S>
+struct small_matrix {
+  index size = 0;
+  std::vector<S> entries;
+
+  explicit small_matrix(index n) : size(n), entries(static_cast<std::size_t>(n * n), S(0)) {}
+  S& operator()(index i, index j) { return entries[static_cast<std::size_t>(i * size + j)]; }
+  S const& operator()(index i, index j) const {
+    return entries[static_cast<std::size_t>(i * size + j)];
+  }
+};
+
+/// Diagonalises the symmetric matrix t in place; the rows of the result are its eigenvectors, in
+/// the order of the diagonal.
+template <class S>
+[[nodiscard]] small_matrix<S> jacobi_eigenvectors(small_matrix<S>& t) {
+  using std::abs;
+  using std::sqrt;
+  index const n = t.size;
+  small_matrix<S> vectors(n);
+  for (index i = 0; i < n; ++i) vectors(i, i) = S(1);
+  S const ε = std::numeric_limits<S>::epsilon();
+  S size(0);
+  for (S const& entry : t.entries) {
+    S const magnitude = abs(entry);
+    if (magnitude > size) size = magnitude;
+  }
+  bool rotated = true;
+  for (int sweep = 0; rotated && sweep < 60; ++sweep) {
+    rotated = false;
+    for (index p = 0; p < n; ++p) {
+      for (index q = p + 1; q < n; ++q) {
+        S const off = t(p, q);
+        if (!(S(abs(off)) > ε * size)) continue;
+        rotated = true;
+        // The rotation by the smaller angle that annihilates t(p, q).
+        S const θ = (t(q, q) - t(p, p)) / (S(2) * off);
+        S const tangent = (θ < S(0) ? S(-1) : S(1)) / (S(abs(θ)) + S(sqrt(S(θ * θ + S(1)))));
+        S const c = S(1) / S(sqrt(S(tangent * tangent + S(1))));
+        S const s = tangent * c;
+        auto const rotate = [&](S& a, S& b) {
+          S const old = a;
+          a = c * old - s * b;
+          b = s * old + c * b;
+        };
+        for (index k = 0; k < n; ++k) rotate(t(k, p), t(k, q));
+        for (index k = 0; k < n; ++k) rotate(t(p, k), t(q, k));
+        for (index k = 0; k < n; ++k) rotate(vectors(p, k), vectors(q, k));
+      }
+    }
+  }
+  return vectors;
+}
+
+// --- extreme directions --------------------------------------------------------------------------
+//
+// Directions in which a quadratic form ⟨Ax, x⟩ is smallest and largest, by Lanczos with full
+// reorthogonalisation. Random vectors alone miss a single negative eigenvalue among many positive
+// ones; these do not.
+
+/// Unit vectors near the two ends of the spectrum of a symmetric map x ↦ image(x). With as many
+/// steps as unknowns they are eigenvectors up to rounding.
+template <class V, class Image>
+[[nodiscard]] std::vector<V> extreme_directions(Image image, V const& start, index steps) {
+  using S = scalar_t<V>;
+  steps = std::min<index>(steps, slant::local(start).size());
+  S const length = slant::norm(start);
+  if (!(length > S(0))) return {};
+  std::vector<V> basis;
+  std::vector<V> images;
+  V next = start;
+  slant::local(next) /= length;
+  S size(0);
+  while (static_cast<index>(basis.size()) < steps) {
+    basis.push_back(next);
+    images.push_back(image(next));
+    next = images.back();
+    size = std::max<S>(size, slant::norm(next));
+    for (int pass = 0; pass < 2; ++pass) {
+      for (V const& b : basis) {
+        S const part = slant::inner_product(b, next);
+        slant::local(next) -= part * slant::local(b);
+      }
+    }
+    S const rest = slant::norm(next);
+    // An invariant subspace: what follows would be rounding errors. (NaN stops, too.)
+    if (!(rest > S(16) * std::numeric_limits<S>::epsilon() * size)) break;
+    slant::local(next) /= rest;
+  }
+
+  auto const n = static_cast<index>(basis.size());
+  auto const at = [](auto& list, index i) -> auto& { return list[static_cast<std::size_t>(i)]; };
+  small_matrix<S> projected(n);
+  for (index i = 0; i < n; ++i) {
+    for (index j = 0; j <= i; ++j) {
+      S const entry = slant::inner_product(at(basis, j), at(images, i));
+      if (!(entry - entry == S(0))) return {};
+      projected(i, j) = projected(j, i) = entry;
+    }
+  }
+  auto const weights = jacobi_eigenvectors(projected);
+  index least = 0;
+  index most = 0;
+  for (index i = 1; i < n; ++i) {
+    if (projected(i, i) < projected(least, least)) least = i;
+    if (projected(i, i) > projected(most, most)) most = i;
+  }
+  std::vector<V> directions;
+  for (index const which : {least, most}) {
+    V x = start;
+    slant::local(x).setZero();
+    for (index j = 0; j < n; ++j) {
+      S const weight = weights(which, j);
+      slant::local(x) += weight * slant::local(at(basis, j));
+    }
+    directions.push_back(x);
+  }
+  return directions;
+}
+
+}  // namespace slant::testing::detail

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <slant/base/entries.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+namespace entries_test {
+
+namespace entries = slant::detail;
+
+template <class M>
+M some(double first) {
+  M m;
+  for (Eigen::Index i = 0; i < m.size(); ++i) m.data()[i] = first + double(i * i % 7);
+  return m;
+}
+
+TEST_CASE_TEMPLATE("entries: what Eigen's expressions say", M, Eigen::Matrix<double, 1, 1>,
+                   Eigen::Matrix2d, Eigen::Matrix3d, Eigen::Matrix<double, 3, 2>,
+                   Eigen::Matrix<double, 5, 4>) {
+  constexpr int R = M::RowsAtCompileTime, C = M::ColsAtCompileTime;
+  using column = Eigen::Matrix<double, R, 1>;
+  using row = Eigen::Matrix<double, C, 1>;
+  M const a = some<M>(-3), b = some<M>(2);
+  column const x = some<column>(-1);
+  row const y = some<row>(-2);
+  auto const c = some<Eigen::Matrix<double, C, 3>>(-4);
+  // small integers: every sum is exact
+  CHECK(entries::from_entries<M>([&](int i, int j) { return a(i, j) + 1; }) == M(a.array() + 1));
+  CHECK(entries::from_entries<column>([&](int i) { return 2 * x(i); }) == column(2 * x));
+  CHECK(entries::sum_of<R>([&](int i) { return x(i); }) == x.sum());
+  CHECK(entries::multiple_of(-2, a) == M(-2 * a));
+  CHECK(entries::combination(2.0, a, -3.0, b) == M(2 * a - 3 * b));
+  CHECK(entries::dot_of(x, column(b.col(0))) == x.dot(b.col(0)));
+  CHECK(entries::largest_of(a) == a.cwiseAbs().maxCoeff());
+  CHECK(entries::product_of(a, c) == Eigen::Matrix<double, R, 3>(a * c));
+  CHECK(entries::product_of(a, y) == column(a * y));
+  CHECK(entries::transposed_product(a, x) == row(a.transpose() * x));
+  column sum = x;
+  entries::add_product(a, y.data(), sum);
+  CHECK(sum == column(x + a * y));
+}
+
+TEST_CASE("entries: parts of a long vector") {
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(9, 1, 9);
+  CHECK(entries::entries_at<3>(x.data() + 3) == Eigen::Vector3d(4, 5, 6));
+  entries::put_entries(Eigen::Vector2d(-1, -2), x.data() + 7);
+  CHECK(x.tail(3) == Eigen::Vector3d(7, -1, -2));
+  CHECK(entries::tail_of(Eigen::Vector3d(1, 2, 3)) == Eigen::Vector2d(2, 3));
+  CHECK(entries::largest_of(x) == 7.0);
+}
+
+TEST_CASE("entries: zeros, infinities and NaN, in vectors of fixed and other size") {
+  double const inf = std::numeric_limits<double>::infinity();
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  auto const check = [&](auto const& v, bool zero, bool finite, bool has_nan) {
+    CHECK(entries::all_zero(v) == zero);
+    CHECK(entries::all_finite(v) == finite);
+    CHECK(entries::has_nan(v) == has_nan);
+    Eigen::VectorXd const dynamic = v;
+    CHECK(entries::all_zero(dynamic) == zero);
+    CHECK(entries::all_finite(dynamic) == finite);
+    CHECK(entries::has_nan(dynamic) == has_nan);
+  };
+  check(Eigen::Vector3d(0, -0.0, 0), true, true, false);
+  check(Eigen::Vector3d(0, 5e-324, 0), false, true, false);
+  check(Eigen::Vector2d(1, -inf), false, false, false);
+  check(Eigen::Vector2d(nan, 0), false, false, true);
+  check(Eigen::Matrix<double, 0, 1>(), true, true, false);
+}
+
+}  // namespace entries_test

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "krylov/spd_matrices.hpp"
+
+#include <slant/base/scaling.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/krylov/bicgstab.hpp>
+#include <slant/krylov/cg.hpp>
+#include <slant/krylov/face_cg.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace unit_test {
+
+using Eigen::VectorXd;
+
+TEST_CASE("the unit is a power of two next to the size, whose reciprocal is finite") {
+  CHECK(slant::unit_near(1.0) == 2);
+  CHECK(slant::unit_near(0.75) == 1);
+  CHECK(slant::unit_near(3e-5f) == 0x1p-15f);
+  CHECK(slant::unit_near(0.0) == 1);
+  CHECK(slant::unit_near(std::nan("")) == 1);
+  CHECK(slant::unit_near(std::numeric_limits<double>::infinity()) == 1);
+  for (double extreme :
+       {std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min()}) {
+    CHECK(std::isfinite(1 / slant::unit_near(extreme)));
+    CHECK(slant::unit_near(extreme) > 0);
+  }
+}
+
+/// Keeps every other entry.
+struct odd_entries {
+  void keep(VectorXd const& x, VectorXd& y) const {
+    y = x;
+    for (Eigen::Index i = 0; i < y.size(); i += 2) y(i) = 0;
+  }
+};
+
+TEST_CASE("A and b of size 1e±150: the same bits after the same steps") {
+  auto const M = test::with_spectrum(test::log_spaced(40, 100));
+  VectorXd const b = test::random_vector(40);
+  auto const runs = [&](int stiffness, int load) {
+    double const s = std::ldexp(1.0, stiffness), t = std::ldexp(1.0, load);
+    auto const A = test::spd(Eigen::MatrixXd(s * M));
+    VectorXd const right = t * b, zero = VectorXd::Zero(40);
+    auto const stop = slant::residual_below(1e-12) || slant::at_most(400);
+    struct run {
+      slant::status status;
+      slant::index iterations;
+      VectorXd x;
+    };
+    auto const summary = [&](auto const& r) {
+      return run{r.status, r.iterations(), VectorXd(r.x() / t * s)};
+    };
+    odd_entries const face;
+    return std::vector{summary(slant::solve(slant::cg{A, right}, zero, stop)),
+                       summary(slant::solve(slant::bicgstab{A, right}, zero, stop)),
+                       summary(slant::solve(slant::face_cg{A, right, face}, zero, stop))};
+  };
+  auto const plain = runs(0, 0);
+  for (auto const& [stiffness, load] :
+       {std::pair{498, 0}, {-498, 0}, {0, 498}, {0, -498}, {498, 498}, {-498, -498}}) {
+    auto const scaled = runs(stiffness, load);
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      CAPTURE(i);
+      CAPTURE(stiffness);
+      CAPTURE(load);
+      CHECK(plain[i].status == slant::status::converged);
+      CHECK(scaled[i].status == plain[i].status);
+      CHECK(scaled[i].iterations == plain[i].iterations);
+      CHECK(scaled[i].x == plain[i].x);
+    }
+  }
+}
+
+}  // namespace unit_test

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+//
+// Classical Newton: the smooth special case, its rates, and the ways in which it fails.
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/newton/semismooth_newton.hpp>
+#include <slant/slanting/smooth.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace semismooth_newton_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// One equation with the derivative given.
+template <class Value, class Derivative>
+auto equation(Value value, Derivative derivative) {
+  return slant::smooth(
+      1, 1, [value](auto const& y, auto& f) { f[0] = value(y[0]); },
+      [derivative](auto const& y) { return MatrixXd(MatrixXd::Constant(1, 1, derivative(y[0]))); });
+}
+
+VectorXd number(double y) {
+  return VectorXd::Constant(1, y);
+}
+
+/// Errors ‖y⁽ᵏ⁾ − root‖ of a run, those at rounding level left out.
+template <class Method>
+std::vector<double> errors(Method const& method, VectorXd const& y0, VectorXd const& root,
+                           int steps, double floor) {
+  std::vector<double> e;
+  auto s = method.start(y0);
+  for (int k = 0; k <= steps && s.status == slant::status::running; ++k) {
+    double const error = (s.x - root).norm();
+    if (error <= floor) break;
+    e.push_back(error);
+    method.step(s);
+  }
+  return e;
+}
+
+/// (y₁² + y₂² − 2, y₁ − y₂ + c (y₁³ − y₂³)) = 0 at (1, 1).
+auto curve() {
+  return slant::smooth(
+      2, 2,
+      [](auto const& y, auto& f) {
+        f << y[0] * y[0] + y[1] * y[1] - 2,
+            y[0] - y[1] + (y[0] * y[0] * y[0] - y[1] * y[1] * y[1]) / 4;
+      },
+      [](auto const& y) {
+        return MatrixXd{{2 * y[0], 2 * y[1]}, {1 + 0.75 * y[0] * y[0], -1 - 0.75 * y[1] * y[1]}};
+      });
+}
+
+TEST_CASE("quadratic convergence: e⁺ ≤ c e² in each step, five steps to the last digits") {
+  slant::semismooth_newton const method{curve()};
+  auto const e = errors(method, VectorXd{{2.0, 0.7}}, VectorXd::Ones(2), 10, 1e-15);
+  REQUIRE(e.size() >= 4);
+  REQUIRE(e.size() <= 6);
+  for (std::size_t k = 1; k < e.size(); ++k) CHECK(e[k] <= 1.0 * e[k - 1] * e[k - 1] + 4e-16);
+  auto const r = slant::solve(method, VectorXd{{2.0, 0.7}}, slant::residual_below(1e-14));
+  CHECK(r.converged());
+  CHECK((r.x() - VectorXd::Ones(2)).norm() <= 2e-14);
+  CHECK(r.state.work.factorizations == r.iterations());
+  CHECK(r.state.work.operator_applications == 1 + r.iterations());
+  CHECK(r.state.trials == 1);
+  CHECK(r.state.length == 1);
+}
+
+TEST_CASE("a root of multiplicity m: linear with 1 − 1/m, quadratic with steps of length m") {
+  for (int m : {2, 3}) {
+    CAPTURE(m);
+    auto const F =
+        equation([m](double y) { return std::pow(y - 1, m) * (y + 2); },
+                 [m](double y) { return std::pow(y - 1, m - 1) * (m * (y + 2) + (y - 1)); });
+    auto const slow =
+        errors(slant::semismooth_newton{F, slant::direct_solver{}, slant::full_step{}}, number(2),
+               number(1), 20, 1e-5);
+    REQUIRE(slow.size() > 8);
+    for (std::size_t k = 6; k < slow.size(); ++k) {
+      CHECK(slow[k] / slow[k - 1] == doctest::Approx(1 - 1.0 / m).epsilon(0.05));
+    }
+    slant::semismooth_newton const known{F, slant::direct_solver{},
+                                         slant::multiple_root{.multiplicity = double(m)}};
+    auto const fast = errors(known, number(2), number(1), 20, 1e-12);
+    REQUIRE(fast.size() <= 6);
+    for (std::size_t k = 1; k < fast.size(); ++k) CHECK(fast[k] <= fast[k - 1] * fast[k - 1]);
+  }
+}
+
+TEST_CASE("√|y| sign y is not slantly differentiable: Newton goes to and fro, and says so") {
+  auto const F = equation([](double y) { return std::copysign(std::sqrt(std::abs(y)), y); },
+                          [](double y) { return 0.5 / std::sqrt(std::abs(y)); });
+  auto const r = slant::solve(
+      slant::semismooth_newton{
+          F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.patience = 20}},
+      number(0.25), slant::residual_below(1e-10) || slant::at_most(1000));
+  CHECK(r.status == slant::status::stalled);
+  CHECK(r.state.failure == slant::newton_failure::no_progress);
+  CHECK(r.reason == "the residual has not fallen for many steps");
+  CHECK(std::abs(r.x()[0]) == 0.25);
+  CHECK(r.iterations() == 22);  // the first value, then 20 that are no smaller, and one more
+}
+
+TEST_CASE("a singular F° is a breakdown with a reason, whatever the solver") {
+  auto const F = slant::smooth(
+      2, 2, [](auto const& y, auto& f) { f << y[0] * y[0] - 1, y[1] * y[1] - 1; },
+      [](auto const& y) {
+        return MatrixXd{{2 * y[0], 0.0}, {0.0, 2 * y[1]}};
+      });
+  VectorXd const y0{{0.0, 2.0}};
+  auto const stop = slant::residual_below(1e-10) || slant::at_most(50);
+  auto const check = [](auto const& r) {
+    CHECK(r.status == slant::status::breakdown);
+    CHECK(r.state.failure == slant::newton_failure::no_direction);
+    CHECK(r.reason.find("F° may be singular") != std::string::npos);
+    CHECK(r.x().allFinite());
+  };
+  check(slant::solve(slant::semismooth_newton{F}, y0, stop));
+  // No direction is a direction of length 0, but no success.
+  check(slant::solve(slant::semismooth_newton{F}, y0, slant::step_below(1e-3)));
+  // Half of F can be reduced, which is direction enough for an inexact Newton method.
+  slant::semismooth_newton const inexact{F, slant::bicgstab_solver{}};
+  CHECK(slant::solve(inexact, y0, stop).converged());
+  check(slant::solve(inexact, VectorXd(VectorXd::Zero(2)), stop));
+}
+
+TEST_CASE("steps out of the domain: a breakdown, or shortened") {
+  auto const F = equation([](double y) { return std::log(y); }, [](double y) { return 1 / y; });
+  auto const stop = slant::residual_below(1e-12) || slant::at_most(50);
+  slant::newton_options const from_start{.scale = slant::newton_scale::start};
+  auto const full = slant::solve(slant::semismooth_newton{F, slant::by_laws{}, slant::full_step{}},
+                                 number(3), stop);
+  CHECK(full.status == slant::status::breakdown);
+  CHECK(full.state.failure == slant::newton_failure::not_finite);
+  CHECK(full.x() == number(3));
+  auto const r =
+      slant::solve(slant::semismooth_newton{F, slant::by_laws{}, slant::halving_line_search{},
+                                            slant::eisenstat_walker{}, from_start},
+                   number(3), stop);
+  CHECK(r.converged());
+  CHECK(r.x()[0] == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("no acceptable length, and the last digits") {
+  auto const no_root = equation([](double y) { return y * y + 1; }, [](double y) { return 2 * y; });
+  auto const r = slant::solve(slant::semismooth_newton{no_root}, number(3),
+                              slant::residual_below(1e-10) || slant::at_most(500));
+  CHECK(!r.converged());
+  CHECK((r.state.failure == slant::newton_failure::no_length ||
+         r.state.failure == slant::newton_failure::no_direction ||
+         r.state.failure == slant::newton_failure::no_digits));
+  // More than the precision has to give is asked for.
+  auto const cubic =
+      equation([](double y) { return y * y * y - 2; }, [](double y) { return 3 * y * y; });
+  auto const exact =
+      slant::solve(slant::semismooth_newton{cubic, slant::by_laws{}, slant::full_step{}}, number(1),
+                   slant::residual_below(0.0) || slant::at_most(500));
+  CHECK(exact.iterations() < 12);
+  CHECK(exact.x()[0] == doctest::Approx(std::cbrt(2.0)).epsilon(1e-15));
+  CHECK((exact.converged() || exact.state.failure == slant::newton_failure::no_digits));
+}
+
+TEST_CASE("the scale of the residual: ‖F(0)‖, so that a good start is not asked for more") {
+  slant::semismooth_newton const method{curve()};
+  auto const near = method.start(VectorXd{{1.0, 1.0 + 1e-9}});
+  CHECK(near.residual_scale == 2);
+  CHECK(near.work.setup_applications == 1);
+  CHECK(method.start(VectorXd(VectorXd::Zero(2))).work.setup_applications == 0);
+  slant::semismooth_newton const by_start{curve(),
+                                          slant::by_laws{},
+                                          slant::full_step{},
+                                          slant::fixed_forcing{},
+                                          {.scale = slant::newton_scale::start}};
+  auto const s = by_start.start(VectorXd{{2.0, 2.0}});
+  CHECK(s.residual_scale == s.residual_norm);
+  CHECK(s.work.setup_applications == 0);
+  // F(0) = ∞: nothing to be measured by.
+  auto const F =
+      equation([](double y) { return 1 / y - 2; }, [](double y) { return -1 / (y * y); });
+  CHECK(slant::semismooth_newton{F}.start(number(4)).residual_scale == 1.75);
+}
+
+TEST_CASE("the size of steps, for rules and forcing terms that go by it [T (SSNM)]") {
+  slant::semismooth_newton const method{curve(),
+                                        slant::by_laws{},
+                                        slant::halving_line_search{},
+                                        slant::adaptive_precision{.r_tol = 0.01},
+                                        {.error = slant::newton_error::step, .step_offset = 1}};
+  auto s = method.start(VectorXd{{2.0, 0.7}});
+  CHECK(!(s.step_norm < std::numeric_limits<double>::infinity()));
+  CHECK(s.forcing.error == 1);
+  double last_tolerance = 0.01 / 0.9;
+  while (s.status == slant::status::running && s.iteration < 4) {
+    VectorXd const before = s.x;
+    double const error = s.forcing.error;
+    method.step(s);
+    CHECK(s.step_norm == doctest::Approx((s.x - before).norm()));
+    CHECK(s.x_norm == s.x.norm());
+    CHECK(s.forcing.last_tolerance ==
+          doctest::Approx(std::min(0.01 * error, 0.9 * last_tolerance)));
+    CHECK(s.forcing.error == s.step_norm / (s.x_norm + 1));
+    last_tolerance = s.forcing.last_tolerance;
+  }
+  auto const r =
+      slant::solve(method, VectorXd{{2.0, 0.7}}, slant::step_below(1e-6) || slant::at_most(20));
+  CHECK(r.converged());
+  CHECK((r.x() - VectorXd::Ones(2)).norm() <= 1e-11);  // the error is the square of the step
+
+  // A shortened step says nothing: what counts is the whole one; of a longer one, what was gone.
+  auto const F =
+      equation([](double y) { return std::atan(y); }, [](double y) { return 1 / (1 + y * y); });
+  slant::semismooth_newton const damped{F};
+  auto t = damped.start(number(3));
+  damped.step(t);
+  REQUIRE(t.length < 1);
+  CHECK(t.step_norm == doctest::Approx(10 * std::atan(3.0)));
+  slant::semismooth_newton const twice{F, slant::by_laws{}, slant::multiple_root{}};
+  auto u = twice.start(number(0.5));
+  twice.step(u);
+  CHECK(u.step_norm == doctest::Approx(std::abs(u.x[0] - 0.5)));
+}
+
+TEST_CASE("a copied state goes on as the original does; a state at rest stays as it is") {
+  slant::semismooth_newton const method{curve()};
+  auto s = method.start(VectorXd{{2.0, 0.7}});
+  method.step(s);
+  auto copy = s;
+  for (int k = 0; k < 3; ++k) {
+    method.step(s);
+    method.step(copy);
+  }
+  CHECK(copy.x == s.x);
+  CHECK(copy.work == s.work);
+  s.status = slant::status::interrupted;
+  VectorXd const before = s.x;
+  method.step(s);
+  CHECK(s.x == before);
+  CHECK(s.iteration == copy.iteration);
+}
+
+TEST_CASE("bad input is named") {
+  auto const wide = slant::smooth(
+      1, 2, [](auto const&, auto& f) { f[0] = 0; }, [](auto const&) { return MatrixXd(1, 2); });
+  CHECK_THROWS_WITH_AS(slant::semismooth_newton{wide}, "F.rows(): got 1, expected F.cols() 2",
+                       slant::bad_input);
+  auto const F = curve();
+  slant::semismooth_newton const method{F};
+  CHECK_THROWS_WITH_AS(static_cast<void>(method.start(VectorXd(VectorXd::Zero(3)))),
+                       "x0: got 3, expected F.cols() 2", slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd{{std::nan(""), 0.0}})), slant::bad_input);
+  auto const pole = equation([](double y) { return 1 / y; }, [](double y) { return -1 / (y * y); });
+  CHECK_THROWS_AS(static_cast<void>(slant::semismooth_newton{pole}.start(number(0))),
+                  slant::bad_input);
+  CHECK_THROWS_AS((slant::semismooth_newton{F, slant::by_laws{}, slant::full_step{},
+                                            slant::fixed_forcing{.tolerance = 2}}),
+                  slant::bad_input);
+  CHECK_THROWS_AS(
+      (slant::semismooth_newton{
+          F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.patience = -1}}),
+      slant::bad_input);
+  CHECK_THROWS_AS(
+      (slant::semismooth_newton{
+          F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.step_offset = -1}}),
+      slant::bad_input);
+}
+
+}  // namespace semismooth_newton_test
