@@ -20,6 +20,7 @@
 
 #include <slant/certificates/certificates.hpp>
 #include <slant/concepts/concepts.hpp>
+#include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/ldlt.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "spd_matrices.hpp"
 
+#include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/krylov/range_cg.hpp>
-#include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/testing/archetypes.hpp>
 

@@ -4,9 +4,9 @@
 // once, and their solutions by every active set.
 #pragma once
 
+#include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/schur_contact.hpp>
-#include <slant/operators/conjugate_projector.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,10 +4,10 @@
 // the last bit; without, they say that nothing depends on OpenMP.
 #include <slant/base/parallel_for.hpp>
 #include <slant/contact/bodies.hpp>
+#include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/schur_contact.hpp>
 #include <slant/operators/block_diagonal.hpp>
-#include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <doctest/doctest.h>

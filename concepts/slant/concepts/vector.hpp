@@ -3,7 +3,7 @@
 // Vectors: an Eigen object plus an inner product.
 //
 // Intuition. Elementwise work is done on `local(x)`, the part of the vector that lives here, by
-// vector_algebra.hpp; only inner products, the two reductions of section distributed, and operators
+// base/vector_algebra.hpp; only inner products, the two reductions below, and operators
 // may communicate.
 //
 // Minimal definition. Nothing for Eigen column vectors. Otherwise members

@@ -10,13 +10,13 @@
 //                                                     (dual_norm.hpp), which see A⁻¹ from below
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/newton_estimate.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>

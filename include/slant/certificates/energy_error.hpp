@@ -26,10 +26,10 @@
 #pragma once
 
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/normal_part.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 

@@ -14,11 +14,11 @@
 #pragma once
 
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/preconditioner.hpp>
 
 #include <algorithm>

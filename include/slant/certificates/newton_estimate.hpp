@@ -16,12 +16,12 @@
 // Cost: one application of A, and one for each iteration, some 10.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/face_correction.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/block_queries.hpp>
 #include <slant/sets/curved_face.hpp>
 

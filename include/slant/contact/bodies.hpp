@@ -21,7 +21,7 @@
 
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/prepared_body.hpp>
-#include <slant/operators/conjugate_projector.hpp>
+#include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/polyhedral_qp.hpp>
 

@@ -7,6 +7,7 @@
 #include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/condensation_options.hpp>
 #include <slant/factorizations/condensed_operator.hpp>
+#include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/fill_estimate.hpp>

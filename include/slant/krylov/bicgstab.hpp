@@ -18,7 +18,7 @@
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
 #include <slant/base/report.hpp>
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/identity.hpp>
 

@@ -12,9 +12,9 @@
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/identity.hpp>

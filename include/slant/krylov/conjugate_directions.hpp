@@ -9,8 +9,8 @@
 // predecessor when the residual was recomputed or the preconditioner changed in between.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/identity.hpp>
 
 namespace slant {

@@ -13,9 +13,9 @@
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/linear_system.hpp>

@@ -17,9 +17,9 @@
 // body that is held cannot be told from a free one: then K (q − δ) = 0 must hold exactly.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 

@@ -5,10 +5,10 @@
 
 #include <slant/base/held.hpp>
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <algorithm>

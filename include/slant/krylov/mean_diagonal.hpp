@@ -12,12 +12,12 @@
 // magnitude a few products do.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/random.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 
 namespace slant {
 

@@ -21,8 +21,8 @@
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/krylov/linear_system.hpp>

@@ -14,12 +14,12 @@
 // largest one.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/random.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -13,8 +13,8 @@
 // combination of newer ones is left out.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 
 #include <cstddef>
 #include <utility>

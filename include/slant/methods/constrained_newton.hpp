@@ -32,8 +32,8 @@
 #include <slant/base/held.hpp>
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>

@@ -34,9 +34,9 @@
 
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/interior_point_state.hpp>
 #include <slant/methods/parts/interior_start.hpp>

@@ -23,8 +23,8 @@
 
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/spectral_bound.hpp>

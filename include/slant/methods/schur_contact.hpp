@@ -44,9 +44,9 @@
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/methods/parts/active_rows.hpp>

@@ -28,11 +28,11 @@
 #include <slant/base/held.hpp>
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/proportioning.hpp>

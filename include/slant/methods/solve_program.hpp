@@ -16,8 +16,8 @@
 // `solve(method, x0, energy_error_below(tolerance, certificate))` a bound where one is known.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/energy_certificate.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>

@@ -19,9 +19,9 @@
 
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/slanting_function.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/saddle_solvers.hpp>

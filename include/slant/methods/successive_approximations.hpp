@@ -31,9 +31,9 @@
 
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/anderson_mixing.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/newton/forcing.hpp>

@@ -11,9 +11,9 @@
 #pragma once
 
 #include <slant/base/lu.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/assembled_operator.hpp>

@@ -3,8 +3,8 @@
 // Linear solvers of Newton's method by Krylov methods: cg_solver, bicgstab_solver, gmres_solver.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/newton/direction.hpp>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <slant/base/lu.hpp>
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/parts/schur_reduction.hpp>
 #include <slant/operators/congruence.hpp>

@@ -23,9 +23,9 @@
 #include <slant/base/held.hpp>
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/slanting_function.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/newton/by_laws.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>

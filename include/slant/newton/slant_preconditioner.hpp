@@ -14,9 +14,9 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/slants.hpp>

@@ -16,8 +16,8 @@
 // Products by A: one an iteration and one for the right-hand side; a warm start costs one more.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/newton/slant_preconditioner.hpp>

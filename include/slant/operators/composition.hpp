@@ -4,9 +4,9 @@
 // survive.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/laws.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 
 #include <initializer_list>
 #include <utility>

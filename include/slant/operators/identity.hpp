@@ -4,8 +4,8 @@
 #pragma once
 
 #include <slant/base/sizes.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 
 #include <string>
 #include <type_traits>

@@ -9,7 +9,6 @@
 #include <slant/operators/block.hpp>
 #include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/congruence.hpp>
-#include <slant/operators/conjugate_projector.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>

@@ -8,10 +8,10 @@
 #pragma once
 
 #include <slant/base/sizes.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/matrix.hpp>

@@ -7,7 +7,7 @@
 //     auto P = slant::scaled(slant::positive(2.0), A);  // also definite if A is
 #pragma once
 
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/operators/matrix.hpp>
 

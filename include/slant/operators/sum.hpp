@@ -7,7 +7,7 @@
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/operators/matrix.hpp>
 

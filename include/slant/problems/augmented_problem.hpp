@@ -9,9 +9,9 @@
 // eigenvalue ρ, and P A P does not depend on the choice of a generalised inverse in A [K ref 44].
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/scaled.hpp>

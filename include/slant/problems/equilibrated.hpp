@@ -15,9 +15,9 @@
 #pragma once
 
 #include <slant/base/held.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/problems/separable_qp.hpp>

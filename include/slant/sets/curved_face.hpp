@@ -14,9 +14,9 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 
 #include <Eigen/Core>

@@ -4,9 +4,9 @@
 // leaves to move.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 
 #include <Eigen/Core>

@@ -5,7 +5,7 @@
 //     auto gradient = slant::affine(A, -b);     // ∇q(x) = A x − b
 #pragma once
 
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/assembled_operator.hpp>

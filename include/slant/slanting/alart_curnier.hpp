@@ -26,9 +26,9 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/slanting/affine.hpp>

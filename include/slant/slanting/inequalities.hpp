@@ -10,7 +10,7 @@
 // terms of [T (2.3)–(2.5)]; any block with a smooth inequality form will do.
 #pragma once
 
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 #include <slant/slanting/slanting_base.hpp>
 

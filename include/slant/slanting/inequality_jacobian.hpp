@@ -5,8 +5,8 @@
 // renewed in place.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/sets/blocks.hpp>
 
 #include <Eigen/Core>

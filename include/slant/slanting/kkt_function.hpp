@@ -16,8 +16,8 @@
 // itself, so nothing cancels where z is large; and ties are inactive, as in [T].
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/restriction.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/inequalities.hpp>

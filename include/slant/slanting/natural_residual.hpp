@@ -9,7 +9,7 @@
 #pragma once
 
 #include <slant/base/sizes.hpp>
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/projection.hpp>

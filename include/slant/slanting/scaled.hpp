@@ -4,7 +4,7 @@
 // hold for positive multiples only.
 #pragma once
 
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/operators/scaled.hpp>
 #include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_base.hpp>

@@ -8,8 +8,8 @@
 
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_base.hpp>

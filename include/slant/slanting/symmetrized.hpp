@@ -6,8 +6,8 @@
 //     H s = G (ρA − I) F,     H = G (I − G) + ρ G A G,     dx = G s − F.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/scaled.hpp>

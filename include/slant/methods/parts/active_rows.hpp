@@ -11,9 +11,9 @@
 // so that redundant and repeated rows do no harm.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/parts/nearest_point.hpp>
 #include <slant/problems/polyhedral_qp.hpp>
 

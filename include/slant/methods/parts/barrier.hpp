@@ -16,10 +16,10 @@
 // is ν_i z_i times the Hessian of −log(−f_i), and that is convex for cones as well.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/lorentz_pairs.hpp>
 #include <slant/methods/parts/recession.hpp>

@@ -14,11 +14,11 @@
 // Preconditioner: krylov/preconditioner.hpp.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/operators/identity.hpp>
 

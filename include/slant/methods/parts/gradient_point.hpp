@@ -6,11 +6,11 @@
 
 #include <slant/base/report.hpp>
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 
 #include <algorithm>
 #include <limits>

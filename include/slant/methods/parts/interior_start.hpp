@@ -9,11 +9,11 @@
 #pragma once
 
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/random.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>

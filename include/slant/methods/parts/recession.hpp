@@ -10,10 +10,10 @@
 #pragma once
 
 #include <slant/base/scaling.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/krylov/flat_direction.hpp>
 
 #include <cmath>

@@ -3,9 +3,9 @@
 // What the two Schur complement solvers of generalised saddle-point systems share.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/operators/diagonal.hpp>

@@ -18,9 +18,9 @@
 #include <slant/base/matrix_entries.hpp>
 #include <slant/base/parallel_for.hpp>
 #include <slant/base/partitions.hpp>
+#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/vector_algebra.hpp>
 #include <slant/factorizations/ldlt.hpp>
 
 #include <Eigen/SparseCore>

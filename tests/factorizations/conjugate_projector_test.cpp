@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/conjugate_projector.hpp>
+#include <slant/factorizations/conjugate_projector.hpp>
 
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/operators/matrix.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/concepts/vector_algebra.hpp>
+#include <slant/base/vector_algebra.hpp>
 
 #include <doctest/doctest.h>
 
