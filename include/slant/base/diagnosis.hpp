@@ -28,8 +28,9 @@ struct refused {};
 /// The complaint was made already.
 template <class T> concept was_refused = std::derived_from<T, refused>;
 
-/// Operator, vector, set or face of which nothing is asked. Nothing of it is defined.
-struct beyond_question {
+/// Stands in for an argument, or for a result, once a mistake has been told: an operator, vector,
+/// set, face and function that can do everything and promises everything. Nothing is defined.
+struct stand_in {
   static constexpr law_set laws{~0U};
   index rows() const;
   index cols() const;
@@ -39,14 +40,18 @@ struct beyond_question {
   void solve(auto const& b, auto& x) const;
   void project(auto const& x, auto& y) const;
   bool contains(auto const& x) const;
+  block_state state(auto const& x) const;
   double step_to_boundary(auto const& x, auto const& d) const;
+  double support(auto const& y) const;
   void keep(auto const& x, auto& y) const;
+  void value(auto const& y, auto& f) const;
+  stand_in slant(auto const& y) const;
 };
 
 /// The argument T if it is to be asked, else one that has every answer: what depends on an argument
 /// that was refused already is not refused as well.
 template <bool Asked, class T>
-using asked_t = std::conditional_t<Asked, T, beyond_question>;
+using asked_t = std::conditional_t<Asked, T, stand_in>;
 
 /// The scalar of V as a member; of what is no vector, double.
 template <class V>
@@ -88,43 +93,6 @@ class refused_method : public refused {
   refused_method(Problem const&, Options const&);
   state_type start(auto const& x0) const;
   void step(state_type& s) const;
-};
-
-// --- refused operator ----------------------------------------------------------------------------
-//
-// What a factory returns after a static_assert has refused its arguments: an operator, or a
-// function, that can do everything and promises everything, so that one mistake is one complaint.
-// Nothing of it is defined.
-
-struct refused_operator {
-  static constexpr law_set laws{~0U};
-  index rows() const;
-  index cols() const;
-  void apply(auto const& x, auto& y) const;
-  void apply_adjoint(auto const& x, auto& y) const;
-};
-
-struct refused_function {
-  index rows() const;
-  index cols() const;
-  void value(auto const& y, auto& f) const;
-  refused_operator slant(auto const& y) const;
-};
-
-// --- refused set ---------------------------------------------------------------------------------
-//
-// What a factory of sets returns after a static_assert has refused its arguments: a set that can do
-// everything, so that one mistake is one complaint. Nothing of it is defined.
-
-struct refused_set {
-  index size() const;
-  void project(auto const& x, auto& y) const;
-  bool contains(auto const& x) const;
-  block_state state(auto const& x) const;
-  template <class X>
-  scalar_t<X> step_to_boundary(X const& x, auto const& d) const;
-  template <class Y>
-  scalar_t<Y> support(Y const& y) const;
 };
 
 // --- part to blame -------------------------------------------------------------------------------
@@ -240,6 +208,57 @@ struct questions_about {
   using whole = asked_t<std::is_same_v<blamed, type>, type>;    ///< must be a linear_operator
   using part = asked_t<!std::is_same_v<blamed, type>, blamed>;  ///< must be a usable_part
   using promise = asked_t<works, type>;                         ///< must have declared its laws
+};
+
+// --- demands -------------------------------------------------------------------------------------
+//
+// What is said of the arguments that many methods have. A method asserts that it was `told`; the
+// compiler names the method.
+
+/// Of b, or x0.
+template <class V>
+struct vector_demands {
+  static_assert(vector<V>, "b must be a slant::vector; an expression or a view is none");
+  static constexpr bool told = true;
+};
+
+/// The law that a method asks of an operator.
+enum class law_demand : unsigned char { none, semidefinite, definite };
+
+/// Of A, applied to vectors of type V.
+template <class A, class V, law_demand Law>
+struct operator_demands {
+  using a = questions_about<A, V>;
+  using semidefinite = asked_t<Law == law_demand::semidefinite, typename a::promise>;
+  using definite = asked_t<Law == law_demand::definite, typename a::promise>;
+
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "A must be a linear operator on vectors like b");
+  static_assert(usable_part<typename a::part, typename a::vector_type>,
+                "a part of A cannot be used on vectors like b");
+  static_assert(psd_operator<semidefinite, typename a::vector_type>,
+                "A must declare self_adjoint and positive_semidefinite");
+  static_assert(spd_operator<definite, typename a::vector_type>,
+                "A must declare self_adjoint and positive_definite");
+  static constexpr bool told = true;
+};
+
+/// Of M ≈ A⁻¹.
+template <class M, class V, law_demand Law>
+struct preconditioner_demands {
+  using m = questions_about<M, V>;
+  using semidefinite = asked_t<Law == law_demand::semidefinite, typename m::promise>;
+  using definite = asked_t<Law == law_demand::definite, typename m::promise>;
+
+  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
+                "the preconditioner must be a linear operator on vectors like b");
+  static_assert(usable_part<typename m::part, typename m::vector_type>,
+                "a part of the preconditioner cannot be used on vectors like b");
+  static_assert(psd_operator<semidefinite, typename m::vector_type>,
+                "the preconditioner must declare self_adjoint and positive_semidefinite");
+  static_assert(spd_operator<definite, typename m::vector_type>,
+                "the preconditioner must declare self_adjoint and positive_definite");
+  static constexpr bool told = true;
 };
 
 }  // namespace slant::detail

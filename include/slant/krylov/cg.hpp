@@ -48,23 +48,13 @@ struct cg_state {
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class M = identity_operator>
 class cg : public detail::refused_method<std::remove_cvref_t<V>> {
-  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
-  using m = detail::questions_about<std::remove_cvref_t<M>, std::remove_cvref_t<V>>;
+  using vector_type = std::remove_cvref_t<V>;
+  using law = detail::law_demand;
 
-  static_assert(vector<std::remove_cvref_t<V>>,
-                "cg: b must be a slant::vector; an expression or a view is none");
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "cg: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "cg: a part of A cannot be used on vectors like b");
-  static_assert(spd_operator<typename a::promise, typename a::vector_type>,
-                "cg: A must declare self_adjoint and positive_definite");
-  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
-                "cg: the preconditioner must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename m::part, typename m::vector_type>,
-                "cg: a part of the preconditioner cannot be used on vectors like b");
-  static_assert(spd_operator<typename m::promise, typename m::vector_type>,
-                "cg: the preconditioner must declare self_adjoint and positive_definite");
+  static_assert(detail::vector_demands<vector_type>::told);
+  static_assert(detail::operator_demands<std::remove_cvref_t<A>, vector_type, law::definite>::told);
+  static_assert(
+      detail::preconditioner_demands<std::remove_cvref_t<M>, vector_type, law::definite>::told);
 
  public:
   using cg::refused_method::refused_method;

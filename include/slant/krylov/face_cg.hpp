@@ -49,19 +49,14 @@ struct face_cg_state {
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class F>
 class face_cg : public detail::refused_method<std::remove_cvref_t<V>> {
-  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
+  using vector_type = std::remove_cvref_t<V>;
 
-  static_assert(vector<std::remove_cvref_t<V>>,
-                "face_cg: b must be a slant::vector; an expression or a view is none");
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "face_cg: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "face_cg: a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
-                "face_cg: A must declare self_adjoint and positive_semidefinite");
-  static_assert(has_keep<detail::asked_t<vector<std::remove_cvref_t<V>>, std::remove_cvref_t<F>>,
-                         typename a::vector_type>,
-                "face_cg: the face must cut vectors down to it by keep(x, y)");
+  static_assert(detail::vector_demands<vector_type>::told);
+  static_assert(detail::operator_demands<std::remove_cvref_t<A>, vector_type,
+                                         detail::law_demand::semidefinite>::told);
+  static_assert(has_keep<detail::asked_t<vector<vector_type>, std::remove_cvref_t<F>>,
+                         detail::asked_t<vector<vector_type>, vector_type>>,
+                "the face must cut vectors down to it by keep(x, y)");
 
  public:
   using face_cg::refused_method::refused_method;
@@ -177,23 +172,15 @@ struct cg_feas_state {
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class C, class F>
 class cg_feas : public detail::refused_method<std::remove_cvref_t<V>> {
-  using a = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
-  using vector_type = typename a::vector_type;
   template <class T>
   using asked = detail::asked_t<vector<std::remove_cvref_t<V>>, std::remove_cvref_t<T>>;
 
-  static_assert(vector<std::remove_cvref_t<V>>,
-                "cg_feas: b must be a slant::vector; an expression or a view is none");
-  static_assert(linear_operator<typename a::whole, vector_type>,
-                "cg_feas: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, vector_type>,
-                "cg_feas: a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<typename a::promise, vector_type>,
-                "cg_feas: A must declare self_adjoint and positive_semidefinite");
-  static_assert(has_step_to_boundary<asked<C>, local_t<vector_type>>,
-                "cg_feas: the set must tell its step_to_boundary(x, d)");
-  static_assert(has_keep<asked<F>, vector_type>,
-                "cg_feas: the face must cut vectors down to it by keep(x, y)");
+  static_assert(detail::vector_demands<std::remove_cvref_t<V>>::told);
+  static_assert(detail::operator_demands<std::remove_cvref_t<A>, std::remove_cvref_t<V>,
+                                         detail::law_demand::semidefinite>::told);
+  static_assert(has_step_to_boundary<asked<C>, local_t<asked<V>>>,
+                "the set must tell its step_to_boundary(x, d)");
+  static_assert(has_keep<asked<F>, asked<V>>, "the face must cut vectors down to it by keep(x, y)");
 
  public:
   using cg_feas::refused_method::refused_method;

@@ -187,23 +187,19 @@ template <class QP, class C>
 concept constrained_newton_problem =
     symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
 
-/// Arguments that lack something end here and are told so; see base/diagnosis.hpp. The
-/// method itself is in this file.
+/// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C, class M>
-class constrained_newton
-    : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+class constrained_newton : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  static constexpr bool good_problem = symmetric_newton_problem<problem>;
 
-  static_assert(good_problem,
-                "constrained_newton: the problem must be one that symmetric_newton takes");
-  static_assert(!good_problem || affine_space_with_rows<std::remove_cvref_t<C>, vector_type>,
-                "constrained_newton: the constraints must be equality_constraints of vectors like "
-                "b, which must be an Eigen vector");
-  static_assert(psd_operator<std::remove_cvref_t<M>, vector_type>,
-                "constrained_newton: the preconditioner must be a linear operator on vectors like "
-                "b that declares self_adjoint and positive_semidefinite");
+  static_assert(detail::program_demands<problem>());
+  static_assert(detail::active_set_demands<problem>());
+  static_assert(detail::symmetric_newton_demands<problem, std::remove_cvref_t<M>>());
+  static_assert(
+      !symmetric_newton_problem<problem> ||
+          affine_space_with_rows<std::remove_cvref_t<C>, typename detail::vector_of<problem>::type>,
+      "the constraints must be equality_constraints of vectors like b, which must be an "
+      "Eigen vector");
 
  public:
   using constrained_newton::refused_method::refused_method;

@@ -76,62 +76,35 @@ concept interior_point_problem =
 namespace detail {
 
 template <class QP>
-using refused_interior_point =
-    refused_method<typename QP::vector_type, interior_point_state<QP, identity_operator>,
-                   interior_point_options<typename QP::scalar>>;
+struct interior_point_types {
+  using state = interior_point_state<QP, identity_operator>;
+  using options = interior_point_options<typename QP::scalar>;
+};
+
+template <class QP, class M>
+[[nodiscard]] consteval bool interior_point_demands() {
+  if constexpr (askable_program<QP>) {
+    using set_type = typename QP::set_type;
+    using points = local_t<typename QP::vector_type>;
+    constexpr bool smooth = has_block_inequalities<set_type, points>;
+    static_assert(smooth,
+                  "the set must be made of blocks with a smooth inequality form and "
+                  "step_to_boundary(x, d)");
+    static_assert(!smooth || has_step_to_boundary<set_type, points>,
+                  "the set must have step_to_boundary(x, d)");
+    static_assert(
+        preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told);
+  }
+  return true;
+}
 
 }  // namespace detail
 
-/// A problem that lacks something ends here and is told so; see base/diagnosis.hpp. The
-/// method itself is in this file.
+/// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class interior_point : public detail::refused_interior_point<std::remove_cvref_t<QP>> {
-  using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using a = detail::questions_about<typename problem::operator_type, vector_type>;
-  using m = detail::questions_about<std::remove_cvref_t<M>, vector_type>;
-  using set_type = typename problem::set_type;
-  using points = local_t<vector_type>;
-  static constexpr bool smooth = has_block_inequalities<set_type, points>;
-
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "interior_point: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "interior_point: a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
-                "interior_point: A must declare that it is self-adjoint and positive semidefinite");
-  static_assert(smooth,
-                "interior_point: the set must be made of blocks with a smooth inequality form and "
-                "step_to_boundary(x, d)");
-  static_assert(!smooth || has_step_to_boundary<set_type, points>,
-                "interior_point: the set must have step_to_boundary(x, d)");
-  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
-                "interior_point: the preconditioner must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename m::part, typename m::vector_type>,
-                "interior_point: a part of the preconditioner cannot be used on vectors like b");
-  static_assert(psd_operator<typename m::promise, typename m::vector_type>,
-                "interior_point: the preconditioner must declare self_adjoint and "
-                "positive_semidefinite");
-
- public:
-  using interior_point::refused_method::refused_method;
-};
-
-/// A problem that was told so already.
-template <class QP, class M>
-  requires detail::was_refused<std::remove_cvref_t<QP>>
-class interior_point<QP, M> : public detail::refused_interior_point<std::remove_cvref_t<QP>> {
- public:
-  using interior_point::refused_method::refused_method;
-};
-
-/// No problem at all.
-template <class QP, class M>
-  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
-           !detail::was_refused<std::remove_cvref_t<QP>>)
-class interior_point<QP, M> : public detail::refused_method<void, void> {
-  static_assert(quadratic_program<std::remove_cvref_t<QP>>,
-                "interior_point: expected a separable_qp");
+class interior_point : public detail::refused_program<QP, detail::interior_point_types> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>());
 
  public:
   using interior_point::refused_method::refused_method;

@@ -43,7 +43,8 @@ namespace slant {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
-  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
 
  public:
   using kprgp::proportioning::proportioning;
@@ -108,7 +109,8 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_proportioning> {
-  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
 
  public:
   using qpq::proportioning::proportioning;
@@ -134,7 +136,8 @@ qpq(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> qpq<kept_t
 /// Requirements and statuses are those of kprgp. One application of A a step, two for an expansion.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
-  static_assert(detail::active_set_complaint<std::remove_cvref_t<QP>>::made);
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
 
  public:
   using qpc::proportioning::proportioning;

@@ -260,27 +260,22 @@ struct modified_newton_state : gradient_point<QP> {
 
 namespace detail {
 
-template <class QP, class Inner, class Forcing>
-using refused_modified_newton =
-    refused_method<typename QP::vector_type, modified_newton_state<QP, Inner>,
-                   modified_newton_options<typename QP::scalar, Forcing>>;
+template <class Inner, class Forcing>
+struct modified_newton_types {
+  template <class QP>
+  struct of {
+    using state = modified_newton_state<QP, Inner>;
+    using options = modified_newton_options<typename QP::scalar, Forcing>;
+  };
+};
 
 }  // namespace detail
 
-/// A problem that lacks something ends here; see problems/quadratic_program.hpp. The
-/// method itself is in this file.
+/// A problem that lacks something ends here; mssn, imssn and gimssn say what it is.
 template <class QP, class Start, class Inner, class Forcing>
 class modified_newton
-    : public detail::refused_modified_newton<std::remove_cvref_t<QP>, Inner, Forcing> {
- public:
-  using modified_newton::refused_method::refused_method;
-};
-
-/// No problem at all.
-template <class QP, class Start, class Inner, class Forcing>
-  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
-           !detail::was_refused<std::remove_cvref_t<QP>>)
-class modified_newton<QP, Start, Inner, Forcing> : public detail::refused_method<void, void> {
+    : public detail::refused_program<QP,
+                                     detail::modified_newton_types<Inner, Forcing>::template of> {
  public:
   using modified_newton::refused_method::refused_method;
 };

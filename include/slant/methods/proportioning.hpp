@@ -132,25 +132,21 @@ struct kprgp_state : gradient_point<QP> {
 
 namespace detail {
 
-template <class QP, class Rule>
-using refused_proportioning = refused_method<typename QP::vector_type, kprgp_state<QP>,
-                                             typename Rule::template options<typename QP::scalar>>;
+template <class Rule>
+struct proportioning_types {
+  template <class QP>
+  struct of {
+    using state = kprgp_state<QP>;
+    using options = typename Rule::template options<typename QP::scalar>;
+  };
+};
 
 }  // namespace detail
 
-/// A problem that lacks something ends here; see problems/quadratic_program.hpp. The
-/// method itself is in this file.
+/// A problem that lacks something ends here; kprgp, qpq and qpc say what it is.
 template <class QP, class Rule>
-class proportioning : public detail::refused_proportioning<std::remove_cvref_t<QP>, Rule> {
- public:
-  using proportioning::refused_method::refused_method;
-};
-
-/// No problem at all.
-template <class QP, class Rule>
-  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
-           !detail::was_refused<std::remove_cvref_t<QP>>)
-class proportioning<QP, Rule> : public detail::refused_method<void, void> {
+class proportioning
+    : public detail::refused_program<QP, detail::proportioning_types<Rule>::template of> {
  public:
   using proportioning::refused_method::refused_method;
 };

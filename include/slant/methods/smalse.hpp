@@ -186,44 +186,16 @@ struct smalse_state {
 template <class QP, class C>
 concept smalse_problem = kprgp_problem<QP> && affine_space<C, typename QP::vector_type>;
 
-/// Arguments that lack something end here and are told so; see base/diagnosis.hpp. The
-/// method itself is in this file.
+/// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C>
-class smalse : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
+class smalse : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using a = detail::questions_about<typename problem::operator_type, vector_type>;
-  static constexpr bool good_problem = kprgp_problem<problem>;
 
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "smalse: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "smalse: a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
-                "smalse: A must declare that it is self-adjoint and positive semidefinite");
-  static_assert(active_set_domain<typename problem::set_type, local_t<vector_type>>,
-                "smalse: the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-  static_assert(!good_problem || affine_space<std::remove_cvref_t<C>, vector_type>,
-                "smalse: the constraints must be equality_constraints of vectors like b");
-
- public:
-  using smalse::refused_method::refused_method;
-};
-
-/// A problem that was told so already.
-template <class QP, class C>
-  requires detail::was_refused<std::remove_cvref_t<QP>>
-class smalse<QP, C> : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
- public:
-  using smalse::refused_method::refused_method;
-};
-
-/// No problem at all.
-template <class QP, class C>
-  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
-           !detail::was_refused<std::remove_cvref_t<QP>>)
-class smalse<QP, C> : public detail::refused_method<void, void> {
-  static_assert(quadratic_program<std::remove_cvref_t<QP>>, "smalse: expected a separable_qp");
+  static_assert(detail::program_demands<problem>());
+  static_assert(detail::active_set_demands<problem>());
+  static_assert(!kprgp_problem<problem> ||
+                    affine_space<std::remove_cvref_t<C>, typename detail::vector_of<problem>::type>,
+                "the constraints must be equality_constraints of vectors like b");
 
  public:
   using smalse::refused_method::refused_method;

@@ -150,37 +150,20 @@ concept ssnm_parts =
     direction_solver<LinearSolver, slant_operator_t<ssnm_function<QP>, typename QP::vector_type>,
                      typename QP::vector_type>;
 
-/// Parts that lack something end here and are told so; see base/diagnosis.hpp. The method
-/// itself is in this file.
+/// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class LinearSolver = schur_bicgstab>
-class ssnm : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
-  using problem = std::remove_cvref_t<QP>;
-  using V = typename problem::vector_type;
-
+class ssnm : public detail::refused_program<QP> {
   static consteval bool told() {
-    detail::refuse_solver<LinearSolver, slant_operator_t<ssnm_function<problem>, V>, V>();
+    using problem = std::remove_cvref_t<QP>;
+    if constexpr (detail::askable_program<problem>) {
+      using V = typename problem::vector_type;
+      detail::refuse_solver<LinearSolver, slant_operator_t<ssnm_function<problem>, V>, V>();
+    } else {
+      static_assert(detail::program_demands<problem>());
+    }
     return true;
   }
   static_assert(told());
-
- public:
-  using ssnm::refused_method::refused_method;
-};
-
-/// A problem that was told so already.
-template <class QP, class LinearSolver>
-  requires detail::was_refused<std::remove_cvref_t<QP>>
-class ssnm<QP, LinearSolver>
-    : public detail::refused_method<typename std::remove_cvref_t<QP>::vector_type> {
- public:
-  using ssnm::refused_method::refused_method;
-};
-
-/// No problem at all.
-template <class QP, class LinearSolver>
-  requires(!quadratic_program<std::remove_cvref_t<QP>>)
-class ssnm<QP, LinearSolver> : public detail::refused_method<void> {
-  static_assert(quadratic_program<std::remove_cvref_t<QP>>, "ssnm: expected a separable_qp");
 
  public:
   using ssnm::refused_method::refused_method;

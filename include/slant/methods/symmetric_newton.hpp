@@ -340,63 +340,33 @@ concept symmetric_newton_problem =
 namespace detail {
 
 template <class QP>
-using refused_symmetric_newton =
-    refused_method<typename QP::vector_type, symmetric_newton_state<QP, identity_operator>,
-                   symmetric_newton_options<typename QP::scalar>>;
+struct symmetric_newton_types {
+  using state = symmetric_newton_state<QP, identity_operator>;
+  using options = symmetric_newton_options<typename QP::scalar>;
+};
+
+template <class QP, class M>
+[[nodiscard]] consteval bool symmetric_newton_demands() {
+  if constexpr (askable_program<QP>) {
+    using set_type = typename QP::set_type;
+    using points = local_t<typename QP::vector_type>;
+    static_assert(!active_set_domain<set_type, points> || has_block_slants<set_type, points>,
+                  "the set must be made of blocks with slant(x)");
+    static_assert(
+        preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told);
+  }
+  return true;
+}
 
 }  // namespace detail
 
-/// A problem that lacks something ends here and is told so; see base/diagnosis.hpp. The
-/// method itself is in this file.
+/// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class symmetric_newton : public detail::refused_symmetric_newton<std::remove_cvref_t<QP>> {
-  using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using a = detail::questions_about<typename problem::operator_type, vector_type>;
-  using m = detail::questions_about<std::remove_cvref_t<M>, vector_type>;
-  using set_type = typename problem::set_type;
-  using points = local_t<vector_type>;
-  static constexpr bool good_domain = active_set_domain<set_type, points>;
-
-  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
-                "symmetric_newton: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename a::part, typename a::vector_type>,
-                "symmetric_newton: a part of A cannot be used on vectors like b");
+class symmetric_newton : public detail::refused_program<QP, detail::symmetric_newton_types> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
   static_assert(
-      psd_operator<typename a::promise, typename a::vector_type>,
-      "symmetric_newton: A must declare that it is self-adjoint and positive semidefinite");
-  static_assert(good_domain,
-                "symmetric_newton: the set must be made of blocks with state(x) and "
-                "step_to_boundary(x, d)");
-  static_assert(!good_domain || has_block_slants<set_type, points>,
-                "symmetric_newton: the set must be made of blocks with slant(x)");
-  static_assert(linear_operator<typename m::whole, typename m::vector_type>,
-                "symmetric_newton: the preconditioner must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename m::part, typename m::vector_type>,
-                "symmetric_newton: a part of the preconditioner cannot be used on vectors like b");
-  static_assert(psd_operator<typename m::promise, typename m::vector_type>,
-                "symmetric_newton: the preconditioner must declare self_adjoint and "
-                "positive_semidefinite");
-
- public:
-  using symmetric_newton::refused_method::refused_method;
-};
-
-/// A problem that was told so already.
-template <class QP, class M>
-  requires detail::was_refused<std::remove_cvref_t<QP>>
-class symmetric_newton<QP, M> : public detail::refused_symmetric_newton<std::remove_cvref_t<QP>> {
- public:
-  using symmetric_newton::refused_method::refused_method;
-};
-
-/// No problem at all.
-template <class QP, class M>
-  requires(!quadratic_program<std::remove_cvref_t<QP>> &&
-           !detail::was_refused<std::remove_cvref_t<QP>>)
-class symmetric_newton<QP, M> : public detail::refused_method<void, void> {
-  static_assert(quadratic_program<std::remove_cvref_t<QP>>,
-                "symmetric_newton: expected a separable_qp");
+      detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>());
 
  public:
   using symmetric_newton::refused_method::refused_method;

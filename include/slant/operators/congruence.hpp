@@ -138,7 +138,7 @@ template <operand B, operand A>
 [[nodiscard]] auto congruence(B&& b, A&& a) {
   if constexpr (!adjoint_operand<B>) {
     static_assert(adjoint_operand<B>, "congruence: B must have apply_adjoint(x, y)");
-    return detail::refused_operator{};
+    return detail::stand_in{};
   } else {
     return detail::make_congruence<false>(held<part_t<B>>(slant::as_operator(std::forward<B>(b))),
                                           held<part_t<A>>(slant::as_operator(std::forward<A>(a))));

@@ -38,7 +38,7 @@ template <class K>
 
 /// Three overloads that each explain why they do not fit would hide this one sentence.
 template <class B>
-[[nodiscard]] refused_operator refuse_factor() {
+[[nodiscard]] stand_in refuse_factor() {
   static_assert(adjoint_operand<B>, "schur_complement: B must have apply_adjoint(x, y)");
   return {};
 }

@@ -135,7 +135,7 @@ template <class... A>
 [[nodiscard]] auto sum(A&&... a) {
   if constexpr (!(operand<A> && ...)) {
     (detail::check_term<A>(), ...);
-    return detail::refused_operator{};
+    return detail::stand_in{};
   } else {
     sum_operator<part_t<A>...> s{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))...};
     index i = 0;

@@ -47,46 +47,68 @@ concept kprgp_problem =
 
 namespace slant::detail {
 
-// --- active set complaint ------------------------------------------------------------------------
+// --- demands -------------------------------------------------------------------------------------
 //
-// The answer to a problem on which kprgp and its relatives cannot work. Each of them asks whether
-// it was made. It is not said by their common base classes: one in which a static_assert fails is
-// no base class any more for clang, which then complains of that as well.
+// What is said of the program that a method is given. Not by a common base class of the methods: one in
+// which a static_assert fails is no base class any more for clang, which then complains of that as well.
 
-/// Says what a problem lacks.
+/// A program of which nothing has been said yet.
+template <class QP> concept askable_program = quadratic_program<QP> && !was_refused<QP>;
+
+/// Of any program: A is semidefinite on vectors like b. True.
 template <class QP>
-struct active_set_complaint {
-  static constexpr bool made = true;
-  using a = questions_about<typename QP::operator_type, typename QP::vector_type>;
+[[nodiscard]] consteval bool program_demands() {
+  if constexpr (askable_program<QP>) {
+    return operator_demands<typename QP::operator_type, typename QP::vector_type,
+                            law_demand::semidefinite>::told;
+  } else if constexpr (!was_refused<QP>) {
+    static_assert(quadratic_program<QP>, "expected a separable_qp");
+  }
+  return true;
+}
 
-  static_assert(
-      linear_operator<typename a::whole, typename a::vector_type>,
-      "gimssn, imssn, mssn, qpc, qpq, kprgp: A must be a linear operator on vectors like b");
-  static_assert(
-      usable_part<typename a::part, typename a::vector_type>,
-      "gimssn, imssn, mssn, qpc, qpq, kprgp: a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<typename a::promise, typename a::vector_type>,
-                "gimssn, imssn, mssn, qpc, qpq, kprgp: A must declare that it is self-adjoint and "
-                "positive semidefinite");
-  static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
-                "gimssn, imssn, mssn, qpc, qpq, kprgp: the set must be made of blocks with "
-                "state(x) and step_to_boundary(x, d)");
+/// Of the set, where a method follows faces. True.
+template <class QP>
+[[nodiscard]] consteval bool active_set_demands() {
+  if constexpr (askable_program<QP>) {
+    static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
+                  "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
+  }
+  return true;
+}
+
+/// The vectors of a program of which nothing has been said yet.
+template <class QP>
+struct vector_of {
+  using type = stand_in;
+};
+template <askable_program QP>
+struct vector_of<QP> {
+  using type = typename QP::vector_type;
 };
 
-/// A problem that was told so already.
+/// State and options of a method of which only the vectors are known.
 template <class QP>
-  requires was_refused<QP>
-struct active_set_complaint<QP> {
-  static constexpr bool made = true;
+struct refused_types {
+  using state = refused_state<typename QP::vector_type>;
+  using options = no_options;
 };
 
-/// No problem at all.
-template <class QP>
-  requires(!quadratic_program<QP> && !was_refused<QP>)
-struct active_set_complaint<QP> {
-  static constexpr bool made = true;
-  static_assert(quadratic_program<QP>,
-                "gimssn, imssn, mssn, qpc, qpq, kprgp: expected a separable_qp");
+/// A method that refuses the program QP, with the state and the options that Types<QP> names.
+template <class QP, template <class> class Types>
+struct refusal {
+  using type = refused_method<void, void>;
 };
+template <class QP, template <class> class Types>
+  requires requires {
+    typename QP::vector_type;
+    typename QP::scalar;
+  }
+struct refusal<QP, Types> {
+  using type = refused_method<typename QP::vector_type, typename Types<QP>::state,
+                              typename Types<QP>::options>;
+};
+template <class QP, template <class> class Types = refused_types>
+using refused_program = typename refusal<std::remove_cvref_t<QP>, Types>::type;
 
 }  // namespace slant::detail

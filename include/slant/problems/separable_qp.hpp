@@ -26,22 +26,17 @@ concept separable_qp_parts = vector<V> && linear_operator<A, V> && convex_set<C,
 /// base/diagnosis.hpp.
 template <class A, class V, class C>
 class separable_qp : public detail::refused, public detail::scalar_of<std::remove_cvref_t<V>> {
-  using asked = detail::questions_about<std::remove_cvref_t<A>, std::remove_cvref_t<V>>;
-
  public:
   using operator_type = std::remove_cvref_t<A>;
   using vector_type = std::remove_cvref_t<V>;
   using set_type = std::remove_cvref_t<C>;
 
-  static_assert(vector<vector_type>,
-                "separable_qp: b must be a slant::vector; an expression or a view is none");
-  static_assert(linear_operator<typename asked::whole, typename asked::vector_type>,
-                "separable_qp: A must be a linear operator on vectors like b");
-  static_assert(detail::usable_part<typename asked::part, typename asked::vector_type>,
-                "separable_qp: a part of A cannot be used on vectors like b");
+  static_assert(detail::vector_demands<vector_type>::told);
+  static_assert(
+      detail::operator_demands<operator_type, vector_type, detail::law_demand::none>::told);
   static_assert(convex_set<detail::asked_t<vector<vector_type>, set_type>,
-                           local_t<typename asked::vector_type>>,
-                "separable_qp: the set must be a convex set of vectors like b");
+                           local_t<detail::asked_t<vector<vector_type>, vector_type>>>,
+                "the set must be a convex set of vectors like b");
 
   separable_qp(held<A>, held<V>, held<C>);
   operator_type const& a() const;

@@ -451,7 +451,7 @@ template <class... Parts>
 [[nodiscard]] auto cartesian(Parts&&... parts) {
   if constexpr (!(set_part<std::remove_cvref_t<Parts>> && ...)) {
     static_cast<void>((detail::check_part<std::remove_cvref_t<Parts>>() && ...));
-    return detail::refused_set{};
+    return detail::stand_in{};
   } else if constexpr ((has_static_dimension<std::remove_cvref_t<Parts>> && ...)) {
     return block_product<std::remove_cvref_t<Parts>...>(std::remove_cvref_t<Parts>(parts)...);
   } else {

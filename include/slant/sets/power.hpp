@@ -192,7 +192,7 @@ template <class Layout = consecutive, class Block, class... Params>
 [[nodiscard]] auto power(Block const& shape, Params const&... params) {
   if constexpr (!set_block<Block>) {
     static_assert(set_block<Block>, "power: the shape must be a convex set of fixed dimension");
-    return detail::refused_set{};
+    return detail::stand_in{};
   } else if constexpr (detail::is_count<Params...>) {
     return power_product<Block, Layout, detail::identical_blocks<Block>>(
         detail::identical_blocks<Block>(shape, static_cast<index>(params)...));

@@ -250,7 +250,7 @@ template <class... F>
 [[nodiscard]] auto stack(F&&... f) {
   if constexpr (!(slanting_part<F> && ...)) {
     (detail::check_row<F>(), ...);
-    return detail::refused_function{};
+    return detail::stand_in{};
   } else {
     return stack_map<kept_t<F>...>(held<kept_t<F>>(std::forward<F>(f))...);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: bicgstab: b must be a slant::vector.*'owns_its_entries['<]
+// expect: b must be a slant::vector.*'owns_its_entries['<]
 // max-lines-gcc: 25
 // max-lines-clang: 30
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: bicgstab: a part of A cannot be used on vectors like b.*'factorization<.*A = half
-// expect-clang: bicgstab: a part of A cannot be used on vectors like b.*'has_plain_solve<half,
+// expect: a part of A cannot be used on vectors like b.*'factorization<.*A = half
+// expect-clang: a part of A cannot be used on vectors like b.*'has_plain_solve<half,
 // max-lines-gcc: 20
 // max-lines-clang: 35
 //

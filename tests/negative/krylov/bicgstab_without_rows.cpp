@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: bicgstab: A must.*'has_rows['<]
+// expect: A must.*'has_rows['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

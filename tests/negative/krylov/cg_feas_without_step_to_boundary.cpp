@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: cg_feas: the set must.*has_step_to_boundary'
-// expect-clang: cg_feas: the set must.*'has_step_to_boundary['<]
+// expect: the set must.*has_step_to_boundary'
+// expect-clang: the set must.*'has_step_to_boundary['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: A must.*has_plain_apply
-// expect-clang: cg: A must.*'has_plain_apply['<]
+// expect: A must.*has_plain_apply
+// expect-clang: A must.*'has_plain_apply['<]
 // max-lines-gcc: 20
 // max-lines-clang: 35
 //

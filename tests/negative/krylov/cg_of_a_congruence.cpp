@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: A must.*'declares_positive_definite['<]
+// expect: A must.*'declares_positive_definite['<]
 // max-lines-gcc: 22
 // max-lines-clang: 30
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: a part of A cannot be used on vectors like b.*'has_adjoint<.*A = first_two
-// expect-clang: cg: a part of A cannot be used on vectors like b.*'has_plain_adjoint<first_two,
+// expect: a part of A cannot be used on vectors like b.*'has_adjoint<.*A = first_two
+// expect-clang: a part of A cannot be used on vectors like b.*'has_plain_adjoint<first_two,
 // max-lines-gcc: 20
 // max-lines-clang: 40
 //

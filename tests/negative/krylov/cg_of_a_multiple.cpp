@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: A must.*'declares_positive_semidefinite['<]
+// expect: A must.*'declares_positive_semidefinite['<]
 // max-lines-gcc: 22
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: A must be a linear operator on vectors like b.*has_plain_apply
+// expect: A must be a linear operator on vectors like b.*has_plain_apply
 // max-lines-gcc: 20
 // max-lines-clang: 32
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: the preconditioner must.*'declares_positive_definite['<]
+// expect: the preconditioner must.*'declares_positive_definite['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: cg: b must be a slant::vector.*'has_like['<]
+// expect: b must be a slant::vector.*'has_like['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: face_cg: the face must.*has_keep
-// expect-clang: face_cg: the face must.*'has_keep['<]
+// expect: the face must.*has_keep
+// expect-clang: the face must.*'has_keep['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

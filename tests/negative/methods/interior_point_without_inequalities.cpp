@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: interior_point: the set must be made of blocks with a smooth inequality form
+// expect: the set must be made of blocks with a smooth inequality form
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

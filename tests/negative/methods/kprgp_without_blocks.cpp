@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: kprgp: the set must.*has_visit
-// expect-clang: kprgp: the set must.*'has_visit['<]
+// expect: the set must.*has_visit
+// expect-clang: the set must.*'has_visit['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

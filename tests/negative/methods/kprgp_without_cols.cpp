@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: separable_qp: A must.*'has_cols['<]
+// expect: A must.*'has_cols['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: kprgp: A must declare.*'declares_positive_semidefinite['<]
+// expect: A must declare.*'declares_positive_semidefinite['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: kprgp: the set must.*'has_block_states['<]
+// expect: the set must.*'has_block_states['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: kprgp: the set must.*'has_step_to_boundary['<]
+// expect: the set must.*'has_step_to_boundary['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: mssn, qpc, qpq, kprgp: expected a separable_qp.*'has_hessian['<]
+// expect: expected a separable_qp.*'has_hessian['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: separable_qp: b must be a slant::vector.*'owns_its_entries['<]
+// expect: b must be a slant::vector.*'owns_its_entries['<]
 // max-lines-gcc: 20
 // max-lines-clang: 25
 //

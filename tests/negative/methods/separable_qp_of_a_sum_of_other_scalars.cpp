@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: separable_qp: a part of A cannot be used on vectors like b.*'linear_operator<.*A = twice
-// expect-clang: separable_qp: a part of A cannot be used on vectors like b.*'has_plain_apply<twice,
+// expect: a part of A cannot be used on vectors like b.*'linear_operator<.*A = twice
+// expect-clang: a part of A cannot be used on vectors like b.*'has_plain_apply<twice,
 // max-lines-gcc: 20
 // max-lines-clang: 35
 //

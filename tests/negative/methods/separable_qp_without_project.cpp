@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: separable_qp: the set must.*'has_project['<]
+// expect: the set must.*'has_project['<]
 // max-lines-gcc: 20
 // max-lines-clang: 35
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: smalse: the constraints must be equality_constraints
+// expect: the constraints must be equality_constraints
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: smalse: A must declare.*'declares_positive_semidefinite['<]
-// expect-clang: smalse: A must declare
+// expect: A must declare.*'declares_positive_semidefinite['<]
+// expect-clang: A must declare
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: ssnm: expected a separable_qp
+// expect: expected a separable_qp
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: symmetric_newton: the preconditioner must declare self_adjoint
+// expect: the preconditioner must declare self_adjoint
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //

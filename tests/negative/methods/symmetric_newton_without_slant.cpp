@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: symmetric_newton: the set must be made of blocks with slant\(x\)
+// expect: the set must be made of blocks with slant\(x\)
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //
