@@ -90,7 +90,7 @@ class second_order_cone {
     vector_type const v = x;
     auto const foot = detail::nearest_on_cone<S, N>(mu_, v);
     if (foot.region == detail::cone_region::mantle) {
-      return detail::mantle_slant<S, N>(mu_, S(1), foot, v);
+      return detail::mantle_slant<S, N>(mu_, foot, v);
     }
     matrix_type G = matrix_type::Zero();
     if (foot.region == detail::cone_region::undefined) G.setConstant(detail::not_a_number<S>());
@@ -107,7 +107,7 @@ class second_order_cone {
     vector_type const v = x, w = d;
     if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
-    return detail::cone_step<S, N>(mu_, S(1), v, w);
+    return detail::cone_step<S, N>(mu_, v, w);
   }
 
   /// 0 for y in the polar cone y_n + μ‖y_t‖ <= 0 (up to 8 ε |y_n|), otherwise ∞.
