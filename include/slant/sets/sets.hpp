@@ -14,7 +14,6 @@
 #include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
-#include <slant/sets/in_metric.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/power.hpp>
