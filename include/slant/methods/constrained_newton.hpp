@@ -419,8 +419,8 @@ namespace slant {
 /// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); a preconditioner
 /// M ≈ A⁻¹ third, options last. Requires of the problem what symmetric_newton does, for Eigen
 /// vectors; constraints are equality_constraints{G, e}. Spends two products by A a step besides
-/// those of conjugate gradients, one where x is in the affine space. Statuses of its own: converged,
-/// stalled (see state.infeasible), unbounded, breakdown.
+/// those of conjugate gradients, one where x is in the affine space. Statuses of its own:
+/// converged, stalled (see state.infeasible), unbounded, breakdown.
 template <class QP, class C, class M>
   requires constrained_newton_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
