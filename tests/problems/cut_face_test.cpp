@@ -86,34 +86,4 @@ TEST_CASE("a face that leaves an equation nothing to act on is told") {
   CHECK(kept == VectorXd{{1.0, 0.0, 3.0}});
 }
 
-TEST_CASE("rows that depend on others on a face cut nothing more, and what they cut is the same") {
-  auto const set = slant::half_lines(5);
-  // Without component 4 the last row is the sum of the others.
-  MatrixXd const N{{1.0, 0.0, 0.0, 2.0, 0.0}, {0.0, 1.0, 1.0, 0.0, 0.0}, {1.0, 1.0, 1.0, 2.0, 1.0}};
-  MatrixXd const unit = N.rowwise().normalized();
-  slant::cut_face<double> face(set, unit.sparseView());
-  VectorXd const z{{1.0, 1.0, 1.0, 1.0, -1.0}}, open = z.cwiseAbs();
-  CHECK(!face.assign(set, z, 1.0));
-  CHECK(face.assign_independent(set, z, 1.0) == 2);
-  VectorXd const x = random_matrix(5, 1, 9);
-  VectorXd kept(5), balanced(5), again(5);
-  face.keep(x, kept);
-  CHECK((N * kept).norm() <= 1e-14);
-  CHECK(kept[4] == 0);
-  face.balance(x, balanced);
-  CHECK((x.head(4) - balanced.head(4) - kept.head(4)).norm() <= 1e-14);
-  face.keep(kept, again);
-  CHECK((again - kept).norm() <= 1e-15);
-  // Where all are independent, the two are the same.
-  CHECK(face.assign_independent(set, open, 1.0) == 3);
-  face.keep(x, kept);
-  REQUIRE(face.assign(set, open, 1.0));
-  face.keep(x, again);
-  CHECK((again - kept).norm() <= 1e-14);
-  // A face that is a point.
-  CHECK(face.assign_independent(set, VectorXd(-open), 1.0) == 0);
-  face.keep(x, kept);
-  CHECK(kept.norm() == 0);
-}
-
 }  // namespace cut_face_test

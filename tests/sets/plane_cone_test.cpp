@@ -42,7 +42,6 @@ TEST_CASE("plane cone: the set of second_order_cone<2>, its slant at the kinks")
   CHECK(cone(0.0).project(Vector2d(3, -5)) == Vector2d(3, 0));
   CHECK(cone(0.0).slant(Vector2d(3, 0)) == Vector2d(1, 0).asDiagonal().toDenseMatrix());
   CHECK(set.with(0.5).mu() == 0.5);
-  CHECK(set.stretched(Vector2d(2, 4)).mu() == 4.0);
 }
 
 TEST_CASE("plane cone: linear inequalities and their derivatives") {

@@ -6,7 +6,6 @@
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"
 
-#include <slant/sets/elliptic_cone.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/affine.hpp>
@@ -143,10 +142,6 @@ TEST_CASE("de Saxcé: orthotropic friction") {
   slope(3, 4) = -0.5;
   CHECK((dense_slant(f, u) - slope).norm() <= 2 * ε);
   slant::testing::check_slanting_laws(f, u, VectorXd{{1.0, 0.0, 0.0, 1.0, 0.0, 3.0}});
-  // û = ‖(μ₁u₁, μ₂u₂)‖ of a contact that slides is on the mantle of the dual of the elliptic cone.
-  slant::elliptic_cone<> const K(2.0, 0.5);
-  Eigen::Vector3d const sliding = f.block(0).value(Eigen::Vector3d(0, 1.5, -8));
-  CHECK(K.project(-sliding).norm() <= 4 * ε * sliding.norm());
 }
 
 TEST_CASE("de Saxcé: bad input is named") {

@@ -19,9 +19,6 @@
 //     inequality(x), inequality_gradient(x), inequality_hessian(x, ν), inequalities (static)
 //                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
 //     whole_space = true (static)   a block without any constraint, which products pass over
-//     oblique = true (static)   a block whose projection is the nearest point in another norm: its
-//                               slant is not symmetric, and it has no state (sets/in_metric.hpp)
-//     stretched(s)              a block: { diag(s) z : z ∈ Λ }, s > 0, a block of its family
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
 //     with(parameters…)         a block: the same shape with other parameters, for power(block, …)
 //     scalar (a type)           a block: that of its points, for products; without it double

@@ -4,7 +4,6 @@
 #pragma once
 
 // IWYU pragma: begin_exports
-#include <slant/certificates/constrained_energy_certificate.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error.hpp>

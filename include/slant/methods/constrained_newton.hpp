@@ -412,12 +412,11 @@ namespace slant {
 // --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(constrained_newton{qp, constraints}, x0,
-/// energy_error_below(1e-8, constrained_energy_certificate{qp, constraints}) || at_most(100)), or
-/// by residuals, reduced_gradient_below(1e-8) && feasibility_below(1e-8); a preconditioner M ≈ A⁻¹
-/// third, options last. Requires of the problem what symmetric_newton does, for Eigen vectors;
-/// constraints are equality_constraints{G, e}. Spends two products by A a step besides those of
-/// conjugate gradients, one where x is in the affine space. Statuses of its own: converged, stalled
-/// (see state.infeasible), unbounded, breakdown.
+/// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); a preconditioner
+/// M ≈ A⁻¹ third, options last. Requires of the problem what symmetric_newton does, for Eigen
+/// vectors; constraints are equality_constraints{G, e}. Spends two products by A a step besides
+/// those of conjugate gradients, one where x is in the affine space. Statuses of its own:
+/// converged, stalled (see state.infeasible), unbounded, breakdown.
 template <class QP, class C, class M>
   requires constrained_newton_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>

@@ -374,12 +374,12 @@ namespace slant {
 
 // --- method --------------------------------------------------------------------------------------
 
-/// The method at the top of this file: solve(smalse{qp, constraints}, x0, energy_error_below(1e-8,
-/// constrained_energy_certificate{qp, constraints}) || at_most(100)), or by residuals,
-/// reduced_gradient_below(1e-8) && feasibility_below(1e-8); options last. Requires of the problem
-/// what kprgp does; constraints are equality_constraints{G, e}. Spends one application of A an
-/// outer step besides those of KPRGP, and at the start those for the bound of σ_max(P A P).
-/// Statuses of its own: converged, stalled (see state.infeasible), unbounded, breakdown.
+/// The method at the top of this file: solve(smalse{qp, constraints}, x0,
+/// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); options last.
+/// Requires of the problem what kprgp does; constraints are equality_constraints{G, e}. Spends one
+/// application of A an outer step besides those of KPRGP, and at the start those for the bound of
+/// σ_max(P A P). Statuses of its own: converged, stalled (see state.infeasible), unbounded,
+/// breakdown.
 template <class QP, class C>
   requires smalse_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>>
 class smalse<QP, C> : private detail::smalse_core<QP, C> {

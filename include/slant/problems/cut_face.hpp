@@ -10,9 +10,7 @@
 // method of multipliers, whose steps are right in the metric of N Nᵀ, is slow there and Newton's
 // method is not.
 //
-// Rows may depend on others on a face and nowhere else. `assign` refuses such a face;
-// `assign_independent` cuts it by as many rows as are independent there, which have the same
-// kernel.
+// Rows may depend on others on a face and nowhere else: `assign` refuses such a face.
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
@@ -21,10 +19,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace slant {
 
@@ -42,20 +36,16 @@ class cut_face {
         N_(N),
         coarse_(N.rows(), N.rows()),
         factors_(N.rows()),
-        is_left_(static_cast<std::size_t>(N.rows()), false),
         weights_(N.rows()),
         normal_(N.cols()),
         kept_(N.cols()),
-        image_(N.cols()) {
-    pivots_.reserve(is_left_.size());
-  }
+        image_(N.cols()) {}
 
   /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular:
   /// then it has no P. Allocates nothing but what a large dense factorisation needs for itself.
   template <class Set, class Z>
   [[nodiscard]] bool assign(Set const& set, Z const& z, S const& κ) {
     assemble(set, z, κ);
-    uses_pivots_ = false;
     index const p = coarse_.rows();
     if (p == 0) return true;
     factors_.compute(coarse_);
@@ -65,45 +55,6 @@ class cut_face {
       if (!(pivot * pivot > detail::smallest_pivot(p, S(1)))) return false;
     }
     return true;
-  }
-
-  /// Becomes the face at z, cut by rows that are independent there; returns how many. By a Cholesky
-  /// factorisation of N Π Nᵀ with diagonal pivoting that ends at the first pivot that may be zero.
-  /// Does not allocate.
-  template <class Set, class Z>
-  index assign_independent(Set const& set, Z const& z, S const& κ) {
-    using std::sqrt;
-    assemble(set, z, κ);
-    uses_pivots_ = true;
-    pivots_.clear();
-    is_left_.assign(is_left_.size(), true);
-    weights_ = coarse_.diagonal();
-    index const p = coarse_.rows();
-    // What Π leaves of a row that is normal to the face.
-    S const rounding = S(1024) * std::numeric_limits<S>::epsilon();
-    while (static_cast<index>(pivots_.size()) < p) {
-      index i = -1;
-      S best(0);
-      for (index j = 0; j < p; ++j) {
-        S const pivot = coarse_(j, j);
-        if (!is_left(j) || !(pivot > detail::smallest_pivot(p, weights_[j]))) continue;
-        if (!(pivot > rounding * rounding) || !(pivot > best * weights_[j])) continue;
-        best = pivot / weights_[j];
-        i = j;
-      }
-      if (i < 0) break;
-      S const root = sqrt(coarse_(i, i));
-      for (index j = 0; j < p; ++j)
-        if (is_left(j)) coarse_(j, i) /= root;
-      is_left_[static_cast<std::size_t>(i)] = false;
-      for (index j = 0; j < p; ++j) {
-        if (!is_left(j)) continue;
-        for (index l = 0; l < p; ++l)
-          if (is_left(l)) coarse_(l, j) -= coarse_(l, i) * coarse_(j, i);
-      }
-      pivots_.push_back(i);
-    }
-    return static_cast<index>(pivots_.size());
   }
 
   /// The face that is cut.
@@ -157,35 +108,10 @@ class cut_face {
     });
   }
 
-  [[nodiscard]] bool is_left(index row) const { return is_left_[static_cast<std::size_t>(row)]; }
-
-  /// Column k of L is in column pivots[k] of coarse; the other rows get the weight 0.
-  void solve_with_pivots() const {
-    auto const count = pivots_.size();
-    for (std::size_t k = 0; k < count; ++k) {
-      index const i = pivots_[k];
-      for (std::size_t j = 0; j < k; ++j)
-        weights_[i] -= coarse_(i, pivots_[j]) * weights_[pivots_[j]];
-      weights_[i] /= coarse_(i, i);
-    }
-    for (std::size_t k = count; k-- > 0;) {
-      index const i = pivots_[k];
-      for (std::size_t j = k + 1; j < count; ++j)
-        weights_[i] -= coarse_(pivots_[j], i) * weights_[pivots_[j]];
-      weights_[i] /= coarse_(i, i);
-    }
-    for (index i = 0; i < weights_.size(); ++i)
-      if (is_left(i)) weights_[i] = S(0);
-  }
-
   /// normal = Nᵀ(N Π Nᵀ)⁻¹N x.
   void solve(vector_type const& x) const {
     weights_.noalias() = N_ * x;
-    if (uses_pivots_) {
-      solve_with_pivots();
-    } else if (weights_.size() > 0) {
-      factors_.solveInPlace(weights_);
-    }
+    if (weights_.size() > 0) factors_.solveInPlace(weights_);
     normal_.noalias() = N_.transpose() * weights_;
   }
   /// y ← P y for y ∈ range(Π).
@@ -201,9 +127,6 @@ class cut_face {
   sparse_type N_;
   dense_type coarse_;
   Eigen::LLT<dense_type> factors_;
-  std::vector<index> pivots_;  // with them, coarse_ holds the factor
-  std::vector<bool> is_left_;  // rows that are none of them
-  bool uses_pivots_ = false;
   mutable vector_type weights_, normal_, kept_, image_;  // scratch
 };
 

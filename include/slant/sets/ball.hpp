@@ -44,13 +44,6 @@ class ball {
   [[nodiscard]] ball with(S const& radius) const { return ball(radius); }
   [[nodiscard]] S const& radius() const { return radius_; }
 
-  /// { diag(s) x : x in the set }; s > 0.
-  /// @throws bad_input if the factors differ.
-  [[nodiscard]] ball stretched(vector_type const& s) const {
-    detail::require_round_stretch<S, N>(s, 0);
-    return ball(radius_ * s(0));
-  }
-
   /// Nearest point of the set. (Inlined: a call costs half as much as the rest.)
   [[nodiscard, gnu::always_inline]] vector_type project(auto const& x) const {
     vector_type const v = x;

@@ -16,7 +16,6 @@
 #include <limits>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace slant {
@@ -172,11 +171,6 @@ template <class C> concept whole_space = requires { requires C::whole_space; };
 /// A block of one point, which says so: `static constexpr bool single_point = true`. It has no
 /// interior; methods that need one keep its components where they are.
 template <class C> concept single_point = requires { requires C::single_point; };
-
-/// A block whose projection is nearest in a norm of its own, which says so: `static constexpr bool
-/// oblique = true`. Its slanting operator is not symmetric (in_metric.hpp), and so that no method
-/// takes it for an ordinary set it has no state.
-template <class C> concept oblique = requires { requires C::oblique; };
 
 namespace detail {
 
@@ -399,10 +393,6 @@ class listed_blocks {
     blocks_.reserve(std::size_t(n));
     for (index i = 0; i < n; ++i) blocks_.push_back(block_with(shape_, i, params...));
   }
-
-  /// These blocks; the first one is the shape of those that update() makes.
-  explicit listed_blocks(std::vector<Block> blocks)
-      : shape_(blocks.empty() ? Block{} : blocks.front()), blocks_(std::move(blocks)) {}
 
   /// New parameters, no allocation. If one of them is bad nothing changes.
   template <class... Params>

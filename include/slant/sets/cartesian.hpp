@@ -164,7 +164,6 @@ class block_product : public detail::cartesian_base<Parts...>,
  public:
   static constexpr int dimension = (Parts::dimension + ...);
   static constexpr bool whole_space = (slant::whole_space<Parts> && ...);
-  static constexpr bool oblique = (slant::oblique<Parts> || ...);
   using scalar = set_scalar_t<first_type>;
   using vector_type = Eigen::Matrix<scalar, dimension, 1>;
   using matrix_type = Eigen::Matrix<scalar, dimension, dimension>;

@@ -281,11 +281,6 @@ class ellipse {
   [[nodiscard]] S const& a() const { return a_; }
   [[nodiscard]] S const& b() const { return b_; }
 
-  /// { diag(s) x : x in the set }; s > 0.
-  [[nodiscard]] ellipse stretched(vector_type const& s) const {
-    return ellipse(detail::support_product(a_, S(s(0))), detail::support_product(b_, S(s(1))));
-  }
-
   /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;

@@ -38,9 +38,6 @@ class half_line {
   [[nodiscard]] half_line with(S const& l) const { return half_line(l); }
   [[nodiscard]] S const& lower() const { return lower_; }
 
-  /// { s x : x in the set }; s > 0.
-  [[nodiscard]] half_line stretched(vector_type const& s) const { return half_line(lower_ * s(0)); }
-
   /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;

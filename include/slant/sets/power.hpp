@@ -11,7 +11,6 @@
 
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace slant {
 
@@ -106,8 +105,7 @@ class power_product {
     return sum;
   }
 
-  /// The slanting operator of the projection at x: block diagonal, symmetric, 0 ⪯ G ⪯ I (no law
-  /// holds for oblique blocks).
+  /// The slanting operator of the projection at x: block diagonal, symmetric, 0 ⪯ G ⪯ I.
   template <class X>
   [[nodiscard]] auto slant(X const& x) const
     requires has_slant<Block, vector_type>
@@ -203,23 +201,3 @@ template <class Layout = consecutive, class Block, class... Params>
 }
 
 }  // namespace slant
-
-namespace slant::detail {
-
-// --- mapped power --------------------------------------------------------------------------------
-//
-// A power of other blocks, each made of a block of a given power.
-
-/// The power of the blocks f(block, number) in the layout of `set`; allocates.
-template <class Block, class Layout, class Blocks, class F>
-[[nodiscard]] auto mapped_power(power_product<Block, Layout, Blocks> const& set, F const& f) {
-  using image = std::remove_cvref_t<std::invoke_result_t<F const&, Block const&, index>>;
-  index const m = set.size() / Block::dimension;
-  std::vector<image> blocks;
-  blocks.reserve(static_cast<std::size_t>(m));
-  for (index i = 0; i < m; ++i) blocks.push_back(f(set.block(i), i));
-  return power_product<image, Layout, listed_blocks<image>>(
-      listed_blocks<image>(std::move(blocks)));
-}
-
-}  // namespace slant::detail

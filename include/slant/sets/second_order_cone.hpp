@@ -34,7 +34,6 @@ class second_order_cone {
   using scalar = S;
   static constexpr int dimension = N;
   static constexpr int inequalities = 2;
-  static constexpr bool is_cone = true;
   using vector_type = Eigen::Matrix<S, N, 1>;
   using matrix_type = Eigen::Matrix<S, N, N>;
 
@@ -49,13 +48,6 @@ class second_order_cone {
 
   [[nodiscard]] second_order_cone with(S const& mu) const { return second_order_cone(mu); }
   [[nodiscard]] S const& mu() const { return mu_; }
-
-  /// { diag(s) x : x in the set }, a cone of another coefficient; s > 0.
-  /// @throws bad_input if the tangential factors differ.
-  [[nodiscard]] second_order_cone stretched(vector_type const& s) const {
-    detail::require_round_stretch<S, N>(s, 1);
-    return second_order_cone(detail::stretched_parameter<S>(mu_, s(1), s(0)));
-  }
 
   /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
@@ -90,7 +82,7 @@ class second_order_cone {
     vector_type const v = x;
     auto const foot = detail::nearest_on_cone<S, N>(mu_, v);
     if (foot.region == detail::cone_region::mantle) {
-      return detail::mantle_slant<S, N>(mu_, S(1), foot, v);
+      return detail::mantle_slant<S, N>(mu_, foot, v);
     }
     matrix_type G = matrix_type::Zero();
     if (foot.region == detail::cone_region::undefined) G.setConstant(detail::not_a_number<S>());
@@ -107,7 +99,7 @@ class second_order_cone {
     vector_type const v = x, w = d;
     if (detail::has_nan(v) || detail::has_nan(w)) return detail::not_a_number<S>();
     if (contains(w)) return detail::infinity<S>();
-    return detail::cone_step<S, N>(mu_, S(1), v, w);
+    return detail::cone_step<S, N>(mu_, v, w);
   }
 
   /// 0 for y in the polar cone y_n + μ‖y_t‖ <= 0 (up to 8 ε |y_n|), otherwise ∞.
@@ -199,11 +191,6 @@ class plane_cone : public second_order_cone<2, S> {
   explicit plane_cone(S const& mu) : base(mu) {}
 
   [[nodiscard]] plane_cone with(S const& mu) const { return plane_cone(mu); }
-
-  /// { diag(s) x : x in the set }; s > 0.
-  [[nodiscard]] plane_cone stretched(vector_type const& s) const {
-    return plane_cone(base::stretched(s).mu());
-  }
 
   /// f(x) = (x_t − μ x_n, −x_t − μ x_n) <= 0, each within an ulp.
   [[nodiscard]] vector_type inequality(auto const& x) const {

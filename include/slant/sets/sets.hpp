@@ -10,15 +10,11 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>
-#include <slant/sets/dual_cone.hpp>
 #include <slant/sets/ellipse.hpp>
-#include <slant/sets/elliptic_cone.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
-#include <slant/sets/in_metric.hpp>
 #include <slant/sets/interval.hpp>
-#include <slant/sets/moreau_dual.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/rotated.hpp>

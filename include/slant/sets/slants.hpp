@@ -139,10 +139,9 @@ class block_diagonal_slant {
 
 namespace detail {
 
-/// The slanting operator of a power of the block C: an oblique projection keeps no law.
+/// The slanting operator of a power of the block C.
 template <class S, class C, class Layout = consecutive>
-using power_slant = block_diagonal_slant<S, C::dimension, Layout, whole_space<C>,
-                                         oblique<C> ? law_set{} : projection_laws(whole_space<C>)>;
+using power_slant = block_diagonal_slant<S, C::dimension, Layout, whole_space<C>>;
 
 // --- projection slant ----------------------------------------------------------------------------
 //

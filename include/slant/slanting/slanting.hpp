@@ -10,7 +10,6 @@
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/de_saxce.hpp>
 #include <slant/slanting/fischer_burmeister.hpp>
-#include <slant/slanting/fischer_burmeister_cone.hpp>
 #include <slant/slanting/inequalities.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 #include <slant/slanting/kkt_function.hpp>

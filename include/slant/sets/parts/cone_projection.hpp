@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Nearest point of the cone { (n, t) : ‖t‖ <= μ n } and of its dual { (n, t) : μ‖t‖ <= n }.
+// Nearest point of the cone { (n, t) : ‖t‖ <= μ n }.
 //
-// Both are { ν‖t‖ <= κ n }, (κ, ν) = (μ, 1) or (1, μ). With ρ = ‖t‖ the point is its own projection
-// for νρ <= κ n, the apex is the projection for νn + κρ <= 0 (the polar cone), and in between the
-// mantle is met at
+// With ρ = ‖t‖ the point is its own projection for ρ <= μ n, the apex is the projection for
+// n + μρ <= 0 (the polar cone), and in between the mantle is met at
 //
-//     p_n = ν (νn + κρ)/(1 + μ²),   p_t = (κ/ρ) (νn + κρ)/(1 + μ²) t.
+//     p_n = (n + μρ)/(1 + μ²),   p_t = (μ/ρ) (n + μρ)/(1 + μ²) t.
 //
-// For n < 0 the sum νn + κρ cancels, and ρ is no number of the format: double words keep its
+// For n < 0 the sum n + μρ cancels, and ρ is no number of the format: double words keep its
 // digits, and where even they run out, just outside the polar cone, the sum is
-// (κ²ρ² − ν²n²)/(κρ − νn) with a numerator that is a polynomial in the data and can be had to any
+// (μ²ρ² − n²)/(μρ − n) with a numerator that is a polynomial in the data and can be had to any
 // precision. Each of n, ρ, μ is split into a number of order one and a power of two, so that
 // neither tiny nor huge data nor any μ overflows.
 #pragma once
@@ -66,11 +65,10 @@ struct split_number {
         exponent(v == S(0) ? std::numeric_limits<int>::min() / 8 : binary_exponent(v)) {}
 };
 
-/// Nearest point of { ν‖t‖ <= κ n }, (κ, ν) = (μ, 1) or (1, μ), to x = (n, t). The region is
-/// undefined for an x that holds a NaN or an infinity.
+/// Nearest point of { ‖t‖ <= μ n } to x = (n, t). The region is undefined for an x that holds a NaN
+/// or an infinity.
 template <class S, int N>
-[[nodiscard]] cone_foot<S> nearest_on_mantle(S const& κ, S const& ν,
-                                             Eigen::Matrix<S, N, 1> const& x) {
+[[nodiscard]] cone_foot<S> nearest_on_cone(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
   using word = double_word<S>;
   if (!all_finite(x)) return {cone_region::undefined, S(0), S(0), 0};
   S const n = x(0);
@@ -81,77 +79,61 @@ template <class S, int N>
   int const t_unit = binary_exponent(t);
   t = times_power_of_two<S, N - 1>(t, -t_unit);
   auto const ρ = square_root(precise_dot<S>(t, t));
-  split_number<S> const k(κ), l(ν), ns(n);
+  split_number<S> const m(μ), ns(n);
   auto const larger = [](int a, int b) { return a < b ? b : a; };
 
-  if (n >= S(0)) {  // νρ <= κ n ?
-    int const unit = larger(k.exponent + ns.exponent, l.exponent + t_unit);
-    auto const bound = exact_product(k.mantissa, ns.mantissa);
-    auto const radius = word(l.mantissa) * ρ;
-    if ((times_power_of_two(radius, l.exponent + t_unit - unit) -
-         times_power_of_two(bound, k.exponent + ns.exponent - unit))
+  if (n >= S(0)) {  // ρ <= μ n ?
+    int const unit = larger(m.exponent + ns.exponent, t_unit);
+    auto const bound = exact_product(m.mantissa, ns.mantissa);
+    if ((times_power_of_two(ρ, t_unit - unit) -
+         times_power_of_two(bound, m.exponent + ns.exponent - unit))
             .hi <= S(0)) {
       return {cone_region::inside, S(0), S(0), 0};
     }
   }
-  int const n_unit = l.exponent + ns.exponent;  // of νn
-  int const unit = larger(n_unit, k.exponent + t_unit);
-  auto const νn = times_power_of_two(exact_product(l.mantissa, ns.mantissa), n_unit - unit);
-  auto const κρ = times_power_of_two(word(k.mantissa) * ρ, k.exponent + t_unit - unit);
-  auto sum = νn + κρ;
-  if (νn.hi < S(0) && sum.hi < -νn.hi / S(1024) && sum.hi > νn.hi / S(1024)) {
+  int const unit = larger(ns.exponent, m.exponent + t_unit);
+  S const axis = times_power_of_two<S>(ns.mantissa, ns.exponent - unit);
+  auto const μρ = times_power_of_two(word(m.mantissa) * ρ, m.exponent + t_unit - unit);
+  auto sum = word(axis) + μρ;
+  if (axis < S(0) && sum.hi < -axis / S(1024) && sum.hi > axis / S(1024)) {
     exact_squares<S, N> squares;
     for (int i = 0; i < N - 1; ++i) {
-      squares.add(k.mantissa, times_power_of_two<S>(t(i), k.exponent + t_unit - unit));
+      squares.add(m.mantissa, times_power_of_two<S>(t(i), m.exponent + t_unit - unit));
     }
-    squares.subtract(l.mantissa, times_power_of_two<S>(ns.mantissa, n_unit - unit));
-    sum = squares.sum() / (κρ - νn);
+    squares.subtract(S(1), axis);
+    sum = squares.sum() / (μρ - word(axis));
   }
   if (sum.hi <= S(0)) return {cone_region::apex, S(0), S(0), 0};
-  // 1 + μ² = κ² + ν², for μ > 1 in units of 2^2k.
-  int const s_unit = 2 * larger(0, larger(k.exponent, l.exponent));
+  // 1 + μ², for μ > 1 in units of 2^2m.
+  int const s_unit = 2 * larger(0, m.exponent);
   auto const s =
-      times_power_of_two(exact_product(k.mantissa, k.mantissa), 2 * k.exponent - s_unit) +
-      times_power_of_two(exact_product(l.mantissa, l.mantissa), 2 * l.exponent - s_unit);
-  S const factor = (word(k.mantissa) * sum / (s * ρ)).hi;
+      times_power_of_two(exact_product(m.mantissa, m.mantissa), 2 * m.exponent - s_unit) +
+      times_power_of_two(word(S(1)), -s_unit);
+  S const factor = (word(m.mantissa) * sum / (s * ρ)).hi;
   int const e = binary_exponent(factor);
-  return {cone_region::mantle,
-          times_power_of_two((word(l.mantissa) * sum / s).hi, l.exponent + unit - s_unit),
-          times_power_of_two(factor, -e), e + k.exponent + unit - s_unit - t_unit};
-}
-
-/// Nearest point of { ‖t‖ <= μ n }.
-template <class S, int N>
-[[nodiscard]] cone_foot<S> nearest_on_cone(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
-  return nearest_on_mantle<S, N>(μ, S(1), x);
-}
-
-/// Nearest point of { μ‖t‖ <= n }.
-template <class S, int N>
-[[nodiscard]] cone_foot<S> nearest_on_dual_cone(S const& μ, Eigen::Matrix<S, N, 1> const& x) {
-  return nearest_on_mantle<S, N>(S(1), μ, x);
+  return {cone_region::mantle, times_power_of_two((sum / s).hi, unit - s_unit),
+          times_power_of_two(factor, -e), e + m.exponent + unit - s_unit - t_unit};
 }
 
 // --- cone slant ----------------------------------------------------------------------------------
 //
-// Derivative of the projection onto { ν‖t‖ <= κ n }, (κ, ν) = (μ, 1) or (1, μ), where it lands on
-// the mantle.
+// Derivative of the projection onto { ‖t‖ <= μ n } where it lands on the mantle.
 
-/// w wᵀ + θ (0 ⊕ (I − e eᵀ)) with e = x_t/‖x_t‖, w = (ν, κe)/√(κ² + ν²) the generator through the
+/// w wᵀ + θ (0 ⊕ (I − e eᵀ)) with e = x_t/‖x_t‖, w = (1, μe)/√(1 + μ²) the generator through the
 /// foot p and θ = ‖p_t‖/‖x_t‖ ∈ [0, 1]: differentiate p = w wᵀx with de = (I − eeᵀ) dx_t/‖x_t‖.
 template <class S, int N>
-[[nodiscard]] Eigen::Matrix<S, N, N> mantle_slant(S const& κ, S const& ν, cone_foot<S> const& foot,
+[[nodiscard]] Eigen::Matrix<S, N, N> mantle_slant(S const& μ, cone_foot<S> const& foot,
                                                   Eigen::Matrix<S, N, 1> const& x) {
   using std::sqrt;
   Eigen::Matrix<S, N - 1, 1> e = tail_of(x);
   auto const ρ = scaled_norm<S, N - 1>(e);
   for (int i = 0; i < N - 1; ++i) e(i) = times_power_of_two<S>(e(i), -ρ.exponent) / ρ.value;
   S const θ = times_power_of_two<S>(foot.factor, foot.exponent);
-  S const q = κ < ν ? S(κ / ν) : S(ν / κ);
+  S const q = μ < S(1) ? μ : S(S(1) / μ);
   S const larger = S(1) / sqrt(S(1) + q * q), smaller = q * larger;
   Eigen::Matrix<S, N, 1> w;
-  w(0) = κ < ν ? larger : smaller;
-  for (int i = 1; i < N; ++i) w(i) = (κ < ν ? smaller : larger) * e(i - 1);
+  w(0) = μ < S(1) ? larger : smaller;
+  for (int i = 1; i < N; ++i) w(i) = (μ < S(1) ? smaller : larger) * e(i - 1);
   Eigen::Matrix<S, N, N> G;
   for (int j = 0; j < N; ++j) {
     for (int i = 0; i < N; ++i) G(i, j) = w(i) * w(j);
@@ -178,46 +160,38 @@ template <class S, int N>
 //
 // Longest step inside a second-order cone.
 
-/// (κ n, ν t) in units of 2^exponent, the entries of order one at most; 0 keeps exponent 0. What is
-/// stored of ν t lacks the mantissa of ν.
+/// (μ n, t) in units of 2^exponent, the entries of order one at most; 0 keeps exponent 0.
 template <class S, int N>
 struct cone_coordinates {
   double_word<S> axis;
   Eigen::Matrix<S, N - 1, 1> t;
   int exponent = 0;
 
-  cone_coordinates(S const& κ, S const& ν, Eigen::Matrix<S, N, 1> const& x) : t(tail_of(x)) {
-    int const k = binary_exponent(κ), l = binary_exponent(ν);
-    bool const has_axis = x(0) != S(0) && κ != S(0);
-    bool const has_t = !all_zero(t) && ν != S(0);
+  cone_coordinates(S const& μ, Eigen::Matrix<S, N, 1> const& x) : t(tail_of(x)) {
+    int const k = binary_exponent(μ);
+    bool const has_axis = x(0) != S(0) && μ != S(0);
     int const n_exponent = binary_exponent<S>(x(0)) + k;
-    int const t_exponent = binary_exponent(t) + l;
-    exponent = has_axis && (!has_t || n_exponent > t_exponent) ? n_exponent : t_exponent;
-    axis = double_word<S>(times_power_of_two(κ, -k)) *
+    int const t_exponent = binary_exponent(t);
+    exponent = has_axis && (all_zero(t) || n_exponent > t_exponent) ? n_exponent : t_exponent;
+    axis = double_word<S>(times_power_of_two(μ, -k)) *
            double_word<S>(times_power_of_two<S>(x(0), k - exponent));
-    if (has_t) {
-      t = times_power_of_two<S, N - 1>(t, l - exponent);
-    } else {
-      for (int i = 0; i < N - 1; ++i) t(i) = S(0);
-    }
+    t = times_power_of_two<S, N - 1>(t, -exponent);
   }
 };
 
-/// sup{α >= 0 : x + α d in the cone} for x in the cone { ν‖t‖ <= κ n } and d not in it.
+/// sup{α >= 0 : x + α d in the cone} for x in the cone { ‖t‖ <= μ n } and d not in it.
 ///
-/// The quadric ν²‖x_t + α d_t‖² = κ²(x_n + α d_n)² also holds the mirror cone, so the step ends at
+/// The quadric ‖x_t + α d_t‖² = μ²(x_n + α d_n)² also holds the mirror cone, so the step ends at
 /// x_n + α d_n = 0 at the latest. That bound decides when the ray runs down a generator, where all
 /// coefficients of the quadratic vanish.
 template <class S, int N>
-[[nodiscard]] S cone_step(S const& κ, S const& ν, Eigen::Matrix<S, N, 1> const& x,
+[[nodiscard]] S cone_step(S const& μ, Eigen::Matrix<S, N, 1> const& x,
                           Eigen::Matrix<S, N, 1> const& d) {
   S const to_apex = d(0) < S(0) ? S(-(x(0) < S(0) ? S(0) : x(0)) / d(0)) : infinity<S>();
-  cone_coordinates<S, N> const u(κ, ν, x), v(κ, ν, d);
-  S const m = times_power_of_two(ν, -binary_exponent(ν));
-  auto const mm = exact_product(m, m);
-  auto const A = mm * precise_dot<S>(v.t, v.t) - v.axis * v.axis;
-  auto const B = mm * precise_dot<S>(u.t, v.t) - u.axis * v.axis;
-  auto const C = u.axis * u.axis - mm * precise_dot<S>(u.t, u.t);
+  cone_coordinates<S, N> const u(μ, x), v(μ, d);
+  auto const A = precise_dot<S>(v.t, v.t) - v.axis * v.axis;
+  auto const B = precise_dot<S>(u.t, v.t) - u.axis * v.axis;
+  auto const C = u.axis * u.axis - precise_dot<S>(u.t, u.t);
   S const to_quadric = times_power_of_two<S>(exit_root<S>(A, B, C), u.exponent - v.exponent);
   return to_apex < to_quadric ? to_apex : to_quadric;
 }

@@ -99,7 +99,6 @@ class image_block : public detail::inequality_count<Part> {
   static constexpr int dimension = Part::dimension;
   static constexpr bool whole_space = slant::whole_space<Part>;
   static constexpr bool single_point = slant::single_point<Part>;
-  static constexpr bool oblique = slant::oblique<Part>;
   using vector_type = Eigen::Matrix<scalar, dimension, 1>;
   using matrix_type = Eigen::Matrix<scalar, dimension, dimension>;
 

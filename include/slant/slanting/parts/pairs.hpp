@@ -45,54 +45,6 @@ class function_pair : public slanting_base {
   held<G> g_;
 };
 
-// --- evaluated pair ------------------------------------------------------------------------------
-//
-// Two slanting functions whose values F(y) and G(y) a function of both is computed from: what
-// functions by components and by blocks share.
-
-/// `f` and `g` hold F(y) and G(y).
-template <class First, class Second, class Vector>
-struct evaluated_pair_workspace {
-  First first;
-  Second second;
-  Vector f;
-  Vector g;
-};
-
-/// F and G with their values. Of the parts of an assembled operator the third and the fourth are
-/// F°(y) and G°(y).
-template <class F, class G>
-class evaluated_pair : public function_pair<F, G> {
-  using pair = function_pair<F, G>;
-
- public:
-  using pair::left;
-  using pair::pair;
-  using pair::right;
-  using pair::rows;
-
-  template <class Y>
-  [[nodiscard]] auto workspace(Y const& y) const {
-    using first = decltype(slant::workspace(left(), y));
-    using second = decltype(slant::workspace(right(), y));
-    return evaluated_pair_workspace<first, second, plain_t<Y>>{
-        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
-        slant::like(y, rows())};
-  }
-
- protected:
-  template <class Y, class W>
-  void evaluate_parts(Y const& y, W& w) const {
-    slant::evaluate(left(), y, w.f, w.first);
-    slant::evaluate(right(), y, w.g, w.second);
-  }
-  template <class Y, class S, class W>
-  void update_parts(Y const& y, S& s, W& w) const {
-    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
-    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
-  }
-};
-
 // --- weighted sum operator -----------------------------------------------------------------------
 //
 // diag(p) A + diag(q) B, the slanting operator of a function of two functions, componentwise. A
@@ -231,11 +183,20 @@ struct weighted_sum_rule {
   }
 };
 
+/// `f` and `g` hold F(y) and G(y).
+template <class First, class Second, class Vector>
+struct pointwise_pair_workspace {
+  First first;
+  Second second;
+  Vector f;
+  Vector g;
+};
+
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
 /// the slopes are always (1, 0) or (0, 1), or NaN.
 template <class Kernel, class F, class G>
-class pointwise_pair : public evaluated_pair<F, G> {
-  using pair = evaluated_pair<F, G>;
+class pointwise_pair : public function_pair<F, G> {
+  using pair = function_pair<F, G>;
 
  public:
   using pair::left;
@@ -243,18 +204,26 @@ class pointwise_pair : public evaluated_pair<F, G> {
   using pair::right;
   using pair::rows;
 
+  template <class Y>
+  [[nodiscard]] auto workspace(Y const& y) const {
+    using first = decltype(slant::workspace(left(), y));
+    using second = decltype(slant::workspace(right(), y));
+    return pointwise_pair_workspace<first, second, plain_t<Y>>{
+        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
+        slant::like(y, rows())};
+  }
   template <class Y, class V, class W>
     requires pair::template
   usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
-    this->evaluate_parts(y, w);
+    evaluate_parts(y, w);
     slant::local(v) = slant::local(w.f).binaryExpr(
         slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
   }
   template <class Y>
     requires pair::template
   usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
-    auto w = this->workspace(y);
-    this->evaluate_parts(y, w);
+    auto w = workspace(y);
+    evaluate_parts(y, w);
     assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()),
                          slant::like(y, rows()), left().slant(y), right().slant(y));
     set_slopes(s, w);
@@ -262,16 +231,22 @@ class pointwise_pair : public evaluated_pair<F, G> {
   }
   template <class Y, class S, class W>
   void slant(Y const& y, S& s, W& w) const {
-    this->evaluate_parts(y, w);
+    evaluate_parts(y, w);
     slant_after_value(y, s, w);
   }
   template <class Y, class S, class W>
   void slant_after_value(Y const& y, S& s, W& w) const {
     set_slopes(s, w);
-    this->update_parts(y, s, w);
+    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
+    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
   }
 
  private:
+  template <class Y, class W>
+  void evaluate_parts(Y const& y, W& w) const {
+    slant::evaluate(left(), y, w.f, w.first);
+    slant::evaluate(right(), y, w.g, w.second);
+  }
   template <class S, class W>
   void set_slopes(S& s, W const& w) const {
     auto& p = slant::local(s.template part<0>());
