@@ -134,7 +134,8 @@ class friction_run {
       idle = best_error_.worst() <= S(0.9) * error_before ? 0 : idle + 1;
       sweeps = sweeps < options_.sweeps / 4 ? 4 * sweeps : options_.sweeps;
     }
-    end_with(status::stalled, out_of_work());
+    // Newton's method alone ends soon, so that turns without sweeps say nothing of the problem.
+    end_with(status::stalled, no_sweeps_left());
   }
 
   [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
