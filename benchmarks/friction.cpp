@@ -27,7 +27,7 @@
 //     sweeps              passes over the contacts, at most a product by W each
 //     products            by W, besides
 //     newton_steps        interior_steps included, the steps of the interior-point method
-//     proximal_steps, factorizations
+//     factorizations
 //     seconds             processor seconds of a process of its own, one run, reading not included
 //
 // The rank is left out where W has more than N = 2000 rows.
@@ -53,7 +53,7 @@ using problem = slant::contact::friction_problem<>;
 [[nodiscard]] benchmarks::friction_row run(problem const& p,
                                            from_files::friction_method const& method,
                                            double tolerance, double limit) {
-  return benchmarks::measure_friction(p, 6, limit, [&] {
+  return benchmarks::measure_friction(p, 5, limit, [&] {
     auto out = method.run(p, {.tolerance = tolerance});
     auto const& w = out.work;
     return benchmarks::friction_outcome{
@@ -61,7 +61,7 @@ using problem = slant::contact::friction_problem<>;
         .status = std::string(slant::to_string(out.status)),
         .solved_by = std::string(slant::contact::to_string(out.solved_by)),
         .counts = {double(w.sweeps), double(w.products), double(w.newton_steps),
-                   double(w.proximal_steps), double(w.interior_steps), double(w.factorizations)}};
+                   double(w.interior_steps), double(w.factorizations)}};
   });
 }
 
@@ -130,7 +130,7 @@ int measure(benchmarks::arguments const& given) {
   std::printf(
       "problem,variant,dimension,contacts,unknowns,rank,asymmetry,zero_error,tolerance,method,"
       "solved_by,status,error,rounding,penetration,unit_free_error,unit_free_rounding,seconds,"
-      "sweeps,products,newton_steps,proximal_steps,interior_steps,factorizations\n");
+      "sweeps,products,newton_steps,interior_steps,factorizations\n");
   bool good = true;
   for (auto const& folder : benchmarks::friction_folders(given.words()[0])) {
     auto const name = folder.filename().string();

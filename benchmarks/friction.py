@@ -32,10 +32,10 @@ def seconds(row):
 def default_table(rows):
     head = ["problem", "dim", "contacts", "unknowns", "rank of W", "asymmetry", "error of r = 0",
             "status", "error", "its rounding", "penetration", "unit-free error", "seconds", "sweeps",
-            "products", "Newton steps", "interior-point steps", "proximal steps", "factorisations", "solved by"]
+            "products", "Newton steps", "interior-point steps", "factorisations", "solved by"]
     names = ["problem", "dimension", "contacts", "unknowns", "rank", "asymmetry", "zero_error",
              "status", "error", "rounding", "penetration", "unit_free_error", "seconds", "sweeps",
-             "products", "newton_steps", "interior_steps", "proximal_steps", "factorizations", "solved_by"]
+             "products", "newton_steps", "interior_steps", "factorizations", "solved_by"]
     return table(head, [[row.get(name, "") for name in names] for row in rows])
 
 

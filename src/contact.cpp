@@ -2,7 +2,6 @@
 //
 // Tresca friction: one instance for all laws.
 #include <slant/contact/solve.hpp>
-#include <slant/contact/solve_floating.hpp>
 
 static_assert(SLANT_USES_COMPILED, "SLANT_COMPILED is not the alignment of Eigen with these flags");
 
@@ -15,8 +14,5 @@ template solution<double> solve<friction_of_data, double>(friction_of_data, matr
                                                           solve_options<double> const&);
 template solution<double> solve<double>(matrix const&, data<double> const&,
                                         solve_options<double> const&);
-
-template floating_solution<double> solve_floating<double>(matrix const&, data<double> const&,
-                                                          floating_options<double> const&);
 
 }  // namespace slant::contact

@@ -86,7 +86,6 @@ int solve_friction_folder(arguments const& a) {
                   {"sweeps", run.work.sweeps},
                   {"products", run.work.products},
                   {"newton_steps", run.work.newton_steps},
-                  {"proximal_steps", run.work.proximal_steps},
                   {"interior_steps", run.work.interior_steps},
                   {"factorizations", run.work.factorizations},
                   {"seconds", seconds},

@@ -40,14 +40,12 @@ struct friction_method {
 };
 
 inline constexpr std::array friction_methods{
-    friction_method{"coulomb", "The four below in turn, until one of them has solved the problem.",
+    friction_method{"coulomb", "The three below in turn, until one of them has solved the problem.",
                     slant::contact::friction_method::automatic},
     friction_method{"gauss_seidel", "One contact after the other exactly, with extrapolation.",
                     slant::contact::friction_method::gauss_seidel},
     friction_method{"newton", "Semismooth Newton for the natural map, after a few sweeps.",
                     slant::contact::friction_method::newton},
-    friction_method{"proximal_newton", "The proximal point method around it.",
-                    slant::contact::friction_method::proximal_newton},
     friction_method{"interior_point", "Primal-dual, from inside of the cones.",
                     slant::contact::friction_method::interior_point},
 };

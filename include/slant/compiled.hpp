@@ -12,7 +12,6 @@
 //     contact::certified_coulomb    Coulomb friction
 //     contact::solve_friction       Coulomb friction from W, q, μ
 //     contact::solve_obstacle       contact without friction, on u or on λ
-//     contact::solve_floating       bodies that nothing but contact holds
 //     contact::find_free_motions    and name_motion; computed_kernel, fixing_rows
 //     contact::check_optimality     and verify, check_plausibility
 //

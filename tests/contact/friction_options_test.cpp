@@ -40,17 +40,13 @@ TEST_CASE("friction options: the defaults are valid, each bad one is named") {
   CHECK(names(complaint([](auto& o) { o.attempt = 0; }), "attempt"));
   CHECK(names(complaint([](auto& o) { o.halvings = -1; }), "halvings"));
   CHECK(names(complaint([](auto& o) { o.patience = 0; }), "patience"));
-  CHECK(names(complaint([](auto& o) { o.inner_steps = 0; }), "inner_steps"));
-  CHECK(names(complaint([](auto& o) { o.rescues = -1; }), "rescues"));
   CHECK(names(complaint([](auto& o) { o.gauss_seidel.shrink = 2; }), "shrink"));
-  CHECK(names(complaint([](auto& o) { o.proximal.growth = 1; }), "growth"));
 }
 
 TEST_CASE("friction options: methods have names") {
   CHECK(to_string(friction_method::automatic) == "automatic");
   CHECK(to_string(friction_method::gauss_seidel) == "gauss_seidel");
   CHECK(to_string(friction_method::newton) == "newton");
-  CHECK(to_string(friction_method::proximal_newton) == "proximal_newton");
   CHECK(to_string(friction_method::interior_point) == "interior_point");
 }
 

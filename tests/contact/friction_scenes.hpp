@@ -63,7 +63,6 @@ namespace test {
 
 inline constexpr slant::contact::friction_method all_methods[] = {
     slant::contact::friction_method::automatic, slant::contact::friction_method::gauss_seidel,
-    slant::contact::friction_method::newton, slant::contact::friction_method::proximal_newton,
-    slant::contact::friction_method::interior_point};
+    slant::contact::friction_method::newton, slant::contact::friction_method::interior_point};
 
 }  // namespace test

@@ -32,28 +32,6 @@ TEST_CASE("sweeps: one contact takes one, many coupled ones converge to a soluti
   CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
 }
 
-TEST_CASE("sweeps: with α they solve the problem of W + αΛ, q − αΛc") {
-  auto const p = test::random_friction(6, 3, 0.5, 4);
-  blocks const b(p);
-  Eigen::VectorXd const center = b.q().cwiseAbs(), weight = Eigen::VectorXd::LinSpaced(6, 0.5, 2);
-  double const α = 0.7;
-  auto shifted = p;
-  Eigen::MatrixXd dense = p.W;
-  Eigen::VectorXd const c = b.force(center);
-  Eigen::VectorXd const ones = Eigen::VectorXd::Ones(18),
-                        unit = b.force(ones).cwiseQuotient(b.speed(ones));
-  for (slant::index i = 0; i < 18; ++i) {
-    dense(i, i) += α * weight[i / 3] / unit[i];
-    shifted.q[i] -= α * weight[i / 3] / unit[i] * c[i];
-  }
-  shifted.W = dense.sparseView();
-  sweeps const s(b);
-  auto memory = s.memory();
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(18);
-  for (int k = 0; k < 300; ++k) s.sweep(r, memory, true, α, weight, center);
-  CHECK(slant::contact::verify(shifted, b.force(r)).relative_natural_map <= 1e-12);
-}
-
 TEST_CASE(
     "sweeps: open contacts cost nothing as neighbours, and nothing when they are passed over") {
   slant::index const m = 40;

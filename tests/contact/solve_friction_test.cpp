@@ -185,7 +185,6 @@ TEST_CASE("solve_friction: the interior-point method has its turn where Newton's
   CHECK(s.solved_by == friction_method::interior_point);
   CHECK(verify(p, s.r).relative_natural_map <= 1.01e-8);
   CHECK(s.work.sweeps == 0);
-  CHECK(s.work.proximal_steps == 0);
   CHECK(s.work.interior_steps > 1);
   CHECK(s.work.newton_steps == s.work.interior_steps + 1);
   CHECK(s.work.factorizations == s.work.newton_steps);

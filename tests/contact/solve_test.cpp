@@ -227,6 +227,9 @@ TEST_CASE("contact::solve: bodies without supports that contact or friction hold
     // Judged by the data alone, and by another run to more digits.
     CHECK(contact::check_optimality(brick.K, brick.data, r.u, r.multipliers).residual() <= 1e-8);
     CHECK(r.multipliers.head(12).sum() == doctest::Approx(3 - p.end.z()));
+    double along = 0;
+    for (slant::index i = 0; i < 12; ++i) along += r.multipliers(12 + 2 * i);
+    CHECK(along == doctest::Approx(p.end.x()));
     auto const sharp = solve(brick, {.tolerance = 1e-12});
     CHECK(sharp.error.relative() <= 1e-11);
     CHECK(true_error(brick.K, r.u, sharp.u) <= r.error.relative() + sharp.error.relative());

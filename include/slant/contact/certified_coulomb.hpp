@@ -6,7 +6,7 @@
 //     factor      K                                                     factorizations/factorize
 //     scale       contacts so that each is about equally stiff: one power of two for the rows of N
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
-//     solve       Newton's method, and radii where that fails, or cones  contact/solve_coulomb
+//     solve       Newton's method, and radii where that fails, or cones   section coulomb run
 //     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm the problem
 //                 of Tresca with the slip bounds F λ_ν     contact/coulomb/coulomb_certificate
 //
@@ -16,15 +16,24 @@
 //
 //     auto const r = contact::certified_coulomb(contact::friction_disc{}, K, data, F);
 //     if (r.converged()) use(r.u, r.λ);
+//
+// It is for those who do not want to choose. With a dual problem and a family at hand each method
+// can be had alone: contact/coulomb/coulomb.hpp, contact/coulomb/coulomb_newton.hpp.
 #pragma once
 
 #include <slant/base/scaling.hpp>
 #include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
-#include <slant/contact/solve_coulomb.hpp>
+#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/factorizations/factorize.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/methods/unconstrained_start.hpp>
+#include <slant/operators/identity.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -82,6 +91,221 @@ struct certified_coulomb_result {
 
 namespace detail {
 
+// --- coulomb run ---------------------------------------------------------------------------------
+//
+// The methods for a dual problem under the control of a check. Newton's method for the residual of
+// Alart and Curnier costs no more than a problem of Tresca's; where it ends without a solution
+// (much friction, a bad start) successive approximations over Tresca's problems follow, each of
+// which is convex. The answer is the one that has converged; if none has, that with the smaller
+// error, or, if one was not even checked, the smaller residual ‖λ − P(λ − ρ (A λ − b))‖. The work
+// is that of all.
+//
+// The residuals are relative to those at λ = 0, which bodies that nearly move rigidly make as large
+// as their motion: relative to it any forces are a solution. So what has converged is judged by the
+// check, of (λ, u). Where that contradicts the method goes on with a tolerance that is smaller by
+// as much, as long as this helps; where it does not, the run ends `stalled` with what the check
+// finds.
+
+/// How far a run goes.
+struct coulomb_limits {
+  /// Of the residuals, relative to those at λ = 0; and a hundredth of what the check may find. (On
+  /// well-posed problems it finds 0.01 to 20 times the tolerance.)
+  double tolerance = 1e-10;
+  index newton_steps = 60;  ///< of Newton's method at most; 0: none, if the others are some
+  index outer_steps = 300;  ///< of successive approximations at most; 0: none, if the others are
+};
+
+/// What a run by these methods found.
+template <class V>
+struct coulomb_result {
+  V λ;                                     ///< (λ_ν, λ_t), as the dual problem orders them
+  V u{};                                   ///< displacement(λ) of the dual problem
+  coulomb_violation<scalar_t<V>> law{};    ///< of (λ, u), and where it is largest
+  scalar_t<V> error{};                     ///< of (λ, u), by the check
+  slant::status status = status::running;  ///< converged, or how the last method ended
+  std::string reason{};                    ///< the same as a sentence
+  std::string_view method{};               ///< "Newton", "successive approximations", or "cones"
+  index steps = 0;                         ///< of that method
+  slant::work work{};                      ///< of all
+
+  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
+};
+
+template <class V, class Report>
+void add_work(coulomb_result<V>& r, Report const& report) {
+  r.work.operator_applications += report.state.work.operator_applications;
+  r.work.setup_applications += report.state.work.setup_applications;
+  r.work.inner_iterations += report.state.work.inner_iterations;
+  r.work.factorizations += report.state.work.factorizations;
+}
+
+template <class V, class Report>
+void take_answer(coulomb_result<V>& r, Report const& report, std::string_view method, V λ) {
+  r.λ = std::move(λ);
+  r.status = report.status;
+  r.reason = report.reason;
+  r.method = method;
+  r.steps = report.iterations();
+}
+
+/// Successive approximations from x0.
+template <class Radii>
+[[nodiscard]] auto approximate(Radii& radii, typename Radii::vector_type const& x0,
+                               double tolerance, index steps) {
+  identity_operator const I(radii.b().size());
+  return slant::solve(coulomb(radii, I, {.goal = tolerance}), x0,
+                      reduced_gradient_below(typename Radii::scalar(tolerance)) || at_most(steps));
+}
+
+/// How often the tolerance is made smaller at most: it falls by orders of magnitude each time.
+inline constexpr index coulomb_rounds = 8;
+
+/// Judges r.λ: one solve with K.
+template <class Dual, class V, class Check>
+void judge(Dual const& problem, V const& F, Check const& check, coulomb_result<V>& r) {
+  r.u = problem.displacement(r.λ);
+  ++r.work.operator_applications;
+  r.law = coulomb_check(problem, F)(r.λ, r.u);
+  r.error = check(r.λ, r.u);
+}
+
+/// The answer of run(x, tolerance, steps) → report, again from where it ended with a smaller
+/// tolerance while the check contradicts that it has converged.
+template <class V, class Run, class Take, class Judge>
+void settle(coulomb_result<V>& r, V x, double tolerance, index steps, Run const& run,
+            Take const& take, Judge const& judged) {
+  using S = scalar_t<V>;
+  using slant::detail::show;
+  S const allowed = S(100) * S(tolerance);
+  S before = std::numeric_limits<S>::infinity();
+  index done = 0;
+  coulomb_result<V> last{};
+  for (index round = 0;; ++round) {
+    auto report = run(x, tolerance, steps - done);
+    done += report.iterations();
+    detail::add_work(r, report);
+    take(report);
+    r.steps = done;
+    if (round == 0 && !r.converged()) return;
+    judged();
+    if (r.error <= allowed) {  // also where the smaller tolerance of this round was out of reach
+      r.status = slant::status::converged;
+      r.reason += "; the check finds " + show(r.error);
+      return;
+    }
+    bool const helps = round == 0 || r.error <= S(0.5) * before;
+    if (!r.converged() || !helps || round == coulomb_rounds || done >= steps) {
+      if (r.converged()) r.status = slant::status::stalled;
+      if (!(r.error <= before)) {  // the round before was nearer
+        r.λ.swap(last.λ);
+        r.u.swap(last.u);
+        r.law = last.law;
+        r.error = last.error;
+      }
+      r.reason = "the check finds " + show(r.error) + ", more than " + show(allowed) +
+                 ", largest at contact " + show(r.law.contact) + "; " + r.reason;
+      return;
+    }
+    last = r;
+    before = r.error;
+    double const smaller = static_cast<double>(allowed / r.error);
+    tolerance *= 0.5 * std::max(std::numeric_limits<double>::epsilon(), smaller);
+    x = std::move(report.state.x);
+  }
+}
+
+/// By Newton's method, and by radii where that fails; the slip bounds of the dual problem have no
+/// meaning here. F has a coefficient for every contact node; check(λ, u) → a relative error.
+template <class Dual, class Check>
+[[nodiscard]] auto solve_by_newton_or_radii(Dual& problem, typename Dual::vector_type const& F,
+                                            coulomb_limits const& o, Check const& check)
+    -> coulomb_result<typename Dual::vector_type> {
+  using vector_type = typename Dual::vector_type;
+  using S = scalar_t<vector_type>;
+  coulomb_result<vector_type> r{problem.zero()};
+  coulomb_radii radii(problem, coefficients(F));
+  // Every contact sticks still, so that the start keeps its tangential forces.
+  auto start = unconstrained_start(radii.qp());
+  r.work.setup_applications = start.applications;
+  auto const judged = [&] { detail::judge(problem, F, check, r); };
+  auto const approximate = [&](coulomb_result<vector_type>& into) {
+    detail::settle(
+        into, start.x, o.tolerance, o.outer_steps,
+        [&](vector_type const& x, double tolerance, index steps) {
+          return detail::approximate(radii, x, tolerance, steps);
+        },
+        [&](auto const& report) {
+          detail::take_answer(into, report, "successive approximations", report.x());
+        },
+        [&] { detail::judge(problem, F, check, into); });
+  };
+  if (o.newton_steps == 0) {
+    approximate(r);
+    if (r.u.size() == 0) judged();
+    return r;
+  }
+  coulomb_cones const cones(problem, F);
+  auto const ρ = residual_step(cones);
+  r.work.setup_applications += ρ.applications;
+  auto const residual = coulomb_residual(cones, ρ.length);
+  S newton_residual(0);
+  detail::settle(
+      r, cones.by_contacts(start.x), o.tolerance, o.newton_steps,
+      [&](vector_type const& x, double tolerance, index steps) {
+        return slant::solve(contact::coulomb_newton(residual, tolerance), x,
+                            residual_below(S(tolerance)) || at_most(steps));
+      },
+      [&](auto const& report) {
+        detail::take_answer(r, report, "Newton", cones.by_directions(report.x()));
+        newton_residual = report.state.residual_norm;
+      },
+      judged);
+  if (r.converged()) return r;
+  if (o.outer_steps > 0) {
+    coulomb_result<vector_type> other{problem.zero()};
+    other.work = r.work;
+    approximate(other);
+    bool better = other.converged();
+    if (!better && r.u.size() > 0 && other.u.size() > 0) {
+      better = other.error < r.error;
+    } else if (!better) {
+      S const size = norm(slant::evaluate(residual, cones.by_contacts(other.λ)));
+      ++other.work.operator_applications;
+      better = size < newton_residual || !slant::detail::is_finite(newton_residual);
+    }
+    r.work = other.work;
+    if (better) r = std::move(other);
+  }
+  if (r.u.size() == 0) judged();
+  return r;
+}
+
+/// By cones, under the control of check(λ, u).
+template <class Dual, class V, class Check>
+[[nodiscard]] coulomb_result<V> solve_by_cones(Dual& problem, V const& F, double tolerance,
+                                               index steps, Check const& check) {
+  coulomb_result<V> r{problem.zero()};
+  coulomb_cones cones(problem, F);
+  auto const start = unconstrained_start(cones.qp());
+  r.work.setup_applications = start.applications;
+  identity_operator const I(problem.b().size());
+  auto const judged = [&] { detail::judge(problem, F, check, r); };
+  detail::settle(
+      r, start.x, tolerance, steps,
+      [&](V const& x, double goal, index most) {
+        return slant::solve(coulomb(cones, I, {.goal = goal}), x,
+                            reduced_gradient_below(scalar_t<V>(goal)) || at_most(most));
+      },
+      [&](auto const& report) {
+        detail::take_answer(r, report, "cones", cones.by_directions(report.x()));
+      },
+      judged);
+  if (r.u.size() == 0) judged();
+  return r;
+}
+
+// --- scaled rows ---------------------------------------------------------------------------------
+
 /// A power of two for each contact node, next to the square root of the mean stiffness that acts on
 /// its multipliers: then D A D has a diagonal of the order 1. Empty if these are alike.
 template <class V>
@@ -112,30 +336,6 @@ template <class V>
   all.head(m) = factors;
   for (index row = m; row < rows; ++row) all(row) = factors((row - m) / k);
   return all;
-}
-
-/// By cones, under the control of check(λ, u).
-template <class Dual, class V, class Check>
-[[nodiscard]] coulomb_result<V> solve_by_cones(Dual& problem, V const& F, double tolerance,
-                                               index steps, Check const& check) {
-  coulomb_result<V> r{problem.zero()};
-  coulomb_cones cones(problem, F);
-  auto const start = unconstrained_start(cones.qp());
-  r.work.setup_applications = start.applications;
-  identity_operator const I(problem.b().size());
-  auto const judged = [&] { detail::judge(problem, F, check, r); };
-  detail::settle(
-      r, start.x, tolerance, steps,
-      [&](V const& x, double goal, index most) {
-        return slant::solve(coulomb(cones, I, {.goal = goal}), x,
-                            reduced_gradient_below(scalar_t<V>(goal)) || at_most(most));
-      },
-      [&](auto const& report) {
-        detail::take_answer(r, report, "cones", cones.by_directions(report.x()));
-      },
-      judged);
-  if (r.u.size() == 0) judged();
-  return r;
 }
 
 }  // namespace detail
@@ -188,18 +388,18 @@ template <class Friction, class S>
     }
     return error;
   };
-  // solve_coulomb allows a hundred times its tolerance.
-  double const asked = o.tolerance > 0 ? o.tolerance / 100 : std::numeric_limits<double>::min();
+  // The check may find a hundred times what the methods are asked for.
+  double const asked = std::max(o.tolerance / 100, std::numeric_limits<double>::min());
   bool const by_newton =
       o.method == coulomb_method::automatic || o.method == coulomb_method::newton;
-  auto r =
-      o.method == coulomb_method::cones
-          ? detail::solve_by_cones(problem, F, asked, o.outer_steps, check)
-          : solve_coulomb(problem, F,
-                          {.tolerance = asked,
-                           .newton_steps = by_newton ? o.newton_steps : 0,
-                           .outer_steps = o.method == coulomb_method::newton ? 0 : o.outer_steps},
-                          check);
+  auto r = o.method == coulomb_method::cones
+               ? detail::solve_by_cones(problem, F, asked, o.outer_steps, check)
+               : detail::solve_by_newton_or_radii(
+                     problem, F,
+                     {.tolerance = asked,
+                      .newton_steps = by_newton ? o.newton_steps : 0,
+                      .outer_steps = o.method == coulomb_method::newton ? 0 : o.outer_steps},
+                     check);
   result.method = r.method;
   result.steps = r.steps;
   result.work = r.work;

@@ -32,8 +32,6 @@
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
 #include <slant/contact/solve.hpp>
-#include <slant/contact/solve_coulomb.hpp>
-#include <slant/contact/solve_floating.hpp>
 #include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/solve_options.hpp>

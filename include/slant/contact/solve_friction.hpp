@@ -8,11 +8,10 @@
 // Block Gauss–Seidel with exact contacts comes first, and is all that most problems need. Where it
 // crawls, as it does where forces are redundant or the contacts far apart, semismooth Newton on the
 // natural map starts from where it is; where that finds no descent, an interior-point method comes
-// once from inside of the cones. If it does not solve the problem either, the proximal point method
-// follows the path of forces to where Newton's finds descent, and then the sweeps go on from where
-// they were, ever longer. So each problem is solved by the method that suits it, without
-// settings, and a problem without solution ends when turns no longer lessen the error, or at the
-// limits of the options.
+// once from inside of the cones. If it does not solve the problem either, the sweeps go on from
+// where they were, ever longer, with Newton's method in between. So each problem is solved by the
+// method that suits it, without settings, and a problem without solution ends when turns no longer
+// lessen the error, or at the limits of the options.
 #pragma once
 
 #include <slant/compiled.hpp>
@@ -22,7 +21,6 @@
 #include <slant/contact/friction/friction_options.hpp>
 #include <slant/contact/friction/friction_problem.hpp>
 #include <slant/contact/friction/verify.hpp>
-#include <slant/methods/proximal_point.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -30,76 +28,6 @@
 #include <utility>
 
 namespace slant::contact::detail {
-
-// --- friction proximal step ----------------------------------------------------------------------
-//
-// The inner problems of the proximal point method for Coulomb friction: u = W r + q + α Λ (r − c),
-// solved by Newton's method, with some sweeps of Gauss–Seidel where that finds no descent. The
-// problem is the easier for both the larger α is.
-
-/// Inner solver of proximal_point; see the top of this file. Refers to its arguments.
-template <int N, class S>
-class friction_proximal_step {
- public:
-  using vector_type = typename friction_blocks<N, S>::vector_type;
-
-  friction_proximal_step(friction_blocks<N, S> const& blocks, friction_newton<N, S>& newton,
-                         friction_options<S> const& options, friction_work& work)
-      : blocks_(&blocks),
-        newton_(&newton),
-        sweeps_(blocks),
-        memory_(sweeps_.memory()),
-        options_(&options),
-        work_(&work),
-        u_(blocks.size()) {}
-
-  proximal_inner_report operator()(vector_type const& center, S const& α, vector_type& x) {
-    proximal_inner_report report;
-    newton_->set_proximal(α, center);
-    S first(-1);
-    for (index rescue = 0; rescue <= options_->rescues; ++rescue) {
-      for (index k = 0; k < 20 * rescue * rescue && work_->sweeps < options_->sweeps; ++k) {
-        work_->block_products += sweeps_.sweep(x, memory_, k == 0, α, newton_->weight(), center);
-        ++work_->sweeps;
-      }
-      S now = newton_->begin(x);
-      if (first < S(0)) first = now;
-      for (index k = 0;; ++k) {
-        S const moved = α / (S(1) + α) * (x - center).norm();
-        S const rounding = S(16) * std::numeric_limits<S>::epsilon() * x.norm();
-        if (now <= std::max(rounding, S(S(0.01) * std::min(first, moved)))) {
-          report.solved = true;
-          return report;
-        }
-        if (k == options_->inner_steps || no_steps_left()) break;
-        ++report.steps;
-        if (!newton_->advance(x, S(0), options_->halvings)) break;
-        now = newton_->residual_norm();
-      }
-      if (no_steps_left()) break;
-    }
-    report.accept = error_at(x) < error_at(center);
-    return report;
-  }
-
- private:
-  [[nodiscard]] bool no_steps_left() const {
-    return newton_->work().steps + work_->interior_steps >= options_->newton_steps;
-  }
-  S error_at(vector_type const& x) {
-    blocks_->velocity(x, u_);
-    ++work_->products;
-    return blocks_->error(x, u_).worst();
-  }
-
-  friction_blocks<N, S> const* blocks_;
-  friction_newton<N, S>* newton_;
-  friction_sweeps<N, S> sweeps_;
-  friction_sweep_memory<S> memory_;
-  friction_options<S> const* options_;
-  friction_work* work_;
-  vector_type u_;
-};
 
 // --- friction run --------------------------------------------------------------------------------
 //
@@ -119,8 +47,6 @@ class friction_run {
         blocks_(problem),
         gauss_seidel_(blocks_, options.gauss_seidel),
         newton_(blocks_, options.equations),
-        inner_(blocks_, newton_, options_, work_),
-        proximal_(inner_, options.proximal),
         best_(vector_type::Zero(blocks_.size())),
         best_u_(blocks_.q()),
         u_(blocks_.size()) {}
@@ -138,9 +64,6 @@ class friction_run {
   }
 
  private:
-  using proximal_type = proximal_point<friction_proximal_step<N, S>&, S>;
-  using path_type = proximal_point_state<vector_type>;
-
   [[nodiscard]] bool solved() const { return best_error_.at_most(options_.tolerance); }
 
   /// Whether there is nothing left to do. Where the problem is solved but the natural map of the
@@ -188,17 +111,13 @@ class friction_run {
     if (sweep(sweeping, options_.first_sweeps)) return;
     if (options_.method == method::newton) {
       if (!attempt_newton(options_.newton_steps)) end_with(status::stalled, no_steps_left());
-    } else if (options_.method == method::proximal_newton) {
-      auto path = proximal_.start(best_);
-      if (!follow(path, options_.newton_steps)) end_with(path.status, no_steps_left());
     } else {
       take_turns(sweeping);
     }
   }
 
   void take_turns(gauss_seidel_state<S>& sweeping) {
-    index path_steps = options_.attempt, sweeps = options_.further_sweeps;
-    index idle = 0;
+    index sweeps = options_.further_sweeps, idle = 0;
     bool first = true;  // from wherever it begins, the interior-point method takes the same steps
     while (!out_of_work() && idle < options_.patience) {
       index const before = work_.sweeps + steps_done();
@@ -206,8 +125,6 @@ class friction_run {
       if (attempt_newton(options_.attempt)) return;
       if (first && attempt_interior_point()) return;
       first = false;
-      auto path = proximal_.start(best_);
-      if (follow(path, path_steps)) return;
       // What Newton's method has found is a better start, unless the sweeps are about as far: where
       // forces wander the error does not tell how far they have come.
       bool const lost = sweeping.status != status::running;
@@ -215,10 +132,10 @@ class friction_run {
       if (sweep(sweeping, sweeps)) return;
       if (work_.sweeps + steps_done() == before) break;
       idle = best_error_.worst() <= S(0.9) * error_before ? 0 : idle + 1;
-      path_steps = path_steps < options_.newton_steps / 2 ? 2 * path_steps : options_.newton_steps;
       sweeps = sweeps < options_.sweeps / 4 ? 4 * sweeps : options_.sweeps;
     }
-    end_with(status::stalled, out_of_work());
+    // Newton's method alone ends soon, so that turns without sweeps say nothing of the problem.
+    end_with(status::stalled, no_sweeps_left());
   }
 
   [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
@@ -256,7 +173,6 @@ class friction_run {
     constexpr index failures_allowed = 3;
     S const least = S(16) * std::numeric_limits<S>::epsilon();
     vector_type x = best_;
-    newton_.set_proximal(S(0), x);
     newton_.begin(x);
     S δ = options_.damping;
     index failures = 0;
@@ -292,19 +208,6 @@ class friction_run {
     work_.sparse_factorizations += s.sparse;
     interior_status_ = s.iteration < options_.interior_steps ? s.status : status::iteration_limit;
     return consider(s.best, method::interior_point);
-  }
-
-  /// The proximal point method for about so many Newton steps.
-  bool follow(path_type& s, index steps) {
-    index const end = newton_.work().steps + std::min(steps, options_.newton_steps - steps_done());
-    while (newton_.work().steps < end && s.status == status::running) {
-      index const before = newton_.work().steps;
-      proximal_.step(s);
-      ++work_.proximal_steps;
-      if (consider(s.x, method::proximal_newton)) return true;
-      if (newton_.work().steps == before) break;  // nothing left to do at this precision
-    }
-    return false;
   }
 
   /// Whether the forces in the units of the data are still those that were found.
@@ -371,8 +274,6 @@ class friction_run {
   friction_blocks<N, S> blocks_;
   friction_gauss_seidel<N, S> gauss_seidel_;
   friction_newton<N, S> newton_;
-  friction_proximal_step<N, S> inner_;
-  proximal_type proximal_;
   vector_type best_, best_u_, u_;
   friction_error<S> best_error_{};
   method solved_by_ = method::automatic;

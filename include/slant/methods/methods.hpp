@@ -15,7 +15,6 @@
 #include <slant/methods/modified_newton.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/proportioning.hpp>
-#include <slant/methods/proximal_point.hpp>
 #include <slant/methods/reduced_systems.hpp>
 #include <slant/methods/schur_contact.hpp>
 #include <slant/methods/smalse.hpp>

@@ -10,7 +10,6 @@
 //     auto const F = contact::coulomb_residual(cones, ρ);
 //     auto const r = slant::solve(contact::coulomb_newton(F), cones.zero(),
 //                                 slant::residual_below(1e-8) || slant::at_most(100));
-//     // or, where bodies are slender or hardly held, coulomb_error_below(1e-8, check) in its place
 //     auto const u = problem.displacement(cones.by_directions(r.x()));
 //
 // Both refer to the data of the family and see new ones, so load steps go as with any method:

@@ -188,18 +188,15 @@ class friction_sweeps {
     auto const m = std::size_t(blocks_->contacts());
     return {.slip = std::vector<S>(m, S(0)), .idle = std::vector<int>(m, 0)};
   }
-  /// One sweep over the contacts of u = W r + q + α Λ (r − c), Λ diagonal with one entry for each
-  /// contact; α = 0 and any c of the size of r for u = W r + q. Contacts long open are passed over
-  /// unless `all`. Returns the blocks of W that were multiplied.
-  index sweep(vector_type& r, memory_type& memory, bool all, S const& α, vector_type const& weight,
-              vector_type const& center) const {
+  /// One sweep over the contacts; those long open are passed over unless `all`. Returns the blocks
+  /// of W that were multiplied.
+  index sweep(vector_type& r, memory_type& memory, bool all = true) const {
     auto const& p = *blocks_;
     index products = 0;
     for (index i = 0; i < p.contacts(); ++i) {
       auto const k = std::size_t(i);
       if (!all && memory.idle[k] >= patience) continue;
       S* const ri = r.data() + N * i;
-      S const* const ci = center.data() + N * i;
       part_type q = slant::detail::entries_at<N>(p.q().data() + N * i);
       p.for_row(i, [&](index j, block_type const& b) {
         S const* const rj = r.data() + N * j;
@@ -208,10 +205,10 @@ class friction_sweeps {
         ++products;
       });
       block_type W = p.diagonal(i);
-      S const shift = shift_[i], proximal = α * weight[i];
+      S const shift = shift_[i];
       for (int a = 0; a < N; ++a) {
-        W(a, a) += shift + proximal;
-        q(a) -= shift * ri[a] + proximal * ci[a];
+        W(a, a) += shift;
+        q(a) -= shift * ri[a];
       }
       auto const c = detail::solve_one_contact<N, S>(W, q, p.mu(i), memory.slip[k]);
       ++products;
@@ -223,10 +220,6 @@ class friction_sweeps {
   }
   /// What is added to the diagonal of W_ii so that it is definite; 0 where it is.
   [[nodiscard]] S shift(index i) const { return shift_[i]; }
-  /// One sweep for u = W r + q.
-  index sweep(vector_type& r, memory_type& memory, bool all = true) const {
-    return sweep(r, memory, all, S(0), shift_, r);
-  }
 
  private:
   static constexpr int patience = 3;

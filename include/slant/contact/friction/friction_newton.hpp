@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Semismooth Newton for u = W r + q + α Λ (r − c) with Coulomb friction, on the equations of
-// section friction map with one ρ for each contact, 1/ρ = (1 + α) Λ:
+// Semismooth Newton for u = W r + q with Coulomb friction, on the equations of section friction map
+// with one ρ for each contact, 1/ρ = Λ, the mean diagonal of W of the contact:
 //
-//     (A + B (W + (α + δ) Λ)) dr = −F,    r ← r + β dr,   β = 1, ½, … until ‖F‖ falls enough.
+//     (A + B (W + δ Λ)) dr = −F,    r ← r + β dr,   β = 1, ½, … until ‖F‖ falls enough.
 //
 // δ, a damping of the matrix alone, makes a singular system solvable; the step is then one of a
 // proximal point method with the centre r, and its fixed points are those of δ = 0.
@@ -213,15 +213,8 @@ class friction_newton {
     }
   }
 
-  /// Λ: the mean diagonal of W of each contact (1 where that is 0).
-  [[nodiscard]] vector_type const& weight() const { return weight_; }
   [[nodiscard]] friction_newton_work const& work() const { return work_; }
 
-  /// Sets the problem: α and c. c is referred to.
-  void set_proximal(S const& α, vector_type const& center) {
-    α_ = α;
-    center_ = &center;
-  }
   /// F at r; also what `advance` starts from. Returns ‖F‖.
   S begin(vector_type const& r) {
     velocity(r, u_);
@@ -234,7 +227,8 @@ class friction_newton {
     ++work_.steps;
     differentiate(r);
     if (!find_direction(δ)) return false;
-    multiply(direction_, image_);
+    blocks_->multiply(direction_, image_);
+    ++work_.evaluations;
     S β = S(1);
     for (index k = 0; k <= halvings; ++k, β /= S(2)) {
       trial_ = r + β * direction_;
@@ -262,18 +256,8 @@ class friction_newton {
   void velocity(vector_type const& r, vector_type& u) {
     blocks_->velocity(r, u);
     ++work_.evaluations;
-    if (α_ == S(0)) return;
-    for (index k = 0; k < blocks_->size(); ++k) {
-      u[k] += α_ * weight_[k / N] * (r[k] - (*center_)[k]);
-    }
   }
-  void multiply(vector_type const& x, vector_type& y) {
-    blocks_->multiply(x, y);
-    ++work_.evaluations;
-    if (α_ == S(0)) return;
-    for (index k = 0; k < blocks_->size(); ++k) y[k] += α_ * weight_[k / N] * x[k];
-  }
-  [[nodiscard]] S rho(index i) const { return S(1) / ((S(1) + α_) * weight_[i]); }
+  [[nodiscard]] S rho(index i) const { return S(1) / weight_[i]; }
 
   S residual(vector_type const& r, vector_type const& u) {
     detail::friction_map<N, S> f;
@@ -331,7 +315,7 @@ class friction_newton {
       index const i = closed_[std::size_t(k)];
       auto const& f = maps_[std::size_t(i)];
       block_type d = blocks_->diagonal(i);
-      for (int a = 0; a < N; ++a) d(a, a) += (α_ + δ) * weight_[i];
+      for (int a = 0; a < N; ++a) d(a, a) += δ * weight_[i];
       d = slant::detail::product_of(f.B, d);
       put(k, k, slant::detail::combination(S(1), f.A, S(1), d));
       blocks_->for_row(i, [&](index j, block_type const& b) {
@@ -343,9 +327,7 @@ class friction_newton {
 
   blocks_type const* blocks_;
   friction_equations which_;
-  vector_type weight_;
-  S α_ = S(0);
-  vector_type const* center_ = nullptr;
+  vector_type weight_;  // Λ: the mean diagonal of W of each contact (1 where that is 0)
   std::vector<index> place_, closed_;
   std::vector<detail::friction_map<N, S>> maps_;
   vector_type F_, u_, direction_, image_, trial_, trial_u_, right_, solution_;

@@ -11,7 +11,6 @@
 #include <slant/contact/friction/friction_newton.hpp>
 #include <slant/contact/friction/friction_problem.hpp>
 #include <slant/contact/friction/verify.hpp>
-#include <slant/methods/proximal_point.hpp>
 
 #include <limits>
 #include <string>
@@ -21,11 +20,10 @@ namespace slant::contact {
 
 /// Which method solve_friction uses.
 enum class friction_method : unsigned char {
-  automatic,        ///< the others in turn, until one of them has solved the problem
-  gauss_seidel,     ///< friction_gauss_seidel
-  newton,           ///< friction_newton with damping, after a few sweeps
-  proximal_newton,  ///< proximal_point around friction_newton, after a few sweeps
-  interior_point    ///< friction_interior_point
+  automatic,      ///< the others in turn, until one of them has solved the problem
+  gauss_seidel,   ///< friction_gauss_seidel
+  newton,         ///< friction_newton with damping, after a few sweeps
+  interior_point  ///< friction_interior_point
 };
 
 /// The method in words.
@@ -37,8 +35,6 @@ enum class friction_method : unsigned char {
       return "gauss_seidel";
     case friction_method::newton:
       return "newton";
-    case friction_method::proximal_newton:
-      return "proximal_newton";
     case friction_method::interior_point:
       return "interior_point";
   }
@@ -63,12 +59,9 @@ struct friction_options {
   index attempt = 40;          ///< Newton steps in one attempt of `newton`
   S damping = S(1e-6);         ///< first δ of friction_newton in `newton`
   index halvings = 8;          ///< of a Newton step at most
-  index inner_steps = 20;      ///< Newton steps between two rescues in one proximal step
-  index rescues = 2;           ///< of a proximal step, by sweeps, before α grows
   index patience = 3;          ///< turns of `automatic` that hardly lessen the error, till stalled
   gauss_seidel_options<S> gauss_seidel{};
   friction_interior_options<S> interior_point{};  ///< `small` at most tolerance/100
-  proximal_point_options<S> proximal{};
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
@@ -85,13 +78,10 @@ struct friction_options {
     at_least_zero("newton_steps", newton_steps);
     at_least_zero("interior_steps", interior_steps);
     at_least_zero("halvings", halvings);
-    at_least_zero("rescues", rescues);
     if (attempt < 1) throw bad_input("attempt", show(attempt), "at least 1");
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
-    if (inner_steps < 1) throw bad_input("inner_steps", show(inner_steps), "at least 1");
     gauss_seidel.validate();
     interior_point.validate();
-    proximal.validate();
   }
 
  private:
@@ -107,7 +97,6 @@ struct friction_work {
   index products = 0;        ///< products by W besides
   index newton_steps = 0;    ///< directions of Newton's method, those of interior_steps included
   index interior_steps = 0;  ///< steps of the interior-point method
-  index proximal_steps = 0;  ///< steps of the proximal point method
   index factorizations = 0;  ///< matrices factored
   index factored_rows = 0;   ///< rows of all of them together
   index sparse_factorizations = 0;  ///< how many of them were sparse

@@ -20,6 +20,7 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/free_motions.hpp>
+#include <slant/contact/solve_options.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/iteration.hpp>
 #include <slant/operators/inverse.hpp>
@@ -136,10 +137,10 @@ template <class S>
 }
 
 /// Sets the claim that there is no solution, with its proof w; or that it could not be proven.
-template <class S, class Result>
+template <class S>
 void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
                         node_layout<S> const& layout, Eigen::Matrix<S, Eigen::Dynamic, 1> w,
-                        Result& r) {
+                        solution<S>& r) {
   S const size = w.norm();
   if (size > S(0) && slant::detail::is_finite(size)) {
     w /= size;
@@ -157,9 +158,9 @@ void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
       "which the energy falls for ever";
 }
 /// The same after a search.
-template <class S, class Result>
+template <class S>
 void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
-                        node_layout<S> const& layout, Result& r) {
+                        node_layout<S> const& layout, solution<S>& r) {
   conclude_unbounded(K, c, layout, falling_motion(c, kernel_of(r.motions, K.rows()), index(20000)),
                      r);
 }

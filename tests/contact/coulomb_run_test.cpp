@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/solve_coulomb.hpp>
+//
+// The methods of certified_coulomb and how they take turns, judged by Coulomb's law alone: the work
+// that is said to have been done is counted, without that of a certificate.
+#include <slant/contact/certified_coulomb.hpp>
 
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
@@ -14,13 +17,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
-namespace solve_coulomb_test {
+namespace coulomb_run_test {
 
 using Eigen::VectorXd;
 namespace contact = slant::contact;
+
+template <class Dual>
+auto solve(Dual& problem, VectorXd const& F, contact::detail::coulomb_limits const& limits) {
+  contact::coulomb_check const check(problem, F);
+  return contact::detail::solve_by_newton_or_radii(
+      problem, F, limits,
+      [&](VectorXd const& λ, VectorXd const& u) { return check(λ, u).relative; });
+}
 
 TEST_CASE("two bricks, friction coefficients 0 to 2 on the mean: by Newton and by radii") {
   auto const s = fem::make_two_bricks(4);
@@ -32,12 +42,12 @@ TEST_CASE("two bricks, friction coefficients 0 to 2 on the mean: by Newton and b
     CAPTURE(mean);
     VectorXd const F = mean * VectorXd::LinSpaced(c.d.size(), 0.5, 1.5);
     factor.solves = 0;
-    auto const newton = contact::solve_coulomb(problem, F, {.tolerance = 1e-12});
+    auto const newton = solve(problem, F, {.tolerance = 1e-12});
     REQUIRE(newton.converged());
     CHECK(newton.method == "Newton");
     CHECK(test::natural_map(dense, F, newton.λ) <= 1e-8);
     CHECK(factor.solves == newton.work.operator_applications + newton.work.setup_applications);
-    auto const radii = contact::solve_coulomb(problem, F, {.tolerance = 1e-12, .newton_steps = 0});
+    auto const radii = solve(problem, F, {.tolerance = 1e-12, .newton_steps = 0});
     REQUIRE(radii.converged());
     CHECK(radii.method == "successive approximations");
     CHECK((radii.λ - newton.λ).norm() <= 1e-8 * newton.λ.norm());
@@ -51,13 +61,13 @@ TEST_CASE("Newton's method that is not given time: the other takes over, and all
   contact::dual problem(contact::friction_disc{}, factor, c);
   VectorXd const F = VectorXd::Constant(c.d.size(), 0.3);
   factor.solves = 0;
-  auto const r = contact::solve_coulomb(problem, F, {.tolerance = 1e-10, .newton_steps = 1});
+  auto const r = solve(problem, F, {.tolerance = 1e-10, .newton_steps = 1});
   REQUIRE(r.converged());
   CHECK(r.method == "successive approximations");
   CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
   CHECK(test::natural_map(test::dense_dual(s.K, c), F, r.λ) <= 1e-8);
   auto const given_up =
-      contact::solve_coulomb(problem, F, {.tolerance = 1e-10, .newton_steps = 1, .outer_steps = 0});
+      solve(problem, F, {.tolerance = 1e-10, .newton_steps = 1, .outer_steps = 0});
   CHECK(given_up.status == slant::status::iteration_limit);
   CHECK(given_up.method == "Newton");
   CHECK(given_up.steps == 1);
@@ -89,8 +99,7 @@ TEST_CASE("neither is given time: the better answer is kept, whichever it is") {
   double const ρ = contact::residual_step(contact::coulomb_cones(problem, F)).length;
   auto const run = [&](slant::index newton, slant::index outer) {
     factor.solves = 0;
-    auto r = contact::solve_coulomb(
-        problem, F, {.tolerance = 1e-12, .newton_steps = newton, .outer_steps = outer});
+    auto r = solve(problem, F, {.tolerance = 1e-12, .newton_steps = newton, .outer_steps = outer});
     CHECK_FALSE(r.converged());
     CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
     return r;
@@ -131,8 +140,7 @@ int judge_on_springs(Friction friction, double spring, double tolerance) {
   VectorXd found;
   for (slant::index const newton_steps : {60, 0}) {
     factor.solves = 0;
-    auto const r =
-        contact::solve_coulomb(problem, F, {.tolerance = tolerance, .newton_steps = newton_steps});
+    auto const r = solve(problem, F, {.tolerance = tolerance, .newton_steps = newton_steps});
     CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
     auto law = s.contact;
     law.g = F.cwiseProduct(r.λ.head(F.size()).cwiseMax(0));
@@ -167,50 +175,27 @@ TEST_CASE("a block that hardly anything holds: forces right to 1e-6, or no verdi
   CHECK(judge_on_springs<3>(contact::friction_disc{}, 1e-4, 1e-10) == 2);
 }
 
-TEST_CASE("the check is the caller's if one is given; where nothing satisfies it the run stalls") {
+TEST_CASE("a check that nothing satisfies: the run stalls and says what it finds") {
   auto const s = test::spring_block<2>(2, 1e-2);
   test::counting_factor const factor{s.K};
   contact::dual problem(contact::friction_line{}, factor, s.contact);
   VectorXd const F = VectorXd::Constant(s.contact.d.size(), 0.3);
   int asked = 0;
-  auto const r = contact::solve_coulomb(problem, F, {}, [&](VectorXd const& λ, VectorXd const& u) {
-    ++asked;
-    CHECK((u - problem.displacement(λ)).norm() == 0);
-    return 0.5;
-  });
+  auto const r = contact::detail::solve_by_newton_or_radii(
+      problem, F, {}, [&](VectorXd const& λ, VectorXd const& u) {
+        ++asked;
+        CHECK((u - problem.displacement(λ)).norm() == 0);
+        return 0.5;
+      });
   CHECK(r.status == slant::status::stalled);
   CHECK(r.error == 0.5);
   CHECK(r.law.relative <= 1e-8);
   CHECK(r.reason.starts_with("the check finds 0.5, more than 1e-08, largest at contact "));
   CHECK(asked >= 2);
-  auto const none = contact::solve_coulomb(problem, F, {}, [](VectorXd const&, VectorXd const&) {
-    return std::numeric_limits<double>::quiet_NaN();
-  });
+  auto const none = contact::detail::solve_by_newton_or_radii(
+      problem, F, {},
+      [](VectorXd const&, VectorXd const&) { return std::numeric_limits<double>::quiet_NaN(); });
   CHECK(none.status == slant::status::stalled);
 }
 
-TEST_CASE("options and coefficients that do not fit are refused") {
-  auto const s = fem::make_steel_brick({.k = 1});
-  auto const c = test::contact_data(s);
-  test::counting_factor const factor{s.K};
-  contact::dual problem(contact::friction_disc{}, factor, c);
-  auto const message = [&](VectorXd const& F,
-                           contact::solve_coulomb_options const& o = {}) -> std::string {
-    try {
-      static_cast<void>(contact::solve_coulomb(problem, F, o));
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "accepted";
-  };
-  VectorXd const F = VectorXd::Constant(c.d.size(), 0.3);
-  CHECK(message(-F) == "F[0]: got -0.3, expected a finite number >= 0");
-  CHECK(message(F.head(2)).starts_with("number of friction coefficients: got 2"));
-  CHECK(message(F, {.tolerance = 0}) == "tolerance: got 0, expected a number in (0, 1)");
-  CHECK(message(F, {.newton_steps = -1}) == "newton_steps: got -1, expected a number >= 0");
-  CHECK(message(F, {.outer_steps = -1}) == "outer_steps: got -1, expected a number >= 0");
-  CHECK(message(F, {.newton_steps = 0, .outer_steps = 0}) ==
-        "newton_steps and outer_steps: got 0 and 0, expected at least one of them > 0");
-}
-
-}  // namespace solve_coulomb_test
+}  // namespace coulomb_run_test
