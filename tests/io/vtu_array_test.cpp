@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/io/vtu_array.hpp>
+#include <slant/io/vtu.hpp>
 
 #include <doctest/doctest.h>
 

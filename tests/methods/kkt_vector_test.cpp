@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/parts/release_rules.hpp>
+#include <slant/methods/kprgp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "newton_scene.hpp"
 
-#include <slant/newton/slant_preconditioner.hpp>
+#include <slant/newton/symmetrized_cg.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/symmetrized.hpp>
 #include <slant/testing/operator_laws.hpp>

@@ -2,8 +2,8 @@
 #include "slanting_support.hpp"
 
 #include <slant/slanting/affine.hpp>
+#include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/max.hpp>
-#include <slant/slanting/sum.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 

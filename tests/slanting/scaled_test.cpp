@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
+#include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/max.hpp>
-#include <slant/slanting/scaled.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 

@@ -417,7 +417,7 @@ bool proportioning_steps<QP, Rule>::refresh(state_type& s) const {
 
 }  // namespace detail
 
-/// Active set method with a rule of parts/release_rules.hpp. Requires: psd_operator (A symmetric
+/// Active set method with a rule of kprgp.hpp. Requires: psd_operator (A symmetric
 /// positive semidefinite) and separable_set with step_to_boundary.
 template <class QP, class Rule>
   requires kprgp_problem<std::remove_cvref_t<QP>>

@@ -12,6 +12,5 @@
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/saddle_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
-#include <slant/newton/slant_preconditioner.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 // IWYU pragma: end_exports

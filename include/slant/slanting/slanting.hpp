@@ -16,10 +16,8 @@
 #include <slant/slanting/max.hpp>
 #include <slant/slanting/natural_residual.hpp>
 #include <slant/slanting/projection.hpp>
-#include <slant/slanting/scaled.hpp>
 #include <slant/slanting/selection.hpp>
 #include <slant/slanting/slanting_base.hpp>
 #include <slant/slanting/smooth.hpp>
 #include <slant/slanting/stack.hpp>
-#include <slant/slanting/sum.hpp>
 #include <slant/slanting/symmetrized.hpp>

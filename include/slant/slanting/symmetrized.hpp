@@ -9,9 +9,8 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/composition.hpp>
-#include <slant/slanting/scaled.hpp>
-#include <slant/slanting/sum.hpp>
 
 #include <type_traits>
 #include <utility>

@@ -5,7 +5,7 @@
 //
 // An operator is not a function: the sum needs y ↦ A y, slant::linear(A).
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/sum.hpp>
+#include <slant/slanting/arithmetic.hpp>
 
 #ifdef SLANT_COMPLETE
 auto const term = slant::linear(slant::identity_operator(2));
