@@ -21,13 +21,12 @@
 //                         below as well
 //     penetration         the largest −u_n over |q|: where μ is large the error sees little of it
 //     unit_free_error     natural map with ρ = 1/w at each contact, w the size of its block of W:
-//     the
-//                         measure of the method's own verdict, whatever the units
+//                         the measure of the method's own verdict, whatever the units
 //     unit_free_rounding  of that
 //     sweeps              passes over the contacts, at most a product by W each
 //     products            by W, besides
 //     newton_steps        interior_steps included, the steps of the interior-point method
-//     factorizations
+//                         factorizations
 //     seconds             processor seconds of a process of its own, one run, reading not included
 //
 // The rank is left out where W has more than N = 2000 rows.

@@ -5,8 +5,7 @@
 //     kprgp_products example_1       eleven proportioning constants Γ beside the printed products
 //     kprgp_products wire [N]        active constraints beside the printed ones, up to N unknowns
 //     kprgp_products brick [K...]    error against work, three loads; the reference is the dense
-//     one
-//                                    of tests/oracle, which shares no code with KPRGP
+//                                    one of tests/oracle, which shares no code with KPRGP
 //
 // prints comma-separated values. Exit status 1 if a run does not converge, a printed count is
 // missed, or a brick does not come within 1e-6 of its reference in the energy norm.

@@ -6,7 +6,7 @@
 //         load               press, the load grows from a twentieth to all of it, g fixed
 //         lift               press, and the traction that lifts the right end grows
 //         slide              press, and a traction on top grows that drags the brick along the
-//         floor
+//                            floor
 //
 // prints comma-separated values. The first step is charged with all there is to do: factorisation,
 // preconditioner, b, iterations, recovery of u; each later one with new data, iterations, recovery;

@@ -7,14 +7,11 @@
 //                               and without the projector, on 3k x k x k cells (all) and on 12 x 4
 //                               x k (inside: the contact side stays as it is)
 //     projector contact [K...]  frictionless contact of the brick by schur_contact: steps,
-//     products,
-//                               applications of Q, changes of the active set, factors
+//                               products, applications of Q, changes of the active set, factors
 //     projector search [K...]   stacks of bricks with gaps: the same with 0, 1, 3 trial points of
-//     the
-//                               search along the boundary, and for three values of `release`
+//                               the search along the boundary, and for three values of `release`
 //     projector threads [K...]  seconds of factoring and of a run with one and with two threads,
-//     and
-//                               whether all bits agree; needs OpenMP, without it exit status 1
+//                               and whether all bits agree; needs OpenMP, without it exit status 1
 //
 // prints comma-separated values. Exit status 1 if a run does not converge, if more than one factor
 // per body is made, if bits differ, or if the steps with the projector grow by more than a quarter

@@ -3,8 +3,7 @@
 // ‖d‖_{A⁻¹} = √(dᵀA⁻¹d) for an operator A of which only the action is known, by preconditioned
 // conjugate gradients for A y = d from zero:
 //
-//     ‖y‖_A² = Σ αₖ rₖᵀM rₖ  ≤  ‖d‖²_{A⁻¹}  ≤  (‖y‖_A + ‖r‖_{A⁻¹})²,       r = d − A y,  y ⊥_A r's
-//     error
+//     ‖y‖_A² = Σ αₖ rₖᵀM rₖ  ≤  ‖d‖²_{A⁻¹}  ≤  (‖y‖_A + ‖r‖_{A⁻¹})²,   r = d − A y,  y ⊥_A A⁻¹r
 //
 // Every step adds a positive term, so the sum is a lower bound at any time. With M ⪰ A⁻¹ the
 // remainder is at most √(rᵀM r) and the result an upper bound, up to the rounding of A y. Otherwise

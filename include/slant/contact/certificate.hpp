@@ -30,12 +30,10 @@
 //                  extended precision (long double) while that shows the goal: 2 (k + 4) ε' for ε²
 //     ρ − K w      in plain precision: off by γ_{k+4} (|ρ| + |K||w|)
 //     ‖v‖²_K       the computed sum of p products in rows of k entries is off by γ_{p+k+8}
-//     |v|ᵀ|K||v|,
-//                  which is summed as well: added where ‖v‖_K is a part of the bound, subtracted
-//                  where it is the size that the bound is divided by
+//                  |v|ᵀ|K||v|, which is summed as well: added where ‖v‖_K is a part of the bound,
+//                  subtracted where it is the size that the bound is divided by
 //     λ ∈ Λ        a computed projection is off by some ε of the radius; what leads to the point λ̂
-//     of
-//                  the sphere is computed from R² − ‖λ_t‖² in doubled precision and enters ρ
+//                  of the sphere is computed from R² − ‖λ_t‖² in doubled precision and enters ρ
 //     s            exactly normal up to γ as in certificates/normal_part.hpp; d = g − s is off by
 //                  at most 24 ε|g|, a vector r; ‖r‖_{A⁻¹} ≤ 2 √‖K‖ ‖D r‖, D⁻¹ the lengths of rows
 //     γ, ‖·‖₂      positive sums of n terms: all is enlarged by 1 + 8 (n + 64) ε

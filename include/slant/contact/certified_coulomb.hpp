@@ -6,7 +6,7 @@
 //     factor      K                                                     factorizations/factorize
 //     scale       contacts so that each is about equally stiff: one power of two for the rows of N
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
-//     solve       Newton's method, and radii where that fails, or cones   section coulomb run
+//     solve       Newton's method, and radii where that fails, or cones   solve_by_newton_or_radii
 //     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm the problem
 //                 of Tresca with the slip bounds F λ_ν     contact/coulomb/coulomb_certificate
 //

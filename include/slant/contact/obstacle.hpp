@@ -6,7 +6,7 @@
 //     minimise  ½ vᵀ(HKH)v − (Hf)ᵀv   over   l ≤ v ≤ h,     v = H u,
 //
 // H orthogonal and symmetric, the identity where rows of N have one entry (an obstacle parallel to
-// a coordinate plane, a membrane); see section bounded coordinates. K is never factored: the
+// a coordinate plane, a membrane); see bounded coordinates below. K is never factored: the
 // problem is for methods that work on u, such as symmetric_newton{problem.qp(), M} with the
 // multigrid M of the same matrix.
 #pragma once

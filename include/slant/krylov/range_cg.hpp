@@ -36,8 +36,6 @@
 namespace slant {
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// What range_cg knows between two steps, and what its statuses mean.
 
 /// State of range_cg.
 template <class V, class WK, class WC, class WQ, bool Definite>

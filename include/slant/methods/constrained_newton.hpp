@@ -56,9 +56,14 @@
 
 namespace slant {
 
+// --- problem -------------------------------------------------------------------------------------
+
+/// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for symmetric_newton, and rows.
+template <class QP, class C>
+concept constrained_newton_problem =
+    symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
+
 // --- options -------------------------------------------------------------------------------------
-//
-// Options of the semismooth Newton method with equality constraints.
 
 /// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
 template <scalar S = double>
@@ -92,8 +97,6 @@ struct constrained_newton_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of the semismooth Newton method with equality constraints.
 
 namespace detail {
 
@@ -178,14 +181,7 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   }
 };
 
-// --- problem -------------------------------------------------------------------------------------
-//
-// What constrained_newton asks of its problem, and the answer to arguments that lack something.
-
-/// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for symmetric_newton, and rows.
-template <class QP, class C>
-concept constrained_newton_problem =
-    symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
+// --- refusal -------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C, class M>
@@ -217,19 +213,18 @@ constrained_newton(QP&&, C&&, M&&,
                    constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
     -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
 
-}  // namespace slant
+// --- method --------------------------------------------------------------------------------------
 
-namespace slant::detail {
-
-// --- steps ---------------------------------------------------------------------------------------
-//
-// What the steps of constrained_newton are made of: the sizes taken from the data, the multiplier
-// it begins with, what is looked at in an iterate, and the line search. Symbols as in
-// this file.
-
-/// Problem, constraints, preconditioner and options, with what is measured of an iterate.
+/// The method at the top of this file: solve(constrained_newton{qp, constraints}, x0,
+/// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); a preconditioner
+/// M ≈ A⁻¹ third, options last. Requires of the problem what symmetric_newton does, for Eigen
+/// vectors; constraints are equality_constraints{G, e}. Spends two products by A a step besides
+/// those of conjugate gradients, one where x is in the affine space. Statuses of its own:
+/// converged, stalled (see state.infeasible), unbounded, breakdown.
 template <class QP, class C, class M>
-class constrained_newton_core {
+  requires constrained_newton_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>> &&
+           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class constrained_newton<QP, C, M> {
  public:
   using problem = std::remove_cvref_t<QP>;
   using constraints = std::remove_cvref_t<C>;
@@ -240,19 +235,70 @@ class constrained_newton_core {
   using state_type = constrained_newton_state<problem, constraints, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  constrained_newton_core(held<QP> qp, held<C> c, options o)
+  constrained_newton(held<QP> qp, held<C> c)
+    requires(!preconditioned)
+      : constrained_newton(std::move(qp), std::move(c), options{}) {}
+  /// Throws bad_input if sizes do not match, or for options out of range.
+  constrained_newton(held<QP> qp, held<C> c, options o)
+    requires(!preconditioned)
       : qp_(std::move(qp)),
         constraints_(std::move(c)),
         m_(identity_operator(qp_.get().size())),
         options_(std::move(o)) {
     check();
   }
-  constrained_newton_core(held<QP> qp, held<C> c, held<M> m, options o)
+  constrained_newton(held<QP> qp, held<C> c, held<M> m)
+      : constrained_newton(std::move(qp), std::move(c), std::move(m), options{}) {}
+  /// Throws bad_input if sizes do not match, or for options out of range.
+  constrained_newton(held<QP> qp, held<C> c, held<M> m, options o)
       : qp_(std::move(qp)), constraints_(std::move(c)), m_(std::move(m)), options_(std::move(o)) {
     check();
   }
 
- protected:
+  /// The state of P_Λ(x0) with ν = 0 or, if ‖r̃‖ is less, ν = −Q (b − A x̄). Throws bad_input if x0
+  /// or A x0 is not finite or of the wrong size.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    auto const& qp = qp_.get();
+    detail::check_size("x0", x0.size(), qp.size(), "the size of b,");
+    detail::check_finite("x0", x0);
+    auto const load = detail::projected_load(qp, constraints_.get());
+    state_type s(projected(load.projected), constraints_.get(), m_.get(), x0, load.projected);
+    s.load = norm(load.projected);
+    ++s.work.setup_applications;
+    set_sizes(s);
+    slant::project(qp.set(), x0, s.x);
+    s.gradient(projected(s.b));
+    detail::check_finite("A x0 - b", s.r);
+    s.unit = unit_near(std::max<scalar>(s.load, norm(s.r)));
+    s.size_of_b = s.load / s.unit;
+    s.r *= scalar(1) / s.unit;
+    look(s);
+    choose_multiplier(s, load.opposed);
+    restart(s);
+    s.forcing = forcing_history<scalar>::starting_at(s.merit);
+    return s;
+  }
+
+  /// One Newton step, or one outer step of SMALSE-M where Newton's method has failed.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    if (s.fallback_at_work) {
+      fall_back(s);
+    } else {
+      project(s);
+      if (s.status == status::running) newton_step(s);
+    }
+    ++s.iteration;
+    note_progress(s);
+  }
+
+  /// μ of G x = e, as many as G has rows: the gradient A x − b + Gᵀμ, reduced, vanishes at the
+  /// solution. One application of A.
+  [[nodiscard]] vector_type multipliers(state_type const& s) const {
+    return detail::equality_multipliers(qp_.get(), constraints_.get(), s.x, s.offset, s.ν);
+  }
+
+ private:
   using projected_qp = detail::projected_qp<problem, constraints>;
 
   [[nodiscard]] projected_qp projected(vector_type const& b) const {
@@ -390,12 +436,6 @@ class constrained_newton_core {
     }
   }
 
-  held<QP> qp_;
-  held<C> constraints_;
-  held<M> m_;
-  options options_;
-
- private:
   void check() const {
     index const n = qp_.get().size();
     detail::check_size("columns of G", index(constraints_.get().size()), n, "the size of b,");
@@ -403,101 +443,6 @@ class constrained_newton_core {
     detail::check_size("columns of the preconditioner", index(m_.get().cols()), n);
     options_.validate();
   }
-};
-
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- method --------------------------------------------------------------------------------------
-
-/// The method at the top of this file: solve(constrained_newton{qp, constraints}, x0,
-/// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); a preconditioner
-/// M ≈ A⁻¹ third, options last. Requires of the problem what symmetric_newton does, for Eigen
-/// vectors; constraints are equality_constraints{G, e}. Spends two products by A a step besides
-/// those of conjugate gradients, one where x is in the affine space. Statuses of its own:
-/// converged, stalled (see state.infeasible), unbounded, breakdown.
-template <class QP, class C, class M>
-  requires constrained_newton_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>> &&
-           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class constrained_newton<QP, C, M> : detail::constrained_newton_core<QP, C, M> {
-  using core = detail::constrained_newton_core<QP, C, M>;
-
- public:
-  using core::preconditioned;
-  using typename core::constraints;
-  using typename core::options;
-  using typename core::problem;
-  using typename core::scalar;
-  using typename core::state_type;
-  using typename core::vector_type;
-
-  constrained_newton(held<QP> qp, held<C> c)
-    requires(!preconditioned)
-      : constrained_newton(std::move(qp), std::move(c), options{}) {}
-  /// Throws bad_input if sizes do not match, or for options out of range.
-  constrained_newton(held<QP> qp, held<C> c, options o)
-    requires(!preconditioned)
-      : core(std::move(qp), std::move(c), std::move(o)) {}
-  constrained_newton(held<QP> qp, held<C> c, held<M> m)
-      : constrained_newton(std::move(qp), std::move(c), std::move(m), options{}) {}
-  /// Throws bad_input if sizes do not match, or for options out of range.
-  constrained_newton(held<QP> qp, held<C> c, held<M> m, options o)
-      : core(std::move(qp), std::move(c), std::move(m), std::move(o)) {}
-
-  /// The state of P_Λ(x0) with ν = 0 or, if ‖r̃‖ is less, ν = −Q (b − A x̄). Throws bad_input if x0
-  /// or A x0 is not finite or of the wrong size.
-  [[nodiscard]] state_type start(vector_type const& x0) const {
-    auto const& qp = qp_.get();
-    detail::check_size("x0", x0.size(), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
-    auto const load = detail::projected_load(qp, constraints_.get());
-    state_type s(projected(load.projected), constraints_.get(), m_.get(), x0, load.projected);
-    s.load = norm(load.projected);
-    ++s.work.setup_applications;
-    this->set_sizes(s);
-    slant::project(qp.set(), x0, s.x);
-    s.gradient(projected(s.b));
-    detail::check_finite("A x0 - b", s.r);
-    s.unit = unit_near(std::max<scalar>(s.load, norm(s.r)));
-    s.size_of_b = s.load / s.unit;
-    s.r *= scalar(1) / s.unit;
-    this->look(s);
-    this->choose_multiplier(s, load.opposed);
-    restart(s);
-    s.forcing = forcing_history<scalar>::starting_at(s.merit);
-    return s;
-  }
-
-  /// One Newton step, or one outer step of SMALSE-M where Newton's method has failed.
-  void step(state_type& s) const {
-    if (s.status != status::running) return;
-    if (s.fallback_at_work) {
-      fall_back(s);
-    } else {
-      project(s);
-      if (s.status == status::running) newton_step(s);
-    }
-    ++s.iteration;
-    this->note_progress(s);
-  }
-
-  /// μ of G x = e, as many as G has rows: the gradient A x − b + Gᵀμ, reduced, vanishes at the
-  /// solution. One application of A.
-  [[nodiscard]] vector_type multipliers(state_type const& s) const {
-    return detail::equality_multipliers(qp_.get(), constraints_.get(), s.x, s.offset, s.ν);
-  }
-
- private:
-  using core::constraints_;
-  using core::m_;
-  using core::measure;
-  using core::merit_at_x;
-  using core::offset_of;
-  using core::options_;
-  using core::projected;
-  using core::qp_;
-  using core::restart;
 
   [[nodiscard]] auto fallback() const {
     return smalse<problem const&, constraints const&>{qp_.get(), constraints_.get(),
@@ -516,7 +461,7 @@ class constrained_newton<QP, C, M> : detail::constrained_newton_core<QP, C, M> {
     auto const a = projected_hessian(qp_.get().a(), constraints_.get());
     scalar const α = s.step_length, κ = s.preconditioner_size / α;
     if (!s.face.assign(qp_.get().set(), s.segment.z, κ)) return begin_fallback(s);
-    this->lift(s, a);
+    lift(s, a);
     scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,
                                         s.preconditioner_size, target, options_.inner_steps);
@@ -536,7 +481,7 @@ class constrained_newton<QP, C, M> : detail::constrained_newton_core<QP, C, M> {
     s.segment.target_y = s.x + s.unit * s.lifted;
     s.segment.target_z = s.segment.target_y - (α * s.unit) * s.inner.image;
     offset_of(s, s.segment.target_y, s.target_offset);
-    if (this->shorten(s)) {
+    if (shorten(s)) {
       accept(s);
     } else {
       begin_fallback(s);
@@ -598,6 +543,11 @@ class constrained_newton<QP, C, M> : detail::constrained_newton_core<QP, C, M> {
     s.forcing.record(s.merit);
     s.progress = {};
   }
+
+  held<QP> qp_;
+  held<C> constraints_;
+  held<M> m_;
+  options options_;
 };
 
 }  // namespace slant

@@ -58,9 +58,6 @@
 namespace slant {
 
 // --- problem -------------------------------------------------------------------------------------
-//
-// What the interior-point method asks of its problem, and the answer to a problem that lacks
-// something.
 
 /// A product of blocks with smooth inequalities in which a step to the boundary is known.
 template <class C, class V>
@@ -122,18 +119,13 @@ template <class QP, class M>
 interior_point(QP&&, M&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
     -> interior_point<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
 
-}  // namespace slant
+// --- method --------------------------------------------------------------------------------------
 
-namespace slant::detail {
+namespace detail {
 
-// --- steps ---------------------------------------------------------------------------------------
-//
-// What interior_point needs besides its step: the sizes and the start taken from the data, and the
-// judgement of a trial point.
-
-/// Problem and options of interior_point, with its smaller steps; symbols as in this file.
+/// What `interior_point` does with a problem that has all it needs.
 template <class QP, class M>
-class interior_point_core {
+class interior_point_steps {
  public:
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
@@ -143,18 +135,38 @@ class interior_point_core {
   using state_type = interior_point_state<problem, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  interior_point_core(held<QP> qp, options o)
+  explicit interior_point_steps(held<QP> qp)
+    requires(!preconditioned)
+      : interior_point_steps(std::move(qp), options{}) {}
+  /// Throws bad_input for options out of range.
+  interior_point_steps(held<QP> qp, options o)
+    requires(!preconditioned)
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
-  interior_point_core(held<QP> qp, held<M> m, options o)
+  interior_point_steps(held<QP> qp, held<M> m)
+      : interior_point_steps(std::move(qp), std::move(m), options{}) {}
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  interior_point_steps(held<QP> qp, held<M> m, options o)
       : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
     check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
     check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
     options_.validate();
   }
 
- protected:
+  /// The state of a point in the interior on the way from P_Λ(x0), or P_Λ(0) where q is smaller,
+  /// to the middle of Λ. Throws
+  /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
+  /// interior.
+  [[nodiscard]] state_type start(vector_type const& x0) const;
+
+  /// One Newton step.
+  void step(state_type& s) const;
+
+  /// r from x, where it has been updated; one product.
+  bool refresh(state_type& s) const;
+
+ private:
   [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
 
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
@@ -388,62 +400,6 @@ class interior_point_core {
     });
   }
 
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
-};
-
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- method --------------------------------------------------------------------------------------
-
-namespace detail {
-
-/// What `interior_point` does with a problem that has all it needs.
-template <class QP, class M>
-class interior_point_steps : interior_point_core<QP, M> {
-  using core = interior_point_core<QP, M>;
-
- public:
-  using typename core::options;
-  using typename core::problem;
-  using typename core::scalar;
-  using typename core::state_type;
-  using typename core::vector_type;
-
-  explicit interior_point_steps(held<QP> qp)
-    requires(!core::preconditioned)
-      : interior_point_steps(std::move(qp), options{}) {}
-  /// Throws bad_input for options out of range.
-  interior_point_steps(held<QP> qp, options o)
-    requires(!core::preconditioned)
-      : core(std::move(qp), std::move(o)) {}
-  interior_point_steps(held<QP> qp, held<M> m)
-      : interior_point_steps(std::move(qp), std::move(m), options{}) {}
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  interior_point_steps(held<QP> qp, held<M> m, options o)
-      : core(std::move(qp), std::move(m), std::move(o)) {}
-
-  /// The state of a point in the interior on the way from P_Λ(x0), or P_Λ(0) where q is smaller,
-  /// to the middle of Λ. Throws
-  /// bad_input if x0 or A x0 is not finite or of the wrong size, and naming a block without
-  /// interior.
-  [[nodiscard]] state_type start(vector_type const& x0) const;
-
-  /// One Newton step.
-  void step(state_type& s) const;
-
-  /// r from x, where it has been updated; one product.
-  bool refresh(state_type& s) const;
-
- private:
-  using core::infinity;
-  using core::m_;
-  using core::options_;
-  using core::qp_;
-
   void choose_centring(state_type& s) const {
     s.centring = scalar(0);
     if (s.constraints == 0) return;
@@ -472,8 +428,8 @@ class interior_point_steps : interior_point_core<QP, M> {
   /// that much of its second-order term is taken into account.
   bool solve_newton(state_type& s, bool again = false, scalar const& corrected = scalar(0)) const {
     auto const& qp = qp_.get();
-    s.pairs.scale(this->blocks(), s.x);
-    s.barrier.assemble(this->blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal, s.pairs);
+    s.pairs.scale(blocks(), s.x);
+    s.barrier.assemble(blocks(), s.x, s.multipliers, s.slacks, s.unit, s.diagonal, s.pairs);
     auto const z = slant::local(s.slacks).array();
     auto const ν = slant::local(s.multipliers).array();
     auto const smooth = slant::local(s.smooth).array();
@@ -490,7 +446,7 @@ class interior_point_steps : interior_point_core<QP, M> {
     }
     vectors::copy(s.r, s.rhs);
     s.barrier.jacobian().apply_adjoint_add(scalar(1), s.row_scratch, s.rhs);
-    s.pairs.subtract_target(this->blocks(), aim, corrected, s.rhs);
+    s.pairs.subtract_target(blocks(), aim, corrected, s.rhs);
     s.barrier.keep_fixed(s.rhs);
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
     scalar const target = std::max<scalar>(
@@ -513,7 +469,7 @@ class interior_point_steps : interior_point_core<QP, M> {
     slant::local(s.multiplier_step) =
         (centred.array() + smooth * ν * (slant::local(s.slack_step).array() / z - scalar(1)))
             .matrix();
-    s.pairs.set_step(this->blocks(), s.step);
+    s.pairs.set_step(blocks(), s.step);
     return true;
   }
 
@@ -532,23 +488,23 @@ class interior_point_steps : interior_point_core<QP, M> {
   bool is_endless(state_type const& s, vector_type const& d, vector_type const& Ad) const {
     if (inner_product(d, Ad) > flatness(d, s.trace)) return false;
     return is_descent(scalar(-inner_product(d, s.r)), d, scalar(s.size_of_b + norm(s.r))) &&
-           !(this->way_out(s, d) < infinity);
+           !(way_out(s, d) < infinity);
   }
 
   /// The step length α, 0 if there is none; the point at its end is the trial point.
   scalar length(state_type& s) const {
-    scalar to_end = this->way_out(s, s.step);
+    scalar to_end = way_out(s, s.step);
     auto const& ν = slant::local(s.multipliers);
     auto const& dν = slant::local(s.multiplier_step);
     scalar of_ν = infinity;
     for (index i = 0; i < index(ν.size()); ++i) {
       if (dν.coeff(i) < scalar(0)) of_ν = std::min<scalar>(of_ν, -ν.coeff(i) / dν.coeff(i));
     }
-    of_ν = std::min<scalar>(of_ν, s.pairs.way_out(this->blocks()));
+    of_ν = std::min<scalar>(of_ν, s.pairs.way_out(blocks()));
     to_end = std::min(to_end, slant::minimum(s.x, of_ν));
     scalar α = std::min<scalar>(scalar(1), options_.to_boundary * to_end);
     for (index j = 0; j < options_.shortenings && α > scalar(0); ++j) {
-      scalar const factor = this->judge(s, α);
+      scalar const factor = judge(s, α);
       if (factor == scalar(1)) return α;
       α *= factor;
     }
@@ -562,9 +518,9 @@ class interior_point_steps : interior_point_core<QP, M> {
     vectors::axpy(α, s.inner.image, s.r);
     s.measure = s.trial_measure;
     s.least = s.trial_least;
-    s.pairs.accept(this->blocks(), α);
-    this->estimate_multipliers(s);
-    if (s.constraints == 0) this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
+    s.pairs.accept(blocks(), α);
+    estimate_multipliers(s);
+    if (s.constraints == 0) set_lagrangian(s, s.r, s.multipliers, scalar(0));
     ++s.since_refresh;
     s.step_fraction = α;
     s.infeasible *= scalar(1) - α;
@@ -584,6 +540,10 @@ class interior_point_steps : interior_point_core<QP, M> {
       s.status = status::stalled;
     }
   }
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
 };
 
 template <class QP, class M>
@@ -592,25 +552,25 @@ auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_ty
   detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
   detail::check_finite("x0", x0);
   state_type s(qp, m_.get(), x0);
-  this->set_diagonal(s);
+  set_diagonal(s);
   auto origin = like(x0, qp.size());
   vectors::set_zero(origin);
   bool const solved = s.begin(qp, origin);
-  scalar const per_entry = this->root(scalar(1) / scalar(slant::global_size(x0)));
+  scalar const per_entry = root(scalar(1) / scalar(slant::global_size(x0)));
   scalar const start_force =
       detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
   scalar const force = start_force * norm(s.r) * per_entry;
-  scalar const length = options_.start_length * this->first_way(s) * per_entry;
-  if (!solved) this->choose_start(s, x0);
+  scalar const length = options_.start_length * first_way(s) * per_entry;
+  if (!solved) choose_start(s, x0);
   s.trial = s.x;
-  enter_interior(this->blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
+  enter_interior(blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
                  s.barrier.per_unit(), [&](auto const& place) { s.barrier.hold(place); });
   if (solved) {
     s.x = s.trial;
     s.status = status::converged;
     return s;
   }
-  this->begin(s, force, length);
+  begin(s, force, length);
   return s;
 }
 
@@ -619,7 +579,7 @@ void interior_point_steps<QP, M>::step(state_type& s) const {
   if (s.status != status::running) return;
   choose_centring(s);
   bool solved = solve_newton(s);
-  while (solved && this->raise(s)) solved = solve_newton(s, true);
+  while (solved && raise(s)) solved = solve_newton(s, true);
   if (solved) {
     if (descends_for_ever(s)) {
       s.status = status::unbounded;
@@ -650,7 +610,7 @@ bool interior_point_steps<QP, M>::refresh(state_type& s) const {
   if (s.since_refresh == 0) return false;
   s.gradient(qp_.get());
   s.reduce(qp_.get());
-  this->set_lagrangian(s, s.r, s.multipliers, scalar(0));
+  set_lagrangian(s, s.r, s.multipliers, scalar(0));
   s.status = status::running;
   note_progress(s);
   return true;

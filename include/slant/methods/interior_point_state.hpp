@@ -106,8 +106,6 @@ struct interior_point_state : gradient_point<QP> {
 };
 
 // --- options -------------------------------------------------------------------------------------
-//
-// Options of the interior-point method.
 
 namespace detail {
 

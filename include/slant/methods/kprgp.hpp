@@ -12,7 +12,7 @@
 //
 //     (1°) r̃ = 0:                     stop
 //     (2°) β̃ᵀr < Γ² φ̃ᵀr:              conjugate gradient step over F; if it leaves Λ, expansion
-//                                         x ← x − α̃ φ̃ instead
+//                                     x ← x − α̃ φ̃ instead
 //     (3°) otherwise:                 proportioning  x ← x − α̃ β̃
 //
 // Every gradient step is a projected gradient step on some of the blocks: with d its change of x,
@@ -52,14 +52,12 @@ namespace slant {
 //     QPC     β of [K Lemma 1];  until CG has minimised q on the face;  x ← x − α β
 
 // --- qpc options ---------------------------------------------------------------------------------
-//
-// The parameters of QPC.
 
 /// Options of qpc: those of kprgp with another rule.
 template <class S>
 struct qpc_options {
   S face_accuracy = S(0.1);  ///< in [0, 1): CG goes on until ‖φ‖ is this fraction of its first size
-                             ///< on the face, and of ‖β‖. Small: nearly the minimum on each face
+      ///< on the face, and of ‖β‖. Small: nearly the minimum on each face
   std::optional<S> step_length{};  ///< as for kprgp, and so the rest
   S step_factor = S(1.9);
   active_set_rule active_sets = active_set_rule::boundary;

@@ -5,6 +5,7 @@
 
 // IWYU pragma: begin_exports
 // First: a complaint about it begins with the trail of headers that has led to it.
+#include <slant/problems/quadratic_program.hpp>
 
 #include <slant/methods/anderson_mixing.hpp>
 #include <slant/methods/constrained_newton.hpp>
@@ -22,4 +23,6 @@
 #include <slant/methods/successive_approximations.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/methods/unconstrained_start.hpp>
+#include <slant/newton/semismooth_newton.hpp>
+#include <slant/problems/problems.hpp>
 // IWYU pragma: end_exports

@@ -3,14 +3,17 @@
 // Semismooth Newton without the curvature term of the friction discs [K §3.3.3, (56)], after the
 // displacements are eliminated:
 //
-//     minimise   q(λ) = ½ λᵀA λ − bᵀλ   over   λ ∈ Λ = Λ₁ × … × Λ_m,     r(λ) = A λ − b,
-//     r̃(λ) = (λ − P_Λ(λ − ρ r)) / ρ
+//     minimise   q(λ) = ½ λᵀA λ − bᵀλ   over   λ ∈ Λ = Λ₁ × … × Λ_m
+//
+//     r(λ) = A λ − b,     r̃(λ) = (λ − P_Λ(λ − ρ r)) / ρ
 //
 //     (1°)   err^(k) = 0:  stop
-//     (2°)   z = λ^(k) − ρ r^(k),   𝒜 = blocks with zᵢ inside Λᵢ                          (60),
-//     (61) (3.1°) tol^(k+1) from err^(k)/err^(0) and tol^(k) (3.2°) λ^(k+1,0): frozen blocks λᵢ =
-//     P_Λᵢ(zᵢ) for i ∉ 𝒜 (57), or P_Λ(z)             (63) (3.3°) λ^(k+1): minimum of q over the
-//     blocks in 𝒜 by conjugate gradients, to tol^(k+1) err^(0) (4°)   err^(k+1) = ‖r̃(P_Λ(λ^(k+1)))‖
+//     (2°)   z = λ^(k) − ρ r^(k),   𝒜 = blocks with zᵢ inside Λᵢ                      (60), (61)
+//     (3.1°) tol^(k+1) from err^(k)/err^(0) and tol^(k)
+//     (3.2°) λ^(k+1,0): frozen blocks λᵢ = P_Λᵢ(zᵢ) for i ∉ 𝒜                         (57)
+//            or P_Λ(z)                                                                (63)
+//     (3.3°) λ^(k+1): minimum of q over the blocks in 𝒜 by conjugate gradients, to tol^(k+1) err^(0)
+//     (4°)   err^(k+1) = ‖r̃(P_Λ(λ^(k+1)))‖
 //
 // 𝒜 is the set of free blocks of P_Λ(z). It differs from (60), (61) only if zᵢ is on the boundary
 // itself, the kink of P_Λᵢ where any value is a slanting function. Rejected: 𝒜 with the boundary. A
@@ -142,8 +145,6 @@ template <class Forcing, class S>
 }
 
 // --- options -------------------------------------------------------------------------------------
-//
-// The parameters of MSSN, IMSSN and GIMSSN.
 
 /// Options of mssn, imssn and gimssn. Forcing is a rule of newton/forcing.hpp.
 template <class S, class Forcing>
@@ -174,9 +175,6 @@ struct modified_newton_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of MSSN, IMSSN and GIMSSN: everything that one step hands to the next, and all vectors
-// it works in.
 
 /// An iterate λ that has left Λ: the state's x is then P_Λ(λ).
 template <class V>
@@ -255,8 +253,6 @@ struct modified_newton_state : gradient_point<QP> {
 };
 
 // --- problem -------------------------------------------------------------------------------------
-//
-// What MSSN, IMSSN and GIMSSN ask of their problem, and the answer to one that lacks something.
 
 namespace detail {
 
@@ -282,7 +278,7 @@ class modified_newton
 
 // --- method --------------------------------------------------------------------------------------
 
-/// The frame of mssn, imssn and gimssn. Start and Inner are parts of section parts,
+/// The frame of mssn, imssn and gimssn. Start and Inner are of the kinds above,
 /// Forcing is a rule of newton/forcing.hpp. Requires: psd_operator (A positive definite on the
 /// faces that occur) and separable_set with step_to_boundary.
 template <class QP, class Start, class Inner, class Forcing>

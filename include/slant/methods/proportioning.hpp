@@ -5,11 +5,9 @@
 // released from it.
 //
 //     the rule keeps the face:   conjugate gradient step over F [K (31), (32)]; if it leaves Λ, a
-//     half
-//                                step to the boundary and the expansion  x ← x − α̃ φ̃
+//                                half step to the boundary and the expansion  x ← x − α̃ φ̃
 //     otherwise:                 proportioning  x ← x − α̃ β̃,  or the step along −β to the minimum
-//     of
-//                                q or the boundary of Λ
+//                                of q or the boundary of Λ
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -34,8 +32,6 @@
 namespace slant {
 
 // --- options -------------------------------------------------------------------------------------
-//
-// The parameters of KPRGP.
 
 /// Which blocks count as free when a face is chosen.
 enum class active_set_rule : unsigned char {
@@ -73,9 +69,6 @@ struct kprgp_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of KPRGP, QPQ and QPC: everything that one step hands to the next, and all vectors it
-// works in.
 
 /// The three steps of KPRGP, QPQ and QPC.
 enum class kprgp_step : unsigned char { conjugate_gradient, expansion, proportioning };

@@ -38,7 +38,7 @@
 // run; how one is told from a direction of small curvature is in krylov/flat_direction.hpp.
 //
 // Rows leave in any number. More than one at a time enter by a search along the boundary, see
-// section projected search.
+// projected search, below.
 #pragma once
 
 #include <slant/base/progress_watch.hpp>
@@ -62,8 +62,6 @@
 namespace slant {
 
 // --- options -------------------------------------------------------------------------------------
-//
-// Options of the Schur complement contact algorithm.
 
 /// Options of schur_contact.
 template <scalar S = double>
@@ -94,8 +92,6 @@ struct schur_contact_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of the Schur complement contact algorithm.
 
 /// What the last step did: a conjugate gradient step to the minimum along q, one to the first
 /// constraint, or one beyond it along the boundary. Rows may have been released before it.

@@ -6,8 +6,7 @@
 //     auto const run = slant::solve(qp, M, 1e-8);      // with a preconditioner M ≈ A⁻¹
 //
 //     scale      blocks whose stiffness diag(A) differs by more than 64 become alike
-//     (problems/equilibrated.hpp),
-//                where A gives its diagonal
+//                (problems/equilibrated.hpp), where A gives its diagonal
 //     solve      symmetric_newton to a reduced gradient of a tenth of the tolerance
 //     certify    the energy error by energy_certificate; while that is too large, a smaller one
 //     otherwise  where 300 steps do not do, interior_point goes first, and Newton's method again

@@ -42,9 +42,21 @@
 
 namespace slant {
 
+// --- problem -------------------------------------------------------------------------------------
+
+/// F of [T (2.11)] for a quadratic program, of which it refers to A and the set.
+template <quadratic_program QP>
+using ssnm_function = kkt_function<typename QP::operator_type const&, typename QP::vector_type,
+                                   typename QP::set_type const&>;
+
+/// A quadratic program, and a linear solver for its F°.
+template <class QP, class LinearSolver>
+concept ssnm_parts =
+    quadratic_program<QP> && !detail::was_refused<QP> &&
+    direction_solver<LinearSolver, slant_operator_t<ssnm_function<QP>, typename QP::vector_type>,
+                     typename QP::vector_type>;
+
 // --- options -------------------------------------------------------------------------------------
-//
-// The parameters of SSNM.
 
 /// Where the multipliers of SSNM begin.
 enum class ssnm_multipliers : unsigned char {
@@ -80,8 +92,6 @@ struct ssnm_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of SSNM: everything that one step hands to the next, and all vectors it works in.
 
 /// State of ssnm for the function F, vectors V and a linear solver.
 template <class F, class V, class Solver>
@@ -133,22 +143,7 @@ struct ssnm_state {
   }
 };
 
-// --- problem -------------------------------------------------------------------------------------
-//
-// What SSNM asks of its problem and of its linear solver, and the answer to those that lack
-// something.
-
-/// F of [T (2.11)] for a quadratic program, of which it refers to A and the set.
-template <quadratic_program QP>
-using ssnm_function = kkt_function<typename QP::operator_type const&, typename QP::vector_type,
-                                   typename QP::set_type const&>;
-
-/// A quadratic program, and a linear solver for its F°.
-template <class QP, class LinearSolver>
-concept ssnm_parts =
-    quadratic_program<QP> && !detail::was_refused<QP> &&
-    direction_solver<LinearSolver, slant_operator_t<ssnm_function<QP>, typename QP::vector_type>,
-                     typename QP::vector_type>;
+// --- refusal -------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class LinearSolver = schur_bicgstab>

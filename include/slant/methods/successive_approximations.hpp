@@ -46,8 +46,6 @@
 namespace slant {
 
 // --- options -------------------------------------------------------------------------------------
-//
-// Options of the method of successive approximations.
 
 /// Options of successive_approximations.
 template <class S = double>
@@ -80,8 +78,6 @@ struct successive_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of the method of successive approximations.
 
 /// State of successive_approximations with an inner method of states Inner, for vectors V.
 template <class Inner, class V>

@@ -57,9 +57,14 @@
 
 namespace slant {
 
+// --- problem -------------------------------------------------------------------------------------
+
+/// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x).
+template <class QP>
+concept symmetric_newton_problem =
+    kprgp_problem<QP> && has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
+
 // --- options -------------------------------------------------------------------------------------
-//
-// Options of the symmetric semismooth Newton method.
 
 /// Options of symmetric_newton; the defaults are those of README's tables.
 template <scalar S = double>
@@ -270,8 +275,6 @@ class rounded_products<A, V> {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of the symmetric semismooth Newton method.
 
 /// The steps of symmetric_newton.
 enum class symmetric_newton_step : unsigned char { none, full, damped, descent };
@@ -327,15 +330,7 @@ std::string symmetric_newton_state<QP, M>::reason() const {
   }
 }
 
-// --- problem -------------------------------------------------------------------------------------
-//
-// What the symmetric semismooth Newton method asks of its problem, and the answer to a problem that
-// lacks something.
-
-/// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x).
-template <class QP>
-concept symmetric_newton_problem =
-    kprgp_problem<QP> && has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
+// --- refusal -------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -384,18 +379,13 @@ template <class QP, class M>
 symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
     -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
 
-}  // namespace slant
+// --- method --------------------------------------------------------------------------------------
 
-namespace slant::detail {
+namespace detail {
 
-// --- steps ---------------------------------------------------------------------------------------
-//
-// What the steps of symmetric_newton are made of: the sizes taken from A and M, what is measured of
-// an iterate, and the search for a length. Symbols as in this file.
-
-/// Problem, preconditioner and options of symmetric_newton, with its smaller steps.
+/// What `symmetric_newton` does with a problem that has all it needs.
 template <class QP, class M>
-class symmetric_newton_core {
+class symmetric_newton_steps {
  public:
   using problem = std::remove_cvref_t<QP>;
   using preconditioner = std::remove_cvref_t<M>;
@@ -405,18 +395,46 @@ class symmetric_newton_core {
   using state_type = symmetric_newton_state<problem, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  symmetric_newton_core(held<QP> qp, options o)
+  explicit symmetric_newton_steps(held<QP> qp)
+    requires(!preconditioned)
+      : symmetric_newton_steps(std::move(qp), options{}) {}
+  /// Throws bad_input for options out of range.
+  symmetric_newton_steps(held<QP> qp, options o)
+    requires(!preconditioned)
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
-  symmetric_newton_core(held<QP> qp, held<M> m, options o)
+  symmetric_newton_steps(held<QP> qp, held<M> m)
+      : symmetric_newton_steps(std::move(qp), std::move(m), options{}) {}
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  symmetric_newton_steps(held<QP> qp, held<M> m, options o)
       : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
     check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
     check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
     options_.validate();
   }
 
- protected:
+  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
+  /// ρ is not a finite number.
+  [[nodiscard]] state_type start(vector_type const& x0) const;
+
+  /// One Newton step, or one step of KPRGP where Newton's method has failed.
+  void step(state_type& s) const;
+
+  /// Goes on from s.x after b of the problem has changed: r and r̃ anew, everything else (units,
+  /// scales, ρ) as it is. One product; no allocation.
+  void resume(state_type& s) const;
+
+  /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
+  /// depends on A alone (ρ, mean(diag M), all memory) stays. Counts begin at zero. x0 must not be
+  /// s.x. One product; no allocation.
+  void resume(state_type& s, vector_type const& x0) const;
+
+  /// r from x where KPRGP has been updating it, also in the point that it has handed back; whether
+  /// it has. One product.
+  bool refresh(state_type& s) const;
+
+ private:
   /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
   [[gnu::noinline]] void set_sizes(state_type& s) const {
     if (options_.step_length) {
@@ -479,72 +497,6 @@ class symmetric_newton_core {
   /// ρ per unit of the gradient: z = y − ρ r.
   static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
 
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
-};
-
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- method --------------------------------------------------------------------------------------
-
-namespace detail {
-
-/// What `symmetric_newton` does with a problem that has all it needs.
-template <class QP, class M>
-class symmetric_newton_steps : public symmetric_newton_core<QP, M> {
-  using core = symmetric_newton_core<QP, M>;
-
- public:
-  using typename core::options;
-  using typename core::preconditioner;
-  using typename core::problem;
-  using typename core::scalar;
-  using typename core::state_type;
-  using typename core::vector_type;
-
-  explicit symmetric_newton_steps(held<QP> qp)
-    requires(!core::preconditioned)
-      : symmetric_newton_steps(std::move(qp), options{}) {}
-  /// Throws bad_input for options out of range.
-  symmetric_newton_steps(held<QP> qp, options o)
-    requires(!core::preconditioned)
-      : core(std::move(qp), std::move(o)) {}
-  symmetric_newton_steps(held<QP> qp, held<M> m)
-      : symmetric_newton_steps(std::move(qp), std::move(m), options{}) {}
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  symmetric_newton_steps(held<QP> qp, held<M> m, options o)
-      : core(std::move(qp), std::move(m), std::move(o)) {}
-
-  /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
-  /// ρ is not a finite number.
-  [[nodiscard]] state_type start(vector_type const& x0) const;
-
-  /// One Newton step, or one step of KPRGP where Newton's method has failed.
-  void step(state_type& s) const;
-
-  /// Goes on from s.x after b of the problem has changed: r and r̃ anew, everything else (units,
-  /// scales, ρ) as it is. One product; no allocation.
-  void resume(state_type& s) const;
-
-  /// As start(x0), in a state that start has made, after b or Λ of the problem have changed: what
-  /// depends on A alone (ρ, mean(diag M), all memory) stays. Counts begin at zero. x0 must not be
-  /// s.x. One product; no allocation.
-  void resume(state_type& s, vector_type const& x0) const;
-
-  /// r from x where KPRGP has been updating it, also in the point that it has handed back; whether
-  /// it has. One product.
-  bool refresh(state_type& s) const;
-
- private:
-  using core::m_;
-  using core::measure;
-  using core::options_;
-  using core::qp_;
-  using core::restart;
-
   void newton_step(state_type& s) const {
     auto const& qp = qp_.get();
     s.face.assign(qp.set(), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
@@ -561,8 +513,8 @@ class symmetric_newton_steps : public symmetric_newton_core<QP, M> {
     }
     vectors::waxpy(s.unit, s.inner.t, s.x, s.segment.target_y);
     vectors::add(s.r, s.inner.image);
-    vectors::waxpy(-core::ρ(s), s.inner.image, s.segment.target_y, s.segment.target_z);
-    if (this->shorten(s)) {
+    vectors::waxpy(-ρ(s), s.inner.image, s.segment.target_y, s.segment.target_z);
+    if (shorten(s)) {
       accept(s);
     } else if (s.products.at_work()) {
       s.products.give_up();  // the next step is computed anew
@@ -627,6 +579,10 @@ class symmetric_newton_steps : public symmetric_newton_core<QP, M> {
       s.status = status::stalled;
     }
   }
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
 };
 
 template <class QP, class M>
@@ -634,7 +590,7 @@ auto symmetric_newton_steps<QP, M>::start(vector_type const& x0) const -> state_
   auto const& qp = qp_.get();
   detail::check_start_in_set(x0, qp_.get().b());
   state_type s(qp, m_.get(), x0);
-  this->set_sizes(s);
+  set_sizes(s);
   begin_newton(s, s.begin(qp, x0));
   return s;
 }
@@ -645,7 +601,7 @@ void symmetric_newton_steps<QP, M>::step(state_type& s) const {
   if (s.descent.at_work()) {
     descend(s);
   } else {
-    this->project(s);
+    project(s);
     if (s.status == status::running) newton_step(s);
   }
   ++s.iteration;

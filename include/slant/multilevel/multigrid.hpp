@@ -5,8 +5,8 @@
 // M K that hardly depends on the mesh.
 //
 //     cycle(b):   x ← forwards sweep of Gauss–Seidel from 0
-//                 x ← x + P cycle(Pᵀ(b − K x))                  K_coarse = PᵀK P, the last one
-//                 factored x ← backwards sweep
+//                 x ← x + P cycle(Pᵀ(b − K x))          K_coarse = PᵀK P, the last one factored
+//                 x ← backwards sweep
 //
 // What sweeps do not reach is the near kernel of K: constants of a Laplacian, rigid-body modes in
 // elasticity. It is given by candidates, which the coarse levels represent exactly.
@@ -40,8 +40,6 @@
 namespace slant {
 
 // --- options -------------------------------------------------------------------------------------
-//
-// Options of smoothed aggregation.
 
 /// Options of multigrid.
 struct multigrid_options {

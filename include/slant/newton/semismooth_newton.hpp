@@ -40,8 +40,6 @@
 namespace slant {
 
 // --- options -------------------------------------------------------------------------------------
-//
-// The parameters of semismooth_newton that are not those of one of its parts.
 
 /// What the error is by which forcing terms are chosen.
 enum class newton_error : unsigned char {
@@ -72,9 +70,6 @@ struct newton_options {
 };
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of semismooth_newton: everything that one step hands to the next, and all vectors it
-// works in.
 
 /// What ended a run of semismooth_newton, beside success.
 enum class newton_failure : unsigned char {
@@ -108,8 +103,8 @@ struct newton_state {
   scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖dy‖, or ‖α dy‖ if α > 1: a step
                                                                ///< that was shortened says nothing
                                                                ///< about the distance to go
-  scalar x_norm{0};                   ///< ‖y‖
-  scalar length{0};                   ///< α of the last step
+  scalar x_norm{0};                                            ///< ‖y‖
+  scalar length{0};                                            ///< α of the last step
   scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
   forcing_history<scalar> forcing{};  ///< errors, and η of the last step
   progress_watch<scalar> progress{};  ///< looks for steps that get nowhere

@@ -5,7 +5,7 @@
 //
 //     H s = G (ρA − I) F,     H = G (I − G) + ρ G A G,     dy = G s − F,
 //
-// preconditioned by M ≈ G⁺, block by block (section slant preconditioner).
+// preconditioned by M ≈ G⁺, block by block (slant_preconditioner).
 //
 // The residual of the symmetric system is that of Newton's, exactly: with dy = G s − F
 //

@@ -11,7 +11,6 @@
 #include <slant/problems/equality_constraints.hpp>
 #include <slant/problems/equilibrated.hpp>
 #include <slant/problems/polyhedral_qp.hpp>
-#include <slant/problems/problems.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/problems/separable_qp.hpp>
 // IWYU pragma: end_exports

@@ -255,7 +255,7 @@ namespace slant {
 ///
 /// An axis 0 makes a segment or a point, an infinite one a strip or the plane; all are legal and
 /// treated as the boxes |x| <= a, |y| <= b that they are.
-/// The projection is the root of a quartic; see section secular. Each component is
+/// The projection is the root of a quartic; see ellipse_secular_equation. Each component is
 /// within 2 ulp at any scale and for any aspect ratio up to 1e100 (double), components below the
 /// smallest normal number excepted; thinner ellipses end, beyond 1e290, as segments. "On the
 /// boundary" means | x²/a² + y²/b² − 1 | <= 16 ε, ε the machine epsilon. NaN in, NaN out; so does

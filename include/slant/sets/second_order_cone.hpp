@@ -214,7 +214,7 @@ namespace slant {
 ///
 /// μ = 0 is the ray along the axis. Every component of the projection is within 4 ulp at any scale
 /// and for any μ (components below the smallest normal number excepted); see
-/// section cone projection. "On the mantle" means | ‖x_t‖ − μ x_n | <= 8 ε μ x_n, ε the machine
+/// cone projection, above. "On the mantle" means | ‖x_t‖ − μ x_n | <= 8 ε μ x_n, ε the machine
 /// epsilon. The apex is 0 only: a cone has no length with which "nearly 0" could be measured. NaN
 /// in, NaN out; so does an infinite component.
 template <int N, scalar S = double>

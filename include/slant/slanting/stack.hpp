@@ -2,8 +2,7 @@
 //
 // Several slanting functions of the same argument, one above the other:
 //
-//     auto F = slant::stack(equilibrium, complementarity, friction);     // F(y) = (F₁(y); F₂(y);
-//     …)
+//     auto F = slant::stack(equilibrium, complementarity, friction);   // F(y) = (F₁(y); F₂(y); …)
 #pragma once
 
 #include <slant/base/diagnosis.hpp>

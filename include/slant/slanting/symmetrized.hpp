@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The symmetric form of a generalised Newton system (I − G (I − ρA)) dx = −F; derivation in
-// section symmetrizable:
+// symmetrizable, below:
 //
 //     H s = G (ρA − I) F,     H = G (I − G) + ρ G A G,     dx = G s − F.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Block Gauss–Seidel for Coulomb friction (section friction sweeps) with extrapolation.
+// Block Gauss–Seidel for Coulomb friction (friction_sweeps) with extrapolation.
 //
 // With redundant contacts W has a kernel, along which forces wander at a speed that is proportional
 // to a velocity that is nearly 0 already: thousands of sweeps in nearly the same direction. After

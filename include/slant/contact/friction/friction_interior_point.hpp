@@ -9,7 +9,7 @@
 // μ = 0. For the convex problem, ‖s_t‖ given, see Acary, Armand, Nguyen and Shpakovych,
 // "Second-order cone programming for frictional contact mechanics using interior point algorithm",
 // 2024. Here ‖s_t‖ is linearised with the rest, so there is no outer iteration, and no symmetric
-// system: E = I − e (s_t/‖s_t‖)ᵀ, T of Nesterov and Todd (section lorentz scaling),
+// system: E = I − e (s_t/‖s_t‖)ᵀ, T of Nesterov and Todd (lorentz_scaling),
 //
 //     A dx − E ds = −p,    λ ∘ (T dx + T⁻ᵀ ds) = c.
 //

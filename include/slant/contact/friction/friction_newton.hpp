@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Semismooth Newton for u = W r + q with Coulomb friction, on the equations of section friction map
+// Semismooth Newton for u = W r + q with Coulomb friction, on the equations of friction_map
 // with one ρ for each contact, 1/ρ = Λ, the mean diagonal of W of the contact:
 //
 //     (A + B (W + δ Λ)) dr = −F,    r ← r + β dr,   β = 1, ½, … until ‖F‖ falls enough.
@@ -9,7 +9,7 @@
 // proximal point method with the centre r, and its fixed points are those of δ = 0.
 //
 // Open contacts have dr = −F and leave the system: what is factored has the size of the contacts
-// that are closed, full or sparse (section block lu).
+// that are closed, full or sparse (block_lu).
 #pragma once
 
 #include <slant/base/entries.hpp>

@@ -6,7 +6,7 @@
 //     y ← y − R p        forward,          Rᵀy        backward,
 //
 // and both in one, for products with symmetric matrices. For four right-hand sides at a time:
-// section four at a time.
+// panel_kernels four at a time, below.
 //
 // Each is written once with the vectors of the compiler, 16 or 32 bytes long, and compiled for
 // both; which one runs is asked of the processor. Compilers that are told nothing of it would use
@@ -189,7 +189,7 @@ void subtract_panel_and_products(bool long_vectors, panel_columns<T> const& r, T
 
 // --- four at a time ------------------------------------------------------------------------------
 //
-// The loops of this file for four right-hand sides at a time: a panel is loaded once for
+// The same loops for four right-hand sides at a time: a panel is loaded once for
 // all of them, and what limits is no longer the cache but the arithmetic.
 
 template <class T, int Bytes>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The structure of L_tt, the trailing part of a supernodal Cholesky factor: the columns that some
-// unknowns reach in the elimination tree. Its entries: section columns where they were computed,
-// section panels packed and rounded; sweeps with either: section solve.
+// unknowns reach in the elimination tree. Its entries: tail_columns where they were computed,
+// tail_panels packed and rounded; sweeps with either: tail_sweeps.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
@@ -229,7 +229,7 @@ void solve_in_place(Storage const& storage, tail_vectors<T>& v, index first = 0)
 
 // --- panels --------------------------------------------------------------------------------------
 //
-// L_tt (this file) packed and rounded: each panel as D⁻¹ and the rows below in tiles of
+// L_tt packed and rounded: each panel as D⁻¹ and the rows below in tiles of
 // 32 bytes of each column, one after the other, so that a sweep reads one long stream. Columns are
 // padded to whole panels and rows to whole tiles.
 
@@ -303,7 +303,7 @@ class tail_panels {
 
 // --- columns -------------------------------------------------------------------------------------
 //
-// L_tt (this file) where the factorisation has left it: each supernode a dense matrix stored
+// L_tt where the factorisation has left it: each supernode a dense matrix stored
 // by columns. Nothing is copied; added are the inverses D⁻¹ of the 8 × 8 blocks on the diagonal.
 
 /// Entries of the supernodes of a tail_shape, in doubles.
