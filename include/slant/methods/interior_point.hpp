@@ -79,29 +79,31 @@ struct interior_point_types {
 };
 
 template <class QP, class M>
-[[nodiscard]] consteval bool interior_point_demands() {
-  if constexpr (askable_program<QP>) {
-    using set_type = typename QP::set_type;
-    using points = local_t<typename QP::vector_type>;
-    constexpr bool smooth = has_block_inequalities<set_type, points>;
-    static_assert(smooth,
-                  "the set must be made of blocks with a smooth inequality form and "
-                  "step_to_boundary(x, d)");
-    static_assert(!smooth || has_step_to_boundary<set_type, points>,
-                  "the set must have step_to_boundary(x, d)");
-    static_assert(
-        preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told);
-  }
-  return true;
-}
+struct interior_point_demands {
+  static constexpr bool told = true;
+};
+template <askable_program QP, class M>
+struct interior_point_demands<QP, M> {
+  using set_type = typename QP::set_type;
+  using points = local_t<typename QP::vector_type>;
+  static constexpr bool smooth = has_block_inequalities<set_type, points>;
+  static_assert(smooth,
+                "the set must be made of blocks with a smooth inequality form and "
+                "step_to_boundary(x, d)");
+  static_assert(!smooth || has_step_to_boundary<set_type, points>,
+                "the set must have step_to_boundary(x, d)");
+  static constexpr bool told =
+      preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told;
+};
 
 }  // namespace detail
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
 class interior_point : public detail::refused_program<QP, detail::interior_point_types> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
-  static_assert(detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>());
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(
+      detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
 
  public:
   using interior_point::refused_method::refused_method;

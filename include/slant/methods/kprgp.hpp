@@ -23,13 +23,15 @@
 // Known weakness: on a curved boundary a sliding block moves only by fixed gradient steps.
 #pragma once
 
+// First: a complaint about a problem begins with the trail of headers that has led to it.
+#include <slant/problems/quadratic_program.hpp>
+
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/problems/compiled_problem.hpp>
-#include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/face.hpp>
 
 #include <Eigen/Core>
@@ -229,8 +231,8 @@ struct face_minimum_release : kkt_release {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
   using kprgp::proportioning::proportioning;
@@ -295,8 +297,8 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_proportioning> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
   using qpq::proportioning::proportioning;
@@ -322,8 +324,8 @@ qpq(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> qpq<kept_t
 /// Requirements and statuses are those of kprgp. One application of A a step, two for an expansion.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
   using qpc::proportioning::proportioning;

@@ -154,7 +154,7 @@ class ssnm : public detail::refused_program<QP> {
       using V = typename problem::vector_type;
       detail::refuse_solver<LinearSolver, slant_operator_t<ssnm_function<problem>, V>, V>();
     } else {
-      static_assert(detail::program_demands<problem>());
+      static_assert(detail::program_demands<problem>::told);
     }
     return true;
   }

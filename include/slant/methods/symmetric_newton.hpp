@@ -341,27 +341,28 @@ struct symmetric_newton_types {
 };
 
 template <class QP, class M>
-[[nodiscard]] consteval bool symmetric_newton_demands() {
-  if constexpr (askable_program<QP>) {
-    using set_type = typename QP::set_type;
-    using points = local_t<typename QP::vector_type>;
-    static_assert(!active_set_domain<set_type, points> || has_block_slants<set_type, points>,
-                  "the set must be made of blocks with slant(x)");
-    static_assert(
-        preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told);
-  }
-  return true;
-}
+struct symmetric_newton_demands {
+  static constexpr bool told = true;
+};
+template <askable_program QP, class M>
+struct symmetric_newton_demands<QP, M> {
+  using set_type = typename QP::set_type;
+  using points = local_t<typename QP::vector_type>;
+  static_assert(!active_set_domain<set_type, points> || has_block_slants<set_type, points>,
+                "the set must be made of blocks with slant(x)");
+  static constexpr bool told =
+      preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told;
+};
 
 }  // namespace detail
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
 class symmetric_newton : public detail::refused_program<QP, detail::symmetric_newton_types> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>());
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>());
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
-      detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>());
+      detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
 
  public:
   using symmetric_newton::refused_method::refused_method;

@@ -55,27 +55,34 @@ namespace slant::detail {
 /// A program of which nothing has been said yet.
 template <class QP> concept askable_program = quadratic_program<QP> && !was_refused<QP>;
 
-/// Of any program: A is semidefinite on vectors like b. True.
+/// Of any program: A is semidefinite on vectors like b.
 template <class QP>
-[[nodiscard]] consteval bool program_demands() {
-  if constexpr (askable_program<QP>) {
-    return operator_demands<typename QP::operator_type, typename QP::vector_type,
-                            law_demand::semidefinite>::told;
-  } else if constexpr (!was_refused<QP>) {
-    static_assert(quadratic_program<QP>, "expected a separable_qp");
-  }
-  return true;
-}
+struct program_demands {
+  static_assert(quadratic_program<QP>, "expected a separable_qp");
+  static constexpr bool told = true;
+};
+template <was_refused QP>
+struct program_demands<QP> {
+  static constexpr bool told = true;
+};
+template <askable_program QP>
+struct program_demands<QP> {
+  static constexpr bool told =
+      operator_demands<typename QP::operator_type, typename QP::vector_type,
+                       law_demand::semidefinite>::told;
+};
 
-/// Of the set, where a method follows faces. True.
+/// Of the set, where a method follows faces.
 template <class QP>
-[[nodiscard]] consteval bool active_set_demands() {
-  if constexpr (askable_program<QP>) {
-    static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
-                  "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-  }
-  return true;
-}
+struct active_set_demands {
+  static constexpr bool told = true;
+};
+template <askable_program QP>
+struct active_set_demands<QP> {
+  static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
+                "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
+  static constexpr bool told = true;
+};
 
 /// The vectors of a program of which nothing has been said yet.
 template <class QP>
