@@ -3,7 +3,7 @@
 
 #include "contact/friction_scenes.hpp"
 #include "support/allocation_guard.hpp"
-#include "support/test_data.hpp"
+#include "support/folders.hpp"
 
 #include <slant/contact/friction/friction_gauss_seidel.hpp>
 #include <slant/contact/friction/verify.hpp>

@@ -8,7 +8,7 @@
 #include <slant/io/friction_folder.hpp>
 #include <sstream>
 #include <support/friction_cases.hpp>
-#include <support/test_data.hpp>
+#include <support/folders.hpp>
 #include <vector>
 
 #include "problem_files.hpp"

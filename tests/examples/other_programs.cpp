@@ -93,25 +93,6 @@ TEST_CASE("brick: not converged is not success") {
   CHECK(contains(ran.out, "iteration_limit: reached the limit of 2 steps"));
 }
 
-TEST_CASE("stacked_bricks: a stack that stands, and loads without equilibrium") {
-  io_test::temporary_folder const folder;
-  auto const held =
-      run("stacked_bricks", "--bricks 2 --cells 2 --output " + word(folder.path().string()));
-  CHECK(held.status == 0);
-  CHECK(held.err == "");
-  for (auto const* expected : {"load \"hold\"", "factors        2,", "status         converged",
-                               "equilibrium", "of the projector"})
-    CHECK(contains(held.out, expected));
-  CHECK(contains(io_test::get(folder / "stack.vtu"), "contact_force"));
-  for (auto const* load : {"lift", "tip"}) {
-    CAPTURE(load);
-    auto const ran = run("stacked_bricks", "--bricks 2 --cells 2 --load " + std::string(load));
-    CHECK(ran.status == 1);
-    CHECK(contains(ran.out, "unbounded: no solution: the energy falls for ever"));
-    CHECK(contains(ran.out, "direction      K d = "));
-  }
-}
-
 TEST_CASE("the programs refuse bad options in one line") {
   auto const check = [](std::string const& name, std::string const& options,
                         std::string const& expected) {
@@ -123,7 +104,6 @@ TEST_CASE("the programs refuse bad options in one line") {
   check("wire", "--unknowns 30", "--unknowns: got 30, expected a multiple of 4");
   check("wire", "--radius -1", "--radius: got -1, expected a number >= 0");
   check("wire", "--lower nan", "--lower: got nan");
-  check("stacked_bricks", "--load push", "--load: got push, expected hold, lift or tip");
   check("tridiagonal", "--step 2", "--step: got 2, expected a number in (0, 2)");
   check("tridiagonal", "extra", "argument: got extra, expected one of those that --help lists");
 }

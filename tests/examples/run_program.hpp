@@ -12,6 +12,7 @@
 #include <io/io_support.hpp>
 #include <string>
 #include <string_view>
+#include <support/folders.hpp>
 
 namespace examples_test {
 
@@ -28,7 +29,7 @@ struct program_result {
 
 /// The path of a program, as a shell word.
 [[nodiscard]] inline std::string program(std::string_view name) {
-  return word(std::string(SLANT_PROGRAMS "/").append(name));
+  return word(test::program(name).string());
 }
 
 /// Runs a shell command. Its output passes through pipes, so that limits on files do not touch it.

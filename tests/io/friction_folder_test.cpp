@@ -5,7 +5,7 @@
 
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
-#include <support/test_data.hpp>
+#include <support/folders.hpp>
 
 #include "io_support.hpp"
 #include "support/message.hpp"

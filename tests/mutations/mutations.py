@@ -24,6 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PARTNERS = (
     "tests/main.cpp",
     "tests/support/allocation_guard.cpp",
+    "tests/support/folders.cpp",
     "tests/krylov/spd_matrices.cpp",
     "tests/methods/example_one.cpp",
     "tests/oracle/random_programs.cpp",
@@ -67,7 +68,8 @@ class Workshop:
 
     def flags(self, library):
         own = [f"-I{library}/include", f"-I{library}/concepts", f"-I{ROOT}/examples",
-               f"-I{ROOT}/tests", f'-DSLANT_TEST_DATA="{ROOT}/tests/data"']
+               f"-I{ROOT}/tests", f'-DSLANT_TEST_DATA="{ROOT}/tests/data"',
+               f'-DSLANT_PROGRAMS="{ROOT}/build/release/examples"']
         return [*own, *self.other_flags, "-O1", "-w"]
 
     def compiled(self, source, library, where):
