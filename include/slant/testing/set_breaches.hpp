@@ -5,7 +5,7 @@
 //     P(P(x)) = P(x),   contains(P(x)),   ‖P(x) − P(y)‖² ≤ ⟨x − y, P(x) − P(y)⟩,
 //     ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
 // and of each capability the set has: slanting operator, step to the boundary, support function,
-// inequality form, states, blocks. The files in detail/ state them one by one, with what sampling
+// inequality form, states, blocks. Those in parts/ state them one by one, with what sampling
 // cannot see.
 #pragma once
 
