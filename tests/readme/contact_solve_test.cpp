@@ -3,17 +3,26 @@
 
 #include <doctest/doctest.h>
 
-#include <fem/steel_brick.hpp>
+#include <Eigen/SparseCore>
 
-TEST_CASE("contact in three lines") {
-  auto const brick = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
-  auto const& K = brick.K;
-  slant::contact::data<double> const data{brick.N, brick.T, brick.f, brick.d, brick.g};
+TEST_CASE("contact of one node") {
+  // A node on a rigid floor, pressed down and pulled along it: u = (into the floor, along it, across).
+  Eigen::Matrix3d const stiffness{{2, -1, 0}, {-1, 2, 0}, {0, 0, 2}};
+  Eigen::SparseMatrix<double> const K = stiffness.sparseView();
+  Eigen::SparseMatrix<double> const I = Eigen::Matrix3d::Identity().sparseView();
+  slant::contact::data<double> const data{.N = I.topRows(1),
+                                          .T = I.bottomRows(2),
+                                          .f = Eigen::Vector3d(1, 2, 0),
+                                          .d = Eigen::VectorXd::Zero(1),
+                                          .g = Eigen::VectorXd::Constant(1, 0.5)};
 
   slant::contact::friction_disc const law;  // with the law named no other is compiled
   auto const r = slant::contact::solve(law, K, data, {.tolerance = 1e-8});
-  if (!r.converged()) FAIL(r.reason);       // else r.u, r.multipliers, r.error, r.condition
+  if (!r.converged()) FAIL(r.reason);
+  // r.u = (0, 0.75, 0): it slides; forces r.multipliers = (1.75, 0.5, 0)
   double const error = r.error.relative();  // an estimate; {.prove = true}: a bound
 
   CHECK(error <= 1e-8);
+  CHECK((r.u - Eigen::Vector3d(0, 0.75, 0)).norm() <= 1e-8);
+  CHECK((r.multipliers - Eigen::Vector3d(1.75, 0.5, 0)).norm() <= 1e-8);
 }

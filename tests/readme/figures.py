@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What README.md says of cost and accuracy is what the tables say that benchmarks have written.
+
+    figures.py FOLDER       every sentence below stands in FOLDER/README.md; status 1 if one does not
+
+The tables are those of benchmarks/RESULTS.md (./run bench --only precision --only growth), of
+docs/accuracy.md (--only condensation, composition, multilevel_large, load_steps) and of
+docs/stability.md (--only stability).
+"""
+import pathlib
+import re
+import sys
+
+
+def table(text, heading):
+    """Rows, as lists of cells, of the first table of text whose first line holds heading."""
+    lines = text[text.index(heading):].split("\n")
+    rows = []
+    for line in lines:
+        if not line.startswith("|"):
+            if rows:
+                break
+            continue
+        rows.append([cell.strip() for cell in line.strip("|\n").split("|")])
+    return [row for row in rows[1:] if not re.fullmatch(r"[-:]+", row[0] or "-")]
+
+
+def number(cell):
+    return float(re.match(r"[\d.]+", cell)[0])
+
+
+def span(values, digits):
+    """The least and the greatest, rounded."""
+    return f"{min(values):.{digits}f} to {max(values):.{digits}f}"
+
+
+def sentences(root):
+    results = (root / "benchmarks/RESULTS.md").read_text()
+    accuracy = (root / "docs/accuracy.md").read_text()
+    stability = (root / "docs/stability.md").read_text()
+
+    every = table(results, "| scene, size | unknowns | linear solve | ours")
+    growth = table(results, "| scene, size | unknowns | linear solve | its MiB")
+    friction = ("lift", "press", "pull", "plates")
+    every = [row for row in every if row[0].startswith(friction)]
+    solves = [number(row[4]) for row in every] + [number(row[5]) for row in growth]
+    composed = table(accuracy, "| k | unknowns | load | linear solve | everything")
+    solves += [number(row[5]) for row in composed]
+    unknowns = [int(row[1]) for row in every + growth + composed]
+    yield (f"| contact with friction, {min(unknowns)} to {max(unknowns)} unknowns, composed by hand | "
+           f"{span(solves, 1)} sparse direct solves with K |")
+    yield (f"| the same to 1e-6, the fastest of PETSc/TAO, IPOPT, CVXOPT, Siconos | "
+           f"{span([number(row[6]) for row in every], 1)} times our time |")
+
+    large = table(accuracy, "| k | unknowns | press: steps/cycles, seconds")[-1]
+    seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
+    yield (f"| contact without friction, {large[1]} unknowns, multigrid | "
+           f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve |")
+
+    steps = re.search(r"Twenty load steps take ([\d.]+ to [\d.]+) times", accuracy)[1]
+    yield f"| twenty load steps | {steps} times the first one |"
+
+    ratios = [number(row[-1]) for row in table(accuracy, "| one application | by hand")]
+    yield f"| composing operators, beside hand-written loops | {span(ratios, 2)} times the instructions |"
+
+    runs, right, unclaimed, missed, refused = (
+        int(re.search(pattern, stability)[1])
+        for pattern in (r"of (\d+) above 30", r"right (\d+)", r"unclaimed (\d+)", r"missed (\d+)",
+                        r"refused (\d+)"))
+    wrong = int(re.search(r"stability: (\d+) of", stability)[1])
+    part = [f"{100 * n / runs:.0f} %" for n in (right, unclaimed, missed, refused)]
+    yield (f"of {runs} runs {wrong} claim `converged` with an error above 30 times the larger of tolerance and "
+           f"floor; {part[0]} are right, {part[1]} reach the accuracy without claiming it, {part[2]} end before it "
+           f"and say so, {part[3]} are refused")
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    readme = " ".join((root / "README.md").read_text().split())
+    missing = [s for s in sentences(root) if " ".join(s.split()) not in readme]
+    for sentence in missing:
+        print(f"README.md does not say: {sentence}")
+    print("no faults" if not missing else f"{len(missing)} faults")
+    return 1 if missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
