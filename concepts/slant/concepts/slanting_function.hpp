@@ -58,10 +58,6 @@ template <class F, class V>
 concept has_workspace_slant_update = requires(F const& f, V const& y, slant_operator_t<F, V>& g,
                                               workspace_t<F, V>& w) { f.slant(y, g, w); };
 
-template <class F, class V>
-concept has_slant_after_value = requires(F const& f, V const& y, slant_operator_t<F, V>& g,
-                                         workspace_t<F, V>& w) { f.slant_after_value(y, g, w); };
-
 /// F°(y) can be renewed in place.
 template <class F, class V>
 concept has_slant_update = has_plain_slant_update<F, V> || has_workspace_slant_update<F, V>;

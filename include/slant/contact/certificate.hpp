@@ -242,12 +242,6 @@ class certificate {
     return extension_.relaxed(m_, d, relaxations_, S(0));
   }
 
-  /// ‖v‖_K of the shortest v with B v = d, an upper bound of ‖d‖_{A⁻¹}; see parts/extension.hpp.
-  [[nodiscard]] S extension_by_zero(vector_type const& d) {
-    slant::detail::check_size("d", d.size(), m_.B.rows());
-    return extension_.by_zero(m_, d);
-  }
-
   /// √(vᵀK v).
   [[nodiscard]] S energy_norm(vector_type const& v) {
     auto const q = m_.energy(v, m_.all, scaled_, [](index, S const&) {});

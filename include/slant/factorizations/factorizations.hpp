@@ -4,15 +4,22 @@
 #pragma once
 
 // IWYU pragma: begin_exports
-#include <slant/factorizations/computed_kernel.hpp>
-#include <slant/factorizations/condensation_options.hpp>
-#include <slant/factorizations/condensed_operator.hpp>
-#include <slant/factorizations/conjugate_projector.hpp>
+// Factorisations:
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/factorizations/fill_estimate.hpp>
-#include <slant/factorizations/generalized_inverse.hpp>
-#include <slant/factorizations/kernel_basis.hpp>
 #include <slant/factorizations/ldlt.hpp>
+
+// Operators that hold one:
+#include <slant/factorizations/conjugate_projector.hpp>
+#include <slant/factorizations/generalized_inverse.hpp>
+
+// Kernels of semidefinite matrices:
+#include <slant/factorizations/computed_kernel.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
+
+// The contact unknowns late in the elimination:
+#include <slant/factorizations/condensation_options.hpp>
+#include <slant/factorizations/condensed_operator.hpp>
+#include <slant/factorizations/fill_estimate.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 // IWYU pragma: end_exports

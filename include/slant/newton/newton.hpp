@@ -4,13 +4,18 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+// The method:
+#include <slant/newton/semismooth_newton.hpp>
+
+// Linear solvers:
 #include <slant/newton/by_laws.hpp>
 #include <slant/newton/direct_solver.hpp>
 #include <slant/newton/direction.hpp>
-#include <slant/newton/forcing.hpp>
-#include <slant/newton/globalisation.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/saddle_solvers.hpp>
-#include <slant/newton/semismooth_newton.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
+
+// How accurately, and how far:
+#include <slant/newton/forcing.hpp>
+#include <slant/newton/globalisation.hpp>
 // IWYU pragma: end_exports

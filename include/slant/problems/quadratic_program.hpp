@@ -107,10 +107,7 @@ struct refusal {
   using type = refused_method<void, void>;
 };
 template <class QP, template <class> class Types>
-  requires requires {
-    typename QP::vector_type;
-    typename QP::scalar;
-  }
+  requires quadratic_program<QP> || was_refused<QP>
 struct refusal<QP, Types> {
   using type = refused_method<typename QP::vector_type, typename Types<QP>::state,
                               typename Types<QP>::options>;

@@ -4,22 +4,29 @@
 #pragma once
 
 // IWYU pragma: begin_exports
-#include <slant/sets/any_set.hpp>
+// Blocks:
 #include <slant/sets/ball.hpp>
-#include <slant/sets/blocks.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/curved_face.hpp>
 #include <slant/sets/ellipse.hpp>
-#include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/point.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/sets/second_order_cone.hpp>
+
+// Images of blocks:
 #include <slant/sets/rotated.hpp>
 #include <slant/sets/scaled.hpp>
-#include <slant/sets/second_order_cone.hpp>
 #include <slant/sets/shifted.hpp>
+
+// Products of blocks:
+#include <slant/sets/any_set.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/power.hpp>
+
+// Faces, and slanting operators of projections:
+#include <slant/sets/curved_face.hpp>
+#include <slant/sets/face.hpp>
 #include <slant/sets/slants.hpp>
 // IWYU pragma: end_exports
