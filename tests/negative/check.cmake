@@ -9,8 +9,9 @@
 #   // expect-clang: <the same for clang, where its wording differs>      (optional)
 #   // max-lines-gcc: 20                                                  (optional)
 #   // max-lines-clang: 30                                                (optional)
+#   // first: nothing      where FIRST must not be included                (optional)
 # Demanded: without SLANT_COMPLETE the compiler fails, its output matches and is not longer than
-# allowed; with it, the same file compiles. So the one missing thing is the only cause. The latter is
+# allowed, but for the ways by which headers were included; with it, the same file compiles. So the one missing thing is the only cause. The latter is
 # asked of g++ only, which takes half of the time: the message is what differs between compilers.
 
 cmake_minimum_required(VERSION 3.25)
@@ -36,7 +37,7 @@ endfunction()
 function(compile definition status output)
   set(ENV{LC_ALL} C)  # plain quotes in the messages
   execute_process(
-    COMMAND "${COMPILER}" "@${FLAGS}" -fsyntax-only -w -fdiagnostics-color=never -include "${FIRST}"
+    COMMAND "${COMPILER}" "@${FLAGS}" -fsyntax-only -w -fdiagnostics-color=never ${include_first}
             ${definition} "${CASE}"
     RESULT_VARIABLE code
     OUTPUT_VARIABLE text
@@ -50,6 +51,11 @@ directive(expect-clang expected_of_clang)
 directive("max-lines-${KIND}" line_limit)
 if(KIND STREQUAL "clang" AND NOT expected_of_clang STREQUAL "")
   set(expected "${expected_of_clang}")
+endif()
+directive(first first)
+set(include_first "")
+if(NOT first STREQUAL "nothing")
+  set(include_first -include "${FIRST}")
 endif()
 if(expected STREQUAL "")
   fail("no line '// expect: …'")
@@ -65,7 +71,8 @@ endif()
 if(NOT output MATCHES "${expected}")
   fail("failed, but the output does not match '${expected}':\n${output}")
 endif()
-string(REGEX MATCHALL "\n" line_ends "${output}")
+string(REGEX REPLACE "(In file included| +) from [^\n]*[,:]\n" "" message "${output}")
+string(REGEX MATCHALL "\n" line_ends "${message}")
 list(LENGTH line_ends lines)
 if(NOT line_limit STREQUAL "" AND lines GREATER line_limit)
   fail("${lines} lines of output, at most ${line_limit} allowed:\n${output}")

@@ -2,6 +2,7 @@
 // expect: slant needs NaN and infinity
 // max-lines-gcc: 5
 // max-lines-clang: 5
+// first: nothing
 //
 // What -ffast-math and -Ofast say of themselves, minus NaN.
 #ifdef SLANT_COMPLETE
