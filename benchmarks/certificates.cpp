@@ -88,11 +88,8 @@ void measure_brick(int k, fem::brick_load load) {
   auto const error_of = [&](VectorXd const& u) { return energy_norm(scene.K, u - exact) / size; };
   slant::static_condensation const factor(scene.K, contact::contact_unknowns(data));
   contact::dual const problem(law, factor, data);
-  auto const A = problem.a();
   auto const M = contact::lumped_preconditioner(scene.K, problem.constraints());
-  auto wa = slant::workspace(A, problem.b());
   auto const program = problem.qp();
-  slant::newton_estimate newton(program, M);
   contact::certificate<double> prover(scene.K, data);
   prover.prove(contact::solver(factor), [](auto const& K) { (void)slant::factorize(K); });
 
@@ -100,24 +97,20 @@ void measure_brick(int k, fem::brick_load load) {
     auto const found = contact::solve(law, scene.K, data, {.tolerance = tolerance});
     double const error = error_of(found.u);
     // What each of the three says of the same point; none is asked for less than it can say.
+    long newton_products = 0;
     auto const says = [&](contact::certificate<double>& certificate, bool with_newton) {
       VectorXd λ = found.multipliers, u = found.u;
       auto e = certificate(problem.set(), λ, u, tolerance / 1000, contact::solver(factor));
       if (with_newton) {
-        VectorXd const& stiffness = certificate.stiffness();
-        double const step = double(λ.size()) / stiffness.cwiseInverse().sum() / 1024;
-        e = certificate.estimated(
-            newton({λ, certificate.gradient(), stiffness, step, 12,
-                    slant::gradient_size<double>{λ.norm(), problem.b().norm()}, false},
-                   M, wa, [&](VectorXd const& rest) { return certificate.extended_norm(rest); }));
+        contact::newton_certificate newton(program, M, certificate);
+        e = newton(λ);
+        newton_products = long(newton.applications());
       }
       return e.relative() / error_of(u);
     };
     contact::certificate<double> certificate(scene.K, data);
     double const zero = says(certificate, false);
-    long const products_before = long(newton.applications());
     double const sharp = says(certificate, true);
-    long const newton_products = long(newton.applications()) - products_before;
     double const proven = says(prover, false);
 
     double threshold = tolerance, expert_error = 1;

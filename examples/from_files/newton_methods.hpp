@@ -24,9 +24,11 @@ namespace from_files {
 /// Path following, with the preconditioner that K offers for nothing.
 [[nodiscard]] inline outcome run_interior_point(problem const& p, any_dual const& dual,
                                                 Eigen::VectorXd const& λ0, settings const& s) {
-  return run_on_dual(slant::interior_point{dual.qp(), slant::contact::lumped_preconditioner(
-                                                          p.K, dual.constraints())},
-                     λ0, s);
+  return run_on_dual(
+      slant::interior_point{dual.qp(),
+                            slant::contact::lumped_preconditioner(p.K, dual.constraints()),
+                            {.inner_share = 0.3}},
+      λ0, s);
 }
 
 /// Newton's method for λ − P(λ − ρ(A λ − b)) with a linear solver and a globalisation.

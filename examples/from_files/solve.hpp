@@ -5,9 +5,9 @@
 
 #include <functional>
 #include <limits>
-#include <slant/certificates/dual_norm.hpp>
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/dual.hpp>
+#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve.hpp>
@@ -123,16 +123,12 @@ template <class Factor>
                                          settings s) {
   Eigen::VectorXd λ, u;
   auto const M = slant::contact::lumped_preconditioner(p.K, dual.constraints());
-  auto const& A = dual.a();
-  auto wa = slant::workspace(A, dual.b());
-  slant::dual_norm_workspace norm_workspace(M, dual.b());
+  slant::contact::newton_certificate by_newton(dual.qp(), M, error_of);
   s.error_of = [&](Eigen::VectorXd const& forces) {
     λ = forces;
     u = dual.displacement(slant::project(dual.set(), λ));
     auto const error = error_of(dual.set(), λ, u, s.tolerance, solve);
-    if (!(error.relative() > s.tolerance)) return error;
-    return error_of.sharpened(
-        slant::dual_norm(A, M, error_of.rest(), 12, true, wa, norm_workspace).value);
+    return error.relative() > s.tolerance ? by_newton(λ) : error;
   };
   solution result;
   result.run = find_start(p, dual, s);

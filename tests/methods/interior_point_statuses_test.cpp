@@ -245,6 +245,7 @@ TEST_CASE("bad input names argument, value and expectation") {
   CHECK(complaint({.residual_factor = 0.5}).starts_with("residual_factor: got 0.5"));
   CHECK(complaint({.to_boundary = 1.0}).starts_with("to_boundary: got 1"));
   CHECK(complaint({.shortenings = 0}).starts_with("shortenings: got 0"));
+  CHECK(complaint({.inner_share = 1}).starts_with("inner_share: got 1"));
   CHECK(complaint({.inner_steps = 0}).starts_with("inner_steps: got 0"));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <stability/methods.hpp>
 
-#include <slant/certificates/dual_norm.hpp>
 #include <slant/contact/certificate.hpp>
+#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/operators/matrix.hpp>
@@ -76,16 +76,12 @@ slant::energy_error<double> prepared::error_of(Eigen::VectorXd const& x, double 
   if (!dual_) return slant::energy_certificate(program, M)(x);
   slant::contact::certificate<double> certificate(p_.K, data_);
   auto const solve = slant::contact::solver(*factor_);
-  auto const A = a();
-  auto wa = slant::workspace(A, x);
-  slant::dual_norm_workspace norm_workspace(M, x);
   auto const forces = slant::cartesian(slant::half_lines(p_.lower.size()), slant::discs(p_.radius));
   Eigen::VectorXd λ = slant::project(set_, x);
   Eigen::VectorXd u = answer(λ);
   auto const error = certificate(forces, λ, u, goal, solve);
   if (!(error.relative() > goal)) return error;
-  return certificate.sharpened(
-      slant::dual_norm(A, M, certificate.rest(), 12, true, wa, norm_workspace).value);
+  return slant::contact::newton_certificate(program, M, certificate)(λ);
 }
 
 double prepared::kkt(Eigen::VectorXd const& x) const {

@@ -29,6 +29,7 @@
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/load_stepper.hpp>
+#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/rigid_body_modes.hpp>

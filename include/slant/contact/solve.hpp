@@ -24,11 +24,11 @@
 // for ever.
 #pragma once
 
-#include <slant/certificates/newton_estimate.hpp>
 #include <slant/compiled.hpp>
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dual.hpp>
+#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/parts/spring_supports.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve_options.hpp>
@@ -111,15 +111,6 @@ class certified_run {
       for (index i = 0; i < c.nodes(); ++i) g_(i) /= d_(c.nodes() + i * c.tangents());
     }
     if (result_.scaled) C_ = sparse_type(d_.asDiagonal() * C_);
-    // About 1/diag A of the scaled problem; an empty row is held by nothing and asked for nothing.
-    inverse_diagonal_ = certificate_.stiffness().cwiseQuotient(d_).cwiseQuotient(d_);
-    S sum(0);
-    for (S& entry : inverse_diagonal_) {
-      if (!slant::detail::is_finite(entry)) entry = S(1);
-      sum += S(1) / entry;
-    }
-    // A short step: from a long one Newton's step would have to come back.
-    if (sum > S(0)) step_ = S(static_cast<double>(b_.size())) / sum / S(1024);
     ++result_.work.factorizations;
     if (o.prove) {
       certificate_.prove(solver(factor_), [&](sparse_type const& matrix) {
@@ -151,8 +142,7 @@ class certified_run {
   template <class... Observers>
   [[nodiscard]] solution<S> run(Observers&... observers) {
     auto const set = feasible_set(dual_.friction(), data_->nodes(), g_);
-    separable_qp const given{dual_.a(C_), b_, set};
-    compiled_problem_t<decltype((given))> const qp(given);  // with slant::compiled one for all laws
+    separable_qp const qp{dual_.a(C_), b_, set};
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
     vector_type const x0 = start(qp, M);
     // The reduced gradient is some 3 to 10 times smaller than the error that goes with it, and the
@@ -169,8 +159,8 @@ class certified_run {
     S best = std::numeric_limits<S>::infinity();
     auto wa = workspace(qp.a(), state.x);
     std::optional<
-        newton_estimate<std::remove_cvref_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
-        newton_error;
+        newton_certificate<std::remove_cvref_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
+        by_newton;
     auto const tell = [&](auto const& now) {
       if (options_.progress) options_.progress({now.iteration, relative_gradient(now)});
     };
@@ -188,7 +178,10 @@ class certified_run {
       auto const sharpen = [&] {
         if (!(error > options_.tolerance) || is_sharp) return;
         is_sharp = true;
-        estimate_by_newton(qp, M, wa, newton_error);
+        if (!by_newton) by_newton.emplace(qp, M, certificate_, d_);
+        index const before = by_newton->applications();
+        result_.error = (*by_newton)(result_.multipliers);
+        result_.work.operator_applications += by_newton->applications() - before;
         error = result_.error.relative();
       };
       // The bound is rarely off by more than 30.
@@ -257,25 +250,6 @@ class certified_run {
     result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
                                  solver(factor_));
   }
-  /// What a Newton step says of it, if that is less.
-  template <class QP, class M, class W>
-  void estimate_by_newton(QP const& qp, M const& m, W& wa,
-                          std::optional<newton_estimate<QP, M>>& newton) {
-    if (!certificate_.gradient().allFinite()) return;
-    if (!newton) newton.emplace(qp, m);
-    index const before = newton->applications();
-    vector_type const x = result_.multipliers.cwiseQuotient(d_);
-    vector_type const gradient = certificate_.gradient().cwiseProduct(d_);
-    auto const norm = [&](vector_type const& d) {
-      return certificate_.extended_norm(d.cwiseQuotient(d_));
-    };
-    S const distance = (*newton)({x, gradient, inverse_diagonal_, step_, 12,
-                                  gradient_size<S>{slant::norm(x), slant::norm(b_)}, false},
-                                 m, wa, norm);
-    result_.work.operator_applications += newton->applications() - before;
-    result_.error = certificate_.estimated(distance);
-  }
-
   void finish(slant::detail::ending& end, bool is_enough) {
     auto const known = result_.error.sentence();
     if (is_enough) {
@@ -302,8 +276,7 @@ class certified_run {
   certificate<S> certificate_;
   vector_type b_;
   sparse_type C_;
-  vector_type d_{}, g_{}, image_{}, inverse_diagonal_{};
-  S step_{1};
+  vector_type d_{}, g_{}, image_{};
   solution<S> result_{};
   index solves_before_ = 0;
 };

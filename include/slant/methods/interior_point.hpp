@@ -35,6 +35,7 @@
 #include <slant/base/diagnosis.hpp>
 #include <slant/base/held.hpp>
 #include <slant/base/vector_algebra.hpp>
+#include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
@@ -42,10 +43,13 @@
 #include <slant/methods/parts/interior_start.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/problems/compiled_problem.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/block_queries.hpp>
+
+#if SLANT_USES_COMPILED
+#include <slant/problems/any_qp.hpp>
+#endif
 
 #include <Eigen/Core>
 
@@ -110,16 +114,15 @@ class interior_point : public detail::refused_program<QP, detail::interior_point
 };
 
 template <class QP>
-interior_point(QP&&) -> interior_point<compiled_problem_t<QP>, identity_operator>;
+interior_point(QP&&) -> interior_point<kept_t<QP>, identity_operator>;
 template <class QP>
 interior_point(QP&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> interior_point<compiled_problem_t<QP>, identity_operator>;
+    -> interior_point<kept_t<QP>, identity_operator>;
 template <class QP, class M>
-interior_point(QP&&, M&&)
-    -> interior_point<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
+interior_point(QP&&, M&&) -> interior_point<kept_t<QP>, kept_t<M>>;
 template <class QP, class M>
 interior_point(QP&&, M&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> interior_point<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
+    -> interior_point<kept_t<QP>, kept_t<M>>;
 
 // --- method --------------------------------------------------------------------------------------
 
@@ -456,8 +459,9 @@ class interior_point_steps {
         std::numeric_limits<scalar>::epsilon() * norm(s.r));
     // A step that was cut short says little about the next one.
     bool const warm = options_.warm_start && (again || s.step_fraction > scalar(0.1));
-    auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
-                                     target, options_.inner_steps, warm, s.trace);
+    auto const inner =
+        s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs, target,
+                      options_.inner_share, options_.inner_steps, warm, s.trace);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;

@@ -244,13 +244,13 @@ class barrier_minimum {
     known_ = false;
   }
 
-  /// t with ‖g₀ + J_SC t‖ ≤ target, or the last one after at most `most` steps. t has the units of
-  /// g₀ over those of A; d is the diagonal of D, trace that of A. `warm`: begins at a multiple of
-  /// the t that is there.
+  /// t with ‖g₀ + J_SC t‖ ≤ target, one whose last terms are less than share · ‖t‖_A, or the last
+  /// one after at most `most` steps. t has the units of g₀ over those of A; d is the diagonal of D,
+  /// trace that of A. `warm`: begins at a multiple of the t that is there.
   template <class A, class WA, class B>
   inner_result<scalar> solve(A const& a, WA& a_workspace, M const& m, B const& barrier, V const& d,
-                             V const& g0, scalar const& target, index most, bool warm,
-                             scalar const& trace) {
+                             V const& g0, scalar const& target, scalar const& share, index most,
+                             bool warm, scalar const& trace) {
     vectors::copy(g0, g_);
     barrier.keep_fixed(g_);
     if (warm && known_) {
@@ -260,7 +260,7 @@ class barrier_minimum {
     }
     known_ = true;
     flat = false;
-    scalar size = norm(g_), gz(0);
+    scalar size = norm(g_), gz(0), recent(0);
     bool finite = detail::is_finite(size);
     index k = 0;
     while (k < most && size > target) {
@@ -291,6 +291,11 @@ class barrier_minimum {
       vectors::axpy(α, direction_image, image);
       vectors::axpy(α, z_, g_);
       size = norm(g_);
+      if (share > scalar(0)) {
+        // In the energy of A: J_SC's is the barrier's, which the first terms have found.
+        recent = scalar(0.7) * recent + α * α * inner_product(direction, direction_image);
+        if (k > 2 && recent < share * share * inner_product(t, image)) break;
+      }
     }
     return {k, size, finite && detail::is_finite(size)};
   }
