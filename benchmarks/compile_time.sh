@@ -65,7 +65,7 @@ names=(empty Eigen/Core "${sets[@]}" Eigen/Sparse slant/slant.hpp slant/contact/
   examples/wire examples/first_steps examples/first_steps/compiled
   needed/first_steps needed/first_steps/compiled
   client/methods client/methods/compiled client/contact client/contact/compiled)
-needed=(factorizations/dense_ldlt iteration/solve methods/symmetric_newton operators/congruence
+needed=(problems/any_qp factorizations/dense_ldlt iteration/solve methods/symmetric_newton operators/congruence
   operators/inverse operators/product operators/restriction sets/cartesian sets/contact_sets)
 for name in "${names[@]}"; do
   file=$work/${name//\//_}.cpp
@@ -75,7 +75,9 @@ for name in "${names[@]}"; do
     examples/*) printf '#include "%s"\n' "$root/${name%/compiled}/main.cpp" >"$file" ;;
     needed/*)
       printf '#include <slant/%s.hpp>\n' "${needed[@]}" >"$file"
-      grep -v 'slant/slant.hpp' "$root/examples/first_steps/main.cpp" >>"$file"
+      # What is compiled are the methods of erased programs.
+      grep -v 'slant/slant.hpp' "$root/examples/first_steps/main.cpp" |
+        if [[ $name == */compiled ]]; then sed 's/slant::separable_qp{A, b, Λ}/slant::erased(&)/'; else cat; fi >>"$file"
       ;;
     *) printf '#include <%s>\n' "$name" >"$file" ;;
   esac

@@ -59,16 +59,14 @@ int repeat(Method const& method, Eigen::VectorXd const& x0, int repetitions) {
   return 0;
 }
 
-/// The types are spelt out: also with slant::compiled a method works on what it is given.
 template <class QP>
 int solve(std::string const& method, QP const& qp, Eigen::VectorXd const& x0, int repetitions) {
-  if (method == "kprgp") return repeat(slant::kprgp<QP const&>{qp}, x0, repetitions);
+  if (method == "kprgp") return repeat(slant::kprgp{qp}, x0, repetitions);
   if (method == "symmetric_newton") {
-    return repeat(slant::symmetric_newton<QP const&, slant::identity_operator>{qp}, x0,
-                  repetitions);
+    return repeat(slant::symmetric_newton{qp}, x0, repetitions);
   }
   if (method == "interior_point") {
-    return repeat(slant::interior_point<QP const&, slant::identity_operator>{qp}, x0, repetitions);
+    return repeat(slant::interior_point{qp}, x0, repetitions);
   }
   return 2;
 }

@@ -5,8 +5,7 @@
 // exist elsewhere,
 //
 //     kprgp, symmetric_newton, interior_point, as, as_s
-//                                   for programs that can be forgotten
-//                                   (problems/compiled_problem.hpp)
+//                                   for erased programs (problems/any_qp.hpp)
 //     dense_ldlt                    also for float
 //     contact::solve                Tresca friction, each law and the choice by the data
 //     contact::certified_coulomb    Coulomb friction

@@ -9,10 +9,12 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/any_qp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstdio>
 
 namespace {
@@ -52,19 +54,25 @@ void print(char const* name, Run const& run) {
 }
 
 template <class QP>
-void all_methods(QP const& qp) {
-  VectorXd const x0 = VectorXd::Zero(qp.size());
+void all_methods(QP const& given) {
+  auto const M =
+      slant::diagonal<slant::positive_definite>(VectorXd(VectorXd::Constant(given.size(), 0.1)));
+  // What is linked changes no type.
+  static_assert(std::same_as<decltype(slant::kprgp{given}), slant::kprgp<QP const&>>);
+  static_assert(std::same_as<decltype(slant::symmetric_newton{given, M}),
+                             slant::symmetric_newton<QP const&, decltype(M)&>>);
+  auto const qp = [&] { return slant::erased(given); };
+  VectorXd const x0 = VectorXd::Zero(given.size());
   auto const stop = slant::reduced_gradient_below(1e-9) || slant::at_most(2000);
-  print("kprgp", slant::solve(slant::kprgp{qp}, x0, stop));
-  print("as_s", slant::solve(slant::as_s(qp), x0, stop));
-  print("newton", slant::solve(slant::symmetric_newton{qp}, x0, stop));
+  print("kprgp", slant::solve(slant::kprgp{qp()}, x0, stop));
+  print("as_s", slant::solve(slant::as_s(qp()), x0, stop));
+  print("newton", slant::solve(slant::symmetric_newton{qp()}, x0, stop));
   slant::symmetric_newton_options<double> const few{.inner_steps = 2, .halvings = 1};
-  print("hindered newton", slant::solve(slant::symmetric_newton{qp, few}, x0, stop));
-  VectorXd const inverse = VectorXd::Constant(qp.size(), 0.1);
-  auto const M = slant::diagonal<slant::positive_definite>(inverse);
-  print("preconditioned", slant::solve(slant::symmetric_newton{qp, M}, x0, stop));
-  print("interior point", slant::solve(slant::interior_point{qp}, x0, stop));
-  print("interior point with M", slant::solve(slant::interior_point{qp, M}, x0, stop));
+  print("hindered newton", slant::solve(slant::symmetric_newton{qp(), few}, x0, stop));
+  print("preconditioned", slant::solve(slant::symmetric_newton{qp(), slant::erased(M)}, x0, stop));
+  print("interior point", slant::solve(slant::interior_point{qp()}, x0, stop));
+  print("interior point with M",
+        slant::solve(slant::interior_point{qp(), slant::erased(M)}, x0, stop));
 }
 
 }  // namespace
@@ -95,7 +103,7 @@ int main() {
   VectorXd const up = VectorXd::Constant(m, 1);
   slant::separable_qp const endless{
       slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(flat), up, lines};
-  print("unbounded", slant::solve(slant::kprgp{endless}, VectorXd(VectorXd::Zero(m)),
+  print("unbounded", slant::solve(slant::kprgp{slant::erased(endless)}, VectorXd(VectorXd::Zero(m)),
                                   slant::reduced_gradient_below(1e-9) || slant::at_most(100)));
 
   MatrixXd several(n, 5);
@@ -109,8 +117,8 @@ int main() {
   // Other bounds and another b in the places of the first: the method sees them.
   VectorXd load = b;
   slant::separable_qp const qp{definite, load, set};
-  slant::symmetric_newton const newton{qp};
-  slant::kprgp const projected{qp};
+  slant::symmetric_newton const newton{slant::erased(qp)};
+  slant::kprgp const projected{slant::erased(qp)};
   auto state = newton.start(VectorXd::Zero(n));
   auto other = projected.start(VectorXd::Zero(n));
   for (int step = 0; step < 3; ++step) {

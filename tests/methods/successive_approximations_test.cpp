@@ -83,9 +83,7 @@ auto newton(moving_obstacle const& family) {
   return [&family](double goal) {
     slant::symmetric_newton_options<double> o;
     o.forcing.goal = goal;
-    // Spelt out: one on a forgotten program would allocate when it is made.
-    using problem = std::remove_cvref_t<decltype(family.qp())>;
-    return slant::symmetric_newton<problem const&, slant::identity_operator>{family.qp(), o};
+    return slant::symmetric_newton{family.qp(), o};
   };
 }
 auto stop(double tolerance) {

@@ -6,6 +6,7 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/solve_program.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/any_qp.hpp>
 #include <slant/sets/cartesian.hpp>
@@ -14,6 +15,7 @@
 #include <doctest/doctest.h>
 
 #include <krylov/spd_matrices.hpp>
+#include <support/allocation_guard.hpp>
 #include <utility>
 
 namespace any_qp_test {
@@ -71,6 +73,27 @@ TEST_CASE("erased programs: the same iterates and counts, to the last bit") {
 
 TEST_CASE("erased programs: the interior point method") {
   check_same_run([](auto const& qp) { return slant::interior_point{qp}; }, 100);
+}
+
+TEST_CASE("erased programs: steps beside an erased preconditioner allocate nothing") {
+  usual_program const p(6, 100);
+  product_only const A{p.A};
+  auto const set = p.set();
+  slant::separable_qp const qp{A, p.b, set};
+  VectorXd const inverse = VectorXd::Constant(p.b.size(), 0.1);
+  auto const M = slant::diagonal<slant::positive_definite>(inverse);
+  slant::symmetric_newton const newton{slant::erased(qp), slant::erased(M)};
+  slant::interior_point const path{slant::erased(qp), slant::erased(M)};
+  VectorXd const x0 = VectorXd::Zero(p.b.size());
+  auto x = newton.start(x0);
+  auto y = path.start(x0);
+  slant::testing::allocation_guard const guard;
+  for (int i = 0; i < 3; ++i) {
+    newton.step(x);
+    path.step(y);
+  }
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
 }
 
 TEST_CASE("erased programs: one type for all, as definite as they were") {

@@ -26,13 +26,18 @@
 // First: a complaint about a problem begins with the trail of headers that has led to it.
 #include <slant/problems/quadratic_program.hpp>
 
+#include <slant/base/held.hpp>
+#include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/proportioning.hpp>
-#include <slant/problems/compiled_problem.hpp>
 #include <slant/sets/face.hpp>
+
+#if SLANT_USES_COMPILED
+#include <slant/problems/any_qp.hpp>
+#endif
 
 #include <Eigen/Core>
 
@@ -239,17 +244,16 @@ class kprgp : public proportioning<QP, reduced_gradient_release> {
 };
 
 template <class QP>
-kprgp(QP&&) -> kprgp<compiled_problem_t<QP>>;
+kprgp(QP&&) -> kprgp<kept_t<QP>>;
 template <class QP>
-kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> kprgp<compiled_problem_t<QP>>;
+kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> kprgp<kept_t<QP>>;
 
 /// AS [K Ex 5], KPRGP by its name for the two-sided bounds of plane friction: solve(as(qp), x0,
 /// reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
 [[nodiscard]] auto as(QP&& qp,
                       kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
-  return kprgp<compiled_problem_t<QP>>(std::forward<QP>(qp), std::move(options));
+  return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
 }
 
 /// AS-S [K Ex 5], KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i

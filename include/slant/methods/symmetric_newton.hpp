@@ -32,6 +32,7 @@
 #include <slant/base/progress_watch.hpp>
 #include <slant/base/report.hpp>
 #include <slant/base/vector_algebra.hpp>
+#include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
@@ -44,10 +45,13 @@
 #include <slant/methods/proportioning.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/problems/compiled_problem.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/block_queries.hpp>
 #include <slant/sets/curved_face.hpp>
+
+#if SLANT_USES_COMPILED
+#include <slant/problems/any_qp.hpp>
+#endif
 
 #include <algorithm>
 #include <optional>
@@ -369,16 +373,15 @@ class symmetric_newton : public detail::refused_program<QP, detail::symmetric_ne
 };
 
 template <class QP>
-symmetric_newton(QP&&) -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
+symmetric_newton(QP&&) -> symmetric_newton<kept_t<QP>, identity_operator>;
 template <class QP>
 symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<compiled_problem_t<QP>, identity_operator>;
+    -> symmetric_newton<kept_t<QP>, identity_operator>;
 template <class QP, class M>
-symmetric_newton(QP&&, M&&)
-    -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
+symmetric_newton(QP&&, M&&) -> symmetric_newton<kept_t<QP>, kept_t<M>>;
 template <class QP, class M>
 symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
-    -> symmetric_newton<compiled_problem_t<QP>, compiled_preconditioner_t<QP, M>>;
+    -> symmetric_newton<kept_t<QP>, kept_t<M>>;
 
 // --- method --------------------------------------------------------------------------------------
 

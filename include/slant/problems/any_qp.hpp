@@ -11,7 +11,9 @@
 // precision (concepts/capabilities.hpp), which is forgotten: then inner iterations take twice the
 // time.
 //
-// slant::compiled has methods for any_qp<double>; see problems/compiled_problem.hpp.
+// A program says that it wants types forgotten; nothing else, and not what is linked, does so. With
+// slant::compiled kprgp{erased(qp)}, symmetric_newton{erased(qp)}, interior_point{erased(qp)}, and the
+// latter two beside erased(M), are instances that exist already.
 #pragma once
 
 #include <slant/operators/any_operator.hpp>
@@ -124,6 +126,7 @@ using runs_or_usual_t =
 /// The same program with its types forgotten, as definite as A declares to be. Runs: the kinds of
 /// blocks that it can have, usual_runs<S> unless said.
 template <class Runs = detail::usual_kinds, class QP>
+  requires(!psd_operator<std::remove_cvref_t<QP>, Eigen::VectorXd>)
 [[nodiscard]] auto erased(QP&& qp) {
   using problem = std::remove_cvref_t<QP>;
   using runs = detail::runs_or_usual_t<problem, Runs>;
@@ -144,6 +147,14 @@ template <class Runs = detail::usual_kinds, class QP>
   } else {
     return detail::refused{};
   }
+}
+
+/// The same preconditioner with its type forgotten; what it has for faces and in lower precision is
+/// forgotten, too.
+template <class M>
+  requires psd_operator<std::remove_cvref_t<M>, Eigen::VectorXd>
+[[nodiscard]] any_operator<Eigen::VectorXd, semidefinite_laws> erased(M&& m) {
+  return std::forward<M>(m);
 }
 
 }  // namespace slant

@@ -6,7 +6,6 @@
 // IWYU pragma: begin_exports
 #include <slant/problems/any_qp.hpp>
 #include <slant/problems/augmented_problem.hpp>
-#include <slant/problems/compiled_problem.hpp>
 #include <slant/problems/cut_face.hpp>
 #include <slant/problems/equality_constraints.hpp>
 #include <slant/problems/equilibrated.hpp>

@@ -55,9 +55,7 @@ struct coulomb_newton {
   [[nodiscard]] auto operator()(typename Family::scalar goal) const {
     auto o = options;
     o.forcing.goal = static_cast<double>(goal);
-    // Spelt out: one on a forgotten program (compiled_problem.hpp) would allocate when it is made.
-    using problem = std::remove_cvref_t<decltype(family->qp())>;
-    return symmetric_newton<problem const&, M const&>{family->qp(), *m, o};
+    return symmetric_newton{family->qp(), *m, o};
   }
 };
 
