@@ -78,7 +78,7 @@ TEST_CASE("archetypes") {
   slant::testing::check_operator_laws(s, x, {.roundings = 1000});
   // B without an adjoint is no B
   using wrong =
-      slant::congruence_operator<archetype::linear_operator, archetype::spd_operator, false>;
+      slant::congruence_operator<archetype::linear_operator, archetype::spd_operator>;
   static_assert(!slant::linear_operator<wrong, archetype::vector>);
 }
 

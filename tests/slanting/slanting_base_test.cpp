@@ -2,7 +2,7 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/projection.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <doctest/doctest.h>
 

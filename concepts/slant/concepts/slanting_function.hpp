@@ -17,7 +17,7 @@
 //                                     what value left in w (G(y) of a composition F∘G) is reused
 //     slant_from_value(y, w)          the same as a new operator: slant(y) that reuses w
 //
-// Formulas. Types derived from slant::slanting_base (slant/slanting/slanting_base.hpp) take part in
+// Formulas. Types derived from slant::slanting_base take part in
 // f + g, f * g, A * f, …; for others there are the named add, subtract, scale, compose.
 //
 // Lifetime. slant(y) returns an operator that owns what depends on y: diagonal(std::move(d)), since
@@ -156,5 +156,15 @@ inline constexpr detail::slant_from_value_fn slant_from_value{};
 /// G = F°(y) right after evaluate(f, y, v, w) with the same y and w: nothing that w holds is
 /// computed again. The caller answers for "the same y"; update_slant has no such condition.
 inline constexpr detail::update_slant_after_value_fn update_slant_after_value{};
+
+/// Empty base of slanting functions that want `f + g`, `f - g`, `α * f`, `A * f`, `f * g`, `-f`.
+/// The named factories (compose, stack, max, ...) need no base. Why a base at all: without a vector
+/// type nothing else tells a function (value, slant) from an operator (apply) by its members.
+struct slanting_base {};
+
+/// A map whose type is marked, whatever the vectors.
+template <class F>
+concept slanting_map = std::is_base_of_v<slanting_base, std::remove_cvref_t<F>> &&
+                       has_rows<std::remove_cvref_t<F>> && has_cols<std::remove_cvref_t<F>>;
 
 }  // namespace slant

@@ -120,6 +120,10 @@ template <template <class, class, bool> class T, class P, class Q, bool B>
 struct parts_of<T<P, Q, B>> {
   using type = part_list<std::remove_cvref_t<P>, std::remove_cvref_t<Q>>;
 };
+template <template <auto, class, unsigned> class T, auto Name, class P, unsigned Flags>
+struct parts_of<T<Name, P, Flags>> {
+  using type = part_list<P>;
+};
 template <template <class, law_set> class T, class P, law_set L>
 struct parts_of<T<P, L>> {
   using type = part_list<std::remove_cvref_t<P>>;
@@ -225,6 +229,35 @@ struct vector_demands {
 /// The law that a method asks of an operator.
 enum class law_demand : unsigned char { none, semidefinite, definite };
 
+/// What says which part of A breaks a law of L, as an error of its own; void of what cannot say, which
+/// is all but expressions (expressions/explain.hpp).
+template <class A, law_set L>
+struct complaint_about {
+  using type = void;
+};
+
+/// A lacks a law of L and says why.
+template <class A, law_set L>
+concept explains_lack = !laws_of<A>.contains(L) &&
+                        !std::is_void_v<typename complaint_about<A, L>::type>;
+
+/// A, if it is to be asked for the laws L and cannot say itself why it lacks them.
+template <class A, law_set L>
+using asked_for_t = asked_t<!explains_lack<A, L>, A>;
+
+/// Whatever A has to say of L was said.
+template <class A, law_set L>
+[[nodiscard]] consteval bool explained() {
+  if constexpr (explains_lack<A, L>) {
+    return complaint_about<A, L>::type::told;
+  } else {
+    return true;
+  }
+}
+
+inline constexpr law_set psd_laws = slant::laws<law::self_adjoint, law::positive_semidefinite>;
+inline constexpr law_set spd_laws = slant::laws<law::self_adjoint, law::positive_definite>;
+
 /// Of A, applied to vectors of type V.
 template <class A, class V, law_demand Law>
 struct operator_demands {
@@ -236,11 +269,11 @@ struct operator_demands {
                 "A must be a linear operator on vectors like b");
   static_assert(usable_part<typename a::part, typename a::vector_type>,
                 "a part of A cannot be used on vectors like b");
-  static_assert(psd_operator<semidefinite, typename a::vector_type>,
+  static_assert(psd_operator<asked_for_t<semidefinite, psd_laws>, typename a::vector_type>,
                 "A must declare self_adjoint and positive_semidefinite");
-  static_assert(spd_operator<definite, typename a::vector_type>,
+  static_assert(spd_operator<asked_for_t<definite, spd_laws>, typename a::vector_type>,
                 "A must declare self_adjoint and positive_definite");
-  static constexpr bool told = true;
+  static constexpr bool told = explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
 };
 
 /// Of M ≈ A⁻¹.
@@ -254,11 +287,11 @@ struct preconditioner_demands {
                 "the preconditioner must be a linear operator on vectors like b");
   static_assert(usable_part<typename m::part, typename m::vector_type>,
                 "a part of the preconditioner cannot be used on vectors like b");
-  static_assert(psd_operator<semidefinite, typename m::vector_type>,
+  static_assert(psd_operator<asked_for_t<semidefinite, psd_laws>, typename m::vector_type>,
                 "the preconditioner must declare self_adjoint and positive_semidefinite");
-  static_assert(spd_operator<definite, typename m::vector_type>,
+  static_assert(spd_operator<asked_for_t<definite, spd_laws>, typename m::vector_type>,
                 "the preconditioner must declare self_adjoint and positive_definite");
-  static constexpr bool told = true;
+  static constexpr bool told = explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
 };
 
 }  // namespace slant::detail

@@ -2,7 +2,8 @@
 //
 // How compositions keep their parts: what was passed as an lvalue is referenced, what was passed as
 // an rvalue is owned (the rule of std::views). So `sum(A, scaled(2, B))` copies neither A nor B,
-// and owns the small object that scaled() made.
+// and owns the small object that scaled() made. A handle is copied, as std::views copies views: what
+// a function returns of local expressions refers to none of them.
 #pragma once
 
 #include <memory>
@@ -11,11 +12,14 @@
 
 namespace slant {
 
-/// How an argument of deduced type T (of a parameter T&&) is kept: `U const&` for an lvalue, the
-/// plain type for an rvalue.
+/// A type whose copies share what they stand for says so by `static constexpr bool is_handle = true`.
+template <class T> concept handle = requires { requires std::remove_cvref_t<T>::is_handle; };
+
+/// How an argument of deduced type T (of a parameter T&&) is kept: `U const&` for an lvalue that is
+/// no handle, else the plain type.
 template <class T>
-using kept_t = std::conditional_t<std::is_lvalue_reference_v<T>, std::remove_reference_t<T> const&,
-                                  std::remove_cvref_t<T>>;
+using kept_t = std::conditional_t<std::is_lvalue_reference_v<T> && !handle<T>,
+                                  std::remove_reference_t<T> const&, std::remove_cvref_t<T>>;
 
 /// A type that is made of others and forgets which they were says so by
 /// `static constexpr bool forgets_types = true`.

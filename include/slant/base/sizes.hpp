@@ -42,6 +42,15 @@ void require_cols(std::string_view name, A const& a, index cols, std::string_vie
   }
 }
 
+/// Throws unless the rows can be independent.
+template <class A>
+void require_wide(std::string_view name, A const& a) {
+  if (a.rows() > a.cols()) {
+    throw bad_input(name, size_text(a.rows(), a.cols()),
+                    "at most as many rows as columns (independent rows)");
+  }
+}
+
 template <class A>
 void require_square(std::string_view name, A const& a) {
   if (a.rows() != a.cols()) {

@@ -30,7 +30,7 @@
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/newton/globalisation.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <limits>
 #include <string>

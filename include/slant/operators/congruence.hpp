@@ -9,31 +9,15 @@
 
 #include <slant/base/diagnosis.hpp>
 #include <slant/operators/composition.hpp>
+#include <slant/operators/declare.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <utility>
 
 namespace slant {
 
-/// An operator or matrix whose rows the caller asserts to be linearly independent.
-template <class B>
-struct full_row_rank_assertion {
-  held<B> part;
-};
-
-/// Asserts that the rows of B are linearly independent.
-template <adjoint_operand B>
-[[nodiscard]] full_row_rank_assertion<part_t<B>> full_row_rank(B&& b) {
-  held<part_t<B>> kept{slant::as_operator(std::forward<B>(b))};
-  if (kept.get().rows() > kept.get().cols()) {
-    throw bad_input("B", detail::size_text(kept.get().rows(), kept.get().cols()),
-                    "at most as many rows as columns (independent rows)");
-  }
-  return {std::move(kept)};
-}
-
 /// y = B A Bᵀ x. B and A are `Operator const&` (referenced) or operator types (owned).
-template <class B, class A, bool FullRowRank>
+template <class B, class A>
 class congruence_operator {
   using outer = std::remove_cvref_t<B>;
   using inner = std::remove_cvref_t<A>;
@@ -48,7 +32,7 @@ class congruence_operator {
   };
 
  public:
-  static constexpr law_set laws = detail::congruence_laws(laws_of<A>, FullRowRank);
+  static constexpr law_set laws = detail::congruence_laws(laws_of<A>, declares_full_row_rank<B>);
 
   /// The sizes fit; slant::congruence checks it.
   congruence_operator(held<B> b, held<A> a) : b_(std::move(b)), a_(std::move(a)) {}
@@ -122,34 +106,20 @@ class congruence_operator {
   held<A> a_;
 };
 
-namespace detail {
-
-template <bool FullRowRank, class B, class A>
-[[nodiscard]] auto make_congruence(held<B> b, held<A> a) {
-  require_square("A", a.get());
-  require_cols("B", b.get(), a.get().rows(), "the size of A");
-  return congruence_operator<B, A, FullRowRank>{std::move(b), std::move(a)};
-}
-
-}  // namespace detail
-
-/// B A Bᵀ. Throws bad_input unless A is square with as many rows as B has columns.
+/// B A Bᵀ, definite if A is and B declares full_row_rank. Throws bad_input unless A is square with as
+/// many rows as B has columns.
 template <operand B, operand A>
 [[nodiscard]] auto congruence(B&& b, A&& a) {
   if constexpr (!adjoint_operand<B>) {
     static_assert(adjoint_operand<B>, "congruence: B must have apply_adjoint(x, y)");
     return detail::stand_in{};
   } else {
-    return detail::make_congruence<false>(held<part_t<B>>(slant::as_operator(std::forward<B>(b))),
-                                          held<part_t<A>>(slant::as_operator(std::forward<A>(a))));
+    held<part_t<B>> outer{slant::as_operator(std::forward<B>(b))};
+    held<part_t<A>> inner{slant::as_operator(std::forward<A>(a))};
+    detail::require_square("A", inner.get());
+    detail::require_cols("B", outer.get(), inner.get().rows(), "the size of A");
+    return congruence_operator<part_t<B>, part_t<A>>{std::move(outer), std::move(inner)};
   }
-}
-
-/// B A Bᵀ with independent rows of B: definite if A is.
-template <class B, operand A>
-[[nodiscard]] auto congruence(full_row_rank_assertion<B> b, A&& a) {
-  return detail::make_congruence<true>(std::move(b.part),
-                                       held<part_t<A>>(slant::as_operator(std::forward<A>(a))));
 }
 
 }  // namespace slant

@@ -146,6 +146,23 @@ class declared_operator : public detail::decorator<A, detail::no_probe> {
   }
 };
 
+/// The operator B with the assertion that its rows are linearly independent.
+template <class B>
+class full_row_rank_operator : public detail::decorator<B, detail::no_probe> {
+ public:
+  static constexpr bool full_row_rank = true;
+  using detail::decorator<B, detail::no_probe>::decorator;
+};
+
+/// Asserts that the rows of B are linearly independent, which makes B A Bᵀ definite where A is.
+/// Throws bad_input if there are more rows than columns.
+template <adjoint_operand B>
+[[nodiscard]] auto full_row_rank(B&& b) {
+  held<part_t<B>> part{slant::as_operator(std::forward<B>(b))};
+  detail::require_wide("B", part.get());
+  return full_row_rank_operator<part_t<B>>{std::move(part)};
+}
+
 /// Asserts laws of A. Throws bad_input if A is not square: only square operators have laws.
 template <law... L, operand A>
   requires(sizeof...(L) > 0)

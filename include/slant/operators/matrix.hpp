@@ -24,11 +24,20 @@
 
 namespace slant {
 
+namespace detail {
+
+// By overload: x.head(3) derives from EigenBase of another class than its own.
+template <class M>
+void eigen_object(Eigen::EigenBase<M> const&);
+
+}  // namespace detail
+
 /// An Eigen matrix or matrix expression, dense or sparse.
 template <class M>
-concept eigen_matrix =
-    std::is_base_of_v<Eigen::EigenBase<std::remove_cvref_t<M>>, std::remove_cvref_t<M>> &&
-    requires(std::remove_cvref_t<M> const& m) { typename std::remove_cvref_t<M>::PlainObject; };
+concept eigen_matrix = requires(std::remove_cvref_t<M> const& m) {
+  typename std::remove_cvref_t<M>::PlainObject;
+  detail::eigen_object(m);
+};
 
 /// y = M x. M is `Matrix const&` (referenced) or a matrix type (owned); L are the asserted laws.
 template <class M, law_set L = law_set{}>

@@ -93,6 +93,10 @@ namespace slant {
 /// y = R x: y_i = x_{c_i} for the components c.
 class restriction : public detail::component_list {
  public:
+  static constexpr bool full_row_rank = true;
+
+  static constexpr bool full_row_rank = true;
+
   /// Throws bad_input unless the components are different numbers in [0, n). Room is reserved for
   /// n components, so that assign never allocates.
   template <class Components>
@@ -149,7 +153,7 @@ class restriction : public detail::component_list {
 template <class A>
 class restricted_operator {
   using part = std::remove_cvref_t<A>;
-  using congruence_type = congruence_operator<restriction const&, part const&, true>;
+  using congruence_type = congruence_operator<restriction const&, part const&>;
 
  public:
   static constexpr law_set laws = detail::restricted_laws(laws_of<A>);

@@ -77,15 +77,4 @@ template <detail::inverse_operand K, operand B, operand D>
   }
 }
 
-/// S = D + B K⁻¹ Bᵀ with independent rows of B.
-template <detail::inverse_operand K, class B, operand D>
-[[nodiscard]] auto schur_complement(K&& k_inverse, full_row_rank_assertion<B> b, D&& d) {
-  index const rows = b.part.get().rows();
-  detail::require_cols("B", b.part.get(), k_inverse.rows(), "the size of K");
-  detail::require_size("D", d, rows, rows, "the rows of B");
-  return slant::sum(
-      std::forward<D>(d),
-      slant::congruence(std::move(b), detail::as_inverse(std::forward<K>(k_inverse))));
-}
-
 }  // namespace slant

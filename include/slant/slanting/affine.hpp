@@ -9,7 +9,7 @@
 #include <slant/operators/identity.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/assembled_operator.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <utility>
 

@@ -20,7 +20,7 @@
 #include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/composition.hpp>
 #include <slant/slanting/parts/pairs.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <type_traits>
 #include <utility>

@@ -13,7 +13,7 @@
 
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/slants.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <Eigen/Core>
 

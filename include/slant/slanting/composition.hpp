@@ -8,7 +8,7 @@
 
 #include <slant/operators/product.hpp>
 #include <slant/slanting/assembled_operator.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <type_traits>
 #include <utility>

@@ -12,7 +12,7 @@
 
 #include <slant/base/vector_algebra.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <Eigen/Core>
 

@@ -13,7 +13,7 @@
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/projection.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <utility>
 

@@ -7,7 +7,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/sets/slants.hpp>
 #include <slant/slanting/assembled_operator.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <concepts>
 #include <type_traits>

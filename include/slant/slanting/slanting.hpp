@@ -29,4 +29,4 @@
 #include <slant/slanting/symmetrized.hpp>
 
 // What they share:
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>

@@ -9,7 +9,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/slanting/assembled_operator.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <concepts>
 #include <string>

@@ -11,7 +11,7 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/slanting/assembled_operator.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <boost/hana/at.hpp>
 #include <boost/hana/tuple.hpp>

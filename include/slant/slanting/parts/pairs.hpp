@@ -6,7 +6,7 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/slanting/assembled_operator.hpp>
-#include <slant/slanting/slanting_base.hpp>
+#include <slant/slanting/slanting_part.hpp>
 
 #include <type_traits>
 #include <utility>

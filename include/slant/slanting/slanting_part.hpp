@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What marks a type as a slanting function for the arithmetic of arithmetic.hpp.
+// What compositions of slanting functions ask of their parts, and how they keep vectors.
 //
 // Lifetime, for all of slant/slanting. A composition references the functions, operators, sets and
 // vectors that were passed as lvalues and owns those passed as rvalues. An operator F°(y) owns what
@@ -21,16 +21,6 @@
 #include <utility>
 
 namespace slant {
-
-/// Empty base of slanting functions that want `f + g`, `f - g`, `α * f`, `A * f`, `f * g`, `-f`.
-/// The named factories (compose, stack, max, ...) need no base. Why a base at all: without a vector
-/// type nothing else tells a function (value, slant) from an operator (apply) by its members.
-struct slanting_base {};
-
-/// A map whose type is marked, whatever the vectors.
-template <class F>
-concept slanting_map = std::is_base_of_v<slanting_base, std::remove_cvref_t<F>> &&
-                       has_rows<std::remove_cvref_t<F>> && has_cols<std::remove_cvref_t<F>>;
 
 /// A slanting function as far as can be known before the vectors are: what factories ask of their
 /// arguments.

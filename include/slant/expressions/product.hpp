@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: MIT
+//
+// A product c F₁ F₂ … F_n: a number and one flat sequence of factors, which are letters and sums.
+// y = c F₁ (F₂ (… (F_n x))) with one temporary between two factors. Laws: mirror.hpp.
+//
+//     (A B) C, A (B C)      one flat sequence
+//     (c A) (d B)           (c d) A B
+//     A I, I A              A
+//     (A B)ᵀ, (A B)⁻¹       reverse and transform
+//     D₁ D₂                 one diagonal, of those without a name
+#pragma once
+
+#include <slant/expressions/mirror.hpp>
+
+#include <boost/hana/at.hpp>
+#include <boost/hana/back.hpp>
+#include <boost/hana/concat.hpp>
+#include <boost/hana/drop_back.hpp>
+#include <boost/hana/drop_front.hpp>
+#include <boost/hana/front.hpp>
+#include <boost/hana/reverse.hpp>
+#include <boost/hana/transform.hpp>
+#include <boost/hana/tuple.hpp>
+#include <boost/hana/unpack.hpp>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace slant::expr {
+
+namespace hana = boost::hana;
+
+template <class V, std::size_t N, class Inner>
+struct product_workspace {
+  std::array<V, N - 1> between;  ///< between[k] = F_{k+2} … F_n x, of the adjoint F_{k+1}ᵀ … F₁ᵀ x
+  Inner inner;                   ///< a workspace for each factor
+};
+template <class V, class Inner>
+struct product_workspace<V, 1, Inner> {
+  Inner inner;
+};
+
+/// The product with the factors F and a number in front; one factor without a number is itself.
+template <class C, class... F>
+[[nodiscard]] auto make_product(C const& c, hana::tuple<F...> factors) {
+  if constexpr (sizeof...(F) == 1 && std::is_same_v<C, one>) {
+    return hana::at_c<0>(std::move(factors));
+  } else {
+    return product<C, F...>(c, std::move(factors));
+  }
+}
+
+template <class C, class... F>
+class product : public expression_base {
+  static constexpr std::size_t n = sizeof...(F);
+  static constexpr bool has_number = !std::is_same_v<C, one>;
+  using first = nth<0, F...>;
+  using last = nth<n - 1, F...>;
+
+  /// F_n x is handed on as a view of x.
+  template <class X>
+  static constexpr bool no_copy = n > 1 && slant::detail::shows_segment<last, X>;
+
+ public:
+  /// Without the number.
+  static constexpr law_set core_laws = product_laws<F...>();
+  static constexpr law_set laws =
+      has_number ? slant::detail::scaled_laws(core_laws, sign_of<C> == sign::plus) : core_laws;
+  static constexpr bool full_row_rank = !has_number && (declares_full_row_rank<F> && ...);
+
+  /// Throws bad_input if sizes do not fit, names stand for two objects, or the number has not the
+  /// sign that the laws need.
+  product(C c, hana::tuple<F...> factors) : c_(std::move(c)), factors_(std::move(factors)) {
+    dictionary names;
+    if constexpr (n > 1) enter(names);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (expr::check_mirror(factor<I>(), factor<n - 1 - I>()), ...);
+    }(std::make_index_sequence<n == 1 ? 0 : mirrored_pairs<F...>()>{});
+    if constexpr (laws.contains(law::positive_semidefinite)) {
+      expr::require_sign(c_, laws.contains(law::positive_definite));
+    }
+  }
+
+  [[nodiscard]] C const& coefficient() const noexcept { return c_; }
+  [[nodiscard]] hana::tuple<F...> const& factors() const noexcept { return factors_; }
+  template <std::size_t I>
+  [[nodiscard]] auto const& factor() const noexcept {
+    return hana::at_c<I>(factors_);
+  }
+
+  [[nodiscard]] index rows() const { return factor<0>().rows(); }
+  [[nodiscard]] index cols() const { return factor<n - 1>().cols(); }
+
+  template <class X>
+    requires(linear_operator<F, plain_t<X>> && ...)
+  [[nodiscard]] auto workspace(X const& x) const {
+    return make_workspace<false>(x);
+  }
+  template <class X, class Y, class W>
+    requires slant::detail::applies<last, X, plain_t<X>> &&
+             slant::detail::applies<first, plain_t<X>, Y>
+  void apply(X const& x, Y& y, W& w) const {
+    apply_core(x, y, w);
+    scale(y);
+  }
+  /// y = F₁ … F_n x, without the number.
+  template <class X, class Y, class W>
+  void apply_core(X const& x, Y& y, W& w) const {
+    from_the_right(x, w, [&](auto const& z, auto& inner) { factor<0>().apply(z, y, inner); });
+  }
+  template <class X, class Y, class W>
+    requires slant::detail::applies<last, X, plain_t<X>> &&
+             slant::detail::accumulates<first, plain_t<X>, Y>
+  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    scalar_t<X> const c = times(α);
+    from_the_right(x, w, [&](auto const& z, auto& inner) {
+      factor<0>().apply_add(c, z, y, inner);
+    });
+  }
+
+  template <class X>
+    requires(has_adjoint<F, plain_t<X>> && ...)
+  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+    return make_workspace<true>(x);
+  }
+  template <class X, class Y, class W>
+    requires slant::detail::applies_adjoint<first, X, plain_t<X>> &&
+             slant::detail::applies_adjoint<last, plain_t<X>, Y>
+  void apply_adjoint(X const& x, Y& y, W& w) const {
+    from_the_left<0>(x, w, [&](auto const& z, auto& inner) {
+      slant::apply_adjoint(factor<n - 1>(), z, y, inner);
+    });
+    scale(y);
+  }
+  template <class X, class Y, class W>
+    requires slant::detail::applies_adjoint<first, X, plain_t<X>> &&
+             slant::detail::accumulates_adjoint<last, plain_t<X>, Y>
+  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    scalar_t<X> const c = times(α);
+    from_the_left<0>(x, w, [&](auto const& z, auto& inner) {
+      slant::apply_adjoint_add(factor<n - 1>(), c, z, y, inner);
+    });
+  }
+
+  template <class D>
+    requires(n == 1 && has_diagonal<first, D>)
+  void diagonal(D& d) const {
+    factor<0>().diagonal(d);
+    scale(d);
+  }
+  template <class Y>
+    requires has_columns<last, plain_t<Y>> && (applies_to_many<F, plain_t<Y>> && ...)
+  void columns(index first_column, Y& y) const {
+    if constexpr (n == 1) {
+      factor<0>().columns(first_column, y);
+    } else {
+      auto z = slant::like(y, factor<n - 1>().rows());
+      factor<n - 1>().columns(first_column, z);
+      auto const before = make_product(one{}, hana::drop_back(factors_));
+      slant::apply(before, z, y);
+    }
+    scale(y);
+  }
+
+  /// Reverse and transform.
+  [[nodiscard]] auto adjoint() const {
+    if constexpr (laws.contains(law::self_adjoint)) {
+      return *this;
+    } else {
+      return expr::make_product(c_, hana::transform(hana::reverse(factors_),
+                                                    [](auto const& f) { return f.adjoint(); }));
+    }
+  }
+  [[nodiscard]] auto inverse() const
+    requires(slant::detail::knows_its_inverse<F> && ...)
+  {
+    return expr::make_product(
+        expr::reciprocal(c_),
+        hana::transform(hana::reverse(factors_), [](auto const& f) { return f.inverse(); }));
+  }
+
+  void enter(dictionary& names) const {
+    hana::unpack(factors_, [&](auto const&... f) { (f.enter(names), ...); });
+  }
+  void print(std::string& out) const {
+    if constexpr (has_number) {
+      double const c = expr::value_as<double>(c_);
+      out += c == -1 ? "−" : c < 0 ? "−" + number_text(-c) + " " : number_text(c) + " ";
+    }
+    print_core(out);
+  }
+  /// Without the number; sums in parentheses.
+  void print_core(std::string& out) const {
+    bool next = false;
+    auto const print_factor = [&]<class G>(G const& g) {
+      if (next) out += " ";
+      if (is_sum<G>) out += "(";
+      g.print(out);
+      if (is_sum<G>) out += ")";
+      next = true;
+    };
+    hana::unpack(factors_, [&](auto const&... f) { (print_factor(f), ...); });
+  }
+  static constexpr void spell(ascii& out) {
+    if (sign_of<C> == sign::minus) out.add("-");
+    bool next = !std::is_empty_v<C>;
+    if (next) out.add("c");
+    (((next ? out.add(" * ") : out), next = true, spell_factor<F>(out)), ...);
+  }
+
+ private:
+  template <class G>
+  static constexpr void spell_factor(ascii& out) {
+    if (is_sum<G>) out.add("(");
+    G::spell(out);
+    if (is_sum<G>) out.add(")");
+  }
+
+  template <class Y>
+  void scale(Y& y) const {
+    if constexpr (has_number) vectors::scale(expr::value_as<scalar_t<Y>>(c_), y);
+  }
+  template <class S>
+  [[nodiscard]] S times(S const& α) const {
+    if constexpr (has_number) {
+      return S(α * expr::value_as<S>(c_));
+    } else {
+      return α;
+    }
+  }
+
+  template <bool Adjoint, class X>
+  [[nodiscard]] auto make_workspace(X const& x) const {
+    // The argument of factor J (of its adjoint) has the size of its columns (rows).
+    auto const part = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
+      auto const inner = [&](auto const& argument) {
+        if constexpr (Adjoint) {
+          return slant::adjoint_workspace(factor<J>(), argument);
+        } else {
+          return slant::workspace(factor<J>(), argument);
+        }
+      };
+      if constexpr (J == (Adjoint ? 0 : n - 1)) {
+        return inner(x);
+      } else {
+        return inner(slant::like(x, Adjoint ? factor<J>().rows() : factor<J>().cols()));
+      }
+    };
+    return [&]<std::size_t... I, std::size_t... B>(std::index_sequence<I...>,
+                                                   std::index_sequence<B...>) {
+      using inner = hana::tuple<decltype(part(std::integral_constant<std::size_t, I>{}))...>;
+      using workspace_type = product_workspace<plain_t<X>, n, inner>;
+      if constexpr (n == 1) {
+        return workspace_type{inner{part(std::integral_constant<std::size_t, I>{})...}};
+      } else {
+        return workspace_type{{slant::like(x, factor<B>().cols())...},
+                              inner{part(std::integral_constant<std::size_t, I>{})...}};
+      }
+    }(std::make_index_sequence<n>{}, std::make_index_sequence<n - 1>{});
+  }
+
+  /// finish(F₂ … F_n x, workspace of F₁).
+  template <class X, class W, class Finish>
+  void from_the_right(X const& x, W& w, Finish const& finish) const {
+    if constexpr (no_copy<X>) {
+      auto const segment = factor<n - 1>().segment(x);
+      down_from<n - 2>(segment, w, finish);
+    } else {
+      down_from<n - 1>(x, w, finish);
+    }
+  }
+  template <std::size_t K, class X, class W, class Finish>
+  void down_from(X const& x, W& w, Finish const& finish) const {
+    if constexpr (K == 0) {
+      finish(x, hana::at_c<0>(w.inner));
+    } else {
+      factor<K>().apply(x, w.between[K - 1], hana::at_c<K>(w.inner));
+      down_from<K - 1>(w.between[K - 1], w, finish);
+    }
+  }
+  /// finish(F_{n−1}ᵀ … F₁ᵀ x, workspace of F_nᵀ).
+  template <std::size_t K, class X, class W, class Finish>
+  void from_the_left(X const& x, W& w, Finish const& finish) const {
+    if constexpr (K == n - 1) {
+      finish(x, hana::at_c<K>(w.inner));
+    } else {
+      slant::apply_adjoint(factor<K>(), x, w.between[K], hana::at_c<K>(w.inner));
+      from_the_left<K + 1>(w.between[K], w, finish);
+    }
+  }
+
+  [[no_unique_address]] C c_;
+  hana::tuple<F...> factors_;
+};
+
+// --- A B -----------------------------------------------------------------------------------------
+
+/// The number in front of an expression.
+template <class A>
+[[nodiscard]] auto coefficient_of(A const& a) {
+  if constexpr (is_product<A>) {
+    return a.coefficient();
+  } else {
+    return one{};
+  }
+}
+/// Its factors.
+template <class A>
+[[nodiscard]] auto factors_of(A const& a) {
+  if constexpr (is_product<A>) {
+    return a.factors();
+  } else {
+    return hana::tuple<A>(a);
+  }
+}
+
+template <class A>
+inline constexpr bool is_identity = false;
+template <auto Name, unsigned Flags>
+inline constexpr bool is_identity<letter<Name, identity_operator, Flags>> = true;
+
+template <class A>
+inline constexpr bool is_plain_diagonal = false;
+template <class D, law_set L>
+inline constexpr bool is_plain_diagonal<letter<nameless{}, diagonal_operator<D, L>, 0>> = true;
+
+/// The product of two diagonals. Its laws are checked again: a product of entries may underflow.
+template <auto Name, class D, law_set L, class E, law_set M>
+[[nodiscard]] auto merge_diagonals(letter<Name, diagonal_operator<D, L>, 0> const& a,
+                                   letter<Name, diagonal_operator<E, M>, 0> const& b) {
+  using entries = plain_t<std::remove_cvref_t<decltype(a.get().entries())>>;
+  entries d = a.get().entries().cwiseProduct(b.get().entries());
+  slant::detail::require_diagonal_laws<(L & M)>(d);
+  return expr::make_letter<Name>(diagonal_operator<entries, (L & M)>(held<entries>(std::move(d))));
+}
+
+/// The factors F followed by G: identities vanish, neighbouring diagonals become one.
+template <class... F, class... G>
+[[nodiscard]] auto join(hana::tuple<F...> f, hana::tuple<G...> g) {
+  using left = nth<sizeof...(F) - 1, F...>;
+  using right = nth<0, G...>;
+  if constexpr (is_identity<left>) {
+    return hana::concat(hana::drop_back(std::move(f)), std::move(g));
+  } else if constexpr (is_identity<right>) {
+    return hana::concat(std::move(f), hana::drop_front(std::move(g)));
+  } else if constexpr (is_plain_diagonal<left> && is_plain_diagonal<right>) {
+    return hana::concat(
+        hana::concat(hana::drop_back(f),
+                     hana::make_tuple(expr::merge_diagonals(hana::back(f), hana::front(g)))),
+        hana::drop_front(g));
+  } else {
+    return hana::concat(std::move(f), std::move(g));
+  }
+}
+
+/// Throws bad_input that names both expressions unless `fit`.
+template <class A, class B>
+void require_fitting(bool fit, A const& a, B const& b, std::string expected) {
+  if (fit) return;
+  std::string left;
+  std::string right;
+  a.print(left);
+  b.print(right);
+  throw bad_input(right, slant::detail::size_text(b.rows(), b.cols()), expected + left + ")");
+}
+
+/// A B.
+template <class A, class B>
+[[nodiscard]] auto multiply(A const& a, B const& b) {
+  expr::require_fitting(b.rows() == a.cols(), a, b,
+                        std::to_string(a.cols()) + " rows (the columns of ");
+  return expr::make_product(
+      expr::multiply_numbers(expr::coefficient_of(a), expr::coefficient_of(b)),
+      expr::join(expr::factors_of(a), expr::factors_of(b)));
+}
+/// c A.
+template <class C, class A>
+[[nodiscard]] auto multiply_by(C const& c, A const& a) {
+  return expr::make_product(expr::multiply_numbers(c, expr::coefficient_of(a)),
+                            expr::factors_of(a));
+}
+/// −A.
+template <class A>
+[[nodiscard]] auto negate(A const& a) {
+  return expr::make_product(expr::negated(expr::coefficient_of(a)), expr::factors_of(a));
+}
+
+}  // namespace slant::expr

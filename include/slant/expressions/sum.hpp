@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// A sum T₁ + … + T_n: one flat sequence of terms, which are letters and products. A − B is
+// A + (−1) B. The first term writes y, the others add to it (capability apply_add), so a sum costs
+// what the hand-written loop costs. Laws: mirror.hpp.
+#pragma once
+
+#include <slant/expressions/product.hpp>
+
+namespace slant::expr {
+
+/// y ← y + α T x. The number of a product goes into α, also where its first factor cannot add.
+template <class T, class S, class X, class Y, class W>
+void add_term(T const& t, S const& α, X const& x, Y& y, W& w) {
+  if constexpr (has_accumulate<T, plain_t<X>>) {
+    t.apply_add(α, x, y, w);
+  } else if constexpr (is_product<T>) {
+    t.apply_core(x, w.product, w.inner);
+    vectors::axpy(S(α * expr::value_as<S>(t.coefficient())), w.product, y);
+  } else {
+    t.apply(x, w.product, w.inner);
+    vectors::axpy(α, w.product, y);
+  }
+}
+
+template <class... T>
+[[nodiscard]] sum<T...> make_sum(hana::tuple<T...> terms);
+
+template <class... T>
+class sum : public expression_base {
+  static constexpr std::make_index_sequence<sizeof...(T) - 1> rest{};
+  using first = nth<0, T...>;
+
+ public:
+  static constexpr law_set laws = expr::sum_laws<T...>();
+
+  /// The sizes agree. Throws bad_input if a name stands for two objects.
+  explicit sum(hana::tuple<T...> terms) : terms_(std::move(terms)) {
+    dictionary names;
+    enter(names);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (check_partner<I>(), ...);
+    }(std::index_sequence_for<T...>{});
+  }
+
+  [[nodiscard]] hana::tuple<T...> const& terms() const noexcept { return terms_; }
+  template <std::size_t I>
+  [[nodiscard]] auto const& term() const noexcept {
+    return hana::at_c<I>(terms_);
+  }
+
+  [[nodiscard]] index rows() const { return term<0>().rows(); }
+  [[nodiscard]] index cols() const { return term<0>().cols(); }
+
+  template <class X>
+    requires(linear_operator<T, plain_t<X>> && ...)
+  [[nodiscard]] auto workspace(X const& x) const {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return hana::make_tuple(slant::workspace(term<0>(), x),
+                              slant::detail::accumulate_workspace(term<I + 1>(), x)...);
+    }(rest);
+  }
+  template <class X, class Y, class W>
+    requires slant::detail::applies<first, X, Y> && (slant::detail::adds<T, X, Y> && ...)
+  void apply(X const& x, Y& y, W& w) const {
+    term<0>().apply(x, y, hana::at_c<0>(w));
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (expr::add_term(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)), ...);
+    }(rest);
+  }
+  template <class X, class Y, class W>
+    requires(slant::detail::accumulates<T, X, Y> && ...)
+  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (term<I>().apply_add(α, x, y, hana::at_c<I>(w)), ...);
+    }(std::index_sequence_for<T...>{});
+  }
+
+  template <class X>
+    requires(has_adjoint<T, plain_t<X>> && ...)
+  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return hana::make_tuple(slant::adjoint_workspace(term<0>(), x),
+                              slant::detail::accumulate_adjoint_workspace(term<I + 1>(), x)...);
+    }(rest);
+  }
+  template <class X, class Y, class W>
+    requires slant::detail::applies_adjoint<first, X, Y> &&
+             (slant::detail::adds_adjoint<T, X, Y> && ...)
+  void apply_adjoint(X const& x, Y& y, W& w) const {
+    slant::apply_adjoint(term<0>(), x, y, hana::at_c<0>(w));
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (slant::detail::accumulate_adjoint(term<I + 1>(), scalar_t<X>(1), x, y,
+                                         hana::at_c<I + 1>(w)),
+       ...);
+    }(rest);
+  }
+  template <class X, class Y, class W>
+    requires(slant::detail::accumulates_adjoint<T, X, Y> && ...)
+  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (slant::apply_adjoint_add(term<I>(), α, x, y, hana::at_c<I>(w)), ...);
+    }(std::index_sequence_for<T...>{});
+  }
+
+  template <class D>
+    requires(has_diagonal<T, plain_t<D>> && ...)
+  void diagonal(D& d) const {
+    add_up(d, [](auto const& t, auto& part) { t.diagonal(part); });
+  }
+  template <class Y>
+    requires(has_columns<T, plain_t<Y>> && ...)
+  void columns(index first_column, Y& y) const {
+    add_up(y, [&](auto const& t, auto& part) { t.columns(first_column, part); });
+  }
+
+  [[nodiscard]] auto adjoint() const {
+    if constexpr (laws.contains(law::self_adjoint)) {
+      return *this;
+    } else {
+      return expr::make_sum(hana::transform(terms_, [](auto const& t) { return t.adjoint(); }));
+    }
+  }
+
+  void enter(dictionary& names) const {
+    hana::unpack(terms_, [&](auto const&... t) { (t.enter(names), ...); });
+  }
+  void print(std::string& out) const {
+    bool next = false;
+    auto const print_term = [&]<class U>(U const& t) {
+      if (next) {
+        if constexpr (is_product<U>) {
+          double const c = expr::value_as<double>(t.coefficient());
+          out += c < 0 ? " − " : " + ";
+          if (std::abs(c) != 1) out += number_text(std::abs(c)) + " ";
+          t.print_core(out);
+        } else {
+          out += " + ";
+          t.print(out);
+        }
+      } else {
+        t.print(out);
+      }
+      next = true;
+    };
+    hana::unpack(terms_, [&](auto const&... t) { (print_term(t), ...); });
+  }
+  static constexpr void spell(ascii& out) {
+    bool next = false;
+    (((next ? out.add(" + ") : out), next = true, T::spell(out)), ...);
+  }
+
+ private:
+  template <std::size_t I>
+  void check_partner() const {
+    constexpr std::size_t partner = partners<T...>()[I];
+    if constexpr (partner > I && partner < sizeof...(T)) {
+      expr::check_mirror(term<I>(), term<partner>());
+    }
+  }
+  /// y = Σ part(Tᵢ).
+  template <class Y, class Part>
+  void add_up(Y& y, Part const& part) const {
+    auto more = slant::like(y, rows());
+    part(term<0>(), y);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      ((part(term<I + 1>(), more), slant::local(y) += slant::local(more)), ...);
+    }(rest);
+  }
+
+  hana::tuple<T...> terms_;
+};
+
+template <class... T>
+sum<T...> make_sum(hana::tuple<T...> terms) {
+  return sum<T...>(std::move(terms));
+}
+
+template <class A>
+[[nodiscard]] auto terms_of(A const& a) {
+  if constexpr (is_sum<A>) {
+    return a.terms();
+  } else {
+    return hana::tuple<A>(a);
+  }
+}
+
+/// A + B.
+template <class A, class B>
+[[nodiscard]] auto add(A const& a, B const& b) {
+  expr::require_fitting(a.rows() == b.rows() && a.cols() == b.cols(), a, b,
+                        slant::detail::size_text(a.rows(), a.cols()) + " (the size of ");
+  return expr::make_sum(hana::concat(expr::terms_of(a), expr::terms_of(b)));
+}
+
+}  // namespace slant::expr
