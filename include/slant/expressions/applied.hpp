@@ -27,10 +27,12 @@ namespace Eigen::internal {
 template <class A, class X>
 struct traits<slant::expr::applied<A, X>> {
   using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
+  enum { Flags = EvalBeforeNestingBit };
 };
 template <class A, class X, class W>
 struct traits<slant::expr::applied_in<A, X, W>> {
   using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
+  enum { Flags = EvalBeforeNestingBit };
 };
 }  // namespace Eigen::internal
 
@@ -125,6 +127,11 @@ class applied : public Eigen::ReturnByValue<applied<A, X>> {
 template <class X>
 concept eigen_vector = eigen_matrix<X> && (std::remove_cvref_t<X>::ColsAtCompileTime == 1);
 
+/// How x is kept: like any part, views as they are, so that overlap shows; expressions evaluated.
+template <class X>
+using kept_vector_t = std::conditional_t<slant::detail::is_stored_matrix<X>, kept_t<X>,
+                                         typename std::remove_cvref_t<X>::PlainObject>;
+
 }  // namespace slant::expr
 
 namespace slant {
@@ -132,10 +139,10 @@ namespace slant {
 /// A x, see the top of this file. @throws bad_input if x has not cols() entries.
 template <linear_term A, expr::eigen_vector X>
 [[nodiscard]] auto operator*(A&& a, X&& x) {
-  using kept = detail::kept_matrix_t<X>;
+  using kept = expr::kept_vector_t<X>;
   detail::check_rows("x", x, index(a.cols()), "cols() of the operator");
   return expr::applied<kept_t<A>, kept>(held<kept_t<A>>(std::forward<A>(a)),
-                                        held<kept>(std::forward<X>(x)));
+                                        held<kept>(static_cast<kept>(std::forward<X>(x))));
 }
 
 /// y ← y + A x without a temporary, where A can add.

@@ -24,11 +24,14 @@
 
 namespace slant {
 
-/// Base of expressions. It brings lookup of + − * into namespace slant, and marks a handle, which
-/// compositions copy.
-struct expression_base {
+/// Base of what a name gives: a handle, which compositions copy; for which inverse(K), adjoint(A) and
+/// + − * are looked up in namespace slant.
+struct handle_base {
   static constexpr bool is_handle = true;
 };
+
+/// Base of expressions.
+struct expression_base : handle_base {};
 
 /// An expression of linear operators: a letter, a product or a sum.
 template <class A>
@@ -100,7 +103,7 @@ class letter : public expression_base {
   /// Of what is applied. An operator with inverse() is regular; K⁺ of a singular K is none.
   static constexpr bool full_row_rank =
       laws.contains(law::positive_definite) ||
-      (is_inverse && !slant::detail::factorization_like<A>) ||
+      (is_inverse ? !slant::detail::factorization_like<A> : !is_adjoint && declares_full_row_rank<A>) ||
       (Flags & (is_adjoint ? independent_columns : independent_rows)) != 0;
   static constexpr std::string_view symbol =
       text_of(Name).empty() ? symbol_of(static_cast<A const*>(nullptr)) : text_of(Name);
@@ -255,7 +258,7 @@ class letter : public expression_base {
 
 /// A factorisation under a name: no operator, but its inverse is one.
 template <auto Name, class F>
-class factored {
+class factored : public handle_base {
  public:
   static constexpr law_set laws = laws_of<F>;
 

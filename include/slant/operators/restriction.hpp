@@ -95,8 +95,6 @@ class restriction : public detail::component_list {
  public:
   static constexpr bool full_row_rank = true;
 
-  static constexpr bool full_row_rank = true;
-
   /// Throws bad_input unless the components are different numbers in [0, n). Room is reserved for
   /// n components, so that assign never allocates.
   template <class Components>
