@@ -132,8 +132,7 @@ TEST_CASE("laws of palindromes") {
 TEST_CASE("independent rows: of a choice of components, of no generalised inverse") {
   SLANT_TEST_LETTERS;
   auto const choice = op<"R">(slant::restriction(n, {5, 0, 2}));
-  EXPECT(spd, choice * S * adjoint(choice),
-         o.S({5, 0, 2}, {5, 0, 2}));
+  EXPECT(spd, choice * S * adjoint(choice), o.S({5, 0, 2}, {5, 0, 2}));
   auto const pseudo = inverse(op<"K">(singular_factors{}));
   auto const S2 = op<"S", self_adjoint, positive_definite>(MatrixXd::Identity(2, 2));
   EXPECT(psd, pseudo * S2 * pseudo, MatrixXd(VectorXd::Unit(2, 0).asDiagonal()));

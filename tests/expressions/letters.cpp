@@ -29,8 +29,7 @@ MatrixXd definite(int size, unsigned seed) {
 
 }  // namespace
 
-letter_data::letter_data()
-    : K(definite(n, 1)), S(definite(n, 2)), N(definite(m, 13)) {
+letter_data::letter_data() : K(definite(n, 1)), S(definite(n, 2)), N(definite(m, 13)) {
   MatrixXd const f = random(n, 3, 3);
   P = f * f.transpose();
   J = f * (f.transpose() * f).inverse() * f.transpose();
@@ -65,10 +64,10 @@ std::string false_laws(MatrixXd const& a, slant::law_set laws) {
   expect(slant::law::positive_semidefinite, λ.minCoeff() >= -noise);
   expect(slant::law::positive_definite, λ.minCoeff() > 1e-7 * size);
   expect(slant::law::projector, (a * a - a).norm() <= noise);
-  expect(slant::law::firmly_nonexpansive,
-         Eigen::SelfAdjointEigenSolver<MatrixXd>(
-             MatrixXd((a + a.transpose()) / 2 - a.transpose() * a)).eigenvalues().minCoeff() >=
-             -noise);
+  expect(slant::law::firmly_nonexpansive, Eigen::SelfAdjointEigenSolver<MatrixXd>(
+                                              MatrixXd((a + a.transpose()) / 2 - a.transpose() * a))
+                                                  .eigenvalues()
+                                                  .minCoeff() >= -noise);
   return wrong;
 }
 

@@ -61,21 +61,25 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK(message<bad_input>([&] { (void)(-2.0 * S); }) ==
         "c: got -2, expected a number > 0 in front of a definite operator; for others write "
         "-(c * A) or any_sign(c) * A");
-  CHECK(message<bad_input>([&] { (void)(0.0 * S); }).starts_with("c: got 0, expected a number > 0"));
-  CHECK(message<bad_input>([&] { (void)(-2.0 * B * S * adjoint(B)); })
-            .starts_with("c: got -2, expected a number >= 0 in front of a semidefinite"));
+  CHECK(
+      message<bad_input>([&] { (void)(0.0 * S); }).starts_with("c: got 0, expected a number > 0"));
+  CHECK(message<bad_input>([&] {
+          (void)(-2.0 * B * S * adjoint(B));
+        }).starts_with("c: got -2, expected a number >= 0 in front of a semidefinite"));
   CHECK_NOTHROW((void)(-2.0 * B * S));
   CHECK_NOTHROW((void)(-2.0 * G));
   CHECK_NOTHROW((void)(-(2.0 * S)));
   CHECK(message<bad_input>([&] { (void)(std::nan("") * G); }) ==
         "c: got nan, expected a finite number");
-  CHECK(message<bad_input>([&] { (void)(1e-200 * (1e-200 * S)); })
-            .starts_with("c: got 1e-200 * 1e-200, expected numbers whose product is in the range"));
+  CHECK(message<bad_input>([&] {
+          (void)(1e-200 * (1e-200 * S));
+        }).starts_with("c: got 1e-200 * 1e-200, expected numbers whose product is in the range"));
   CHECK(message<bad_input>([&] { (void)(S / 0.0); }) ==
         "c: got 0, expected a number with a finite reciprocal");
   CHECK(message<bad_input>([&] { (void)(B * S * B); }) ==
         "B: got 4 x 7, expected 7 rows (the columns of B S)");
-  CHECK(message<bad_input>([&] { (void)(B + S); }) == "S: got 7 x 7, expected 4 x 7 (the size of B)");
+  CHECK(message<bad_input>([&] { (void)(B + S); }) ==
+        "S: got 7 x 7, expected 4 x 7 (the size of B)");
   CHECK(message<bad_input>([&] { (void)(S * identity(3)); }) ==
         "I: got 3 x 3, expected 7 rows (the columns of S)");
   CHECK(message<bad_input>([&] { (void)full_row_rank(adjoint(B)); }) ==

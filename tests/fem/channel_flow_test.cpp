@@ -2,6 +2,7 @@
 //
 // The channel with a round obstacle [K Ex 4] on the shipped meshes.
 #include <doctest/doctest.h>
+#include "support/folders.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -27,9 +28,8 @@ using Eigen::Vector2d;
 
 fem::planar_domain const& shipped_mesh(int refinement) {
   static auto const read = [](int k) {
-    auto const here = std::filesystem::path(__FILE__).parent_path();
-    return fem::read_gmsh(here.parent_path().parent_path() / "examples/stokes/meshes" /
-                          ("channel_" + std::to_string(k) + ".msh"));
+    return fem::read_gmsh(
+        test::source("examples/stokes/meshes/channel_" + std::to_string(k) + ".msh"));
   };
   static fem::planar_domain const meshes[]{read(1), read(2)};
   return meshes[refinement - 1];

@@ -2,6 +2,7 @@
 //
 // A flow in a channel whose wall sticks and slips (g = 10) or only sticks (g = 30).
 #include <slant/factorizations/ldlt.hpp>
+#include "support/folders.hpp"
 
 #include <cmath>
 #include <fem/channel_flow.hpp>
@@ -73,10 +74,8 @@ struct flow_data {
 /// wall.
 [[nodiscard]] fem::stokes_flow channel(double g) {
   if (test::effort(true, false)) {
-    auto const here = std::filesystem::path(__FILE__).parent_path();
     return fem::make_channel_flow(
-        fem::read_gmsh(here.parent_path().parent_path() / "examples/stokes/meshes/channel_1.msh"),
-        {.slip_bound = g});
+        fem::read_gmsh(test::source("examples/stokes/meshes/channel_1.msh")), {.slip_bound = g});
   }
   fem::stokes_flow flow;
   flow.domain = fem::make_rectangle({5, 3}, {2, 1});

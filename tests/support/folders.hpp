@@ -9,6 +9,9 @@
 
 namespace test {
 
+/// A file or folder of the checkout.
+[[nodiscard]] std::filesystem::path source(std::string_view name);
+
 /// A file or folder of tests/data.
 [[nodiscard]] std::filesystem::path data(std::string_view name);
 

@@ -131,7 +131,7 @@ concept declares_firmly_nonexpansive = laws_of<A>.contains(law::firmly_nonexpans
 /// The rows of A are linearly independent: asserted (`full_row_rank(B)`), known of the type, or since
 /// A is definite. No law, since operators that are not square have it; B A Bᵀ asks B for it.
 template <class A>
-concept declares_full_row_rank = declares_positive_definite<A> ||
-                                 requires { requires std::remove_cvref_t<A>::full_row_rank; };
+concept declares_full_row_rank =
+    declares_positive_definite<A> || requires { requires std::remove_cvref_t<A>::full_row_rank; };
 
 }  // namespace slant

@@ -238,8 +238,8 @@ struct complaint_about {
 
 /// A lacks a law of L and says why.
 template <class A, law_set L>
-concept explains_lack = !laws_of<A>.contains(L) &&
-                        !std::is_void_v<typename complaint_about<A, L>::type>;
+concept explains_lack =
+    !laws_of<A>.contains(L) && !std::is_void_v<typename complaint_about<A, L>::type>;
 
 /// A, if it is to be asked for the laws L and cannot say itself why it lacks them.
 template <class A, law_set L>
@@ -273,7 +273,8 @@ struct operator_demands {
                 "A must declare self_adjoint and positive_semidefinite");
   static_assert(spd_operator<asked_for_t<definite, spd_laws>, typename a::vector_type>,
                 "A must declare self_adjoint and positive_definite");
-  static constexpr bool told = explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
+  static constexpr bool told =
+      explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
 };
 
 /// Of M ≈ A⁻¹.
@@ -291,7 +292,8 @@ struct preconditioner_demands {
                 "the preconditioner must declare self_adjoint and positive_semidefinite");
   static_assert(spd_operator<asked_for_t<definite, spd_laws>, typename m::vector_type>,
                 "the preconditioner must declare self_adjoint and positive_definite");
-  static constexpr bool told = explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
+  static constexpr bool told =
+      explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
 };
 
 }  // namespace slant::detail

@@ -20,8 +20,7 @@ struct anything {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor)
 };
-template <class W, class... Field>
-concept has_fields = requires { W{std::declval<Field>()...}; };
+template <class W, class... Field> concept has_fields = requires { W{std::declval<Field>()...}; };
 
 template <class T>
 inline constexpr bool is_hana_tuple = false;

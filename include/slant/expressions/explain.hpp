@@ -157,7 +157,8 @@ inline constexpr ascii missing_text = missing_law<A>(L);
 /// An operator that a method asks for laws, and why it lacks them.
 template <class Operator, class Because>
 struct lacks {
-  static_assert(sizeof(Operator) == 0, "A must have the laws that the method asks for; see what it lacks above");
+  static_assert(sizeof(Operator) == 0,
+                "A must have the laws that the method asks for; see what it lacks above");
   static constexpr bool told = true;
 };
 

@@ -34,13 +34,13 @@ struct handle_base {
 struct expression_base : handle_base {};
 
 /// An expression of linear operators: a letter, a product or a sum.
-template <class A>
-concept expression = std::is_base_of_v<expression_base, std::remove_cvref_t<A>>;
+template <class A> concept expression = std::is_base_of_v<expression_base, std::remove_cvref_t<A>>;
 
 namespace expr {
 
 /// What a letter is of the object that bears its name; and what its user asserts of that object.
-inline constexpr unsigned adjointed = 1, inverted = 2, independent_rows = 4, independent_columns = 8;
+inline constexpr unsigned adjointed = 1, inverted = 2, independent_rows = 4,
+                          independent_columns = 8;
 
 /// A handle of an object passed as T&&: lvalues are referenced, rvalues owned.
 template <class T>
@@ -103,7 +103,8 @@ class letter : public expression_base {
   /// Of what is applied. An operator with inverse() is regular; K⁺ of a singular K is none.
   static constexpr bool full_row_rank =
       laws.contains(law::positive_definite) ||
-      (is_inverse ? !slant::detail::factorization_like<A> : !is_adjoint && declares_full_row_rank<A>) ||
+      (is_inverse ? !slant::detail::factorization_like<A>
+                  : !is_adjoint && declares_full_row_rank<A>) ||
       (Flags & (is_adjoint ? independent_columns : independent_rows)) != 0;
   static constexpr std::string_view symbol =
       text_of(Name).empty() ? symbol_of(static_cast<A const*>(nullptr)) : text_of(Name);
@@ -194,11 +195,10 @@ class letter : public expression_base {
   {
     return letter<Name, A, Flags ^ inverted>(object_);
   }
-  /// The same with an assertion: of what is applied, or whose adjoint is.
-  template <unsigned Assertion>
-  [[nodiscard]] auto asserting() const {
-    constexpr unsigned own = is_adjoint ? independent_rows + independent_columns - Assertion : Assertion;
-    return letter<Name, A, Flags | own>(object_, part_);
+  /// The same with the assertion that the rows of what this letter stands for are independent.
+  [[nodiscard]] auto with_full_row_rank() const {
+    constexpr unsigned assertion = is_adjoint ? independent_columns : independent_rows;
+    return letter<Name, A, Flags | assertion>(object_, part_);
   }
 
   void enter(dictionary& names) const {

@@ -64,10 +64,9 @@ inline constexpr sign sign_of<number<S, Sign>> = Sign;
 
 /// The scalar of a product of numbers: the wider one; of a foreign scalar and a double, the former.
 template <class S, class T>
-using common_number =
-    std::conditional_t<std::is_floating_point_v<S> && std::is_floating_point_v<T>,
-                       std::common_type<S, T>,
-                       std::type_identity<std::conditional_t<std::is_same_v<S, double>, T, S>>>::type;
+using common_number = std::conditional_t<
+    std::is_floating_point_v<S> && std::is_floating_point_v<T>, std::common_type<S, T>,
+    std::type_identity<std::conditional_t<std::is_same_v<S, double>, T, S>>>::type;
 
 template <class C>
 [[nodiscard]] auto negated(C const& c) {
@@ -94,7 +93,8 @@ template <class C, class D>
     return negated(c);
   } else {
     using S = common_number<decltype(c.value), decltype(d.value)>;
-    number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)), S(S(c.divisor) * S(d.divisor))};
+    number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
+                                         S(S(c.divisor) * S(d.divisor))};
     bool const lost = p.value == S(0) && S(c.value) != S(0) && S(d.value) != S(0);
     if (lost || p.divisor == S(0) || !slant::detail::is_finite(p.value) ||
         !slant::detail::is_finite(p.divisor)) {
@@ -136,7 +136,8 @@ template <class C>
 void require_sign(C const& c, bool strictly) {
   if constexpr (!std::is_empty_v<C> && sign_of<C> != sign::any) {
     using S = decltype(c.value);
-    S const magnitude = sign_of<C> == sign::plus ? S(c.value / c.divisor) : S(-(c.value / c.divisor));
+    S const magnitude =
+        sign_of<C> == sign::plus ? S(c.value / c.divisor) : S(-(c.value / c.divisor));
     if (magnitude > S(0) || (!strictly && magnitude == S(0))) return;
     throw bad_input("c", slant::detail::show(magnitude),
                     strictly ? "a number > 0 in front of a definite operator; for others write "
@@ -155,8 +156,7 @@ inline constexpr bool is_marked<positive_factor<S>> = true;
 template <class S>
 inline constexpr bool is_marked<any_sign_factor<S>> = true;
 
-template <class S>
-concept number_in_front = is_marked<S> || std::is_arithmetic_v<S> || scalar<S>;
+template <class S> concept number_in_front = is_marked<S> || std::is_arithmetic_v<S> || scalar<S>;
 
 /// Integers are kept as double.
 template <class S>

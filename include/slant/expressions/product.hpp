@@ -76,7 +76,7 @@ class product : public expression_base {
     if constexpr (n > 1) enter(names);
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (expr::check_mirror(factor<I>(), factor<n - 1 - I>()), ...);
-    }(std::make_index_sequence<n == 1 ? 0 : mirrored_pairs<F...>()>{});
+    }(std::make_index_sequence < n == 1 ? 0 : mirrored_pairs<F...>() > {});
     if constexpr (laws.contains(law::positive_semidefinite)) {
       expr::require_sign(c_, laws.contains(law::positive_definite));
     }
@@ -114,9 +114,8 @@ class product : public expression_base {
              slant::detail::accumulates<first, plain_t<X>, Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     scalar_t<X> const c = times(α);
-    from_the_right(x, w, [&](auto const& z, auto& inner) {
-      factor<0>().apply_add(c, z, y, inner);
-    });
+    from_the_right(x, w,
+                   [&](auto const& z, auto& inner) { factor<0>().apply_add(c, z, y, inner); });
   }
 
   template <class X>
@@ -168,8 +167,8 @@ class product : public expression_base {
     if constexpr (laws.contains(law::self_adjoint)) {
       return *this;
     } else {
-      return expr::make_product(c_, hana::transform(hana::reverse(factors_),
-                                                    [](auto const& f) { return f.adjoint(); }));
+      return expr::make_product(
+          c_, hana::transform(hana::reverse(factors_), [](auto const& f) { return f.adjoint(); }));
     }
   }
   [[nodiscard]] auto inverse() const
@@ -345,10 +344,9 @@ template <class... F, class... G>
   } else if constexpr (is_identity<right>) {
     return hana::concat(std::move(f), hana::drop_front(std::move(g)));
   } else if constexpr (is_plain_diagonal<left> && is_plain_diagonal<right>) {
-    return hana::concat(
-        hana::concat(hana::drop_back(f),
-                     hana::make_tuple(expr::merge_diagonals(hana::back(f), hana::front(g)))),
-        hana::drop_front(g));
+    return hana::concat(hana::concat(hana::drop_back(f), hana::make_tuple(expr::merge_diagonals(
+                                                             hana::back(f), hana::front(g)))),
+                        hana::drop_front(g));
   } else {
     return hana::concat(std::move(f), std::move(g));
   }

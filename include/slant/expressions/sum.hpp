@@ -90,8 +90,7 @@ class sum : public expression_base {
   void apply_adjoint(X const& x, Y& y, W& w) const {
     slant::apply_adjoint(term<0>(), x, y, hana::at_c<0>(w));
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (slant::detail::accumulate_adjoint(term<I + 1>(), scalar_t<X>(1), x, y,
-                                         hana::at_c<I + 1>(w)),
+      (slant::detail::accumulate_adjoint(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)),
        ...);
     }(rest);
   }

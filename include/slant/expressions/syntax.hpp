@@ -22,15 +22,13 @@ namespace slant {
 
 /// An operator that is no Eigen object and no slanting function.
 template <class A>
-concept linear_term =
-    expression<A> || (!eigen_matrix<A> && !slanting_map<A> && operand<A>);
+concept linear_term = expression<A> || (!eigen_matrix<A> && !slanting_map<A> && operand<A>);
 
 namespace expr {
 
 /// An Eigen matrix, not a column.
 template <class A>
-concept matrix_factor =
-    eigen_matrix<A> && (std::remove_cvref_t<A>::ColsAtCompileTime != 1);
+concept matrix_factor = eigen_matrix<A> && (std::remove_cvref_t<A>::ColsAtCompileTime != 1);
 
 /// The two sides of + − *: at least one is ours.
 template <class A, class B>
@@ -94,28 +92,12 @@ template <linear_term A, expr::number_in_front S>
                            expr::as_expression(std::forward<A>(a)));
 }
 
-/// Aᵀ of an expression: reverse and transform.
-template <adjoint_operand A>
-  requires expression<A>
-[[nodiscard]] auto adjoint(A&& a) {
-  return a.adjoint();
-}
-
-/// Asserts that the rows of B are linearly independent.
-/// @throws bad_input if there are more rows than columns.
-template <adjoint_operand B>
-  requires(expr::is_letter<std::remove_cvref_t<B>>)
-[[nodiscard]] auto full_row_rank(B&& b) {
-  detail::require_wide("B", b);
-  return b.template asserting<expr::independent_rows>();
-}
 /// Asserts that the columns of B are linearly independent.
 /// @throws bad_input if there are more columns than rows.
 template <adjoint_operand B>
   requires(expr::is_letter<std::remove_cvref_t<B>>)
 [[nodiscard]] auto full_column_rank(B&& b) {
-  detail::require_wide("the adjoint", b.adjoint());
-  return b.template asserting<expr::independent_columns>();
+  return full_row_rank(b.adjoint()).adjoint();
 }
 
 /// The expression as one letter, which is not taken apart any more.

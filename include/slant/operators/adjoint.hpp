@@ -79,10 +79,14 @@ class adjoint_operator {
   held<A> a_;
 };
 
-/// Aᵀ.
+/// Aᵀ; of an operator that knows its adjoint, such as an expression, what it says.
 template <adjoint_operand A>
 [[nodiscard]] auto adjoint(A&& a) {
-  return adjoint_operator<part_t<A>>{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+  if constexpr (!eigen_matrix<A> && requires { a.adjoint(); }) {
+    return a.adjoint();
+  } else {
+    return adjoint_operator<part_t<A>>{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+  }
 }
 
 }  // namespace slant

@@ -158,9 +158,13 @@ class full_row_rank_operator : public detail::decorator<B, detail::no_probe> {
 /// Throws bad_input if there are more rows than columns.
 template <adjoint_operand B>
 [[nodiscard]] auto full_row_rank(B&& b) {
-  held<part_t<B>> part{slant::as_operator(std::forward<B>(b))};
-  detail::require_wide("B", part.get());
-  return full_row_rank_operator<part_t<B>>{std::move(part)};
+  detail::require_wide("B", b);
+  if constexpr (requires { b.with_full_row_rank(); }) {
+    return b.with_full_row_rank();
+  } else {
+    return full_row_rank_operator<part_t<B>>{
+        held<part_t<B>>(slant::as_operator(std::forward<B>(b)))};
+  }
 }
 
 /// Asserts laws of A. Throws bad_input if A is not square: only square operators have laws.

@@ -83,9 +83,8 @@ class equilibrated {
 
   /// min ½ yᵀ(D A D) y − (D b)ᵀy over D⁻¹Λ. References this object.
   [[nodiscard]] auto qp() const& {
-    return separable_qp{
-        congruence(diagonal<positive_definite>(d_), original_.get().a()), b_,
-        block_scaled(factors(d_.cwiseInverse()), original_.get().set())};
+    return separable_qp{congruence(diagonal<positive_definite>(d_), original_.get().a()), b_,
+                        block_scaled(factors(d_.cwiseInverse()), original_.get().set())};
   }
   auto qp() const&& = delete;  // it would reference what is about to end
 
