@@ -247,13 +247,10 @@ using asked_for_t = asked_t<!explains_lack<A, L>, A>;
 
 /// Whatever A has to say of L was said.
 template <class A, law_set L>
-[[nodiscard]] consteval bool explained() {
-  if constexpr (explains_lack<A, L>) {
-    return complaint_about<A, L>::type::told;
-  } else {
-    return true;
-  }
-}
+inline constexpr bool explained = true;
+template <class A, law_set L>
+  requires explains_lack<A, L>
+inline constexpr bool explained<A, L> = complaint_about<A, L>::type::told;
 
 inline constexpr law_set psd_laws = slant::laws<law::self_adjoint, law::positive_semidefinite>;
 inline constexpr law_set spd_laws = slant::laws<law::self_adjoint, law::positive_definite>;
@@ -273,8 +270,7 @@ struct operator_demands {
                 "A must declare self_adjoint and positive_semidefinite");
   static_assert(spd_operator<asked_for_t<definite, spd_laws>, typename a::vector_type>,
                 "A must declare self_adjoint and positive_definite");
-  static constexpr bool told =
-      explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
+  static constexpr bool told = explained<semidefinite, psd_laws> && explained<definite, spd_laws>;
 };
 
 /// Of M ≈ A⁻¹.
@@ -292,8 +288,7 @@ struct preconditioner_demands {
                 "the preconditioner must declare self_adjoint and positive_semidefinite");
   static_assert(spd_operator<asked_for_t<definite, spd_laws>, typename m::vector_type>,
                 "the preconditioner must declare self_adjoint and positive_definite");
-  static constexpr bool told =
-      explained<semidefinite, psd_laws>() && explained<definite, spd_laws>();
+  static constexpr bool told = explained<semidefinite, psd_laws> && explained<definite, spd_laws>;
 };
 
 }  // namespace slant::detail

@@ -11,6 +11,8 @@
 
 #include <slant/expressions/syntax.hpp>
 
+#include <algorithm>
+
 namespace slant::expr {
 
 template <class A>
@@ -123,31 +125,29 @@ template <class A>
 
 // --- in the errors of the compiler ---------------------------------------------------------------
 
-// A text as a template argument: g++ prints class types as they are, clang numbers, and of
-// characters, characters.
+/// A text as template arguments, which the compilers print; clang++ no more than 32 characters of each.
+template <text... Piece>
+struct formula {};
+
 #if defined(__clang__)
-template <char... C>
-struct formula {};
-template <ascii Text>
-[[nodiscard]] consteval auto readable() {
-  return []<std::size_t... I>(std::index_sequence<I...>) {
-    return formula<Text.data[I]...>{};
-  }(std::make_index_sequence<Text.size>{});
-}
+inline constexpr std::size_t piece_length = 31;
 #else
-template <text Text>
-struct formula {};
-template <ascii Text>
-[[nodiscard]] consteval auto exact() {
-  text<Text.size + 1> t;
-  for (std::size_t i = 0; i < Text.size; ++i) t.data[i] = Text.data[i];
+inline constexpr std::size_t piece_length = sizeof(ascii::data);
+#endif
+
+template <ascii Text, std::size_t I>
+[[nodiscard]] consteval auto piece() {
+  constexpr std::size_t first = I * piece_length;
+  text<std::min(piece_length, Text.size - first) + 1> t;
+  for (std::size_t i = 0; i + 1 < sizeof t; ++i) t.data[i] = Text.data[first + i];
   return t;
 }
 template <ascii Text>
 [[nodiscard]] consteval auto readable() {
-  return formula<exact<Text>()>{};
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return formula<piece<Text, I>()...>{};
+  }(std::make_index_sequence<(Text.size + piece_length - 1) / piece_length>{});
 }
-#endif
 
 template <class A>
 inline constexpr ascii formula_text = formula_of<A>();
@@ -157,7 +157,7 @@ inline constexpr ascii missing_text = missing_law<A>(L);
 /// An operator that a method asks for laws, and why it lacks them.
 template <class Operator, class Because>
 struct lacks {
-  static_assert(sizeof(Operator) == 0,
+  static_assert(sizeof(Operator) + sizeof(Because) == 0,
                 "A must have the laws that the method asks for; see what it lacks above");
   static constexpr bool told = true;
 };

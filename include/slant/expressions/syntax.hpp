@@ -78,7 +78,8 @@ template <linear_term A>
 [[nodiscard]] auto operator+(A&& a) {
   return expr::as_expression(std::forward<A>(a));
 }
-template <expr::number_in_front S, linear_term A>
+template <class S, linear_term A>  // the operator is asked first: a number may not be complete yet
+  requires expr::number_in_front<S>
 [[nodiscard]] auto operator*(S const& c, A&& a) {
   return expr::multiply_by(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
 }
