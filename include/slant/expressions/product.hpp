@@ -352,22 +352,23 @@ template <class... F, class... G>
   }
 }
 
-/// Throws bad_input that names both expressions unless `fit`.
+/// Of two expressions whose sizes do not fit.
 template <class A, class B>
-void require_fitting(bool fit, A const& a, B const& b, std::string expected) {
-  if (fit) return;
+[[noreturn, gnu::cold]] void refuse_sizes(A const& a, B const& b, bool term) {
   std::string left;
   std::string right;
   a.print(left);
   b.print(right);
-  throw bad_input(right, slant::detail::size_text(b.rows(), b.cols()), expected + left + ")");
+  using slant::detail::size_text;
+  throw bad_input(right, size_text(b.rows(), b.cols()),
+                  term ? size_text(a.rows(), a.cols()) + " (the size of " + left + ")"
+                       : std::to_string(a.cols()) + " rows (the columns of " + left + ")");
 }
 
 /// A B.
 template <class A, class B>
 [[nodiscard]] auto multiply(A const& a, B const& b) {
-  expr::require_fitting(b.rows() == a.cols(), a, b,
-                        std::to_string(a.cols()) + " rows (the columns of ");
+  if (b.rows() != a.cols()) expr::refuse_sizes(a, b, false);
   return expr::make_product(
       expr::multiply_numbers(expr::coefficient_of(a), expr::coefficient_of(b)),
       expr::join(expr::factors_of(a), expr::factors_of(b)));

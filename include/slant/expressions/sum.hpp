@@ -187,8 +187,7 @@ template <class A>
 /// A + B.
 template <class A, class B>
 [[nodiscard]] auto add(A const& a, B const& b) {
-  expr::require_fitting(a.rows() == b.rows() && a.cols() == b.cols(), a, b,
-                        slant::detail::size_text(a.rows(), a.cols()) + " (the size of ");
+  if (a.rows() != b.rows() || a.cols() != b.cols()) expr::refuse_sizes(a, b, true);
   return expr::make_sum(hana::concat(expr::terms_of(a), expr::terms_of(b)));
 }
 

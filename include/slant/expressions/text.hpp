@@ -61,7 +61,7 @@ template <std::size_t N>
 class dictionary {
  public:
   /// Throws bad_input if the text stands for another object already: what is printed must be true.
-  void enter(std::string_view name, void const* object) {
+  [[gnu::noinline]] void enter(std::string_view name, void const* object) {
     for (auto const& e : entries_) {
       if (e.name == name && e.object != object) {
         throw bad_input(name, "two different objects",
