@@ -8,6 +8,7 @@
 // can be seen to agree. benchmarks/composition.sh counts the instructions of an application as
 // the difference of two runs, in which the set-up cancels.
 
+#include <slant/expressions/expressions.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
@@ -110,6 +111,11 @@ struct congruence_case {
   double by_composition(long repetitions) const {
     return composed(slant::congruence(B, slant::inverse(slant::ldlt(K))), B.rows(), repetitions);
   }
+  double by_expression(long repetitions) const {
+    auto const b = slant::op<"B">(B);
+    auto const kinv = inverse(slant::op<"K">(slant::ldlt(K)));
+    return composed(b * kinv * adjoint(b), B.rows(), repetitions);
+  }
 };
 
 /// Five products of a tall and a wide matrix.
@@ -148,6 +154,12 @@ struct sum_case {
                                slant::product(A[4], B[4])),
                     n, repetitions);
   }
+  double by_expression(long repetitions) const {
+    auto const a = [this](int i) { return +slant::matrix(A[i]); };
+    auto const b = [this](int i) { return +slant::matrix(B[i]); };
+    return composed(a(0) * b(0) + a(1) * b(1) + a(2) * b(2) + a(3) * b(3) + a(4) * b(4), n,
+                    repetitions);
+  }
 };
 
 }  // namespace
@@ -160,12 +172,16 @@ int main(int argc, char** argv) {
     total = congruence_case().by_hand(repetitions);
   } else if (name == "congruence-slant") {
     total = congruence_case().by_composition(repetitions);
+  } else if (name == "congruence-expression") {
+    total = congruence_case().by_expression(repetitions);
   } else if (name == "sum-hand") {
     total = sum_case().by_hand(repetitions);
   } else if (name == "sum-slant") {
     total = sum_case().by_composition(repetitions);
+  } else if (name == "sum-expression") {
+    total = sum_case().by_expression(repetitions);
   } else {
-    std::cerr << "usage: composition congruence-hand|congruence-slant|sum-hand|sum-slant N\n";
+    std::cerr << "usage: composition congruence|sum-hand|slant|expression N\n";
     return 2;
   }
   std::printf("%.17g\n", total);
