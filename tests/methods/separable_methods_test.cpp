@@ -106,7 +106,7 @@ TEST_CASE("no allocation after the start, whatever the step") {
     CHECK(s.iteration >= 4);
     return allocations;
   };
-  VectorXd const x0 = 100 * test::random_vector(20, 9);
+  VectorXd const x0 = 100 * test::random_vector(20, 8);
   for_each_method(qp, [&](std::string const& name, auto const& method) {
     CAPTURE(name);
     auto s = method.start(x0);

@@ -47,22 +47,18 @@ struct upper_half_plane {
 #endif
 };
 
-void product(auto const& block, auto const&) {
-  static_cast<void>(slant::cartesian(slant::half_line<>{}, block));
-}
-void power(auto const& block, auto const&) {
-  static_cast<void>(slant::power(block, 3));
-}
-void face(auto const& block, Eigen::VectorXd const& x) {
-  static_cast<void>(slant::face_of(slant::power(block, 3), x));
-}
-void derivative(auto const& block, Eigen::VectorXd const& x) {
-  static_cast<void>(slant::cartesian(slant::half_line<>{}, block).slant(x.head<3>().eval()));
-}
-void step(auto const& block, Eigen::VectorXd const& x) {
-  static_cast<void>(slant::power(block, 3).step_to_boundary(x, x));
+enum class of { product, power, face, derivative, step };
+
+template <class Block>
+void use(Block const& block, Eigen::VectorXd const& x) {
+  constexpr of use = of::USE;
+  if constexpr (use == of::product)
+    static_cast<void>(slant::cartesian(slant::half_line<>{}, block));
+  if constexpr (use == of::power) static_cast<void>(slant::power(block, 3));
+  if constexpr (use == of::face) static_cast<void>(slant::face_of(slant::power(block, 3), x));
+  if constexpr (use == of::derivative)
+    static_cast<void>(slant::cartesian(slant::half_line<>{}, block).slant(x.head(3).eval()));
+  if constexpr (use == of::step) static_cast<void>(slant::power(block, 3).step_to_boundary(x, x));
 }
 
-void used(Eigen::VectorXd const& x) {
-  USE(upper_half_plane{}, x);
-}
+template void use(upper_half_plane const&, Eigen::VectorXd const&);
