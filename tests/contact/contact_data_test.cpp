@@ -6,9 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "support/message.hpp"
+
 namespace contact_data_test {
 
-using slant::bad_input;
 constexpr double inf = std::numeric_limits<double>::infinity();
 
 slant::contact::data<double> good() {
@@ -20,20 +21,16 @@ template <class Change>
 std::string complaint(Change change) {
   auto c = good();
   change(c);
-  try {
-    c.validate();
-  } catch (bad_input const& e) {
-    return e.what();
-  }
-  return "";
+  return test::complaint([&] { c.validate(); });
 }
 
 TEST_CASE("data of a scene are valid, and so are infinite gaps and slip bounds") {
-  CHECK(complaint([](auto&) {}) == "");
-  CHECK(complaint([](auto& c) { c.d(0) = inf; }) == "");
-  CHECK(complaint([](auto& c) { c.d(0) = -1; }) == "");  // pressed in from the beginning
-  CHECK(complaint([](auto& c) { c.g(0) = inf; }) == "");
-  CHECK(complaint([](auto& c) { c.g(0) = 0; }) == "");
+  CHECK(complaint([](auto&) {}) == "nothing thrown");
+  CHECK(complaint([](auto& c) { c.d(0) = inf; }) == "nothing thrown");
+  CHECK(complaint([](auto& c) { c.d(0) = -1; }) ==
+        "nothing thrown");  // pressed in from the beginning
+  CHECK(complaint([](auto& c) { c.g(0) = inf; }) == "nothing thrown");
+  CHECK(complaint([](auto& c) { c.g(0) = 0; }) == "nothing thrown");
   CHECK(good().nodes() == 6);
   CHECK(good().tangents() == 2);
   CHECK(test::frictionless_data(fem::make_steel_brick({.k = 1})).tangents() == 0);
@@ -71,7 +68,7 @@ TEST_CASE("a row of N that moves nothing cannot open a gap") {
   CHECK(complaint([&](auto& c) {
           erase_row_2(c);
           c.d(2) = 0;
-        }) == "");
+        }) == "nothing thrown");
 }
 
 TEST_CASE("each size that does not fit is named") {

@@ -14,6 +14,8 @@
 #include <limits>
 #include <string>
 
+#include "support/message.hpp"
+
 namespace coulomb_radii_test {
 
 using Eigen::VectorXd;
@@ -178,12 +180,8 @@ TEST_CASE("coefficients that do not fit are refused") {
   fixture t;
   contact::dual problem(contact::friction_disc{}, t.factor, t.c);
   auto const message = [&](VectorXd const& F) -> std::string {
-    try {
-      contact::coulomb_radii family(problem, contact::coefficients(F));
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "accepted";
+    return test::complaint(
+        [&] { contact::coulomb_radii family(problem, contact::coefficients(F)); });
   };
   CHECK(message(t.constant(-1)) == "F[0]: got -1, expected a finite number >= 0");
   CHECK(message(VectorXd::Constant(2, 0.1)) ==

@@ -13,6 +13,8 @@
 
 #include <string>
 
+#include "support/message.hpp"
+
 namespace coulomb_test {
 
 using Eigen::VectorXd;
@@ -110,12 +112,7 @@ TEST_CASE("new tangential positions: no solve, and data that do not fit are refu
   CHECK((problem.b().tail(w.size()) - (2 * b.tail(w.size()) - w)).norm() <= 1e-15);
   VectorXd const before = problem.b();
   auto const message = [&](VectorXd const& bad) -> std::string {
-    try {
-      problem.update_positions(bad);
-    } catch (slant::bad_input const& e) {
-      return e.what();
-    }
-    return "accepted";
+    return test::complaint([&] { problem.update_positions(bad); });
   };
   CHECK(message(VectorXd::Zero(3)).starts_with("w: got 3, expected"));
   CHECK(message(VectorXd::Constant(w.size(), NAN)).starts_with("w[0]: got nan"));

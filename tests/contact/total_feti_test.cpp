@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/message.hpp"
+
 namespace total_feti_test {
 
 using Eigen::MatrixXd;
@@ -39,12 +41,7 @@ auto solved(Bodies const& bodies, Data const& data) {
 /// What is said of bodies and data that are refused; nothing if they are not.
 template <class Bodies, class Data>
 std::string complaint(Bodies const& bodies, Data const& data) {
-  try {
-    total_feti const problem(friction_disc{}, bodies, data);
-  } catch (slant::bad_input const& e) {
-    return e.what();
-  }
-  return "";
+  return test::complaint([&] { total_feti const problem(friction_disc{}, bodies, data); });
 }
 
 TEST_CASE(

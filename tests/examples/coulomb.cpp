@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <io/io_support.hpp>
 #include <pugixml.hpp>
 #include <sstream>
@@ -17,7 +16,7 @@ namespace coulomb {
 namespace {
 
 using examples_test::contains;
-using examples_test::is_one_line;
+using examples_test::has_gnuplot;
 using examples_test::run;
 using examples_test::word;
 
@@ -68,10 +67,6 @@ std::vector<row> check_run(std::string const& options, int steps, int contacts) 
     CHECK(r.open + r.stick + r.slip == contacts);
   }
   return rows;
-}
-
-bool has_gnuplot() {
-  return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
 }
 
 }  // namespace
@@ -156,12 +151,7 @@ TEST_CASE("coulomb: two bricks in space, by two methods the same") {
 
 TEST_CASE("coulomb refuses bad options in one line") {
   auto const check = [](std::string const& options, std::string const& expected) {
-    auto const ran = run("coulomb", options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(contains(ran.err, expected));
+    examples_test::check_refused(run("coulomb", options), expected);
   };
   check("--friction -1", "--friction: got -1, expected a finite number >= 0");
   check("--friction inf", "--friction: got inf, expected a finite number >= 0");

@@ -26,16 +26,6 @@ void check_file(std::string const& name, std::string const& text, std::string co
   check_refusal(files, "", expected);
 }
 
-/// The small brick with one file changed.
-template <class Change>
-void check_change(std::string const& name, Change const& change, std::string const& expected) {
-  auto const files = examples_test::small_brick();
-  std::string text = files.get(name);
-  change(text);
-  files.put(name, text);
-  check_refusal(files, "", expected);
-}
-
 std::string numbers(int count, std::string const& number) {
   std::string text;
   for (int i = 0; i < count; ++i) text += number + "\n";
@@ -52,56 +42,31 @@ std::string diagonal() {
   return text;
 }
 
-/// The first line of a text that begins so gets another ending.
-void replace_line(std::string& text, std::string const& beginning, std::string const& line) {
-  auto const at = text.find("\n" + beginning) + 1;
-  REQUIRE(at != std::string::npos + 1);
-  text.replace(at, text.find('\n', at) - at, line);
-}
-
 }  // namespace
 
-// The small brick has 36 unknowns and 6 contact nodes.
-
-TEST_CASE("from_files refuses sizes that do not match") {
+// What readers refuse is for tests/io and tests/from_files; here, that the program passes it on. The
+// small brick has 36 unknowns and 6 contact nodes.
+TEST_CASE("from_files refuses files that are damaged or do not fit together") {
   check_file("N.mtx", coordinate + "6 35 1\n1 1 1\n",
              "columns of N: got 35, expected the size of f, 36");
-  check_file("T.mtx", coordinate + "12 40 1\n1 1 1\n",
-             "columns of T: got 40, expected the size of f, 36");
-  check_file("T.mtx", coordinate + "7 36 1\n1 1 1\n",
-             "rows of T: got 7, expected 6 (2D) or 12 (3D)");
   check_file("K.mtx", coordinate + "36 35 1\n1 1 1\n",
              "columns of K: got 35, expected as many as rows, 36");
   check_file("f.txt", numbers(35, "1"), "f.txt:36: got the end of the file after 35 numbers");
-  check_file("d.txt", numbers(7, "0"), "d.txt:7: got number 7, expected 6 numbers");
-  check_file("g.txt", numbers(5, "1"), "expected 6 numbers");
-}
-
-TEST_CASE("from_files refuses NaN and infinity") {
   check_file("f.txt", numbers(35, "1") + "nan\n", "f.txt:36: got 'nan', expected a finite number");
-  check_file("f.txt", numbers(35, "1") + "-inf\n",
-             "f.txt:36: got '-inf', expected a finite number");
-  check_file("d.txt", "nan\n" + numbers(5, "0"), "d.txt:1: got 'nan', expected a number or inf");
   check_file("d.txt", numbers(5, "0") + "-inf\n", "d[5]: got -inf, expected a number or +inf");
-  check_file("g.txt", "NaN\n" + numbers(5, "0"), "g.txt:1: got 'NaN'");
-  check_file("N.mtx", coordinate + "6 36 1\n1 1 inf\n", "N.mtx:3: got 'inf'");
-  check_file("T.mtx", coordinate + "12 36 1\n1 1 nan\n", "T.mtx:3: got 'nan'");
-  check_change(
-      "K.mtx", [](std::string& text) { replace_line(text, "1 1 ", "1 1 1e999"); },
-      "got '1e999', expected a number within the range of the scalar type");
-}
-
-TEST_CASE("from_files refuses a row of N that cannot be met") {
+  check_file("g.txt", numbers(3, "1") + "-0.25\n1\n1\n",
+             "g[3]: got -0.25, expected a number >= 0 or +inf");
+  check_file("T.mtx", coordinate + "12 36 1\n1 1 1e999\n",
+             "got '1e999', expected a number within the range of the scalar type");
+  check_file("g.txt", numbers(5, "1") + "1", "truncated file?");
+  // Sizes that would need terabytes, and letters for a terminal.
+  check_file("K.mtx", coordinate + "2000000000 2000000000 4000000000\n1 1 1\n", "K.mtx:2: got");
+  check_file("K.mtx", "\x1b[2J evil\n", "K.mtx:1: got '\\x1b[2J evil'");
   auto const files = examples_test::small_brick();
   files.put("N.mtx", coordinate + "6 36 1\n1 1 1\n");
   files.put("d.txt", numbers(4, "0") + "-0.25\n0\n");
   check_refusal(files.solve(), "d[4]: got -0.25, expected a number >= 0, since row 4 of N is zero");
   CHECK(files.files_written() == 0);
-}
-
-TEST_CASE("from_files refuses a negative radius") {
-  check_file("g.txt", numbers(3, "1") + "-0.25\n1\n1\n",
-             "g[3]: got -0.25, expected a number >= 0 or +inf");
 }
 
 TEST_CASE("from_files refuses K that is not symmetric or not definite") {
@@ -151,37 +116,6 @@ TEST_CASE("from_files refuses files that are missing or no text") {
                 "/no/such/folder: got no such folder, expected a folder with K.mtx");
   // A name with a line feed still makes one line.
   check_refusal(examples_test::run("from_files", "'no\nsuch\nfolder'"), "no\\x0asuch\\x0afolder");
-}
-
-TEST_CASE("from_files refuses truncated files") {
-  for (std::string const name : {"K.mtx", "N.mtx", "T.mtx", "f.txt", "d.txt", "g.txt"}) {
-    check_change(
-        name, [](std::string& text) { text.pop_back(); }, "truncated file?");
-    check_change(
-        name, [](std::string& text) { text.resize(text.size() / 2); }, name + ":");
-    // Whole lines are missing.
-    check_change(
-        name, [](std::string& text) { text.resize(text.rfind('\n', text.size() - 2) + 1); },
-        name + ":");
-  }
-}
-
-TEST_CASE("from_files refuses malicious files") {
-  // Sizes that would need terabytes, or overflow their product.
-  check_file("K.mtx", coordinate + "2000000000 2000000000 4000000000\n1 1 1\n", "K.mtx:2: got");
-  check_file("K.mtx", coordinate + "9223372036854775807 9223372036854775807 1\n1 1 1\n",
-             "K.mtx:2: got");
-  check_file("K.mtx", coordinate + "99999999999999999999 1 1\n1 1 1\n", "K.mtx:2: got");
-  check_file("K.mtx", coordinate + "-3 -3 1\n1 1 1\n", "K.mtx:2: got '-3'");
-  check_file("K.mtx", coordinate + "36 36 1\n37 1 1\n", "K.mtx:3: got '37'");
-  check_file("K.mtx", coordinate + "36 36 1\n0 1 1\n", "K.mtx:3: got '0'");
-  check_file("K.mtx", "%%MatrixMarket matrix array real general\n100000 100000\n1\n",
-             "K.mtx:2: got 10000000000 entries");
-  check_file("K.mtx", "%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1 0\n",
-             "K.mtx:1: got 'complex'");
-  check_file("K.mtx", "\x1b[2J evil\n", "K.mtx:1: got '\\x1b[2J evil'");
-  check_file("f.txt", std::string(100000, '7') + "\n",
-             "expected a line of at most 1024 characters");
 }
 
 TEST_CASE("from_files refuses options that make no sense") {

@@ -4,7 +4,6 @@
 // read back.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <fem/double_obstacle.hpp>
 #include <fem/membrane_vtu.hpp>
 #include <io/io_support.hpp>
@@ -19,7 +18,6 @@ namespace membranes {
 namespace {
 
 using examples_test::contains;
-using examples_test::is_one_line;
 using examples_test::run;
 using examples_test::word;
 
@@ -70,7 +68,7 @@ TEST_CASE("membranes: all problems by nested iteration, and their files") {
   auto const ran = run("membranes", "--size 40 --output " + word(output.string()));
   CHECK(ran.status == 0);
   CHECK(ran.err == "");
-  bool const drawn = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  bool const drawn = examples_test::has_gnuplot();
   for (std::string const name : {"torsion", "bearing", "lower_obstacle", "double_obstacle"}) {
     CHECK(contains(ran.out, name + ", newton by nested iteration\n"));
     CHECK(contains(io_test::get(output / (name + ".vtu")), "\"contact\""));
@@ -94,12 +92,7 @@ TEST_CASE("membranes: one grid from zero; not converged is not success") {
 
 TEST_CASE("membranes refuses bad options in one line") {
   auto const check = [](std::string const& options, std::string const& expected) {
-    auto const ran = run("membranes", options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(contains(ran.err, expected));
+    examples_test::check_refused(run("membranes", options), expected);
   };
   check("--problem drum", "--problem: got drum, expected torsion, bearing, lower_obstacle, double");
   check("--method sor", "--method: got sor, expected newton or kprgp");

@@ -13,13 +13,10 @@ namespace other_programs {
 namespace {
 
 using examples_test::contains;
+using examples_test::has_gnuplot;
 using examples_test::is_one_line;
 using examples_test::run;
 using examples_test::word;
-
-bool has_gnuplot() {
-  return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
-}
 
 }  // namespace
 

@@ -53,6 +53,11 @@ struct program_result {
   return text.find(part) != std::string_view::npos;
 }
 
+/// Programs draw pictures where gnuplot is installed.
+[[nodiscard]] inline bool has_gnuplot() {
+  return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+}
+
 /// Exactly one line, complete, with something on it.
 [[nodiscard]] inline bool is_one_line(std::string_view text) {
   return text.size() > 1 && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;

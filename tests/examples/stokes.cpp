@@ -12,7 +12,6 @@ namespace stokes {
 namespace {
 
 using examples_test::contains;
-using examples_test::is_one_line;
 using examples_test::run;
 using examples_test::word;
 
@@ -31,7 +30,7 @@ TEST_CASE("stokes: problem, result, proof and files") {
         "0.07875"})
     CHECK(contains(ran.out, expected));
   CHECK(contains(io_test::get(output / "flow.vtu"), "wall_state"));
-  bool const drawn = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  bool const drawn = examples_test::has_gnuplot();
   CHECK(contains(ran.out, "wrote " + (output / "flow.png").string()) == drawn);
   CHECK(io_test::get(output / "flow.png").starts_with("\x89PNG") == drawn);
 }
@@ -75,12 +74,7 @@ TEST_CASE("stokes: not converged is not success") {
 
 TEST_CASE("stokes: what cannot be used is named in one line") {
   auto const refused = [](std::string const& options, std::string const& expected) {
-    auto const ran = run("stokes", options);
-    CAPTURE(ran.err);
-    CHECK(ran.status == 2);
-    CHECK(ran.out == "");
-    CHECK(is_one_line(ran.err));
-    CHECK(contains(ran.err, expected));
+    examples_test::check_refused(run("stokes", options), expected);
   };
   io_test::temporary_folder const folder;
   auto const empty = word(folder.path().string());

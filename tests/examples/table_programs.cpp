@@ -4,7 +4,6 @@
 // status.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -78,7 +77,7 @@ TEST_CASE("two_bodies: both tables and their pictures") {
   CHECK(has_line(ran.out, "504/36"));
   CHECK(has_line(ran.out, "162/9"));
   CHECK(contains(ran.out, "all runs converged\n"));
-  bool const drawn = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  bool const drawn = examples_test::has_gnuplot();
   for (auto const* scene : {"plates", "bricks"})
     for (auto const* picture : {"_residual.png", "_energy.png", "_contact.png"}) {
       auto const file = output / (std::string(scene) + picture);

@@ -94,7 +94,7 @@ TEST_CASE("a soft body beside a stiff one is not singular") {
   k.insert(0, 1) = k.insert(1, 0) = -1e12;
   k.insert(2, 2) = k.insert(3, 3) = 2e-12;
   k.insert(2, 3) = k.insert(3, 2) = -1e-12;
-  CHECK(test::complaint(factor, k) == "accepted");
+  CHECK(test::complaint(factor, k) == "nothing thrown");
 }
 
 TEST_CASE("a floating elastic body is refused") {
@@ -109,7 +109,7 @@ TEST_CASE("a floating elastic body is refused") {
 TEST_CASE("asymmetry by rounding is accepted") {
   sparse k = test::grid_laplacian(3, 0.1);
   k.coeffRef(0, 1) *= 1 + 8 * std::numeric_limits<double>::epsilon();
-  CHECK(test::complaint(factor, k) == "accepted");
+  CHECK(test::complaint(factor, k) == "nothing thrown");
 }
 
 TEST_CASE("the empty matrix") {

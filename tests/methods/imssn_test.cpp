@@ -10,7 +10,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <fem/string_1d.hpp>
 
 namespace imssn_test {
@@ -87,25 +86,6 @@ TEST_CASE("active sets that recur end as stalled, with a reason") {
   // With a smaller parameter the same run converges.
   CHECK(
       slant::solve(slant::imssn{qp, {.step_length = 1.9 * wire.h() / 4}}, zero, stop).converged());
-}
-
-TEST_CASE("options out of range are named") {
-  slant::imssn_options<double> o;
-  o.forcing.r_tol = 1;
-  CHECK_THROWS_WITH_AS(o.validate(), "r_tol: got 1, expected a number in (0, 1)", slant::bad_input);
-  o = {};
-  o.forcing.c_fact = 0;
-  CHECK_THROWS_AS(o.validate(), slant::bad_input);
-  o = {};
-  o.step_length = -1;
-  CHECK_THROWS_WITH_AS(o.validate(), "step_length: got -1, expected a number > 0",
-                       slant::bad_input);
-  o = {};
-  o.max_inner = 0;
-  CHECK_THROWS_WITH_AS(o.validate(), "max_inner: got 0, expected a number >= 1", slant::bad_input);
-  o = {};
-  o.step_factor = std::nan("");
-  CHECK_THROWS_AS(o.validate(), slant::bad_input);
 }
 
 }  // namespace imssn_test

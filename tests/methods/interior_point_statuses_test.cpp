@@ -231,22 +231,6 @@ TEST_CASE("bad input names argument, value and expectation") {
   x0(1) = nan;
   CHECK(
       test::complaint([&] { static_cast<void>(method.start(x0)); }).starts_with("x0[1]: got nan"));
-  using options = slant::interior_point_options<double>;
-  auto const complaint = [](options const& o) { return test::complaint([&] { o.validate(); }); };
-  CHECK(complaint({}) == "nothing thrown");
-  CHECK(complaint({.step_length = -1.0}).starts_with("step_length: got -1"));
-  CHECK(complaint({.start_length = 0.0}).starts_with("start_length: got 0"));
-  CHECK(complaint({.start_force = nan}).starts_with("start_force: got nan"));
-  CHECK(complaint({.start_depth = 2.0}).starts_with("start_depth: got 2"));
-  CHECK(complaint({.raise_above = 1.0}).starts_with("raise_above: got 1"));
-  CHECK(complaint({.raises = -1}).starts_with("raises: got -1"));
-  CHECK(complaint({.centring_least = 0.6}).starts_with("centring_least: got 0.6"));
-  CHECK(complaint({.closeness = 1.0}).starts_with("closeness: got 1"));
-  CHECK(complaint({.residual_factor = 0.5}).starts_with("residual_factor: got 0.5"));
-  CHECK(complaint({.to_boundary = 1.0}).starts_with("to_boundary: got 1"));
-  CHECK(complaint({.shortenings = 0}).starts_with("shortenings: got 0"));
-  CHECK(complaint({.inner_share = 1}).starts_with("inner_share: got 1"));
-  CHECK(complaint({.inner_steps = 0}).starts_with("inner_steps: got 0"));
 }
 
 }  // namespace interior_point_statuses_test

@@ -39,20 +39,4 @@ TEST_CASE("the first state is that of the projected start") {
   CHECK(method.start(VectorXd::Zero(20)).work.operator_applications == 1);
 }
 
-TEST_CASE("a state can be copied and continued: both go the same way") {
-  test::mixture const p(300);
-  auto const A = test::spd(p.A);
-  slant::separable_qp const qp{A, p.b, p.set()};
-  slant::kprgp const method{qp};
-  auto s = method.start(VectorXd::Zero(20));
-  for (int k = 0; k < 10; ++k) method.step(s);
-  auto copy = s;
-  for (int k = 0; k < 10; ++k) {
-    method.step(s);
-    method.step(copy);
-  }
-  CHECK(s.x == copy.x);
-  CHECK(s.work == copy.work);
-}
-
 }  // namespace kprgp_state_test

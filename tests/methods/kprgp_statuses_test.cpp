@@ -18,7 +18,6 @@ namespace kprgp_statuses_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using test::mixture;
 
 auto spd(VectorXd const& d) {
   return slant::diagonal<slant::positive_definite>(VectorXd(d));
@@ -152,80 +151,6 @@ TEST_CASE("slow is not stalled: q still falls where the reduced gradient does no
     return 0.5 * x.dot(p.M * x) - p.b.dot(x);
   };
   CHECK(q_after(6000) < q_after(2000));
-}
-
-TEST_CASE("numbers beyond the range of the scalar are a breakdown, not a solution") {
-  VectorXd const b = VectorXd::Constant(10, 1.5e308);  // finite, but ‖b‖ is not
-  slant::separable_qp const qp{spd(VectorXd(2 * VectorXd::Ones(10))), b,
-                               slant::free_components(10)};
-  auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(10)),
-                              slant::reduced_gradient_below(1e-8) || slant::at_most(10));
-  CHECK(r.status == slant::status::breakdown);
-}
-
-TEST_CASE("semidefinite operators: consistent, unbounded, and held by the constraints") {
-  VectorXd const d{{1.0, 2.0, 0.0}};
-  auto const A =
-      slant::declare<slant::self_adjoint, slant::positive_semidefinite>(slant::diagonal(d));
-  auto const run = [&](VectorXd const& b, auto const& set) {
-    auto const qp = slant::separable_qp{A, b, set};
-    return slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(3)),
-                        slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
-  };
-  auto const consistent = run(VectorXd{{1.0, 1.0, 0.0}}, slant::free_components(3));
-  CHECK(consistent.converged());
-  CHECK(consistent.x()(0) == doctest::Approx(1));
-
-  auto const unbounded = run(VectorXd{{1.0, 1.0, 1.0}}, slant::half_lines(3));
-  CHECK(unbounded.status == slant::status::unbounded);
-  VectorXd const down = -unbounded.state.directions.p;
-  CHECK(down(2) > 0);
-  CHECK(std::abs(down(0)) + std::abs(down(1)) <= 1e-10 * down(2));
-
-  auto const held = run(VectorXd{{1.0, 1.0, 1.0}}, slant::intervals(VectorXd{{9.0, 9.0, 5.0}}));
-  CHECK(held.converged());
-  CHECK(held.x()(2) == doctest::Approx(5));
-
-  VectorXd const b{{1.0, -1.0, 0.0}};
-  auto const nothing = slant::declare<slant::self_adjoint, slant::positive_semidefinite>(
-      slant::diagonal(VectorXd(VectorXd::Zero(3))));
-  auto const linear = slant::separable_qp{nothing, b, slant::intervals(VectorXd{{2.0, 3.0, 4.0}})};
-  auto const corner = slant::solve(slant::kprgp{linear}, VectorXd(VectorXd::Zero(3)),
-                                   slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
-  CHECK(corner.converged());
-  CHECK(corner.x() == VectorXd{{2.0, -3.0, 0.0}});
-}
-
-TEST_CASE("an accuracy beyond reach ends as stalled, at the floor") {
-  mixture const p(1e6);
-  auto const A = test::spd(p.A);
-  auto const qp = slant::separable_qp{A, p.b, p.set()};
-  auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(20)),
-                              slant::stop_when([](auto const&) { return false; }, ""));
-  CHECK((r.status == slant::status::stalled || r.status == slant::status::converged));
-  CHECK(r.state.reduced_gradient_norm <= 1e-14 * p.b.norm());
-}
-
-/// Well behaved once.
-struct fragile {
-  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
-  mutable int calls = 0;
-  [[nodiscard]] slant::index rows() const { return 2; }
-  [[nodiscard]] slant::index cols() const { return 2; }
-  void apply(VectorXd const& x, VectorXd& y) const {
-    y = x;
-    y(1) *= 3;
-    if (++calls > 1) y(0) = std::nan("");
-  }
-};
-
-TEST_CASE("a NaN that the operator makes later is a breakdown, not a result") {
-  fragile const A;
-  VectorXd const b{{1.0, 1.0}};
-  auto const qp = slant::separable_qp{A, b, slant::free_components(2)};
-  auto const r = slant::solve(slant::kprgp{qp, {.step_length = 0.3}}, VectorXd(VectorXd::Zero(2)),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(10));
-  CHECK(r.status == slant::status::breakdown);
 }
 
 }  // namespace kprgp_statuses_test

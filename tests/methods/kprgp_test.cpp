@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mixture.hpp"
 
-#include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/operators/counted.hpp>
@@ -20,12 +19,10 @@
 #include <limits>
 #include <oracle/certificate.hpp>
 #include <oracle/dense_newton.hpp>
-#include <support/allocation_guard.hpp>
 
 namespace kprgp_test {
 
 using Eigen::VectorXd;
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 using test::mixture;
 
@@ -49,25 +46,6 @@ TEST_CASE("kprgp agrees with Newton's method on dense data, whatever its options
       CHECK(oracle::certify(p.plain(), r.x().cast<long double>()).energy_error < 1e-6);
     }
   }
-}
-
-TEST_CASE("iterates are feasible and the energy falls with every step") {
-  mixture const p(1000);
-  auto const A = test::spd(p.A);
-  auto const set = p.set();
-  auto const qp = slant::separable_qp{A, p.b, set};
-  slant::kprgp method{qp};
-  double last = inf;
-  int seen = 0;
-  for (auto const& s : slant::iterates(method, VectorXd(100 * test::random_vector(20, 9)))) {
-    CHECK(set.contains(s.x));
-    double const q = s.x.dot(0.5 * (p.A * s.x) - p.b);
-    CHECK(q <= last + 1e-13 * std::abs(last));
-    CHECK(slant::energy(qp, s.x, VectorXd(s.unit * s.r)) == doctest::Approx(q).epsilon(1e-9));
-    last = q;
-    if (++seen == 300) break;
-  }
-  CHECK(seen > 20);
 }
 
 TEST_CASE("without constraints kprgp is the method of conjugate gradients") {
@@ -106,23 +84,6 @@ TEST_CASE("cones, ellipses, points and other blocks") {
   CHECK(r.x()(10) == 0.0);
 }
 
-TEST_CASE("no allocation between the first and the last iteration") {
-  mixture const p(1000);
-  auto const A = test::spd(p.A);
-  auto const qp = slant::separable_qp{A, p.b, p.set()};
-  slant::kprgp method{qp};
-  auto s = method.start(VectorXd::Zero(20));
-  bool seen[3] = {false, false, false};
-  slant::testing::allocation_guard guard;
-  for (int k = 0; k < 500; ++k) {
-    method.step(s);
-    seen[int(s.last_step)] = true;
-  }
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK((seen[0] && seen[1] && seen[2]));  // the guard has seen each kind of step
-}
-
 TEST_CASE("the report counts every product, and a given step length saves those for σ_max") {
   mixture const p(1000);
   auto const A = test::spd(p.A);
@@ -138,34 +99,6 @@ TEST_CASE("the report counts every product, and a given step length saves those 
   };
   CHECK(run(slant::kprgp_options<double>{}).setup_applications > 0);
   CHECK(run(slant::kprgp_options<double>{.step_length = 1.0}).setup_applications == 0);
-}
-
-TEST_CASE("a right-hand side of zero is solved by zero") {
-  mixture const p(30);
-  auto const A = test::spd(p.A);
-  VectorXd const b = VectorXd::Zero(20);
-  auto const set = slant::intervals(VectorXd(VectorXd::Ones(20)));
-  auto const qp = slant::separable_qp{A, b, set};
-  auto const cold = slant::solve(slant::kprgp{qp}, b, slant::reduced_gradient_below(1e-10));
-  CHECK(cold.converged());
-  CHECK(cold.iterations() == 0);
-  auto const warm = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Ones(20)),
-                                 slant::reduced_gradient_below(1e-10) || slant::at_most(1000));
-  CHECK(warm.converged());
-  CHECK(warm.x().norm() <= 1e-8);
-}
-
-TEST_CASE("bad starts are named") {
-  mixture const p(10);
-  auto const A = test::spd(p.A);
-  auto const qp = slant::separable_qp{A, p.b, p.set()};
-  using slant::bad_input;
-  slant::kprgp method{qp};
-  CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd::Zero(19))), bad_input);
-  VectorXd x0 = VectorXd::Zero(20);
-  x0(7) = inf;
-  CHECK_THROWS_WITH_AS(static_cast<void>(method.start(x0)),
-                       "x0[7]: got inf, expected a finite number", bad_input);
 }
 
 }  // namespace kprgp_test

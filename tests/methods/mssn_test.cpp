@@ -68,11 +68,4 @@ TEST_CASE("the parts combine freely: a projected start, unlimited CG, another fo
   CHECK((r.x() - solution.x).norm() <= 1e-10 * solution.x.norm());
 }
 
-TEST_CASE("options out of range are named") {
-  slant::mssn_options<double> o;
-  o.forcing.tolerance = 1;
-  CHECK_THROWS_WITH_AS(o.validate(), "tolerance: got 1, expected a number in [0, 1)",
-                       slant::bad_input);
-}
-
 }  // namespace mssn_test

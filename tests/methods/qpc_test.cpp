@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "example_one.hpp"
-
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
@@ -49,29 +47,6 @@ TEST_CASE("blocks are released only from (nearly) the minimum on the face") {
     CHECK(faces > releases);
     CHECK((s.x - reference).norm() <= 1e-8 * reference.norm());
   }
-}
-
-TEST_CASE("a first phase for other methods: Example 1 to 1e-1, 1e-3, 1e-6") {
-  test::example_one<double> const p;
-  test::example_one_solution<double> const solution;
-  auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
-  for (double const tolerance : {1e-1, 1e-3, 1e-6}) {
-    auto const r = slant::solve(slant::qpc{qp}, p.zero(),
-                                slant::reduced_gradient_below(tolerance) || slant::at_most(60));
-    REQUIRE(r.converged());
-    CHECK((r.x() - solution.x).norm() <= tolerance * 10 * solution.x.norm());
-  }
-}
-
-TEST_CASE("options out of range are named") {
-  slant::qpc_options<double> o;
-  o.face_accuracy = 1;
-  CHECK_THROWS_WITH_AS(o.validate(), "face_accuracy: got 1, expected a number in [0, 1)",
-                       slant::bad_input);
-  o = {};
-  o.step_factor = 2;
-  CHECK_THROWS_WITH_AS(o.validate(), "step_factor: got 2, expected a number in (0, 2)",
-                       slant::bad_input);
 }
 
 }  // namespace qpc_test

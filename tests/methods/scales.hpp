@@ -30,6 +30,7 @@ void check_scales(Solve const& solve_in, int far, int both) {
     auto const r = solve_in(stiffness, length);
     CHECK(r.status == plain.status);
     CHECK(r.iterations() == plain.iterations());
+    CHECK(r.state.work == plain.state.work);
     CHECK(r.x() == plain.x());
   }
 }

@@ -5,8 +5,6 @@
 
 #include <doctest/doctest.h>
 
-#include <support/allocation_guard.hpp>
-
 #include <array>
 #include <cmath>
 
@@ -54,35 +52,6 @@ TEST_CASE("semidefinite A, redundant rows") {
   CHECK(r.converged());
   CHECK((r.x() - p.x).norm() <= 1e-8);
   CHECK((rows.transpose() * method.multipliers(r.state) - p.G.transpose() * p.μ).norm() <= 1e-8);
-}
-
-TEST_CASE("a load that a bound absorbs does not spoil the accuracy") {
-  // x_4 and x_6 are at their bounds; −b there may be as large as it likes.
-  known_problem p;
-  p.b[4] -= 1e4;
-  p.b[6] -= 1e3;
-  auto const qp = p.qp();
-  auto const constraints = p.constraints();
-  slant::smalse const method{qp, constraints};
-  auto const r = slant::solve(method, VectorXd(VectorXd::Zero(p.n)), accurate(1e-10));
-  CAPTURE(r.reason);
-  CHECK(r.converged());
-  CHECK((r.x() - p.x).norm() <= 1e-7);
-}
-
-TEST_CASE("as many equations as unknowns: the point that they leave") {
-  MatrixXd const root = test::random_matrix(4, 4, 5), A = root * root.transpose();
-  MatrixXd const G = test::random_matrix(4, 4, 7);
-  VectorXd const b = test::random_matrix(4, 1, 6), x{{1.0, 2.0, 0.5, 3.0}}, e = G * x;
-  slant::equality_constraints const constraints(sparse(G.sparseView()), e);
-  slant::separable_qp const qp{
-      slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b,
-      slant::cartesian(slant::free_components(4), slant::half_lines(0), slant::discs(VectorXd()))};
-  auto const r =
-      slant::solve(slant::smalse{qp, constraints}, VectorXd(VectorXd::Zero(4)), accurate(1e-12));
-  CAPTURE(r.reason);
-  CHECK(r.converged());
-  CHECK((r.x() - x).norm() <= 1e-11);
 }
 
 TEST_CASE(
@@ -149,20 +118,6 @@ TEST_CASE(
   CHECK((r.x() - projected).norm() / α <= 1e-8 * r.state.gradient_scale);
 }
 
-TEST_CASE("constraints that no point of the set satisfies are named") {
-  known_problem p;
-  p.G.row(0).setZero();
-  p.G(0, 4) = p.G(0, 5) = 1;  // x_4 + x_5 = −1, both in half lines
-  p.e[0] = -1;
-  auto const qp = p.qp();
-  auto const constraints = p.constraints();
-  auto const r =
-      slant::solve(slant::smalse{qp, constraints}, VectorXd(VectorXd::Zero(p.n)), accurate(1e-10));
-  CHECK(r.status == status::stalled);
-  CHECK(r.state.infeasible);
-  CHECK(r.reason == "no point of the set satisfies the equality constraints");
-}
-
 TEST_CASE("a function without minimum is told from one with") {
   // x_0 does not appear in q but by −x_0.
   MatrixXd const A = VectorXd{{0.0, 1.0, 2.0}}.asDiagonal();
@@ -177,7 +132,7 @@ TEST_CASE("a function without minimum is told from one with") {
   CHECK(r.status == status::unbounded);
 }
 
-TEST_CASE("no equations at all; a step does not allocate; a start is projected") {
+TEST_CASE("no equations at all: the solution of KPRGP") {
   known_problem const p;
   auto const qp = p.qp();
   slant::equality_constraints const none(sparse(0, p.n), VectorXd(0));
@@ -187,32 +142,6 @@ TEST_CASE("no equations at all; a step does not allocate; a start is projected")
                                   slant::reduced_gradient_below(1e-11) || slant::at_most(5000));
   CHECK(free_run.converged());
   CHECK((free_run.x() - plain.x()).norm() <= 1e-8);
-
-  auto const constraints = p.constraints();
-  slant::smalse const method{qp, constraints};
-  auto state = method.start(VectorXd::Constant(p.n, -3.0));
-  CHECK(qp.set().contains(state.x));
-  slant::testing::allocation_guard guard;
-  method.step(state);
-  method.step(state);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-}
-
-TEST_CASE("bad input") {
-  known_problem const p;
-  auto const qp = p.qp();
-  auto const constraints = p.constraints();
-  slant::equality_constraints const other(sparse(1, 3), VectorXd(VectorXd::Zero(1)));
-  CHECK_THROWS_AS((slant::smalse{qp, other}), slant::bad_input);
-  slant::smalse const method{qp, constraints};
-  CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd::Zero(3))), slant::bad_input);
-  using options = slant::smalse_options<double>;
-  for (options const& o :
-       {options{.penalty = 0}, options{.balance = -1}, options{.shrink = 1},
-        options{.precision = 0}, options{.inner_steps = 0}, options{.patience = 0}}) {
-    CHECK_THROWS_AS((slant::smalse{qp, constraints, o}), slant::bad_input);
-  }
 }
 
 }  // namespace smalse_test

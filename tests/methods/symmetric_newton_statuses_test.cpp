@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "mixture.hpp"
-#include "scales.hpp"
 #include "support/message.hpp"
 
 #include <slant/iteration/solve.hpp>
@@ -106,17 +105,6 @@ TEST_CASE("no minimum: unbounded, with the direction") {
   CHECK(d.minCoeff() >= 0);
 }
 
-TEST_CASE("a semidefinite A with a minimum") {
-  MatrixXd const M{{1.0, 1.0}, {1.0, 1.0}};
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
-  VectorXd const b = VectorXd::Ones(2);
-  slant::separable_qp const qp{A, b, slant::half_lines(2)};
-  auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(2)),
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
-  CHECK(r.converged());
-  CHECK(r.x().sum() == doctest::Approx(1.0));
-}
-
 TEST_CASE("a matrix that breaks its promise is no convergence") {
   MatrixXd const M = VectorXd{{1.0, -1.0, 1.0}}.asDiagonal();
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(M);
@@ -182,24 +170,6 @@ TEST_CASE("bad input names argument, value and expectation") {
   CHECK(test::complaint([&] {
           slant::symmetric_newton const m{qp, {.sufficient = 1.0}};
         }).starts_with("sufficient: got 1"));
-}
-
-TEST_CASE("scales from 1e-150 to 1e150 give the same bits") {
-  test::mixture const p(100);
-  auto const solve_in = [&](int stiffness, int length) {
-    double const s = std::ldexp(1.0, stiffness), t = std::ldexp(1.0, length);
-    auto const A = test::spd(MatrixXd(s * p.A));
-    VectorXd const b = s * t * p.b, lower = t * p.lower, g = t * p.g;
-    auto const set =
-        slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components(6));
-    auto r = slant::solve(slant::symmetric_newton{slant::separable_qp{A, b, set}},
-                          VectorXd(VectorXd::Zero(20)),
-                          slant::reduced_gradient_below(1e-10) || slant::at_most(200));
-    r.state.x /= t;
-    return r;
-  };
-  constexpr int far = 498;
-  test::check_scales(solve_in, far, far);
 }
 
 }  // namespace symmetric_newton_statuses_test

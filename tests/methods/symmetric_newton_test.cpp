@@ -6,14 +6,11 @@
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/slanting/natural_residual.hpp>
-#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <oracle/dense_newton.hpp>
-
-#include "support/allocation_guard.hpp"
 
 namespace symmetric_newton_test {
 
@@ -104,39 +101,6 @@ TEST_CASE("what is counted, and one product a Newton step besides those of its i
   CHECK(s.reduced_gradient_norm <= 1e-10 * s.gradient_scale);
   CHECK(s.descent.count() == 0);
   CHECK_FALSE(s.descent.state().has_value());  // not even its memory
-}
-
-TEST_CASE("steps do not allocate") {
-  test::mixture const p(1e4);
-  auto const A = test::spd(p.A);
-  auto const set = p.set();
-  slant::separable_qp const qp{A, p.b, set};
-  slant::symmetric_newton method{qp, A};
-  auto s = method.start(VectorXd(100 * test::random_vector(20, 3)));
-  slant::testing::allocation_guard guard;
-  for (int k = 0; k < 8 && s.status == slant::status::running; ++k) method.step(s);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(s.iteration >= 4);
-}
-
-TEST_CASE("archetypes: the least that operator, preconditioner and vector can do") {
-  namespace archetype = slant::testing::archetype;
-  Eigen::MatrixXd const M{{4.0, 1.0, 0.0}, {1.0, 4.0, 1.0}, {0.0, 1.0, 4.0}};
-  archetype::psd_operator const A(M), preconditioner(Eigen::MatrixXd::Identity(3, 3));
-  archetype::vector const b(VectorXd{{-3.0, 8.0, 8.0}}), zero(VectorXd::Zero(3));
-  auto const set = slant::cartesian(slant::half_lines(1), slant::discs(VectorXd{{1.0}}));
-  slant::separable_qp const qp{A, b, set};
-  auto const stop = slant::reduced_gradient_below(1e-13) || slant::at_most(50);
-  for (auto const& r : {slant::solve(slant::symmetric_newton{qp}, zero, stop)}) {
-    REQUIRE(r.converged());
-    CHECK(r.x().local()(0) == 0.0);
-    CHECK(r.x().local().tail(2).norm() == doctest::Approx(1.0));
-    // The force is normal to the disc.
-    VectorXd const force = b.local() - M * r.x().local();
-    CHECK(std::abs(force(1) * r.x().local()(2) - force(2) * r.x().local()(1)) <= 1e-11);
-  }
-  CHECK(slant::solve(slant::symmetric_newton{qp, preconditioner}, zero, stop).converged());
 }
 
 }  // namespace symmetric_newton_test

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Checks one program that must not compile:
-#   cmake -DCOMPILER=path -DKIND=gcc|clang -DFLAGS=response_file -DFIRST=header -DCASE=file.cpp -P check.cmake
+#   cmake -DCOMPILER=path -DKIND=gcc|clang -DFLAGS=response_file -DFIRST=header -DCASE=file.cpp
+#         [-DWITH="METHOD=qpc WITHOUT_LAWS"] -P check.cmake
 #
 # The file is a complete model minus exactly one thing. That thing stands between
 # #ifdef SLANT_COMPLETE and #endif, and the first lines of the file say what the reader must be told:
@@ -10,9 +11,15 @@
 #   // max-lines-gcc: 20                                                  (optional)
 #   // max-lines-clang: 30                                                (optional)
 #   // first: nothing      where FIRST must not be included                (optional)
-# Demanded: without SLANT_COMPLETE the compiler fails, its output matches and is not longer than
-# allowed, but for the ways by which headers were included; with it, the same file compiles. So the one missing thing is the only cause. The latter is
-# asked of g++ only, which takes half of the time: the message is what differs between compilers.
+# A file may serve several cases. It lists what is defined for each, and what it says; a definition with
+# `=` makes the complete model, one without takes something away from it:
+#   // case METHOD=qpc WITHOUT_LAWS: <regular expression>
+#   // case METHOD=qpc WITHOUT_LAWS, clang: <where clang words it differently>   (optional)
+#   // case METHOD=qpc WITHOUT_LAWS, max-lines-gcc: 15          (optional, and for clang)
+# Demanded: without SLANT_COMPLETE, or with all that is defined for the case, the compiler fails, its
+# output matches and is not longer than allowed, but for the ways by which headers were included; the
+# complete model compiles. So the one missing thing is the only cause. The latter is asked of g++ only,
+# which takes half of the time: the message is what differs between compilers.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -33,12 +40,12 @@ function(directive name result)
   endif()
 endfunction()
 
-# compile(definition status output): warnings are off, for they are not what is asked here.
-function(compile definition status output)
+# compile(definitions status output): warnings are off, for they are not what is asked here.
+function(compile definitions status output)
   set(ENV{LC_ALL} C)  # plain quotes in the messages
   execute_process(
     COMMAND "${COMPILER}" "@${FLAGS}" -fsyntax-only -w -fdiagnostics-color=never ${include_first}
-            ${definition} "${CASE}"
+            ${definitions} "${CASE}"
     RESULT_VARIABLE code
     OUTPUT_VARIABLE text
     ERROR_VARIABLE text)
@@ -46,9 +53,23 @@ function(compile definition status output)
   set(${output} "${text}" PARENT_SCOPE)
 endfunction()
 
-directive(expect expected)
-directive(expect-clang expected_of_clang)
-directive("max-lines-${KIND}" line_limit)
+# What is defined without and with what is missing.
+if(WITH)
+  string(REPLACE " " ";-D" incomplete "-D${WITH}")
+  set(complete ${incomplete})
+  list(FILTER complete INCLUDE REGEX "=")
+  directive("case ${WITH}" expected)
+  directive("case ${WITH}, clang" expected_of_clang)
+  directive("case ${WITH}, max-lines-${KIND}" line_limit)
+else()
+  set(incomplete "")
+  set(complete -DSLANT_COMPLETE)
+  directive(expect expected)
+  directive(expect-clang expected_of_clang)
+endif()
+if(NOT line_limit)
+  directive("max-lines-${KIND}" line_limit)
+endif()
 if(KIND STREQUAL "clang" AND NOT expected_of_clang STREQUAL "")
   set(expected "${expected_of_clang}")
 endif()
@@ -60,11 +81,11 @@ endif()
 if(expected STREQUAL "")
   fail("no line '// expect: …'")
 endif()
-if(NOT text MATCHES "#ifdef SLANT_COMPLETE")
+if(NOT WITH AND NOT text MATCHES "#ifdef SLANT_COMPLETE")
   fail("nothing is marked as missing by SLANT_COMPLETE")
 endif()
 
-compile("" status output)
+compile("${incomplete}" status output)
 if(status STREQUAL "0")
   fail("compiled although something is missing")
 endif()
@@ -79,7 +100,7 @@ if(NOT line_limit STREQUAL "" AND lines GREATER line_limit)
 endif()
 
 if(NOT KIND STREQUAL "clang" OR CASE MATCHES "/self_check/")
-  compile(-DSLANT_COMPLETE status complete_output)
+  compile("${complete}" status complete_output)
   if(NOT status STREQUAL "0")
     fail("the complete model does not compile either:\n${complete_output}")
   endif()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Newton's method asks its parts for nothing more than the concepts name: archetypes of functions,
-// vectors and scalars, and a vector on two processes.
+// vectors and scalars.
 #include <slant/iteration/solve.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/sets/contact_sets.hpp>
@@ -9,11 +9,8 @@
 #include <slant/testing/archetypes.hpp>
 
 #include <newton/newton_scene.hpp>
-#include <support/two_processes.hpp>
 
 #include <doctest/doctest.h>
-
-#include <array>
 
 namespace semismooth_newton_archetypes_test {
 
@@ -67,34 +64,6 @@ TEST_CASE("a scalar without silent conversions gives the bits of double") {
   CHECK(r.iterations() == expected.iterations());
   VectorXd const x = r.x().unaryExpr([](S const& x_i) { return x_i.value(); });
   CHECK((x - expected.x()).norm() <= 1e-12 * expected.x().norm());
-}
-
-TEST_CASE("two processes take the same steps and reach the solution of one") {
-  newton_scene::data const d(7);
-  auto const A = d.definite();
-  slant::index const n = 21, split = 8;
-  auto const stop = slant::residual_below(1e-11) || slant::at_most(40);
-  auto const F = slant::natural_residual(A, d.b, slant::half_lines(n), d.ρ);
-  auto const alone = slant::solve(slant::semismooth_newton{F}, d.zero(), stop);
-  test::two_processes group;
-  std::array<VectorXd, 2> x;
-  std::array<slant::index, 2> steps{};
-  bool const finished = test::two_processes::run([&](int rank) {
-    auto const first = rank == 0 ? 0 : split, count = rank == 0 ? split : n - split;
-    test::shared_matrix const part{d.A.middleRows(first, count)};
-    test::shared_vector const b(group, rank, d.b.segment(first, count));
-    test::shared_vector const zero(group, rank, VectorXd::Zero(count));
-    auto const f = slant::natural_residual(part, b, slant::half_lines(count), d.ρ);
-    auto const r = slant::solve(slant::semismooth_newton{f}, zero, stop);
-    x[std::size_t(rank)] = r.x().local();
-    steps[std::size_t(rank)] = r.converged() ? r.iterations() : -1;
-  });
-  REQUIRE(finished);
-  CHECK(steps[0] == alone.iterations());
-  CHECK(steps[1] == alone.iterations());
-  VectorXd together(n);
-  together << x[0], x[1];
-  CHECK((together - alone.x()).norm() <= 1e-10 * alone.x().norm());
 }
 
 }  // namespace semismooth_newton_archetypes_test

@@ -35,15 +35,21 @@ TEST_CASE("a multiple is the multiple of the matrix") {
                       Eigen::MatrixXf(m.cast<float>() / 2)));
 }
 
-TEST_CASE("closure: definiteness only for a factor known to be positive") {
+TEST_CASE("closure: a plain number and a positive one keep definiteness, any_sign does not") {
   using namespace slant;
   MatrixXd const m = test::random_spd(3, 2);
   auto const definite = matrix<self_adjoint, positive_definite>(m);
-  static_assert(laws_of<decltype(scaled(2.0, definite))> == laws<law::self_adjoint>);
   auto const p = scaled(positive(2.0), definite);
   static_assert(spd_operator<decltype(p), VectorXd>);
+  static_assert(std::is_same_v<decltype(scaled(2.0, definite)), std::remove_const_t<decltype(p)>>);
   testing::check_operator_laws(p);
-  testing::check_operator_laws(scaled(-2.0, definite));
+  static_assert(laws_of<decltype(scaled(any_sign(2.0), definite))> == laws<law::self_adjoint>);
+  testing::check_operator_laws(scaled(any_sign(-2.0), definite));
+  CHECK(test::message<bad_input>([&] { (void)scaled(-2.0, definite); }) ==
+        "c: got -2, expected a number > 0 in front of a definite operator; for others write "
+        "-(c * A) or any_sign(c) * A");
+  CHECK_THROWS_AS((void)scaled(0, definite), bad_input);
+  CHECK_NOTHROW((void)scaled(0.0, matrix<self_adjoint, positive_semidefinite>(m)));
   // 2 I is no projector.
   static_assert(laws_of<decltype(scaled(positive(2), identity(3)))> ==
                 laws<law::self_adjoint, law::positive_definite>);
@@ -56,7 +62,9 @@ TEST_CASE("the inverse, where the part knows its own") {
   static_assert(slant::has_inverse<decltype(p), VectorXd>);
   static_assert(slant::spd_operator<decltype(p.inverse()), VectorXd>);
   slant::testing::check_operator_laws(p);
-  static_assert(!slant::has_inverse<decltype(slant::scaled(4.0, slant::identity(3))), VectorXd>);
+  static_assert(
+      !slant::has_inverse<decltype(slant::scaled(slant::any_sign(4.0), slant::identity(3))),
+                          VectorXd>);
 }
 
 TEST_CASE("the factor of an inverse is rounded in the scalar of the vector") {

@@ -60,27 +60,4 @@ TEST_CASE("a perturbed displacement violates the conditions") {
   CHECK(oracle::energy_error(scene.K, 1.001 * reference.u, reference.u) == doctest::Approx(1e-3));
 }
 
-TEST_CASE("without friction and in the plane the reference works too") {
-  auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
-  Eigen::SparseMatrix<double> const no_rows(0, scene.K.cols());
-  Eigen::VectorXd const none(0);
-  oracle::contact_data const frictionless{scene.K, scene.N, no_rows, scene.f, scene.d, none};
-  auto const reference = oracle::solve_contact(frictionless);
-  CHECK(reference.violations.largest() < 1e-15);
-  CHECK(reference.proof.energy_error < 1e-9);
-  CHECK(reference.tangential.size() == 0);
-
-  fem::box_on_foundation<2> plate{.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}),
-                                  .material = fem::lame_plane_stress(2e5, 0.3),
-                                  .fixed = {0, false},
-                                  .contact = {1, false}};
-  plate.loads.push_back({{1, true}, {0, -1}});
-  plate.loads.push_back({{0, true}, {0.5, 0.8}});
-  plate.slip_bound = 0.3;
-  auto const plane = fem::make_contact_scene(plate);
-  auto const flat = oracle::solve_contact({plane.K, plane.N, plane.T, plane.f, plane.d, plane.g});
-  CHECK(flat.violations.largest() < 1e-15);
-  CHECK(flat.proof.energy_error < 1e-9);
-}
-
 }  // namespace dense_contact_reference_test

@@ -9,21 +9,6 @@ namespace dense_newton_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Example 1 of [K]: tridiag(−1, 4, −1) and six discs on the pairs (i, i + 6).
-oracle::dense_qp tridiagonal_example() {
-  oracle::dense_qp qp{Eigen::MatrixXd::Zero(12, 12), {}};
-  for (Eigen::Index i = 0; i < 12; ++i) {
-    qp.A(i, i) = 4;
-    if (i > 0) qp.A(i, i - 1) = qp.A(i - 1, i) = -1;
-  }
-  Eigen::VectorXd y(12);
-  y << 2, 1, .5, 0, 0, 11, 1e-5, -1, std::sqrt(2.0), -.1, 4.1e-4, 143;
-  qp.b = (qp.A * y).cast<oracle::real>();
-  double const radii[] = {2, 1, .5, 2, 1e-3, 154};
-  for (Eigen::Index i = 0; i < 6; ++i) qp.circles.push_back({i, i + 6, radii[i]});
-  return qp;
-}
-
 oracle::dense_qp random_qp(unsigned seed, double radius) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -39,20 +24,6 @@ oracle::dense_qp random_qp(unsigned seed, double radius) {
   return qp;  // 11, 12 and 13 are free
 }
 
-TEST_CASE("the tridiagonal example has the printed active set {2, 3, 5}") {
-  auto const qp = tridiagonal_example();
-  auto const report = oracle::solve_dense(qp);
-  auto const counts = oracle::count_active(qp, report.x);
-  CHECK(counts.circles == 3);
-  for (std::size_t i = 0; i < 6; ++i) {
-    auto const& c = qp.circles[i];
-    auto const length = std::hypot(report.x[c.first], report.x[c.second]);
-    bool const printed_active = i == 1 || i == 2 || i == 4;
-    CHECK((length >= c.radius * (1 - 1e-15L)) == printed_active);
-  }
-  CHECK(oracle::certify(qp, report.x).energy_error < 1e-9);
-}
-
 TEST_CASE("random problems with bounds, intervals, circles and free unknowns are solved") {
   for (unsigned seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
@@ -63,21 +34,6 @@ TEST_CASE("random problems with bounds, intervals, circles and free unknowns are
     CHECK(proof.infeasibility < 1e-18);
     CHECK(proof.energy_error < 1e-8);
   }
-}
-
-TEST_CASE("without active constraints the solution is that of the linear system") {
-  auto qp = random_qp(3, infinity);
-  qp.intervals.clear();
-  auto const report = oracle::solve_dense(qp);
-  Eigen::VectorXd const x = qp.A.ldlt().solve(qp.b.cast<double>());
-  CHECK((report.x.cast<double>() - x).norm() < 1e-9 * x.norm());
-  CHECK(qp.gradient(report.x).cwiseAbs().maxCoeff() < 1e-15L * qp.b.cwiseAbs().maxCoeff());
-}
-
-TEST_CASE("zero data give the zero solution") {
-  auto qp = random_qp(1, 1);
-  qp.b.setZero();
-  CHECK(oracle::solve_dense(qp).x.isZero(0));
 }
 
 TEST_CASE("the Jacobian is the derivative of the natural residual") {

@@ -36,6 +36,30 @@ struct projection_errors {
   }
 };
 
+/// Of make(l, u), a half line or an interval: points of all sizes and within a few ulp of both
+/// bounds; l = −∞, u = ∞ and l = u among them.
+template <class Make>
+projection_errors<double, 1> bound_errors(Make const& make, bool two_sided, int count,
+                                          unsigned seed) {
+  double const inf = std::numeric_limits<double>::infinity();
+  number_source<double> source(seed);
+  projection_errors<double, 1> errors;
+  for (int i = 0; i < count; ++i) {
+    double l = i % 7 == 0 ? 0.0 : i % 11 == 0 ? -inf : source.any_size();
+    double u = !two_sided || i % 13 == 0 ? inf
+               : i % 5 == 0 && l > -inf  ? source.nudged(l)
+                                         : source.any_size();
+    if (l > u) std::swap(l, u);
+    hard_point<double, 1> p{l, u, {}};
+    p.x(0) = i % 3 == 0 ? source.any_size() : source.nudged(i % 3 == 1 ? l : u);
+    if (!p.x.allFinite()) p.x(0) = source.any_size();
+    auto const exact =
+        naive::project_box<float_50, 1>(widen<float_50>(p.x), float_50(l), float_50(u));
+    errors.record(make(l, u), p, exact, float_50(std::numeric_limits<double>::min()));
+  }
+  return errors;
+}
+
 template <class S, class Real, int N>
 projection_errors<S, N> ball_errors(int count, unsigned seed) {
   number_source<S> source(seed);

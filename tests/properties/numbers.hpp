@@ -43,8 +43,6 @@ Eigen::MatrixXd matrix_of(Eigen::Index rows, Eigen::Index cols, Generator genera
 }
 
 // Defined in a file each; true if all properties hold.
-bool projections_keep_their_laws();
-bool texts_are_read_again();
 bool operators_keep_their_laws();
 bool programs_are_solved();
 

@@ -44,7 +44,7 @@ namespace properties {
 
 bool operators_keep_their_laws() {
   using namespace operators;
-  return rc::check("α B A Bᵀ + C Cᵀ is what it says", [] {
+  return rc::check("α B A Bᵀ and |α| B A Bᵀ + C Cᵀ are what they say", [] {
     Eigen::Index const n = *rc::gen::inRange(1, 5), m = *rc::gen::inRange(1, 5);
     matrix const dense_a = any_semidefinite(n), dense_b = matrix_of(m, n, quarter),
                  dense_c = matrix_of(m, n, quarter);
@@ -54,8 +54,10 @@ bool operators_keep_their_laws() {
     auto const second = slant::product(C, slant::adjoint(C));
     double const α = *quarter(), terms = dense_b.squaredNorm() * dense_a.norm();
     keep_laws(first, dense_b * dense_a * dense_b.transpose(), terms);
-    keep_laws(slant::sum(slant::scaled(α, first), second),
-              α * (dense_b * dense_a * dense_b.transpose()) + dense_c * dense_c.transpose(),
+    matrix const term = dense_b * dense_a * dense_b.transpose();
+    keep_laws(slant::scaled(slant::any_sign(α), first), α * term, std::fabs(α) * terms);
+    keep_laws(slant::sum(slant::scaled(std::fabs(α), first), second),
+              std::fabs(α) * term + dense_c * dense_c.transpose(),
               std::fabs(α) * terms + dense_c.squaredNorm());
   });
 }

@@ -4,14 +4,11 @@
 
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
-#include "oracle/step_errors.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
-#include <support/effort.hpp>
-#include <vector>
 
 namespace ellipse_test {
 
@@ -21,7 +18,6 @@ using slant::ellipse;
 using vec2 = Eigen::Vector2d;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
 TEST_CASE_TEMPLATE("ellipse: known answers", S, float, double, long double, float_50) {
@@ -43,20 +39,6 @@ TEST_CASE_TEMPLATE("ellipse: known answers", S, float, double, long double, floa
   CHECK(set.step_to_boundary(vec(S(0), S(1)), vec(S(0), S(-2))) == S(1.5));
   CHECK(set.step_to_boundary(vec(S(-4), S(0)), vec(S(1), S(0))) == S(8));
   CHECK(set.step_to_boundary(vec(S(4), S(0)), vec(S(1), S(0))) == S(0));
-}
-
-TEST_CASE("ellipse: random and adversarial points within 2 ulp of the 50-digit projection") {
-  auto const check = [](auto const& errors) {
-    CAPTURE(errors.worst.first);
-    CAPTURE(errors.worst.second);
-    CAPTURE(errors.worst.x);
-    CHECK(errors.ulp <= 2);
-    CHECK(errors.outside == 0);
-  };
-  check(oracle::ellipse_errors<double, float_50, long double>(test::effort(20000, 1000), 1));
-  check(oracle::ellipse_errors<double, oracle::float_100, long double>(500, 2, 20));
-  check(oracle::ellipse_errors<float, float_50, long double>(1000, 3));
-  check(oracle::ellipse_errors<long double, oracle::float_100, long double>(500, 4));
 }
 
 TEST_CASE("ellipse: the bisection of the textbook equation gives the same point") {
@@ -84,34 +66,13 @@ TEST_CASE("ellipse: with equal axes it is the disc") {
   }
 }
 
-TEST_CASE("ellipse: no smaller distance on the curve, and the variational inequality") {
+TEST_CASE("ellipse: swapping the axes swaps the components") {
   oracle::number_source<double> source(8);
   for (int i = 0; i < 60; ++i) {
     double const a = source.positive_of_size(-2, 2), b = source.positive_of_size(-2, 2);
     vec2 const x(source.of_size(-2, 3), source.of_size(-2, 3));
-    auto const on_curve = [&](double θ) { return vec2(a * std::cos(θ), b * std::sin(θ)); };
-    std::vector<vec2> points{vec2(0, 0)};
-    for (double θ = 0; θ < 6.3; θ += 0.3) points.push_back(on_curve(θ));
-    ellipse<> const set(a, b);
-    oracle::check_variational_inequality(set, x, points);
-    double const distance = (x - set.project(x)).norm();
-    CHECK(distance <= naive::sampled_distance(x, on_curve, 400) * (1 + 8 * ε));
-    // Swapping the axes swaps the components.
     vec2 const swapped = ellipse<>(b, a).project(vec2(x(1), x(0)));
-    CHECK(vec2(swapped(1), swapped(0)) == set.project(x));
-  }
-}
-
-TEST_CASE("ellipse: a power of two in the units changes nothing but the units") {
-  oracle::number_source<double> source(9);
-  for (int i = 0; i < 200; ++i) {
-    vec2 const x(source.of_size(-2, 2), source.of_size(-2, 2));
-    double const a = source.positive_of_size(-2, 2), b = source.positive_of_size(-2, 2);
-    vec2 const p = ellipse<>(a, b).project(x);
-    for (double s : {0x1p-900, 0x1p-500, 0x1p+3, 0x1p+500, 0x1p+900}) {
-      CHECK(ellipse<>(s * a, s * b).project(s * x) == s * p);
-      CHECK(ellipse<>(s * a, s * b).slant(s * x) == ellipse<>(a, b).slant(x));
-    }
+    CHECK(vec2(swapped(1), swapped(0)) == ellipse<>(a, b).project(x));
   }
 }
 
@@ -156,43 +117,6 @@ TEST_CASE("ellipse: slanting function off the curve, on it and inside") {
   // At the end of the long axis: T = e₁, κ = a/b², so G = 1/(1 + δa/b²).
   CHECK(ellipse<>(2, 1).slant(vec2(5, 0))(1, 1) == doctest::Approx(1.0 / 7.0).epsilon(1e-15));
   CHECK(ellipse<>(1e8, 1).slant(vec2(2e8, 0))(1, 1) == doctest::Approx(1e-16).epsilon(1e-14));
-}
-
-TEST_CASE("ellipse: steps agree with bisection in 50 digits at all scales and aspects") {
-  using real = float_50;
-  using wide = Eigen::Matrix<real, 2, 1>;
-  oracle::number_source<double> source(12);
-  double worst = 0;
-  for (int i = 0; i < 120; ++i) {
-    double const a = source.positive_of_size(-140, 140), b = a * source.positive_of_size(-8, 0);
-    double const θ = source.uniform(0, 6.3);
-    vec2 x(a * std::cos(θ), b * std::sin(θ));
-    x *= i % 3 == 0 ? 1 - 4 * ε : i % 3 == 1 ? 1 - source.positive_of_size(-14, 0) / 2 : 0.3;
-    vec2 const d(source.of_size(-3, 3), source.of_size(-3, 3));
-    real const A(a), B(b), limit = A * A * B * B;
-    auto const member = [&](wide const& z) {
-      real const u = B * z(0), v = A * z(1);
-      return u * u + v * v <= limit;
-    };
-    worst = std::max(worst, oracle::step_error(ellipse<>(a, b), member, x, d, b));
-  }
-  CHECK(worst <= 4);
-}
-
-TEST_CASE("ellipse: a step from outside by rounding is 0 or leads through the set") {
-  oracle::number_source<double> source(13);
-  for (int i = 0; i < 2000; ++i) {
-    double const a = source.positive_of_size(-100, 100), b = a * source.positive_of_size(-8, 8);
-    ellipse<> const set(a, b);
-    double const θ = source.uniform(0, 6.3);
-    vec2 const x = (1 + 4 * ε) * vec2(a * std::cos(θ), b * std::sin(θ));
-    vec2 const d(a * source.of_size(-2, 2), b * source.of_size(-2, 2));
-    double const α = set.step_to_boundary(x, d);
-    CHECK(α >= 0);
-    if (std::cos(θ) * (d(0) / a) + std::sin(θ) * (d(1) / b) > 0) CHECK(α == 0.0);
-    vec2 const moved = x + α * d;
-    CHECK(std::hypot(moved(0) / a, moved(1) / b) <= 1 + 16 * ε);
-  }
 }
 
 TEST_CASE("ellipse: support, state and membership") {
@@ -261,34 +185,6 @@ TEST_CASE("ellipse: an infinite axis makes a strip or the plane") {
   CHECK(strip.support(vec2(0, 3)) == 6.0);
   CHECK(strip.support(vec2(1, 3)) == inf);
   CHECK(strip.inequality(vec2(5, 1))(0) == -0.75);
-}
-
-TEST_CASE("ellipse: NaN stays NaN") {
-  for (ellipse<> const& set : {ellipse<>(2, 1), ellipse<>(2, 0), ellipse<>(inf, 1), ellipse<>(0, 0),
-                               ellipse<>(inf, inf)}) {
-    for (vec2 const& bad : {vec2(quiet_nan, 1), vec2(0, quiet_nan)}) {
-      CHECK(set.project(bad).array().isNaN().all());
-      CHECK(set.slant(bad).array().isNaN().all());
-      CHECK_FALSE(set.contains(bad));
-      CHECK(std::isnan(set.step_to_boundary(bad, vec2(1, 0))));
-      CHECK(std::isnan(set.step_to_boundary(vec2(0, 0), bad)));
-      CHECK(std::isnan(set.support(bad)));
-    }
-  }
-  CHECK(ellipse<>(2, 1).project(vec2(inf, 1)).hasNaN());
-  CHECK(ellipse<>(2, 1).slant(vec2(inf, 1)).hasNaN());
-}
-
-TEST_CASE("ellipse: bad input is named") {
-  using slant::bad_input;
-  auto const made = [](double a, double b) {
-    return oracle::complaint<bad_input>([=] { return ellipse<>().with(a, b); });
-  };
-  CHECK(made(-1, 2) == "a: got -1, expected a number >= 0");
-  CHECK(made(1, -2) == "b: got -2, expected a number >= 0");
-  CHECK(made(quiet_nan, 2) == "a: got nan, expected a number >= 0");
-  CHECK(made(1, quiet_nan) == "b: got nan, expected a number >= 0");
-  CHECK(made(0, inf).empty());
 }
 
 }  // namespace ellipse_test

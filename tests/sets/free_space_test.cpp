@@ -3,13 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <limits>
 
 namespace free_space_test {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE_TEMPLATE("free space: everything is inside", S, float, double, long double) {
   slant::free_space<3, S> const space;
@@ -32,17 +28,6 @@ TEST_CASE("free space: no inequality, an empty one for those who loop over them"
   CHECK(space.inequality_gradient(x).rows() == 2);
   CHECK(space.inequality_gradient(x).cols() == 0);
   CHECK(space.inequality_hessian(x, Eigen::Matrix<double, 0, 1>{}) == Eigen::Matrix2d::Zero());
-}
-
-TEST_CASE("free space: NaN stays NaN") {
-  slant::free_space<2> const space;
-  Eigen::Vector2d const bad(1, quiet_nan), good(1, inf);
-  CHECK(space.project(bad).hasNaN());
-  CHECK(space.slant(bad).hasNaN());
-  CHECK(std::isnan(space.step_to_boundary(bad, good)));
-  CHECK(std::isnan(space.step_to_boundary(good, bad)));
-  CHECK(std::isnan(space.support(bad)));
-  CHECK_FALSE(space.contains(bad));
 }
 
 }  // namespace free_space_test

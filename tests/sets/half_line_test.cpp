@@ -21,7 +21,6 @@ vec<S> at(S const& value) {
 }
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE_TEMPLATE("half line: known answers", S, float, double, long double, oracle::float_50) {
   slant::half_line<S> const positive;
@@ -37,21 +36,6 @@ TEST_CASE_TEMPLATE("half line: known answers", S, float, double, long double, or
   CHECK(shifted.support(at(S(0))) == S(0));
   CHECK(shifted.support(at(S(2))) == std::numeric_limits<S>::infinity());
   CHECK(shifted.inequality(at(S(2)))(0) == S(-3.5));
-}
-
-TEST_CASE("half line: the projection is exact at 20000 points of all sizes") {
-  oracle::number_source<double> source(11);
-  for (int i = 0; i < 20000; ++i) {
-    double const l = i % 3 == 0 ? 0.0 : source.any_size();
-    slant::half_line<double> const set(l);
-    vec<double> const x = at(i % 2 == 0 ? source.any_size() : source.nudged(l));
-    auto const p = set.project(x);
-    auto const exact = naive::project_box<oracle::float_50, 1>(
-        oracle::widen<oracle::float_50>(x), oracle::float_50(l), oracle::float_50(inf));
-    CHECK(oracle::ulp_distance<double>(p(0), exact(0)) == 0.0);
-    CHECK(set.contains(p));
-    CHECK(set.project(p)(0) == p(0));
-  }
 }
 
 TEST_CASE("half line: membership and state know a band of a few ulp, none at 0") {
@@ -98,30 +82,13 @@ TEST_CASE("half line: steps start on the bound where rounding left them below") 
   CHECK(slant::half_line<double>(-inf).step_to_boundary(at(1.0), at(-1.0)) == inf);
 }
 
-TEST_CASE("half line: infinite bound and NaN") {
+TEST_CASE("half line: an infinite bound") {
   slant::half_line<double> const line(-inf);
   CHECK(line.project(at(-1e308))(0) == -1e308);
   CHECK(line.contains(at(-1e308)));
   CHECK(line.state(at(-1e308)) == slant::block_state::free);
   CHECK(line.support(at(-1.0)) == inf);
   CHECK(line.support(at(0.0)) == 0.0);
-  slant::half_line<double> const set;
-  CHECK(std::isnan(set.project(at(quiet_nan))(0)));
-  CHECK(std::isnan(set.slant(at(quiet_nan))(0, 0)));
-  CHECK(std::isnan(set.step_to_boundary(at(quiet_nan), at(1.0))));
-  CHECK(std::isnan(set.step_to_boundary(at(1.0), at(quiet_nan))));
-  CHECK(std::isnan(set.support(at(quiet_nan))));
-  CHECK(std::isnan(set.inequality(at(quiet_nan))(0)));
-  CHECK_FALSE(set.contains(at(quiet_nan)));
-}
-
-TEST_CASE("half line: bad input is named") {
-  using slant::bad_input;
-  auto const text =
-      oracle::complaint<bad_input>([] { return slant::half_line<double>(quiet_nan); });
-  CHECK(text == "l: got nan, expected a number less than infinity");
-  CHECK(oracle::complaint<bad_input>([] { return slant::half_line<double>().with(inf); }) ==
-        "l: got inf, expected a number less than infinity");
 }
 
 }  // namespace half_line_test

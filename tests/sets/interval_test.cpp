@@ -21,7 +21,6 @@ vec<S> at(S const& value) {
 }
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE_TEMPLATE("interval: known answers", S, float, double, long double, oracle::float_50) {
   slant::interval<S> const unit;
@@ -38,23 +37,6 @@ TEST_CASE_TEMPLATE("interval: known answers", S, float, double, long double, ora
   CHECK(set.support(at(S(-3))) == S(6));
   CHECK(set.inequality(at(S(1)))(0) == S(-3));
   CHECK(set.inequality(at(S(1)))(1) == S(-5));
-}
-
-TEST_CASE("interval: the projection is exact at 20000 points of all sizes") {
-  oracle::number_source<double> source(12);
-  for (int i = 0; i < 20000; ++i) {
-    double l = source.any_size(), u = i % 5 == 0 ? source.nudged(l) : source.any_size();
-    if (l > u) std::swap(l, u);
-    slant::interval<double> const set(l, u);
-    double const x = i % 3 == 0 ? source.any_size() : source.nudged(i % 3 == 1 ? l : u);
-    auto const p = set.project(at(x));
-    auto const exact = naive::project_box<oracle::float_50, 1>(
-        vec<oracle::float_50>::Constant(oracle::float_50(x)), oracle::float_50(l),
-        oracle::float_50(u));
-    CHECK(oracle::ulp_distance<double>(p(0), exact(0)) == 0.0);
-    CHECK(set.contains(p));
-    CHECK(set.project(p)(0) == p(0));
-  }
 }
 
 TEST_CASE("interval: membership and state know a band of a few ulp of the bound") {
@@ -104,7 +86,7 @@ TEST_CASE("interval: steps at, beyond and far from the bounds") {
   CHECK(huge.step_to_boundary(at(-1e308), at(1e308)) == doctest::Approx(2.5));
 }
 
-TEST_CASE("interval: infinite ends and NaN") {
+TEST_CASE("interval: infinite ends") {
   slant::interval<double> const line(-inf, inf);
   CHECK(line.project(at(-1e308))(0) == -1e308);
   CHECK(line.state(at(1e308)) == slant::block_state::free);
@@ -113,27 +95,6 @@ TEST_CASE("interval: infinite ends and NaN") {
   CHECK(line.support(at(1.0)) == inf);
   CHECK(line.support(at(-1.0)) == inf);
   CHECK(line.support(at(0.0)) == 0.0);
-  slant::interval<double> const set;
-  CHECK(std::isnan(set.project(at(quiet_nan))(0)));
-  CHECK(std::isnan(set.slant(at(quiet_nan))(0, 0)));
-  CHECK(std::isnan(set.step_to_boundary(at(quiet_nan), at(1.0))));
-  CHECK(std::isnan(set.step_to_boundary(at(0.5), at(quiet_nan))));
-  CHECK(std::isnan(set.support(at(quiet_nan))));
-  CHECK(std::isnan(set.with(0.0, 0.0).support(at(quiet_nan))));
-  CHECK_FALSE(set.contains(at(quiet_nan)));
-}
-
-TEST_CASE("interval: bad input is named") {
-  using slant::bad_input;
-  auto const made = [](double l, double u) {
-    return oracle::complaint<bad_input>([=] { return slant::interval<double>().with(l, u); });
-  };
-  CHECK(made(2.0, 1.0) == "l: got 2, expected a number <= u = 1");
-  CHECK(made(quiet_nan, 1.0) == "l: got nan, expected a number less than infinity");
-  CHECK(made(inf, inf) == "l: got inf, expected a number less than infinity");
-  CHECK(made(0.0, quiet_nan) == "u: got nan, expected a number greater than -infinity");
-  CHECK(made(-inf, -inf) == "u: got -inf, expected a number greater than -infinity");
-  CHECK(made(-inf, inf).empty());
 }
 
 }  // namespace interval_test

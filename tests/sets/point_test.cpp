@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/point.hpp>
 
-#include "oracle/set_checks.hpp"
+#include "oracle/precise.hpp"
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <limits>
 
 namespace point_test {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST_CASE_TEMPLATE("point: known answers", S, float, double, long double, oracle::float_50) {
   using vec = Eigen::Matrix<S, 2, 1>;
@@ -41,27 +37,6 @@ TEST_CASE("point: membership is relative to the size of the point") {
   slant::point<2> const origin;
   CHECK(origin.contains(Eigen::Vector2d(0, 0)));
   CHECK_FALSE(origin.contains(Eigen::Vector2d(0, 5e-324)));
-}
-
-TEST_CASE("point: NaN stays NaN") {
-  slant::point<2> const origin;
-  Eigen::Vector2d const bad(1, quiet_nan), good(1, 2);
-  CHECK(origin.project(bad).array().isNaN().all());
-  CHECK(origin.slant(bad).array().isNaN().all());
-  CHECK(std::isnan(origin.step_to_boundary(bad, good)));
-  CHECK(std::isnan(origin.step_to_boundary(good, bad)));
-  CHECK(std::isnan(origin.support(bad)));
-  CHECK_FALSE(origin.contains(bad));
-}
-
-TEST_CASE("point: bad input is named with its position") {
-  using slant::bad_input;
-  auto const made = [](double a, double b) {
-    return oracle::complaint<bad_input>([=] { return slant::point<2>(Eigen::Vector2d(a, b)); });
-  };
-  CHECK(made(1.0, quiet_nan) == "p(1): got nan, expected a finite number");
-  CHECK(made(-inf, 0.0) == "p(0): got -inf, expected a finite number");
-  CHECK(made(1.0, 2.0).empty());
 }
 
 }  // namespace point_test

@@ -25,34 +25,14 @@ void check(Errors const& errors, double bound) {
   CHECK(errors.outside == 0);
 }
 
-/// Points of all sizes and within a few ulp of both bounds; l = −∞, u = ∞ and l = u among them.
-template <class Make>
-void check_bounds(Make const& make, bool two_sided, unsigned seed) {
-  double const inf = std::numeric_limits<double>::infinity();
-  oracle::number_source<double> source(seed);
-  oracle::projection_errors<double, 1> errors;
-  for (int i = 0; i < million; ++i) {
-    double l = i % 7 == 0 ? 0.0 : i % 11 == 0 ? -inf : source.any_size();
-    double u = !two_sided || i % 13 == 0 ? inf
-               : i % 5 == 0 && l > -inf  ? source.nudged(l)
-                                         : source.any_size();
-    if (l > u) std::swap(l, u);
-    oracle::hard_point<double, 1> p{l, u, {}};
-    p.x(0) = i % 3 == 0 ? source.any_size() : source.nudged(i % 3 == 1 ? l : u);
-    if (!p.x.allFinite()) p.x(0) = source.any_size();
-    auto const exact =
-        naive::project_box<float_50, 1>(oracle::widen<float_50>(p.x), float_50(l), float_50(u));
-    errors.record(make(l, u), p, exact, float_50(std::numeric_limits<double>::min()));
-  }
-  check(errors, 0);
-}
-
 TEST_CASE("a million points: half line") {
-  check_bounds([](double l, double) { return slant::half_line<double>(l); }, false, 101);
+  auto const make = [](double l, double) { return slant::half_line<double>(l); };
+  check(oracle::bound_errors(make, false, million, 101), 0);
 }
 
 TEST_CASE("a million points: interval") {
-  check_bounds([](double l, double u) { return slant::interval<double>(l, u); }, true, 102);
+  auto const make = [](double l, double u) { return slant::interval<double>(l, u); };
+  check(oracle::bound_errors(make, true, million, 102), 0);
 }
 
 TEST_CASE("a million points: ball") {

@@ -18,24 +18,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace slant {
-
-/// A number of which nothing is promised.
-template <class S>
-struct any_sign_factor {
-  S value;
-};
-
-/// Marks c as a number of any sign: any_sign(c) * A is self-adjoint if A is, and no more.
-/// @throws bad_input if c is NaN or infinite.
-template <class S>
-  requires scalar<S> || std::is_integral_v<S>
-[[nodiscard]] any_sign_factor<S> any_sign(S c) {
-  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
-  return {c};
-}
-
-namespace expr {
+namespace slant::expr {
 
 enum class sign : signed char { minus = -1, any = 0, plus = 1 };
 
@@ -138,12 +121,7 @@ void require_sign(C const& c, bool strictly) {
     using S = decltype(c.value);
     S const magnitude =
         sign_of<C> == sign::plus ? S(c.value / c.divisor) : S(-(c.value / c.divisor));
-    if (magnitude > S(0) || (!strictly && magnitude == S(0))) return;
-    throw bad_input("c", slant::detail::show(magnitude),
-                    strictly ? "a number > 0 in front of a definite operator; for others write "
-                               "-(c * A) or any_sign(c) * A"
-                             : "a number >= 0 in front of a semidefinite operator; for others "
-                               "write -(c * A) or any_sign(c) * A");
+    slant::detail::require_keeping_sign(magnitude, strictly);
   }
 }
 
@@ -181,5 +159,4 @@ template <class S>
   return number<T, sign::any>{T(c.value), T(1)};
 }
 
-}  // namespace expr
-}  // namespace slant
+}  // namespace slant::expr

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A multiple of an operator. Closure: self-adjoint if A is. The sign of c is a value and laws
-// belong to types, so definiteness survives only for `positive(c)`, which checks c > 0:
+// A multiple of an operator. The sign of c is part of the type, its value is not:
 //
-//     auto S = slant::scaled(-2.0, A);                  // self-adjoint if A is
-//     auto P = slant::scaled(slant::positive(2.0), A);  // also definite if A is
+//     scaled(2.0, A)                  keeps the laws of A; where A is semidefinite c must be > 0
+//                                     (>= 0 if A is not definite), which is checked
+//     scaled(positive(2.0), A)        the same, checked whatever A is
+//     scaled(any_sign(-2.0), A)       self-adjoint if A is, and no more
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
@@ -39,6 +40,21 @@ template <class S>
   return positive_factor<S>(std::move(c));
 }
 
+/// A number of which nothing is promised.
+template <class S>
+struct any_sign_factor {
+  S value;
+};
+
+/// Marks c as a number of any sign: any_sign(c) * A is self-adjoint if A is, and no more.
+/// Throws bad_input if c is NaN or infinite.
+template <class S>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] any_sign_factor<S> any_sign(S c) {
+  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
+  return {c};
+}
+
 /// The factor 1/c, which is rounded where it is used: in the scalar of the vectors.
 template <class S>
 struct reciprocal_factor {
@@ -46,6 +62,17 @@ struct reciprocal_factor {
 };
 
 namespace detail {
+
+/// Throws bad_input unless c has the sign that keeps an operator semidefinite, or definite.
+template <class S>
+void require_keeping_sign(S const& c, bool definite) {
+  if (c > S(0) || (!definite && c == S(0))) return;
+  throw bad_input("c", show(c),
+                  definite ? "a number > 0 in front of a definite operator; for others write "
+                             "-(c * A) or any_sign(c) * A"
+                           : "a number >= 0 in front of a semidefinite operator; for others write "
+                             "-(c * A) or any_sign(c) * A");
+}
 
 /// A factor in the scalar T.
 template <class T, class S>
@@ -82,7 +109,7 @@ class scaled_operator {
  public:
   static constexpr law_set laws = detail::scaled_laws(laws_of<A>, Positive);
 
-  /// c is finite, and > 0 if Positive; slant::scaled checks it.
+  /// c is finite, and >= 0, if A is definite > 0, if Positive; slant::scaled checks it.
   scaled_operator(S c, held<A> a) : c_(std::move(c)), a_(std::move(a)) {}
 
   [[nodiscard]] index rows() const { return a_.get().rows(); }
@@ -163,13 +190,22 @@ template <class S, operand A>
       c.value(), held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
 }
 
-/// c A. Throws bad_input if c is NaN or infinite.
+/// c A. Throws bad_input if c is NaN or infinite, or has not the sign that the laws of A need.
 template <class S, operand A>
   requires scalar<S> || std::is_integral_v<S>
 [[nodiscard]] auto scaled(S c, A&& a) {
   if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
-  return scaled_operator<S, part_t<A>, false>{
+  constexpr bool keeps = declares_positive_semidefinite<A>;
+  if constexpr (keeps) detail::require_keeping_sign(c, declares_positive_definite<A>);
+  return scaled_operator<S, part_t<A>, keeps>{
       c, held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
+}
+
+/// c A for a factor of any sign.
+template <class S, operand A>
+[[nodiscard]] auto scaled(any_sign_factor<S> c, A&& a) {
+  return scaled_operator<S, part_t<A>, false>{
+      c.value, held<part_t<A>>(slant::as_operator(std::forward<A>(a)))};
 }
 
 }  // namespace slant

@@ -3,7 +3,7 @@
 // max-lines-gcc: 22
 // max-lines-clang: 30
 //
-// The multiple of a definite operator by a number whose sign the type does not tell.
+// The multiple of a definite operator by a number of any sign.
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/scaled.hpp>
@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #ifdef SLANT_COMPLETE
-auto const two = slant::positive(2.0);
-#else
 auto const two = 2.0;
+#else
+auto const two = slant::any_sign(2.0);
 #endif
 
 auto method(Eigen::VectorXd const& b) {

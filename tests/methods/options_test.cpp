@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Options out of range are named with their value and what was expected.
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/methods/successive_approximations.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/message.hpp"
+
+namespace options_test {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Options, and how the complaint about them begins.
+template <class Options>
+struct row {
+  Options options;
+  std::string complaint = "nothing thrown";
+};
+
+template <class Options>
+void check(std::vector<row<Options>> const& table) {
+  for (auto const& [options, expected] : table) {
+    auto const said = test::complaint([&] { options.validate(); });
+    CAPTURE(expected);
+    CAPTURE(said);
+    CHECK(said.starts_with(expected));
+  }
+}
+
+TEST_CASE("KPRGP and QPC") {
+  check<slant::kprgp_options<double>>(
+      {{{}},
+       {{.proportioning = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}},
+       {{.proportioning = 0}, "proportioning: got 0, expected a number > 0"},
+       {{.proportioning = nan}, "proportioning: got nan, expected a number > 0"},
+       {{.proportioning = inf}, "proportioning: got inf, expected a number > 0"},
+       {{.step_length = -1.0}, "step_length: got -1, expected a number > 0"},
+       {{.step_length = inf}, "step_length: got inf, expected a number > 0"},
+       {{.step_factor = 2}, "step_factor: got 2, expected a number in (0, 2)"},
+       {{.step_factor = 0}, "step_factor: got 0, expected a number in (0, 2)"},
+       {{.refresh = -1}, "refresh: got -1, expected a number >= 0"},
+       {{.patience = -1}, "patience: got -1, expected a number >= 0"},
+       {{.spectrum = {.steps = 1}}, "steps: got 1, expected at least 2 Lanczos steps"}});
+  check<slant::qpc_options<double>>(
+      {{{.face_accuracy = 1}, "face_accuracy: got 1, expected a number in [0, 1)"},
+       {{.step_factor = 2}, "step_factor: got 2, expected a number in (0, 2)"}});
+}
+
+TEST_CASE("MSSN and IMSSN") {
+  check<slant::mssn_options<double>>(
+      {{{.forcing = {.tolerance = 1}}, "tolerance: got 1, expected a number in [0, 1)"}});
+  check<slant::imssn_options<double>>(
+      {{{.forcing = {.r_tol = 1}}, "r_tol: got 1, expected a number in (0, 1)"},
+       {{.forcing = {.c_fact = 0}}, "c_fact: got 0"},
+       {{.step_length = -1}, "step_length: got -1, expected a number > 0"},
+       {{.step_factor = nan}, "step_factor: got nan"},
+       {{.max_inner = 0}, "max_inner: got 0, expected a number >= 1"}});
+}
+
+TEST_CASE("successive approximations") {
+  check<slant::successive_options<double>>(
+      {{{}},
+       {{.window = 0, .growth = 1}},
+       {{.window = -1}, "window: got -1, expected a number >= 0"},
+       {{.growth = 0.5}, "growth: got 0.5, expected a finite number >= 1"},
+       {{.growth = inf}, "growth: got inf, expected a finite number >= 1"},
+       {{.relaxation = 0}, "relaxation: got 0, expected a number in (0, 1]"},
+       {{.relaxation = 2}, "relaxation: got 2, expected a number in (0, 1]"},
+       {{.forcing = {.η_max = 2}}, "η_max: got 2"},
+       {{.inner_steps = 0}, "inner_steps: got 0, expected at least 1"},
+       {{.patience = 0}, "patience: got 0, expected at least 1"}});
+}
+
+TEST_CASE("interior points") {
+  check<slant::interior_point_options<double>>(
+      {{{}},
+       {{.step_length = -1.0}, "step_length: got -1"},
+       {{.start_length = 0.0}, "start_length: got 0"},
+       {{.start_force = nan}, "start_force: got nan"},
+       {{.start_depth = 2.0}, "start_depth: got 2"},
+       {{.raise_above = 1.0}, "raise_above: got 1"},
+       {{.raises = -1}, "raises: got -1"},
+       {{.centring_least = 0.6}, "centring_least: got 0.6"},
+       {{.closeness = 1.0}, "closeness: got 1"},
+       {{.residual_factor = 0.5}, "residual_factor: got 0.5"},
+       {{.to_boundary = 1.0}, "to_boundary: got 1"},
+       {{.shortenings = 0}, "shortenings: got 0"},
+       {{.inner_share = 1}, "inner_share: got 1"},
+       {{.inner_steps = 0}, "inner_steps: got 0"}});
+}
+
+}  // namespace options_test

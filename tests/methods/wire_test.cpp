@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// The wire [T §4.1] from zero: every method finds the printed numbers of active constraints, the
+// cells where the thesis failed included. Others than these run in tests/scenes.
+#include <slant/factorizations/ldlt.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/direct_solver.hpp>
+#include <slant/newton/semismooth_newton.hpp>
+#include <slant/operators/inverse.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/slanting/natural_residual.hpp>
+
+#include <doctest/doctest.h>
+
+#include <fem/active_counts.hpp>
+#include <fem/string_1d.hpp>
+#include <fem/wire_counts.hpp>
+#include <support/effort.hpp>
+
+namespace wire_test {
+
+using Eigen::VectorXd;
+
+/// run(program, wire) for the first `entries` cells of each row of the tables.
+template <class Run>
+void check_cells(std::size_t entries, Run const& run) {
+  for (auto const& printed : fem::printed_wire_counts) {
+    for (std::size_t entry = 0; entry < entries; ++entry) {
+      Eigen::Index const m = printed.m(entry);
+      CAPTURE(printed.l);
+      CAPTURE(printed.g);
+      CAPTURE(m);
+      auto const wire = fem::make_wire(m);
+      auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
+                                        slant::discs(VectorXd::Constant(m, printed.g).eval()),
+                                        slant::free_components(m));
+      auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A);
+      auto const r = run(slant::separable_qp{A, wire.b, set}, wire);
+      CHECK(r.converged());
+      if (printed.bounds[entry] == fem::wire_counts::not_printed) continue;
+      CHECK(fem::count_active(set, wire.A, wire.b, r.x()) ==
+            fem::active_counts{printed.bounds[entry], printed.circles[entry]});
+    }
+  }
+}
+
+VectorXd zero(fem::wire<> const& wire) {
+  return VectorXd::Zero(wire.b.size());
+}
+
+TEST_CASE("kprgp, with a step that costs no application") {
+  check_cells(test::effort(4, 2), [](auto const& qp, auto const& wire) {  // n = 256 or 64
+    auto const r = slant::solve(slant::kprgp{qp, {.step_length = 1.9 * wire.h() / 4}}, zero(wire),
+                                slant::reduced_gradient_below(1e-9) || slant::at_most(100000));
+    CHECK(r.state.work.setup_applications == 0);
+    return r;
+  });
+}
+
+TEST_CASE("mssn") {
+  check_cells(2, [](auto const& qp, auto const& wire) {
+    return slant::solve(slant::mssn{qp, {.step_length = 1.9 * wire.h() / 4}}, zero(wire),
+                        slant::reduced_gradient_below(1e-9) || slant::at_most(20000));
+  });
+}
+
+TEST_CASE("symmetric_newton with A⁻¹: no descent step is needed") {
+  check_cells(test::effort(7, 3), [](auto const& qp, auto const& wire) {  // n = 2048 or 128
+    slant::symmetric_newton const method{
+        qp, slant::inverse(slant::ldlt(wire.A)), {.step_factor = 2.0}};
+    auto const r = slant::solve(method, zero(wire),
+                                slant::reduced_gradient_below(1e-10) || slant::at_most(400));
+    CHECK(r.state.descent.count() == 0);
+    // The thesis needs up to 223 steps where bounds alone are active; the front moves by a node.
+    CHECK(r.iterations() <= 8 + wire.m / 2);
+    return r;
+  });
+}
+
+TEST_CASE("semismooth_newton: at most 30 steps, with few halvings") {
+  check_cells(test::effort(4, 2), [](auto const& qp, auto const& wire) {
+    auto const F = slant::natural_residual(qp.a(), qp.b(), qp.set(), 5 * wire.h());
+    auto const r = slant::solve(slant::semismooth_newton{F, slant::sparse_direct_solver{}},
+                                zero(wire), slant::residual_below(1e-11) || slant::at_most(30));
+    CHECK(r.state.work.operator_applications <= 2 * r.iterations() + 8);
+    return r;
+  });
+}
+
+}  // namespace wire_test

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// case WITHOUT_LOCAL: 'has_local['<]
+// case WITHOUT_LIKE: 'has_like['<]
+// case WITHOUT_INNER_PRODUCT: 'has_inner_product['<]
+// case INNER_PRODUCT_OF_TEXT: has_inner_product.*does not satisfy return-type-requirement
+// case INNER_PRODUCT_OF_TEXT, clang: 'has_inner_product['<].*'std::convertible_to<std::basic_string
+// max-lines-gcc: 25
+// max-lines-clang: 30
+//
+// A vector of its own kind minus the part of it on which Eigen works, the way to make another one, or
+// its inner product; or one whose inner product is no number.
+#include <slant/concepts/vector.hpp>
+
+#include <Eigen/Core>
+
+#include <string>
+
+struct distributed {
+  Eigen::VectorXd entries;
+#ifndef WITHOUT_LOCAL
+  Eigen::VectorXd& local() { return entries; }
+  Eigen::VectorXd const& local() const { return entries; }
+#endif
+#if defined(INNER_PRODUCT_OF_TEXT)
+  std::string inner_product(distributed const&) const { return "large"; }
+#elif !defined(WITHOUT_INNER_PRODUCT)
+  double inner_product(distributed const& y) const { return entries.dot(y.entries); }
+#endif
+#ifndef WITHOUT_LIKE
+  distributed like(slant::index n) const { return {Eigen::VectorXd(n)}; }
+#endif
+};
+
+static_assert(slant::vector<distributed>);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// case USE=solved WITHOUT_STEP: solve: the method must have start.x0., step.state..*'has_step['<]
+// case USE=iterated WITHOUT_START: 'has_start['<]
+// case USE=iterated WITHOUT_START, max-lines-gcc: 25
+// case USE=observed WITHOUT_RESIDUAL: solve: an observer must take states of this method.*observer<.*progress_bar
+// max-lines-gcc: 20
+// max-lines-clang: 30
+//
+// A method minus its step or its start, or, for a progress bar, minus a measure of accuracy in its state.
+#include <slant/iteration/iterates.hpp>
+#include <slant/iteration/observers.hpp>
+#include <slant/iteration/solve.hpp>
+
+#include <Eigen/Core>
+
+struct halving_state {
+  Eigen::VectorXd x;
+  slant::index iteration = 0;
+  slant::status status = slant::status::running;
+#ifndef WITHOUT_RESIDUAL
+  double residual_norm = 1, residual_scale = 1;
+#endif
+};
+
+struct halving {
+#ifndef WITHOUT_START
+  halving_state start(Eigen::VectorXd const& x0) const { return {x0}; }
+#endif
+#ifndef WITHOUT_STEP
+  void step(halving_state& s) const {
+    s.x /= 2;
+    ++s.iteration;
+  }
+#endif
+};
+
+auto solved(auto const& method, Eigen::VectorXd const& x0) {
+  return slant::solve(method, x0, slant::at_most(10));
+}
+auto iterated(auto const& method, Eigen::VectorXd const& x0) {
+  return slant::iterates(method, x0);
+}
+auto observed(auto const& method, Eigen::VectorXd const& x0) {
+  slant::progress_bar bar("halving", 1e-8);
+  return slant::solve(method, x0, slant::at_most(10), bar);
+}
+
+auto solution(Eigen::VectorXd const& x0) {
+  return USE(halving{}, x0);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// case MATRIX: A must.*has_plain_apply
+// case MATRIX, clang: A must.*'has_plain_apply['<]
+// case EXPRESSION: b must be a slant::vector.*'owns_its_entries['<]
+// case EXPRESSION, max-lines-clang: 25
+// case WITHOUT_PROJECT: the set must.*'has_project['<]
+// case WITHOUT_PROJECT, max-lines-clang: 35
+// max-lines-gcc: 20
+// max-lines-clang: 30
+//
+// A matrix is not an operator: slant::matrix(A) makes one of it. A linear term that is an expression:
+// nothing is said of A and the set. A set minus its projection.
+#include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
+
+struct nonnegative {
+  slant::index n;
+  slant::index size() const { return n; }
+#ifndef WITHOUT_PROJECT
+  void project(auto const& x, auto& y) const { y = x.cwiseMax(0.0); }
+#endif
+  bool contains(auto const& x) const { return (x.array() >= 0.0).all(); }
+};
+
+auto problem(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& f) {
+#ifdef MATRIX
+  auto const& A = matrix;
+#else
+  auto const A = slant::matrix(matrix);
+#endif
+#ifdef EXPRESSION
+  auto const b = 2 * f;
+#else
+  Eigen::VectorXd const b = 2 * f;
+#endif
+  return slant::separable_qp{A, b, nonnegative{f.size()}};
+}
