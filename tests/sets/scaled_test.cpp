@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/scaled.hpp>  // the other `scaled`: the two must live side by side
+#include <slant/operators/product.hpp>  // the other `scaled`: the two must live side by side
 #include <slant/sets/ball.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/scaled.hpp>

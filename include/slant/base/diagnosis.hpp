@@ -230,7 +230,7 @@ struct vector_demands {
 enum class law_demand : unsigned char { none, semidefinite, definite };
 
 /// What says which part of A breaks a law of L, as an error of its own; void of what cannot say, which
-/// is all but expressions (expressions/explain.hpp).
+/// is all but expressions (operators/explain.hpp).
 template <class A, law_set L>
 struct complaint_about {
   using type = void;

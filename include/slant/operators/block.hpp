@@ -9,9 +9,9 @@
 // matrix is symmetric is declared by the caller: `declare<self_adjoint>(block(…))`.
 #pragma once
 
-#include <slant/operators/adjoint.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/letter.hpp>
 
 #include <boost/hana/at.hpp>
 #include <boost/hana/tuple.hpp>
@@ -33,8 +33,7 @@ namespace slant::detail {
 // get copies, which live in the workspace.
 
 template <class A>
-inline constexpr bool is_zero_operator<adjoint_operator<A>> =
-    is_zero_operator<std::remove_cvref_t<A>>;
+inline constexpr bool is_zero_operator<expr::adjoint_view<A>> = is_zero_operator<A>;
 
 template <class X>
 using segment_t = decltype(slant::local(std::declval<X&>()).middleRows(index{}, index{}));
@@ -170,8 +169,7 @@ class block_operator {
   template <bool Adjoint, std::size_t I, std::size_t J>
   [[nodiscard]] decltype(auto) part() const {
     if constexpr (Adjoint) {
-      return adjoint_operator<block_type<J, I> const&>(
-          held<block_type<J, I> const&>(part<false, J, I>()));
+      return expr::adjoint_view<block_type<J, I>>(part<false, J, I>());
     } else {
       return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
     }
@@ -183,7 +181,7 @@ class block_operator {
   };
   template <std::size_t I, std::size_t J>
   struct typed<true, I, J> {
-    using type = adjoint_operator<block_type<J, I> const&>;
+    using type = expr::adjoint_view<block_type<J, I>>;
     static constexpr bool is_zero = detail::is_zero_operator<block_type<J, I>>;
   };
 

@@ -17,12 +17,12 @@
 #pragma once
 
 #include <slant/factorizations/dense_ldlt.hpp>
-#include <slant/operators/adjoint.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <Eigen/SparseCore>

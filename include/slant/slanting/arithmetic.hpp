@@ -14,7 +14,7 @@
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/assembled_operator.hpp>
@@ -105,8 +105,8 @@ struct sum_rule {
     v += other;
   }
   template <class A, class B>
-  [[nodiscard]] sum_operator<A const&, B const&> operator()(A const& a, B const& b) const {
-    return sum_operator<A const&, B const&>(a, b);
+  [[nodiscard]] auto operator()(A const& a, B const& b) const {
+    return expr::add(expr::view(a), expr::view(b));
   }
 };
 
@@ -135,8 +135,8 @@ struct difference_rule {
     v -= other;
   }
   template <class A, class B>
-  [[nodiscard]] difference_operator<A const&, B const&> operator()(A const& a, B const& b) const {
-    return difference_operator<A const&, B const&>(a, b);
+  [[nodiscard]] auto operator()(A const& a, B const& b) const {
+    return expr::add(expr::view(a), expr::negate(expr::view(b)));
   }
 };
 
@@ -165,8 +165,9 @@ struct scaled_rule {
   S factor;
 
   template <class A>
-  [[nodiscard]] scaled_operator<S, A const&, Positive> operator()(A const& a) const {
-    return scaled_operator<S, A const&, Positive>(factor, a);
+  [[nodiscard]] auto operator()(A const& a) const {
+    constexpr expr::sign sign = Positive ? expr::sign::plus : expr::sign::any;
+    return expr::multiply_by(expr::number<S, sign>{factor, S(1)}, expr::view(a));
   }
 };
 

@@ -19,8 +19,8 @@ namespace detail {
 
 struct product_rule {
   template <class A, class B>
-  [[nodiscard]] product_operator<A const&, B const&> operator()(A const& a, B const& b) const {
-    return product_operator<A const&, B const&>(a, b);
+  [[nodiscard]] auto operator()(A const& a, B const& b) const {
+    return expr::make_product(expr::one{}, boost::hana::make_tuple(expr::view(a), expr::view(b)));
   }
 };
 

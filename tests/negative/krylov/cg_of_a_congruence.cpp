@@ -5,8 +5,8 @@
 //
 // B A Bᵀ where nobody has asserted that the rows of B are independent.
 #include <slant/krylov/cg.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/product.hpp>
 
 auto method(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& b) {
 #ifdef SLANT_COMPLETE

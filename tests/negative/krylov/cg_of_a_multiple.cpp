@@ -6,7 +6,7 @@
 // The multiple of a definite operator by a number of any sign.
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 
 #include <Eigen/Core>
 

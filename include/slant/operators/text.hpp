@@ -43,6 +43,9 @@ struct place {};
 /// An operator that is the same as no other.
 struct nameless {};
 
+/// The operator at both ends of one congruence, which nothing takes apart: congruence(B, A).
+struct twin {};
+
 template <auto Name>
 inline constexpr bool is_named = true;
 template <>

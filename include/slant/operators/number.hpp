@@ -13,10 +13,72 @@
 // a wrong sign is an exception at construction where it could be a lost law.
 #pragma once
 
-#include <slant/operators/scaled.hpp>
+#include <slant/base/vector_algebra.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/scalar.hpp>
 
 #include <concepts>
 #include <type_traits>
+#include <utility>
+
+namespace slant {
+
+// --- what the user writes in front ---------------------------------------------------------------
+
+/// A number known to be positive.
+template <class S>
+class positive_factor {
+ public:
+  /// Throws bad_input unless 0 < c < ∞.
+  explicit positive_factor(S c) : value_(std::move(c)) {
+    if (!(value_ > S(0)) || !detail::is_finite(value_)) {
+      throw bad_input("c", detail::show(value_), "a finite number > 0");
+    }
+  }
+  [[nodiscard]] S const& value() const noexcept { return value_; }
+
+ private:
+  S value_;
+};
+
+/// Marks c as positive. Throws bad_input unless 0 < c < ∞.
+template <class S>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] positive_factor<S> positive(S c) {
+  return positive_factor<S>(std::move(c));
+}
+
+/// A number of which nothing is promised.
+template <class S>
+struct any_sign_factor {
+  S value;
+};
+
+/// Marks c as a number of any sign: any_sign(c) * A is self-adjoint if A is, and no more.
+/// Throws bad_input if c is NaN or infinite.
+template <class S>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] any_sign_factor<S> any_sign(S c) {
+  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
+  return {c};
+}
+
+}  // namespace slant
+
+namespace slant::detail {
+
+/// Throws bad_input unless c has the sign that keeps an operator semidefinite, or definite.
+template <class S>
+void require_keeping_sign(S const& c, bool definite) {
+  if (c > S(0) || (!definite && c == S(0))) return;
+  throw bad_input("c", show(c),
+                  definite ? "a number > 0 in front of a definite operator; for others write "
+                             "-(c * A) or any_sign(c) * A"
+                           : "a number >= 0 in front of a semidefinite operator; for others write "
+                             "-(c * A) or any_sign(c) * A");
+}
+
+}  // namespace slant::detail
 
 namespace slant::expr {
 
@@ -125,7 +187,7 @@ void require_sign(C const& c, bool strictly) {
   }
 }
 
-// --- what the user writes in front ---------------------------------------------------------------
+// --- as a number of an expression ----------------------------------------------------------------
 
 template <class S>
 inline constexpr bool is_marked = false;

@@ -6,8 +6,8 @@
 
 #include "support/dense_of.hpp"
 
-#include <slant/expressions/expressions.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
+#include <slant/operators/operators.hpp>
 
 #include <Eigen/Dense>
 

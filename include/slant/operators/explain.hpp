@@ -9,7 +9,7 @@
 //                    adjoint(B)">>
 #pragma once
 
-#include <slant/expressions/syntax.hpp>
+#include <slant/operators/syntax.hpp>
 
 #include <algorithm>
 
@@ -80,6 +80,9 @@ struct reason<product<C, F...>> {
     return true;
   }
 };
+
+template <class P>
+struct reason<sealed<P>> : reason<P> {};
 
 template <class... T>
 struct reason<sum<T...>> {

@@ -10,7 +10,7 @@
 // Matrices with several columns are factors, not arguments: for those slant::apply(A, X, Y).
 #pragma once
 
-#include <slant/expressions/syntax.hpp>
+#include <slant/operators/syntax.hpp>
 
 #include <Eigen/Core>
 

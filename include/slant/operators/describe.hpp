@@ -4,7 +4,7 @@
 // timed, and for a missing law the part that breaks it.
 #pragma once
 
-#include <slant/expressions/explain.hpp>
+#include <slant/operators/explain.hpp>
 
 #include <boost/hana/for_each.hpp>
 
@@ -106,9 +106,9 @@ void draw(A const& a, std::string const& head, std::string const& indent, std::s
       expr::draw<V>(part, indent + (end ? "└─ " : "├─ "), indent + (end ? "   " : "│  "), out);
     });
   };
-  if constexpr (is_product<A>) {
+  if constexpr (requires { a.factors(); }) {
     draw_parts(a.factors());
-  } else if constexpr (is_sum<A>) {
+  } else if constexpr (requires { a.terms(); }) {
     draw_parts(a.terms());
   } else if constexpr (expression<decltype(a.get())>) {
     expr::draw<V>(a.get(), indent + "└─ ", indent + "   ", out);

@@ -2,9 +2,9 @@
 //
 // Expressions with the laws that a reader would write beside them: exactly those are inferred, all of
 // them hold, and A x is what Eigen computes from the matrices.
-#include "expressions/letters.hpp"
+#include "operators/letters.hpp"
 
-#include <slant/operators/congruence.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/restriction.hpp>
 #include <slant/operators/sum.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // What is refused, printed, found by lookup; handles.
-#include "expressions/letters.hpp"
+#include "operators/letters.hpp"
 #include "support/message.hpp"
 
-#include <slant/expressions/describe.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/counted.hpp>
+#include <slant/operators/describe.hpp>
 #include <slant/slanting/arithmetic.hpp>
 
 #include <doctest/doctest.h>

@@ -13,9 +13,10 @@
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
-#include <slant/expressions/text.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/operators/text.hpp>
 
 #include <memory>
 #include <string>
@@ -110,6 +111,8 @@ class letter : public expression_base {
       text_of(Name).empty() ? symbol_of(static_cast<A const*>(nullptr)) : text_of(Name);
 
   explicit letter(std::shared_ptr<A const> object) : letter(object, part(*object)) {}
+  /// Of an operator that is referenced.
+  explicit letter(A const& object) : letter(expr::handle_of(object)) {}
   /// With what is applied made already.
   letter(std::shared_ptr<A const> object, part applied)
       : object_(std::move(object)), part_(std::move(applied)) {}
@@ -319,6 +322,41 @@ template <expr::text Name, law... L, can_be_named A>
 template <class Place = decltype([] {}), can_be_named A>
 [[nodiscard]] auto op(A&& a) {
   return expr::make_letter<expr::place<Place>{}>(std::forward<A>(a));
+}
+
+namespace expr {
+
+/// Expressions are copied, which copies handles, and so is an identity; everything else becomes a
+/// letter without a name.
+template <operand A>
+[[nodiscard]] decltype(auto) as_expression(A&& a) {
+  if constexpr (expression<A>) {
+    return std::forward<A>(a);
+  } else if constexpr (std::is_same_v<std::remove_cvref_t<A>, identity_operator>) {
+    return expr::make_letter<nameless{}>(identity_operator(a));
+  } else {
+    return expr::make_letter<nameless{}>(std::forward<A>(a));
+  }
+}
+
+/// A and Aᵀ by reference, for as long as A lives.
+template <class A>
+[[nodiscard]] auto view(A const& a) {
+  return letter<nameless{}, A, 0>(a);
+}
+template <class A>
+using adjoint_view = letter<nameless{}, A, adjointed>;
+
+}  // namespace expr
+
+/// Aᵀ; of an operator that knows its adjoint, such as an expression, what it says.
+template <adjoint_operand A>
+[[nodiscard]] auto adjoint(A&& a) {
+  if constexpr (!eigen_matrix<A> && requires { a.adjoint(); }) {
+    return a.adjoint();
+  } else {
+    return expr::as_expression(std::forward<A>(a)).adjoint();
+  }
 }
 
 /// The same operator as one that is the same as no other.

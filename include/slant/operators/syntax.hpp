@@ -11,9 +11,8 @@
 #pragma once
 
 #include <slant/concepts/slanting_function.hpp>
-#include <slant/expressions/sum.hpp>
-#include <slant/operators/adjoint.hpp>
 #include <slant/operators/declare.hpp>
+#include <slant/operators/sum.hpp>
 
 #include <ostream>
 #include <string>
@@ -34,19 +33,6 @@ concept matrix_factor = eigen_matrix<A> && (std::remove_cvref_t<A>::ColsAtCompil
 template <class A, class B>
 concept sides = (linear_term<A> && (linear_term<B> || matrix_factor<B>)) ||
                 (matrix_factor<A> && linear_term<B>);
-
-/// Expressions are copied, which copies handles, and so is an identity; everything else becomes a
-/// letter without a name.
-template <class A>
-[[nodiscard]] decltype(auto) as_expression(A&& a) {
-  if constexpr (expression<A>) {
-    return std::forward<A>(a);
-  } else if constexpr (std::is_same_v<std::remove_cvref_t<A>, identity_operator>) {
-    return expr::make_letter<nameless{}>(identity_operator(a));
-  } else {
-    return expr::make_letter<nameless{}>(std::forward<A>(a));
-  }
-}
 
 }  // namespace expr
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "expressions/letters.hpp"
+#include "operators/letters.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>

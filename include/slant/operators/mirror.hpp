@@ -12,8 +12,8 @@
 // That letters which mirror each other are one object is checked when the expression is made.
 #pragma once
 
-#include <slant/expressions/letter.hpp>
-#include <slant/expressions/number.hpp>
+#include <slant/operators/letter.hpp>
+#include <slant/operators/number.hpp>
 
 #include <array>
 #include <cstddef>
