@@ -20,7 +20,6 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -132,7 +131,7 @@ template <class... A>
 struct block_row_of {
   static constexpr std::size_t size = sizeof...(A);
   template <std::size_t J>
-  using block_type = std::remove_cvref_t<std::tuple_element_t<J, std::tuple<A...>>>;
+  using block_type = std::remove_cvref_t<detail::nth<J, A...>>;
   template <class Y>
   static constexpr bool have_columns = ((detail::is_zero_operator<std::remove_cvref_t<A>> ||
                                          has_columns<std::remove_cvref_t<A>, plain_t<Y>>)&&...);
@@ -152,11 +151,11 @@ template <operand... A>
 template <class... Rows>
 class block_operator {
   static constexpr std::size_t m = sizeof...(Rows);
-  static constexpr std::size_t n = std::tuple_element_t<0, std::tuple<Rows...>>::size;
+  static constexpr std::size_t n = detail::nth<0, Rows...>::size;
   static_assert(((Rows::size == n) && ...), "all rows of blocks have the same number of blocks");
 
   template <std::size_t I, std::size_t J>
-  using block_type = typename std::tuple_element_t<I, std::tuple<Rows...>>::template block_type<J>;
+  using block_type = typename detail::nth<I, Rows...>::template block_type<J>;
 
   // The same code serves A and Aᵀ: block (I, J) of A, or the adjoint of block (J, I).
   template <bool Adjoint>
@@ -277,7 +276,7 @@ class block_operator {
   template <bool Adjoint, class X>
   [[nodiscard]] auto make_workspace(X const& x) const {
     return [&]<std::size_t... P>(std::index_sequence<P...>) {
-      return std::make_tuple(
+      return boost::hana::make_tuple(
           detail::part_workspace<P % width<Adjoint> == first_block<Adjoint, P / width<Adjoint>>>(
               part<Adjoint, P / width<Adjoint>, P % width<Adjoint>>(), x)...);
     }(places<Adjoint>{});
@@ -295,7 +294,7 @@ class block_operator {
       }
       (detail::apply_part < !Add &&
            J == first > (part<Adjoint, I, J>(), α, x, col_begin[J], y, row_begin[I],
-                         std::get<I * width<Adjoint> + J>(w)),
+                         boost::hana::at_c<I * width<Adjoint> + J>(w)),
        ...);
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {

@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -122,7 +121,7 @@ class block_diagonal_operator {
   template <bool Adjoint, class X>
   [[nodiscard]] auto make_workspace(X const& x) const {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return std::make_tuple(detail::part_workspace<true>(part<Adjoint, I>(), x)...);
+      return boost::hana::make_tuple(detail::part_workspace<true>(part<Adjoint, I>(), x)...);
     }(blocks);
   }
   template <bool Adjoint, bool Add, class S, class X, class Y, class W>
@@ -131,7 +130,7 @@ class block_diagonal_operator {
     auto const& col_begin = Adjoint ? row_begin_ : col_begin_;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (detail::apply_part<!Add>(part<Adjoint, I>(), α, x, col_begin[I], y, row_begin[I],
-                                std::get<I>(w)),
+                                boost::hana::at_c<I>(w)),
        ...);
     }(blocks);
   }

@@ -17,7 +17,6 @@
 
 #include <array>
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -28,8 +27,7 @@ class product;
 template <class... T>
 class sum;
 
-template <std::size_t I, class... F>
-using nth = std::tuple_element_t<I, std::tuple<F...>>;
+using slant::detail::nth;
 
 template <class A>
 inline constexpr bool is_sum = false;

@@ -19,7 +19,6 @@
 
 #include <cstddef>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -74,15 +73,15 @@ class stacked_operator {
     requires(linear_operator<std::remove_cvref_t<A>, plain_t<X>> && ...)
   [[nodiscard]] auto workspace(X const& x) const {
     return boost::hana::unpack(parts_, [&](auto const&... kept) {
-      return std::make_tuple(make_stacked_part_workspace(slant::workspace(kept.get(), x),
-                                                         slant::like(x, kept.get().rows()))...);
+      return boost::hana::make_tuple(make_stacked_part_workspace(
+          slant::workspace(kept.get(), x), slant::like(x, kept.get().rows()))...);
     });
   }
   template <class X, class Y, class W>
     requires(applies<std::remove_cvref_t<A>, X, plain_t<X>> && ...)
   void apply(X const& x, Y& y, W& w) const {
     for_each([&](auto const& a, auto i, index first) {
-      auto& own = std::get<i()>(w);
+      auto& own = boost::hana::at_c<i()>(w);
       if constexpr (writes_rows<std::remove_cvref_t<decltype(a)>, X, Y>) {
         auto rows = slant::local(y).middleRows(first, a.rows());
         slant::apply(a, x, rows, own.inner);
@@ -97,7 +96,7 @@ class stacked_operator {
     requires(has_adjoint<std::remove_cvref_t<A>, plain_t<X>> && ...)
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
     return boost::hana::unpack(parts_, [&](auto const&... kept) {
-      return std::make_tuple(part_adjoint_workspace(kept.get(), x)...);
+      return boost::hana::make_tuple(part_adjoint_workspace(kept.get(), x)...);
     });
   }
   /// y = A₁ᵀx₁ + A₂ᵀx₂ + ….
@@ -106,7 +105,7 @@ class stacked_operator {
   void apply_adjoint(X const& x, Y& y, W& w) const {
     vectors::set_zero(y);
     for_each([&](auto const& a, auto i, index first) {
-      auto& own = std::get<i()>(w);
+      auto& own = boost::hana::at_c<i()>(w);
       slant::local(own.rows) = slant::local(x).middleRows(first, a.rows());
       accumulate_adjoint(a, scalar_t<X>(1), own.rows, y, own.inner);
     });
@@ -182,7 +181,7 @@ class stack_map : public slanting_base {
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
     return boost::hana::unpack(parts_, [&](auto const&... f) {
-      return std::make_tuple(detail::make_stacked_part_workspace(
+      return boost::hana::make_tuple(detail::make_stacked_part_workspace(
           slant::workspace(f.get(), y), slant::like(y, f.get().rows()))...);
     });
   }
@@ -190,7 +189,7 @@ class stack_map : public slanting_base {
     requires usable<plain_t<Y>>
   void value(Y const& y, V& v, W& w) const {
     for_each([&](auto const& f, auto i, index first) {
-      auto& own = std::get<i()>(w);
+      auto& own = boost::hana::at_c<i()>(w);
       slant::evaluate(f, y, own.rows, own.inner);
       slant::local(v).segment(first, f.rows()) = slant::local(own.rows);
     });
@@ -205,13 +204,14 @@ class stack_map : public slanting_base {
   template <class Y, class G, class W>
   void slant(Y const& y, G& g, W& w) const {
     for_each([&](auto const& f, auto i, index) {
-      slant::update_slant(f, y, g.template part<i()>(), std::get<i()>(w).inner);
+      slant::update_slant(f, y, g.template part<i()>(), boost::hana::at_c<i()>(w).inner);
     });
   }
   template <class Y, class G, class W>
   void slant_after_value(Y const& y, G& g, W& w) const {
     for_each([&](auto const& f, auto i, index) {
-      slant::update_slant_after_value(f, y, g.template part<i()>(), std::get<i()>(w).inner);
+      slant::update_slant_after_value(f, y, g.template part<i()>(),
+                                      boost::hana::at_c<i()>(w).inner);
     });
   }
 
