@@ -84,7 +84,7 @@ void draw(A const& a, std::string const& head, std::string const& indent, std::s
   static constexpr ascii why = missing_law<A>(wanted);
 
   out += head;
-  a.print(out);
+  expr::print(a, out);
   out += "   " + std::to_string(a.rows()) + " × " + std::to_string(a.cols()) + ", ";
   out += laws_text(laws_of<A>);
   if constexpr (linear_operator<A, V>) {

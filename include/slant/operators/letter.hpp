@@ -25,16 +25,19 @@
 
 namespace slant {
 
-/// Base of what a name gives: a handle, which compositions copy; for which inverse(K), adjoint(A) and
-/// + − * are looked up in namespace slant.
-struct handle_base {
+/// Base of products and sums, for which + − * and << are looked up in namespace slant.
+struct node_base {};
+
+/// Base of what a name gives: a handle, which compositions copy.
+struct handle_base : node_base {
   static constexpr bool is_handle = true;
 };
 
 /// Base of expressions.
 struct expression_base : handle_base {};
 
-/// An expression of linear operators: a letter, a product or a sum.
+/// An expression of linear operators: a letter, or a product or sum of letters. (Products and sums
+/// of other operators, such as a slanting operator that is renewed in place, own those and are none.)
 template <class A> concept expression = std::is_base_of_v<expression_base, std::remove_cvref_t<A>>;
 
 namespace expr {
@@ -42,6 +45,53 @@ namespace expr {
 /// What a letter is of the object that bears its name; and what its user asserts of that object.
 inline constexpr unsigned adjointed = 1, inverted = 2, independent_rows = 4,
                           independent_columns = 8;
+
+template <class... A>
+using base_of_node =
+    std::conditional_t<(expression<A> && ...), expression_base, node_base>;
+
+// --- what is done to a part, expression or not ---------------------------------------------------
+
+/// y = A x and y ← y + α A x, of sizes that were checked.
+template <class A, class X, class Y, class W>
+void run(A const& a, X const& x, Y& y, W& w) {
+  if constexpr (requires { a.apply(x, y, w); }) {
+    a.apply(x, y, w);
+  } else {
+    a.apply(x, y);
+  }
+}
+template <class A, class S, class X, class Y, class W>
+void run_add(A const& a, S const& α, X const& x, Y& y, W& w) {
+  if constexpr (requires { a.apply_add(α, x, y, w); }) {
+    a.apply_add(α, x, y, w);
+  } else {
+    a.apply_add(α, x, y);
+  }
+}
+
+template <class A>
+void enter(A const& a, dictionary& names) {
+  if constexpr (requires { a.enter(names); }) a.enter(names);
+}
+template <class A>
+void print(A const& a, std::string& out) {
+  if constexpr (requires { a.print(out); }) {
+    a.print(out);
+  } else {
+    out += symbol_of(&a);
+  }
+}
+template <class A>
+constexpr void spell(ascii& out) {
+  if constexpr (requires { A::spell(out); }) {
+    A::spell(out);
+  } else {
+    out.add(symbol_of(static_cast<A const*>(nullptr)));
+  }
+}
+
+// --- letters -------------------------------------------------------------------------------------
 
 /// A handle of an object passed as T&&: lvalues are referenced, rvalues owned.
 template <class T>
@@ -233,11 +283,7 @@ class letter : public expression_base {
   void run(X const& x, Y& y, W& w) const {
     auto const& a = get();
     if constexpr (!Adjoint) {
-      if constexpr (requires { a.apply(x, y, w); }) {
-        a.apply(x, y, w);
-      } else {
-        a.apply(x, y);
-      }
+      expr::run(a, x, y, w);
     } else if constexpr (requires { a.apply_adjoint(x, y, w); }) {
       a.apply_adjoint(x, y, w);
     } else if constexpr (requires { a.apply_adjoint(x, y); }) {
@@ -346,6 +392,16 @@ template <class A>
 }
 template <class A>
 using adjoint_view = letter<nameless{}, A, adjointed>;
+
+/// The operator that a letter stands for; anything else itself.
+template <class A>
+[[nodiscard]] A const& opened(A const& a) noexcept {
+  return a;
+}
+template <auto Name, class A>
+[[nodiscard]] A const& opened(letter<Name, A, 0> const& a) noexcept {
+  return a.get();
+}
 
 }  // namespace expr
 

@@ -16,8 +16,10 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/operators/text.hpp>
 
 #include <concepts>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -173,6 +175,17 @@ template <class T, class C>
     using S = decltype(c.value);
     return c.divisor == S(1) ? static_cast<T>(c.value)
                              : T(static_cast<T>(c.value) / static_cast<T>(c.divisor));
+  }
+}
+
+/// "", "−", "2 ", "−2 ".
+template <class C>
+[[nodiscard]] std::string text_in_front(C const& c) {
+  if constexpr (std::same_as<C, one>) {
+    return {};
+  } else {
+    double const v = expr::value_as<double>(c);
+    return v == -1 ? "−" : v < 0 ? "−" + number_text(-v) + " " : number_text(v) + " ";
   }
 }
 

@@ -56,7 +56,7 @@ template <class C, class... F>
 }
 
 template <class C, class... F>
-class product : public expression_base {
+class product : public base_of_node<F...> {
   static constexpr std::size_t n = sizeof...(F);
   static constexpr bool has_number = !std::is_same_v<C, one>;
   using first = nth<0, F...>;
@@ -87,9 +87,14 @@ class product : public expression_base {
   }
 
   [[nodiscard]] C const& coefficient() const noexcept { return c_; }
+  [[nodiscard]] C& coefficient() noexcept { return c_; }
   [[nodiscard]] hana::tuple<F...> const& factors() const noexcept { return factors_; }
   template <std::size_t I>
   [[nodiscard]] auto const& factor() const noexcept {
+    return hana::at_c<I>(factors_);
+  }
+  template <std::size_t I>
+  [[nodiscard]] auto& factor() noexcept {
     return hana::at_c<I>(factors_);
   }
 
@@ -112,7 +117,7 @@ class product : public expression_base {
   /// y = F₁ … F_n x, without the number.
   template <class X, class Y, class W>
   void apply_core(X const& x, Y& y, W& w) const {
-    from_the_right(x, w, [&](auto const& z, auto& inner) { factor<0>().apply(z, y, inner); });
+    from_the_right(x, w, [&](auto const& z, auto& inner) { expr::run(factor<0>(), z, y, inner); });
   }
   template <class X, class Y, class W>
     requires(linear_operator<F, plain_t<X>> && ...) &&
@@ -121,7 +126,7 @@ class product : public expression_base {
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     scalar_t<X> const c = times(α);
     from_the_right(x, w,
-                   [&](auto const& z, auto& inner) { factor<0>().apply_add(c, z, y, inner); });
+                   [&](auto const& z, auto& inner) { expr::run_add(factor<0>(), c, z, y, inner); });
   }
 
   template <class X>
@@ -164,14 +169,15 @@ class product : public expression_base {
     } else {
       auto z = slant::like(y, factor<n - 1>().rows());
       factor<n - 1>().columns(first_column, z);
-      auto const before = make_product(one{}, hana::drop_back(factors_));
-      slant::apply(before, z, y);
+      multiply_from<n - 2>(z, y);
     }
     scale(y);
   }
 
   /// Reverse and transform.
-  [[nodiscard]] auto adjoint() const {
+  [[nodiscard]] auto adjoint() const
+    requires(expression<F> && ...)
+  {
     if constexpr (laws.contains(law::self_adjoint)) {
       return *this;
     } else {
@@ -188,13 +194,10 @@ class product : public expression_base {
   }
 
   void enter(dictionary& names) const {
-    hana::unpack(factors_, [&](auto const&... f) { (f.enter(names), ...); });
+    hana::unpack(factors_, [&](auto const&... f) { (expr::enter(f, names), ...); });
   }
   void print(std::string& out) const {
-    if constexpr (has_number) {
-      double const c = expr::value_as<double>(c_);
-      out += c == -1 ? "−" : c < 0 ? "−" + number_text(-c) + " " : number_text(c) + " ";
-    }
+    out += expr::text_in_front(c_);
     print_core(out);
   }
   /// Without the number; sums in parentheses.
@@ -203,7 +206,7 @@ class product : public expression_base {
     auto const print_factor = [&]<class G>(G const& g) {
       if (next) out += " ";
       if (is_sum<G>) out += "(";
-      g.print(out);
+      expr::print(g, out);
       if (is_sum<G>) out += ")";
       next = true;
     };
@@ -220,7 +223,7 @@ class product : public expression_base {
   template <class G>
   static constexpr void spell_factor(ascii& out) {
     if (is_sum<G>) out.add("(");
-    G::spell(out);
+    expr::spell<G>(out);
     if (is_sum<G>) out.add(")");
   }
 
@@ -267,6 +270,18 @@ class product : public expression_base {
     }(std::make_index_sequence<n>{}, std::make_index_sequence<n - 1>{});
   }
 
+  /// y = F₁ … F_K z of many columns.
+  template <std::size_t K, class Z, class Y>
+  void multiply_from(Z const& z, Y& y) const {
+    if constexpr (K == 0) {
+      slant::apply(factor<0>(), z, y);
+    } else {
+      auto next = slant::like(z, factor<K>().rows());
+      slant::apply(factor<K>(), z, next);
+      multiply_from<K - 1>(next, y);
+    }
+  }
+
   /// finish(F₂ … F_n x, workspace of F₁).
   template <class X, class W, class Finish>
   void from_the_right(X const& x, W& w, Finish const& finish) const {
@@ -282,7 +297,7 @@ class product : public expression_base {
     if constexpr (K == 0) {
       finish(x, hana::at_c<0>(w.inner));
     } else {
-      factor<K>().apply(x, w.between[K - 1], hana::at_c<K>(w.inner));
+      expr::run(factor<K>(), x, w.between[K - 1], hana::at_c<K>(w.inner));
       down_from<K - 1>(w.between[K - 1], w, finish);
     }
   }

@@ -14,12 +14,12 @@ namespace slant::expr {
 template <class T, class S, class X, class Y, class W>
 void add_term(T const& t, S const& α, X const& x, Y& y, W& w) {
   if constexpr (has_accumulate<T, plain_t<X>>) {
-    t.apply_add(α, x, y, w);
+    expr::run_add(t, α, x, y, w);
   } else if constexpr (is_product<T>) {
     t.apply_core(x, w.product, w.inner);
     vectors::axpy(S(α * expr::value_as<S>(t.coefficient())), w.product, y);
   } else {
-    t.apply(x, w.product, w.inner);
+    expr::run(t, x, w.product, w.inner);
     vectors::axpy(α, w.product, y);
   }
 }
@@ -28,7 +28,7 @@ template <class... T>
 [[nodiscard]] sum<T...> make_sum(hana::tuple<T...> terms);
 
 template <class... T>
-class sum : public expression_base {
+class sum : public base_of_node<T...> {
   static constexpr std::make_index_sequence<sizeof...(T) - 1> rest{};
   using first = nth<0, T...>;
 
@@ -49,6 +49,10 @@ class sum : public expression_base {
   [[nodiscard]] auto const& term() const noexcept {
     return hana::at_c<I>(terms_);
   }
+  template <std::size_t I>
+  [[nodiscard]] auto& term() noexcept {
+    return hana::at_c<I>(terms_);
+  }
 
   [[nodiscard]] index rows() const { return term<0>().rows(); }
   [[nodiscard]] index cols() const { return term<0>().cols(); }
@@ -64,7 +68,7 @@ class sum : public expression_base {
   template <class X, class Y, class W>
     requires slant::detail::applies<first, X, Y> && (slant::detail::adds<T, X, Y> && ...)
   void apply(X const& x, Y& y, W& w) const {
-    term<0>().apply(x, y, hana::at_c<0>(w));
+    expr::run(term<0>(), x, y, hana::at_c<0>(w));
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (expr::add_term(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)), ...);
     }(rest);
@@ -73,7 +77,7 @@ class sum : public expression_base {
     requires(slant::detail::accumulates<T, X, Y> && ...)
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (term<I>().apply_add(α, x, y, hana::at_c<I>(w)), ...);
+      (expr::run_add(term<I>(), α, x, y, hana::at_c<I>(w)), ...);
     }(std::index_sequence_for<T...>{});
   }
 
@@ -114,7 +118,9 @@ class sum : public expression_base {
     add_up(y, [&](auto const& t, auto& part) { t.columns(first_column, part); });
   }
 
-  [[nodiscard]] auto adjoint() const {
+  [[nodiscard]] auto adjoint() const
+    requires(expression<T> && ...)
+  {
     if constexpr (laws.contains(law::self_adjoint)) {
       return *this;
     } else {
@@ -123,7 +129,7 @@ class sum : public expression_base {
   }
 
   void enter(dictionary& names) const {
-    hana::unpack(terms_, [&](auto const&... t) { (t.enter(names), ...); });
+    hana::unpack(terms_, [&](auto const&... t) { (expr::enter(t, names), ...); });
   }
   void print(std::string& out) const {
     bool next = false;
@@ -136,10 +142,10 @@ class sum : public expression_base {
           t.print_core(out);
         } else {
           out += " + ";
-          t.print(out);
+          expr::print(t, out);
         }
       } else {
-        t.print(out);
+        expr::print(t, out);
       }
       next = true;
     };
@@ -147,7 +153,7 @@ class sum : public expression_base {
   }
   static constexpr void spell(ascii& out) {
     bool next = false;
-    (((next ? out.add(" + ") : out), next = true, T::spell(out)), ...);
+    (((next ? out.add(" + ") : out), next = true, expr::spell<T>(out)), ...);
   }
 
  private:

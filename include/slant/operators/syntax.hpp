@@ -93,8 +93,11 @@ template <expression A>
   return expr::make_letter<expr::nameless{}>(std::move(a));
 }
 
+/// An operator that is printed as a formula: an expression, or a product or sum of what is none.
+template <class A> concept formula_node = std::is_base_of_v<node_base, A> && operand<A>;
+
 /// The formula alone: B K⁻¹ Bᵀ + 0.001 I.
-template <expression A>
+template <formula_node A>
 [[nodiscard]] std::string to_string(A const& a) {
   std::string out;
   a.print(out);
@@ -102,7 +105,7 @@ template <expression A>
 }
 
 /// B K⁻¹ Bᵀ + 0.001 I   (600 × 600, spd)
-template <expression A>
+template <formula_node A>
 std::ostream& operator<<(std::ostream& out, A const& a) {
   return out << to_string(a) << "   (" << a.rows() << " × " << a.cols() << ", "
              << expr::laws_text(laws_of<A>) << ")";

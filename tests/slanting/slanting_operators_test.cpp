@@ -19,7 +19,7 @@
 #include <Eigen/Core>
 #include <type_traits>
 
-namespace assembled_operator_test {
+namespace slanting_operators_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -94,4 +94,4 @@ TEST_CASE("copies of F°(y) are independent, except for the operators of F itsel
   CHECK(dense(g, y) != before);
 }
 
-}  // namespace assembled_operator_test
+}  // namespace slanting_operators_test
