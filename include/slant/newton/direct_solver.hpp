@@ -15,8 +15,8 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/newton/direction.hpp>
-#include <slant/operators/matrix.hpp>
 #include <slant/operators/letter.hpp>
+#include <slant/operators/matrix.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -41,9 +41,7 @@ struct stored_matrix<matrix_operator<M, L>> {
 };
 template <auto Name, class A>
 struct stored_matrix<expr::letter<Name, A, 0>> : stored_matrix<A> {
-  static auto const& of(expr::letter<Name, A, 0> const& g) {
-    return stored_matrix<A>::of(g.get());
-  }
+  static auto const& of(expr::letter<Name, A, 0> const& g) { return stored_matrix<A>::of(g.get()); }
 };
 
 template <class V>

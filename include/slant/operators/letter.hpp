@@ -47,8 +47,7 @@ inline constexpr unsigned adjointed = 1, inverted = 2, independent_rows = 4,
                           independent_columns = 8;
 
 template <class... A>
-using base_of_node =
-    std::conditional_t<(expression<A> && ...), expression_base, node_base>;
+using base_of_node = std::conditional_t<(expression<A> && ...), expression_base, node_base>;
 
 // --- what is done to a part, expression or not ---------------------------------------------------
 

@@ -75,8 +75,8 @@ class sum_map : public slanting_base {
     using inner = boost::hana::tuple<decltype(slant::workspace(
         std::declval<std::remove_cvref_t<F> const&>(), y))...>;
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return detail::sum_map_workspace<inner, plain_t<Y>>{
-          inner{slant::workspace(term<I>(), y)...}, slant::like(y, rows())};
+      return detail::sum_map_workspace<inner, plain_t<Y>>{inner{slant::workspace(term<I>(), y)...},
+                                                          slant::like(y, rows())};
     }(std::index_sequence_for<F...>{});
   }
   template <class Y, class V, class W>
@@ -185,9 +185,8 @@ void require_terms(F const& f, G const& g) {
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto add(F&& f, G&& g) {
   detail::require_terms(f, g);
-  return detail::make_sum_map(
-      boost::hana::concat(detail::terms_of_function(std::forward<F>(f)),
-                          detail::terms_of_function(std::forward<G>(g))));
+  return detail::make_sum_map(boost::hana::concat(detail::terms_of_function(std::forward<F>(f)),
+                                                  detail::terms_of_function(std::forward<G>(g))));
 }
 
 /// y ↦ F(y) − G(y), also spelled f - g. Lvalues are referenced.
@@ -195,8 +194,7 @@ template <slanting_part F, slanting_part G>
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto subtract(F&& f, G&& g) {
   detail::require_terms(f, g);
-  return slant::add(std::forward<F>(f),
-                    detail::scale_by(expr::minus_one{}, std::forward<G>(g)));
+  return slant::add(std::forward<F>(f), detail::scale_by(expr::minus_one{}, std::forward<G>(g)));
 }
 
 /// y ↦ c F(y), also spelled c * f. An lvalue f is referenced. F° keeps the laws that hold for
@@ -221,8 +219,7 @@ template <expr::number_in_front S, slanting_part F>
 template <class A> concept linear_factor = operand<A> && !slanting_map<A>;
 
 /// A vector that is added to the values of a function.
-template <class C>
-concept constant_term = has_like<std::remove_cvref_t<C>> && !slanting_map<C>;
+template <class C> concept constant_term = has_like<std::remove_cvref_t<C>> && !slanting_map<C>;
 
 template <slanting_map F, slanting_map G>
 [[nodiscard]] auto operator+(F&& f, G&& g) {

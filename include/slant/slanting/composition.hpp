@@ -58,7 +58,8 @@ class composition_map : public slanting_base {
     };
     return [&]<std::size_t... K, std::size_t... B>(std::index_sequence<K...>,
                                                    std::index_sequence<B...>) {
-      using parts = boost::hana::tuple<decltype(inner(std::integral_constant<std::size_t, K>{}))...>;
+      using parts =
+          boost::hana::tuple<decltype(inner(std::integral_constant<std::size_t, K>{}))...>;
       using workspace_type = expr::product_workspace<plain_t<Y>, n, parts>;
       if constexpr (n == 1) {
         return workspace_type{parts{inner(std::integral_constant<std::size_t, K>{})...}};
@@ -140,10 +141,10 @@ class composition_map : public slanting_base {
   [[nodiscard]] auto slants(Y const& y, W const& w, First first) const {
     return [&]<std::size_t... K>(std::index_sequence<K...>) {
       return expr::make_product(
-          c_, boost::hana::make_tuple(
-                  std::move(first),
-                  slant::slant_from_value(function<K + 1>(), argument<K + 1>(y, w),
-                                          boost::hana::at_c<K + 1>(w.inner))...));
+          c_,
+          boost::hana::make_tuple(std::move(first),
+                                  slant::slant_from_value(function<K + 1>(), argument<K + 1>(y, w),
+                                                          boost::hana::at_c<K + 1>(w.inner))...));
     }(std::make_index_sequence<n - 1>{});
   }
   template <std::size_t K, class Y, class G, class W>
@@ -169,8 +170,7 @@ template <class C, class... F>
 inline constexpr bool is_composition<composition_map<C, F...>> = true;
 
 /// An own composition is taken apart; what is referenced stays whole.
-template <class F>
-concept own_composition = !std::is_lvalue_reference_v<F> && is_composition<F>;
+template <class F> concept own_composition = !std::is_lvalue_reference_v<F> && is_composition<F>;
 
 /// Its number.
 template <class F>
@@ -225,9 +225,9 @@ template <slanting_part F, slanting_part G>
 [[nodiscard]] auto compose(F&& f, G&& g) {
   detail::require_equal_sizes("g.rows()", g.rows(), f.cols(), "f.cols()");
   auto const c = detail::coefficient_in_front<F>(f);
-  return detail::make_composition(
-      c, boost::hana::concat(detail::parts_of_function(std::forward<F>(f)),
-                             detail::inner_parts(std::forward<G>(g))));
+  return detail::make_composition(c,
+                                  boost::hana::concat(detail::parts_of_function(std::forward<F>(f)),
+                                                      detail::inner_parts(std::forward<G>(g))));
 }
 
 }  // namespace slant

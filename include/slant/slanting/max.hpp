@@ -35,8 +35,7 @@ struct max_kernel {
 
 /// diag(p), p a vector of zeros and ones.
 template <class V>
-using indicator =
-    diagonal_operator<V, slant::laws<slant::self_adjoint, slant::projector>>;
+using indicator = diagonal_operator<V, slant::laws<slant::self_adjoint, slant::projector>>;
 
 }  // namespace detail
 

@@ -195,9 +195,8 @@ class stack_map : public slanting_base {
   template <class Y>
     requires usable<plain_t<Y>>
   [[nodiscard]] auto slant(Y const& y) const {
-    return boost::hana::unpack(parts_, [&](auto const&... f) {
-      return detail::stacked_operator(f.get().slant(y)...);
-    });
+    return boost::hana::unpack(
+        parts_, [&](auto const&... f) { return detail::stacked_operator(f.get().slant(y)...); });
   }
   template <class Y, class G, class W>
   void slant(Y const& y, G& g, W& w) const {

@@ -40,11 +40,11 @@ struct newton_parts {
 
 /// I − G (I − ρ A), ρ known to be positive.
 template <class G, class A, class S>
-struct newton_parts<expr::sum<
-    identity_operator,
-    expr::product<expr::minus_one, G,
-                  expr::sum<identity_operator,
-                            expr::product<expr::number<S, expr::sign::minus>, A>>>>> {
+struct newton_parts<
+    expr::sum<identity_operator,
+              expr::product<expr::minus_one, G,
+                            expr::sum<identity_operator,
+                                      expr::product<expr::number<S, expr::sign::minus>, A>>>>> {
   static constexpr bool known = true;
   using slant_type = G;
   using operator_type = A;

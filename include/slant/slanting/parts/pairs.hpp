@@ -12,38 +12,6 @@
 
 namespace slant::detail {
 
-// --- function pair -------------------------------------------------------------------------------
-//
-// Two slanting functions of the same argument with equally many values.
-
-/// F and G are `Function const&` (referenced) or function types (owned).
-template <class F, class G>
-class function_pair : public slanting_base {
- public:
-  using left_type = std::remove_cvref_t<F>;
-  using right_type = std::remove_cvref_t<G>;
-
-  /// Throws bad_input if the numbers of values or of arguments differ.
-  function_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
-    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
-    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
-  }
-
-  [[nodiscard]] index rows() const { return left().rows(); }
-  [[nodiscard]] index cols() const { return left().cols(); }
-  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
-  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
-
- protected:
-  template <class V>
-  static constexpr bool usable =
-      slanting_function<left_type, V> && slanting_function<right_type, V>;
-
- private:
-  held<F> f_;
-  held<G> g_;
-};
-
 // --- weighted sum operator -----------------------------------------------------------------------
 //
 // diag(p) A + diag(q) B, the slanting operator of a function of two functions, componentwise. A
@@ -82,8 +50,7 @@ class weighted_sum_operator {
   template <class X>
     requires linear_operator<A, plain_t<X>> && linear_operator<B, plain_t<X>>
   [[nodiscard]] auto workspace(X const& x) const {
-    return make_workspace(slant::workspace(a_, x), slant::workspace(b_, x),
-                          slant::like(x, rows()));
+    return make_workspace(slant::workspace(a_, x), slant::workspace(b_, x), slant::like(x, rows()));
   }
   template <class X, class Y, class W>
     requires applies<A, X, Y> && applies<B, X, plain_t<X>>
@@ -190,15 +157,26 @@ struct pointwise_pair_workspace {
 
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
 /// the slopes are always (1, 0) or (0, 1), or NaN.
+/// F and G are `Function const&` (referenced) or function types (owned).
 template <class Kernel, class F, class G>
-class pointwise_pair : public function_pair<F, G> {
-  using pair = function_pair<F, G>;
+class pointwise_pair : public slanting_base {
+  using left_type = std::remove_cvref_t<F>;
+  using right_type = std::remove_cvref_t<G>;
+  template <class V>
+  static constexpr bool usable =
+      slanting_function<left_type, V> && slanting_function<right_type, V>;
 
  public:
-  using pair::left;
-  using pair::pair;
-  using pair::right;
-  using pair::rows;
+  /// Throws bad_input if the numbers of values or of arguments differ.
+  pointwise_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
+    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
+    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
+  }
+
+  [[nodiscard]] index rows() const { return left().rows(); }
+  [[nodiscard]] index cols() const { return left().cols(); }
+  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
+  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
@@ -209,19 +187,19 @@ class pointwise_pair : public function_pair<F, G> {
         slant::like(y, rows())};
   }
   template <class Y, class V, class W>
-    requires pair::template
-  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
+    requires usable<plain_t<Y>>
+  void value(Y const& y, V& v, W& w) const {
     evaluate_parts(y, w);
     slant::local(v) = slant::local(w.f).binaryExpr(
         slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
   }
   template <class Y>
-    requires pair::template
-  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
-    using first = slant_operator_t<typename pair::left_type, Y>;
-    using second = slant_operator_t<typename pair::right_type, Y>;
+    using first = slant_operator_t<left_type, Y>;
+    using second = slant_operator_t<right_type, Y>;
     weighted_sum_operator<Kernel::chooses, plain_t<Y>, first, second> s(
         slant::like(y, rows()), slant::like(y, rows()), left().slant(y), right().slant(y));
     set_slopes(s, w);
@@ -255,6 +233,9 @@ class pointwise_pair : public function_pair<F, G> {
       q[i] = at_g;
     }
   }
+
+  held<F> f_;
+  held<G> g_;
 };
 
 }  // namespace slant::detail
