@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/coulomb/coulomb_families.hpp>
 
-#include "coulomb_scenes.hpp"
-#include "counting_factor.hpp"
-
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/preconditioners.hpp>
+#include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 
 #include <doctest/doctest.h>
+
+#include <fem/two_plates.hpp>
+#include "coulomb_scenes.hpp"
+#include "counting_factor.hpp"
+#include "support/message.hpp"
 
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "support/message.hpp"
-
-namespace coulomb_radii_test {
+namespace coulomb_families_test {
 
 using Eigen::VectorXd;
 namespace contact = slant::contact;
-
 constexpr double tolerance = 1e-11;
 
 /// What a run leaves of a state, so that one type of test serves all coefficients.
@@ -52,20 +52,6 @@ struct fixture {
   }
 };
 
-TEST_CASE("Coulomb's law holds: de Saxcé's natural map of the dense problem") {
-  for (auto const load : fem::brick_loads) {
-    fixture t(load);
-    test::dense_dual const dense(t.scene.K, t.c);
-    for (double const F : {0.05, 0.3, 1.0}) {
-      CAPTURE(fem::name_of(load));
-      CAPTURE(F);
-      auto const r = t.solve(contact::coefficients(t.constant(F)));
-      REQUIRE(r.status == slant::status::converged);
-      CHECK(test::natural_map(dense, t.constant(F), r.λ) <= 1e-9);
-    }
-  }
-}
-
 TEST_CASE("a fixed point: Tresca's problem with the bounds F λ_ν has the same solution") {
   fixture t;
   VectorXd const F = VectorXd::LinSpaced(t.c.d.size(), 0, 0.6);  // position dependent, 0 included
@@ -78,16 +64,6 @@ TEST_CASE("a fixed point: Tresca's problem with the bounds F λ_ν has the same 
   CHECK((r.λ.tail(2 * F.size()) - reference.tangential).cwiseAbs().maxCoeff() <= 1e-8 * size);
   test::dense_dual const dense(t.scene.K, t.c);
   CHECK(test::natural_map(dense, F, r.λ) <= 1e-9);
-}
-
-TEST_CASE("no friction: the solution without tangents") {
-  fixture t;
-  auto const r = t.solve(contact::coefficients(t.constant(0)));
-  REQUIRE(r.status == slant::status::converged);
-  auto const reference = test::reference(t.scene.K, test::frictionless_data(t.scene));
-  double const size = reference.normal.cwiseAbs().maxCoeff();
-  CHECK((r.λ.head(t.c.d.size()) - reference.normal).cwiseAbs().maxCoeff() <= 1e-8 * size);
-  CHECK(r.λ.tail(t.c.T.rows()).cwiseAbs().maxCoeff() == 0);
 }
 
 TEST_CASE("much friction: what is pressed sticks") {
@@ -157,18 +133,6 @@ TEST_CASE("bounds beyond the range of the scalar: as much friction as there can 
   CHECK((sticks.λ - much.λ).norm() <= 1e-8 * much.λ.norm());
 }
 
-TEST_CASE("a friction law that turns negative is no other law: it is refused, with the contact") {
-  fixture t;
-  bool refused = false;
-  try {
-    static_cast<void>(t.solve(contact::slip_dependent<double>(
-        t.c.d.size(), [](slant::index i, double) { return i == 2 ? -0.1 : 0.3; })));
-  } catch (slant::bad_input const& e) {
-    refused = std::string(e.what()).starts_with("f[2]: got -0.1, expected");
-  }
-  CHECK(refused);
-}
-
 TEST_CASE("nothing but what the report says, and nothing learnt about A twice") {
   fixture t;
   t.factor.solves = 0;
@@ -176,16 +140,41 @@ TEST_CASE("nothing but what the report says, and nothing learnt about A twice") 
   CHECK(t.factor.solves == 1 + r.work.operator_applications + r.work.setup_applications);
 }
 
-TEST_CASE("coefficients that do not fit are refused") {
-  fixture t;
-  contact::dual problem(contact::friction_disc{}, t.factor, t.c);
-  auto const message = [&](VectorXd const& F) -> std::string {
-    return test::complaint(
-        [&] { contact::coulomb_radii family(problem, contact::coefficients(F)); });
-  };
-  CHECK(message(t.constant(-1)) == "F[0]: got -1, expected a finite number >= 0");
-  CHECK(message(VectorXd::Constant(2, 0.1)) ==
-        "number of friction coefficients: got 2, expected one per contact node, 18");
+template <class Family, class M>
+auto solve(Family& family, M const& m) {
+  return slant::solve(contact::coulomb(family, m, {.goal = tolerance}), family.zero(),
+                      slant::reduced_gradient_below(tolerance) || slant::at_most(200));
 }
 
-}  // namespace coulomb_radii_test
+/// Both families on a scene, against de Saxcé's natural map and each other.
+template <class Friction, int D>
+void compare(fem::contact_scene<D> const& s, double F) {
+  contact::data<double> const c{s.N, s.T, s.f, s.d, s.g};
+  auto const factor = slant::ldlt(s.K);
+  contact::dual problem(Friction{}, factor, c);
+  VectorXd const μ = VectorXd::Constant(c.d.size(), F);
+  contact::coulomb_cones cones(problem, μ);
+  auto const by_cones = solve(cones, contact::lumped_preconditioner(s.K, cones.constraints()));
+  REQUIRE(by_cones.converged());
+  VectorXd const λ = cones.by_directions(by_cones.x());
+  CHECK(cones.by_contacts(λ) == by_cones.x());
+  CHECK(test::natural_map(test::dense_dual(s.K, c), μ, λ) <= 1e-9);
+
+  contact::coulomb_radii radii(problem, contact::coefficients(μ));
+  auto const by_radii = solve(radii, contact::lumped_preconditioner(s.K, problem.constraints()));
+  REQUIRE(by_radii.converged());
+  CHECK((by_radii.x() - λ).norm() <= 1e-8 * λ.norm());
+}
+
+TEST_CASE("Coulomb's law holds, and both families find the same forces; little and much friction") {
+  for (double const F : {0.0, 0.05, 0.3, 1.0}) {
+    CAPTURE(F);
+    for (auto const load : fem::brick_loads) {
+      CAPTURE(fem::name_of(load));
+      compare<contact::friction_disc>(fem::make_steel_brick({.k = 2, .load = load}), F);
+    }
+    compare<contact::friction_line>(fem::make_two_plates(4), F);
+  }
+}
+
+}  // namespace coulomb_families_test
