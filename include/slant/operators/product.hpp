@@ -471,23 +471,38 @@ template <class B, class A>
 
 namespace slant {
 
+namespace detail {
+
+/// One complaint per part that is no operator; a fold over the parts would only say that one is not.
+template <class A>
+void check_part_of_formula() {
+  static_assert(operand<A>, "a term or factor must be an operator or an Eigen matrix");
+}
+
+}  // namespace detail
+
 /// A B C …. @throws bad_input unless each has as many rows as the one before it has columns.
-template <operand A, operand... B>
+template <class A, class... B>
   requires(sizeof...(B) >= 1)
 [[nodiscard]] auto product(A&& a, B&&... b) {
-  char name = 'A';
-  index cols = a.cols();
-  auto const check = [&](auto const& factor) {
-    if (index(factor.rows()) != cols) {
-      detail::require_rows(std::string(1, static_cast<char>(name + 1)), factor, cols,
-                           std::string("the columns of ") + name);
-    }
-    ++name;
-    cols = factor.cols();
-  };
-  (check(b), ...);
-  return expr::multiply(expr::as_expression(std::forward<A>(a)),
-                        expr::as_expression(std::forward<B>(b))...);
+  if constexpr (!(operand<A> && ... && operand<B>)) {
+    (detail::check_part_of_formula<A>(), ..., detail::check_part_of_formula<B>());
+    return detail::stand_in{};
+  } else {
+    char name = 'A';
+    index cols = a.cols();
+    auto const check = [&](auto const& factor) {
+      if (index(factor.rows()) != cols) {
+        detail::require_rows(std::string(1, static_cast<char>(name + 1)), factor, cols,
+                             std::string("the columns of ") + name);
+      }
+      ++name;
+      cols = factor.cols();
+    };
+    (check(b), ...);
+    return expr::multiply(expr::as_expression(std::forward<A>(a)),
+                          expr::as_expression(std::forward<B>(b))...);
+  }
 }
 
 /// B A Bᵀ: self-adjoint and semidefinite if A is; definite if A is and B declares full_row_rank.

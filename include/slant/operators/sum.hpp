@@ -5,7 +5,6 @@
 // what the hand-written loop costs. Laws: mirror.hpp.
 #pragma once
 
-#include <slant/base/diagnosis.hpp>
 #include <slant/operators/product.hpp>
 
 namespace slant::expr {
@@ -207,22 +206,12 @@ template <class A, class B, class... C>
 
 namespace slant {
 
-namespace detail {
-
-/// One complaint per term that is no operator; a fold over the terms would only say that one is not.
-template <class Term>
-void check_term() {
-  static_assert(operand<Term>, "a term of a sum must be an operator or an Eigen matrix");
-}
-
-}  // namespace detail
-
 /// A₁ + A₂ + …, as A₁ + A₂. @throws bad_input if the sizes differ.
 template <class A, class... B>
   requires(sizeof...(B) >= 1)
 [[nodiscard]] auto sum(A&& a, B&&... b) {
   if constexpr (!(operand<A> && ... && operand<B>)) {
-    (detail::check_term<A>(), ..., detail::check_term<B>());
+    (detail::check_part_of_formula<A>(), ..., detail::check_part_of_formula<B>());
     return detail::stand_in{};
   } else {
     index i = 1;

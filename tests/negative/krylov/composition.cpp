@@ -3,8 +3,10 @@
 // case MATRIX, clang: A must.*'has_plain_apply['<]
 // case MATRIX, max-lines-gcc: 20
 // case MATRIX, max-lines-clang: 35
-// case DEPENDENT_ROWS: A must.*'declares_positive_definite['<]
-// case ANY_SIGN: A must.*'declares_positive_semidefinite['<]
+// case DEPENDENT_ROWS: matrix . adjoint.matrix.*assert full_row_rank.matrix.*A must have the laws
+// case DEPENDENT_ROWS, clang: matrix . adjoint.matrix.*sert full_row_rank.matrix.*A must have the laws
+// case ANY_SIGN: a number of any sign stands before I.*A must have the laws
+// case ANY_SIGN, clang: mber of any sign stands before .*A must have the laws
 // case EXPRESSION: b must be a slant::vector.*'owns_its_entries['<]
 // case EXPRESSION, max-lines-gcc: 25
 // max-lines-gcc: 22
