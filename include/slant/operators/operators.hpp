@@ -27,6 +27,8 @@
 #include <slant/operators/block.hpp>
 #include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/kronecker.hpp>
+#include <slant/operators/range_sum.hpp>
 #include <slant/operators/schur_complement.hpp>
 
 // Any of them: with other laws, counted, of one type:
