@@ -457,8 +457,8 @@ template <adjoint_operand B>
 }
 
 /// B A Bᵀ.
-template <class B, class A>
-[[nodiscard]] auto congruence(B const& b, A const& a) {
+template <class A, class B>
+[[nodiscard]] auto multiply_around(A const& a, B const& b) {
   auto p = expr::multiply(b, a, b.adjoint());
   if constexpr (is_twin<B>) {
     return sealed<decltype(p)>(std::move(p));
@@ -515,8 +515,8 @@ template <operand B, operand A>
   } else {
     detail::require_square("A", a);
     detail::require_cols("B", b, a.rows(), "the size of A");
-    return expr::congruence(expr::as_twin(std::forward<B>(b)),
-                            expr::as_expression(std::forward<A>(a)));
+    return expr::multiply_around(expr::as_expression(std::forward<A>(a)),
+                                 expr::as_twin(std::forward<B>(b)));
   }
 }
 
