@@ -6,7 +6,6 @@
 //     1  a node whose strong neighbours are all unassigned becomes, with them, an aggregate
 //     2  what is left joins the aggregate of step 1 that it is coupled to most strongly
 //     3  what is left still becomes aggregates of neighbours
-//     4  a node without strong neighbours joins the one it is coupled to most, if not very weakly
 //
 // on each of which the near kernel B of the matrix is made orthonormal, B = Q R (Algorithm 1). Q is
 // what the coarse unknowns of the aggregate stand for, R the near kernel of the coarse level. One
@@ -15,15 +14,15 @@
 //     P = (I − ω D⁻¹A) Q,     ω = damping / λ_max(D⁻¹A),     D the diagonal blocks.
 //
 // Nodes i and j are strongly coupled if ‖A_ij‖² > θ² ‖A_ii‖ ‖A_jj‖ in the norm of Frobenius: what is
-// coupled weakly, as across a soft layer, cannot be corrected by one coarse unknown. A node that is
-// coupled to no aggregate has no part in the coarse level; sweeps of Gauss–Seidel reach it.
+// coupled weakly, as across a soft layer, cannot be corrected by one coarse unknown. A node without
+// strong neighbours takes those with θ = 0.02; one that has none of these either has no part in the
+// coarse level, because sweeps of Gauss–Seidel reach it.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
 #include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 #include <slant/multilevel/parts/prolongation.hpp>
-#include <slant/multilevel/parts/semidefinite_inverse.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -59,14 +58,19 @@ template <int N, class T>
   neighbour.reserve(static_cast<std::size_t>(A.blocks()));
   strength.reserve(static_cast<std::size_t>(A.blocks()));
   for (int i = 0; i < A.nodes(); ++i) {
-    T const limit = T(θ) * T(θ) * size[static_cast<std::size_t>(i)];
-    A.for_each_in_row(i, [&](int j, T const* block) {
-      T const other = size[static_cast<std::size_t>(j)];
-      T const s = square(block);
-      if (j == i || !(s > limit * other)) return;
-      neighbour.push_back(j);
-      strength.push_back(s / other);
-    });
+    auto const gather = [&](double θ) {
+      T const limit = T(θ) * T(θ) * size[static_cast<std::size_t>(i)];
+      A.for_each_in_row(i, [&](int j, T const* block) {
+        T const other = size[static_cast<std::size_t>(j)];
+        T const s = square(block);
+        if (j == i || !(s > limit * other)) return;
+        neighbour.push_back(j);
+        strength.push_back(s / other);
+      });
+    };
+    gather(θ);
+    // A sweep divides errors by 50 where couplings are below 0.02; others need a coarse level.
+    if (static_cast<int>(neighbour.size()) == first.back() && θ > 0.02) gather(0.02);
     first.push_back(static_cast<int>(neighbour.size()));
   }
   auto const neighbours = [&](std::size_t i, auto f) {
@@ -103,22 +107,6 @@ template <int N, class T>
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (a.of[i] < 0 && first[i] < first[i + 1]) open(i);
-  }
-  std::vector<int> const opened = a.of;
-  for (int i = 0; i < A.nodes(); ++i) {
-    auto const here = static_cast<std::size_t>(i);
-    if (opened[here] >= 0) continue;
-    // Sweeps divide by more than 1/θ what is coupled by less than θ.
-    T const least = T(std::min(θ, 0.02));
-    T strongest(0);
-    A.for_each_in_row(i, [&](int j, T const* block) {
-      auto const there = static_cast<std::size_t>(j);
-      T const s = square(block);
-      if (opened[there] < 0 || !(s > least * least * size[here] * size[there])) return;
-      if (!(s / size[there] > strongest)) return;
-      strongest = s / size[there];
-      a.of[here] = opened[there];
-    });
   }
   return a;
 }

@@ -77,7 +77,7 @@ struct multigrid_options {
   index levels = 20;  ///< at most so many, >= 1
   /// > 1: numbers of the matrices of all levels over those of the finest. A level that would exceed
   /// its share is coarsened along weaker couplings, θ/2, θ/4, …, 0; where that is not enough, its P
-  /// is not smoothed, which costs many times the cycles.
+  /// is not smoothed, which costs up to twice the cycles.
   double complexity = 2;
 
   /// Throws bad_input naming the option, its value and what was expected.
