@@ -5,9 +5,9 @@
 //
 //     a_ij ← a_ij − a_ic a_cj / d,     a_ic ← a_ic / d,     a_cc ← −1/d,
 //
-// leaves −A⁻¹ in the end. An unknown whose pivot cannot be told from zero is left out, which
-// makes the result EᵀA⁺E-like: the inverse of a principal submatrix, 0 in the other rows and
-// columns; symmetric, semidefinite, and a generalised inverse of A.
+// leaves −A⁻¹ in the end. An unknown whose pivot cannot be told from zero is left out: the result is
+// the inverse of a principal submatrix and 0 in the other rows and columns. It is symmetric,
+// semidefinite, and a generalised inverse of A.
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
