@@ -4,17 +4,20 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
-#include <cmath>
 
 namespace semidefinite_inverse_test {
 
 using slant::detail::invert_semidefinite;
 
-/// B Bᵀ with B of N × rank entries.
+/// B Bᵀ with B of N × rank pseudo-random entries.
 template <int N>
 Eigen::Matrix<double, N, N> gram(int rank) {
   Eigen::MatrixXd B(N, rank);
-  for (int k = 0; k < B.size(); ++k) B.data()[k] = std::sin(1.0 + 5.0 * k);
+  unsigned random = 3;
+  for (int k = 0; k < B.size(); ++k) {
+    random = random * 1664525u + 1013904223u;
+    B.data()[k] = double(random) / 4294967296.0 - 0.5;
+  }
   return B * B.transpose();
 }
 
