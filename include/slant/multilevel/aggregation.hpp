@@ -58,8 +58,8 @@ template <int N, class T>
   neighbour.reserve(static_cast<std::size_t>(A.blocks()));
   strength.reserve(static_cast<std::size_t>(A.blocks()));
   for (int i = 0; i < A.nodes(); ++i) {
-    auto const gather = [&](double θ) {
-      T const limit = T(θ) * T(θ) * size[static_cast<std::size_t>(i)];
+    auto const gather = [&](double least) {
+      T const limit = T(least) * T(least) * size[static_cast<std::size_t>(i)];
       A.for_each_in_row(i, [&](int j, T const* block) {
         T const other = size[static_cast<std::size_t>(j)];
         T const s = square(block);

@@ -218,6 +218,7 @@ class node_face {
       for (small* m : {&fresh.curvature, &fresh.level_curvature, &fresh.formed_curvature}) {
         m->setZero();
       }
+      fresh.stiff_inverse.setZero();
       fresh.mask.fill(T(0));
       surface_.push_back(fresh);
       changed_.push_back(0);
