@@ -8,10 +8,9 @@
 // can be seen to agree. benchmarks/composition.sh counts the instructions of an application as
 // the difference of two runs, in which the set-up cancels.
 
-#include <slant/expressions/expressions.hpp>
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 

@@ -23,11 +23,11 @@
 
 #include <slant/concepts/factorization.hpp>
 #include <slant/operators/block_diagonal.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>

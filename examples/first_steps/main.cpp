@@ -20,7 +20,7 @@ int main() {
   auto const Kinv = inverse(slant::op<"K">(slant::dense_ldlt(K)));
   auto const A = B * Kinv * adjoint(B);  // never formed; the compiler knows its laws
   Eigen::VectorXd const b = B * Kinv * f;
-  auto const Λ = slant::cartesian(slant::half_lines(n), slant::discs(g));
+  auto const Λ = slant::half_lines(n) * slant::discs(g);
 
   Eigen::VectorXd const λ0 = Eigen::VectorXd::Zero(3 * n);
   auto const run = slant::solve(slant::symmetric_newton{slant::separable_qp{A, b, Λ}}, λ0,

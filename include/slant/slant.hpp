@@ -6,7 +6,7 @@
 //     <slant/contact/contact.hpp>                contact from stiffness matrices, friction laws
 //     <slant/io/io.hpp>, <slant/io/vtu.hpp>      files (the second one needs pugixml)
 //     <slant/multilevel/multilevel.hpp>          multigrid
-//     <slant/expressions/describe.hpp>           the tree of an expression
+//     <slant/operators/describe.hpp>             the tree of an expression
 //     <slant/factorizations/factorizations.hpp>  kernels, static condensation, generalised inverses
 //     <slant/iteration/iterates.hpp>             a run as a range (range-v3)
 //     <slant/operators/timed.hpp>                seconds spent in an operator (<chrono>)
@@ -21,7 +21,6 @@
 
 #include <slant/certificates/certificates.hpp>
 #include <slant/concepts/concepts.hpp>
-#include <slant/expressions/expressions.hpp>
 #include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/factorizations/factorize.hpp>

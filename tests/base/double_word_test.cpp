@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/double_word.hpp>
 
-#include "oracle/hard_points.hpp"
-#include "oracle/precise.hpp"
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include "oracle/hard_points.hpp"
+#include "oracle/precise.hpp"
+
+#include <limits>
 
 namespace double_word_test {
 
 using slant::detail::double_word;
+using real = oracle::binary_float<250>;
+using oracle::float_100;
 
 // Wide enough for products of double words of long double and of float_50 without rounding.
-using real = oracle::binary_float<250>;
 
 template <class S>
 real exact(double_word<S> const& v) {
@@ -79,6 +81,29 @@ TEST_CASE_TEMPLATE("double word: an inner product that cancels keeps its digits"
   // (1 + ε)(1 − ε) − 1 + ε² = 0, while the rounded products give ε².
   CHECK(slant::detail::precise_dot<S>(a, b).hi == S(0));
   CHECK(slant::detail::precise_dot<S>(a, vec(S(1) - ε, S(-1), S(0))).hi == -ε * ε);
+}
+
+TEST_CASE("exact_squares: what cancels to the last digits of the squares is still right") {
+  oracle::number_source<double> source(1);
+  double worst = 0;
+  for (int i = 0; i < 500; ++i) {
+    double const m = source.of_size(-2, 2), a = source.of_size(-2, 2), b = source.of_size(-2, 2);
+    // c with c² = m²a² + m²b² up to half a unit of its last place, or a few.
+    double const c = source.nudged(std::abs(m) * std::hypot(a, b), 2);
+    slant::detail::exact_squares<double, 3> squares;
+    squares.add(m, a);
+    squares.add(m, b);
+    squares.subtract(1.0, c);
+    auto const sum = squares.sum();
+    float_100 const M(m), A(a), B(b), C(c);
+    float_100 const exact = M * M * (A * A + B * B) - C * C;
+    worst = std::max(worst, oracle::ulp_distance<double>(sum.hi, exact));
+  }
+  CHECK(worst <= 1);
+  slant::detail::exact_squares<double, 2> nothing;
+  nothing.add(3.0, 0.1);
+  nothing.subtract(0.1, 3.0);
+  CHECK(nothing.sum().hi == 0.0);
 }
 
 }  // namespace double_word_test

@@ -3,16 +3,21 @@
 // A vector whose entries belong to another library: methods and sets use it
 // through the Eigen::Map that it keeps.
 #include <slant/concepts/vector.hpp>
+
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
+
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +25,7 @@
 namespace vector_test {
 
 using Eigen::VectorXd;
+using own_vector = slant::testing::archetype::vector;
 
 class foreign {
  public:
@@ -102,6 +108,28 @@ TEST_CASE("vector: an own inner product answers for itself, and with a number") 
   CHECK(slant::norm(x) == 4);
   static_assert(slant::has_inner_product<weighted>);
   static_assert(!slant::has_inner_product<wordy>);
+}
+
+TEST_CASE("3-4-5 at every scale, for vectors of Eigen and for vectors of one's own") {
+  VectorXd const v{{3.0, 0.0, -4.0}};
+  for (int e : {0, -1070, -1000, -540, -500, -250, 250, 500, 540, 1000, 1020}) {
+    CAPTURE(e);
+    VectorXd const scaled = v.unaryExpr([e](double x) { return std::ldexp(x, e); });
+    CHECK(slant::norm(scaled) == std::ldexp(5.0, e));
+    CHECK(slant::norm(own_vector(scaled)) == std::ldexp(5.0, e));
+  }
+}
+
+TEST_CASE("zero, nothing, infinity and NaN stay what they are") {
+  auto const both = [](VectorXd const& v, auto check) {
+    check(slant::norm(v));
+    check(slant::norm(own_vector(v)));
+  };
+  both(VectorXd::Zero(3), [](double norm) { CHECK(norm == 0); });
+  both(VectorXd(), [](double norm) { CHECK(norm == 0); });
+  both(VectorXd{{1.0, std::numeric_limits<double>::infinity()}},
+       [](double norm) { CHECK(std::isinf(norm)); });
+  both(VectorXd{{1.0, std::nan("")}}, [](double norm) { CHECK(std::isnan(norm)); });
 }
 
 }  // namespace vector_test

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/friction/friction_gauss_seidel.hpp>
 
-#include "contact/friction_scenes.hpp"
-#include "support/allocation_guard.hpp"
-
 #include <slant/contact/friction/verify.hpp>
 
 #include <doctest/doctest.h>
 
+#include "contact/friction_scenes.hpp"
+#include "oracle/naive_friction.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <cmath>
 #include <limits>
+#include <random>
 
 namespace friction_gauss_seidel_test {
 
 using blocks = slant::contact::friction_blocks<3, double>;
 using method = slant::contact::friction_gauss_seidel<3, double>;
+using sweeps = slant::contact::friction_sweeps<3, double>;
+
 static_assert(slant::iterative_method<method, Eigen::VectorXd>);
 
 TEST_CASE("Gauss–Seidel: redundant contacts, counts, and no allocation in a step") {
@@ -72,19 +77,185 @@ TEST_CASE("Gauss–Seidel: all that changes is in the state") {
 TEST_CASE("Gauss–Seidel: bad options and starts are named") {
   auto const p = test::chain_friction(2);
   blocks const b(p);
-  CHECK_THROWS_WITH_AS(method(b, {.sweeps = 0}), doctest::Contains("sweeps"), slant::bad_input);
-  CHECK_THROWS_WITH_AS(method(b, {.full_every = 0}), doctest::Contains("full_every"),
-                       slant::bad_input);
-  CHECK_THROWS_WITH_AS(method(b, {.growth = 0.5}), doctest::Contains("growth"), slant::bad_input);
-  CHECK_THROWS_WITH_AS(method(b, {.shrink = 1}), doctest::Contains("shrink"), slant::bad_input);
-  CHECK_THROWS_WITH_AS(method(b, {.slack = 0}), doctest::Contains("slack"), slant::bad_input);
   double const infinity = std::numeric_limits<double>::infinity();
-  CHECK_THROWS_WITH_AS(method(b, {.growth = infinity}), doctest::Contains("growth"),
-                       slant::bad_input);
-  CHECK_THROWS_WITH_AS(method(b, {.slack = infinity}), doctest::Contains("slack"),
-                       slant::bad_input);
-  CHECK_THROWS_WITH_AS(method(b, {.patience = 0}), doctest::Contains("patience"), slant::bad_input);
+  struct bad {
+    char const* name;
+    slant::contact::gauss_seidel_options<double> o;
+  };
+  for (auto const& [name, o] : {bad{"sweeps", {.sweeps = 0}},
+                                {"full_every", {.full_every = 0}},
+                                {"growth", {.growth = 0.5}},
+                                {"growth", {.growth = infinity}},
+                                {"shrink", {.shrink = 1}},
+                                {"slack", {.slack = 0}},
+                                {"slack", {.slack = infinity}},
+                                {"patience", {.patience = 0}}}) {
+    CHECK_THROWS_WITH_AS(method(b, o), doctest::Contains(name), slant::bad_input);
+  }
   CHECK_THROWS_AS(static_cast<void>(method(b).start(Eigen::VectorXd::Zero(5))), slant::bad_input);
+}
+
+TEST_CASE("sweeps: one contact takes one, many coupled ones converge to a solution") {
+  auto const single = test::single_solution_cases();
+  for (auto const& c : single) {
+    if (c.problem.dimension() != 3) continue;
+    blocks const b(c.problem);
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
+    sweeps const once(b);
+    auto memory = once.memory();
+    once.sweep(r, memory);
+    CHECK((b.force(r) - c.r[0]).norm() <= 1e-13 * (1 + c.r[0].norm()));
+  }
+  auto const p = test::random_friction(8, 3, 0.4, 11);
+  blocks const b(p);
+  sweeps const s(b);
+  auto memory = s.memory();
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(24);
+  for (int k = 0; k < 400; ++k) s.sweep(r, memory);
+  CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
+}
+
+TEST_CASE(
+    "sweeps: open contacts cost nothing as neighbours, and nothing when they are passed over") {
+  slant::index const m = 40;
+  auto const p = test::chain_friction(m);
+  blocks const b(p);
+  sweeps const s(b);
+  auto memory = s.memory();
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(3 * m);
+  for (int k = 0; k < 5; ++k) s.sweep(r, memory);
+  // Every second contact is open: all neighbours of the others.
+  CHECK(s.sweep(r, memory, true) ==
+        m + (m - 1));                         // diagonals, and closed neighbours of open contacts
+  CHECK(s.sweep(r, memory, false) == m / 2);  // the diagonals of the closed
+}
+
+TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay finite") {
+  auto p = test::random_friction(3, 3, 0.5, 5);
+  Eigen::MatrixXd W = p.W;
+  W.middleRows(3, 3).setZero();
+  W.middleCols(3, 3).setZero();
+  p.W = W.sparseView();
+  p.q[3] = 1;  // leaves by itself
+  blocks const b(p);
+  sweeps const s(b);
+  auto memory = s.memory();
+  Eigen::VectorXd r = Eigen::VectorXd::Constant(9, 1.);
+  for (int k = 0; k < 1000; ++k) s.sweep(r, memory);
+  CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-10);
+  W.block(3, 3, 3, 3) = -Eigen::Matrix3d::Identity();
+  p.W = W.sparseView();
+  p.q[3] = -1;
+  blocks const negative(p);
+  sweeps const t(negative);
+  auto new_memory = t.memory();
+  r.setZero();
+  for (int k = 0; k < 10; ++k) t.sweep(r, new_memory);
+  CHECK(r.allFinite());
+}
+
+TEST_CASE("sweeps: indefinite blocks with a positive diagonal are made definite") {
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
+  D(0, 1) = D(1, 0) = 5;
+  auto const p =
+      test::make_friction_problem(D, Eigen::Vector3d(-1, 2, 1), Eigen::VectorXd::Constant(1, 0.5));
+  blocks const b(p);
+  double const shift = sweeps(b).shift(0) / b.diagonal(0)(2, 2);  // in units of D
+  CHECK(shift > 4);                                               // its smallest eigenvalue is −4
+  CHECK(shift < 4.1);
+  blocks const definite(test::chain_friction(2));
+  CHECK(sweeps(definite).shift(1) == 0);
+  sweeps const s(b);
+  auto memory = s.memory();
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
+  for (int k = 0; k < 10; ++k) s.sweep(r, memory);
+  CHECK(r.allFinite());
+}
+
+/// The largest violation of the law, relative to q, by the oracle.
+template <int N>
+double violation(Eigen::Matrix<double, N, N> const& W, Eigen::Matrix<double, N, 1> const& q,
+                 double mu, Eigen::Matrix<double, N, 1> const& r) {
+  using oracle::friction_real;
+  oracle::friction_vector m(1);
+  m[0] = mu;
+  auto const all =
+      oracle::naive_friction(oracle::friction_matrix(W.template cast<friction_real>()),
+                             oracle::friction_vector(q.template cast<friction_real>()), m,
+                             oracle::friction_vector(r.template cast<friction_real>()));
+  return double(all[0].natural_map) / q.norm();
+}
+
+template <int N>
+void check_random(bool symmetric) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  auto const number = [&](auto...) { return normal(random); };
+  int slips = 0, sticks = 0, opens = 0;
+  for (int k = 0; k < 2000; ++k) {
+    using matrix = Eigen::Matrix<double, N, N>;
+    matrix const H = matrix::NullaryExpr(number), skew = matrix::NullaryExpr(number);
+    matrix W = H * H.transpose() + 0.05 * matrix::Identity();
+    if (!symmetric) W += 0.1 * (skew - skew.transpose());
+    Eigen::Matrix<double, N, 1> const q = Eigen::Matrix<double, N, 1>::NullaryExpr(number);
+    double const mu = std::exp(normal(random));
+    auto const c = slant::contact::detail::solve_one_contact<N, double>(W, q, mu, 0.);
+    CHECK(violation<N>(W, q, mu, c.r) <= 1e-13 * (1 + mu) * (1 + W.norm() * c.r.norm() / q.norm()));
+    (c.r(0) == 0 ? opens : c.slip > 0 ? slips : sticks) += 1;
+    if (c.slip > 0) {
+      // u_t = −λ r_t, from any guess.
+      Eigen::Matrix<double, N, 1> const u = W * c.r + q;
+      CHECK((u + c.slip * c.r).template tail<N - 1>().norm() <= 1e-10 * q.norm() * (1 + c.slip));
+      auto const warm =
+          slant::contact::detail::solve_one_contact<N, double>(W, q, mu, 1e6 * (1 + c.slip));
+      CHECK(violation<N>(W, q, mu, warm.r) <=
+            1e-13 * (1 + mu) * (1 + W.norm() * warm.r.norm() / q.norm()));
+    }
+  }
+  CHECK(opens > 200);
+  CHECK(sticks > 200);
+  CHECK(slips > 200);
+}
+
+TEST_CASE("one contact: random data in the plane and in space, symmetric or not") {
+  check_random<2>(true);
+  check_random<2>(false);
+  check_random<3>(true);
+  check_random<3>(false);
+}
+
+TEST_CASE("one contact: no friction, and very much of it") {
+  Eigen::Matrix3d W;
+  W << 2, 0.5, 0, 0.5, 1, 0, 0, 0, 3;
+  Eigen::Vector3d const q(-1, 2, 3);
+  auto const smooth = slant::contact::detail::solve_one_contact<3, double>(W, q, 0., 0.);
+  CHECK(smooth.r == Eigen::Vector3d(0.5, 0, 0));
+  CHECK(smooth.slip == 0);
+  auto const rough = slant::contact::detail::solve_one_contact<3, double>(W, q, 1e8, 0.);
+  CHECK((W * rough.r + q)(0) == doctest::Approx(0).epsilon(1e-12));
+  CHECK(violation<3>(W, q, 1e8, rough.r) <= 1e-6);  // û is as large as μ
+  // Only the normal component: closed at its own impulse, open when it leaves.
+  CHECK(slant::contact::detail::solve_one_contact<3, double>(W, Eigen::Vector3d(1, 2, 3), 1., 0.)
+            .r.norm() == 0);
+}
+
+TEST_CASE("one contact: hardly any friction, slip λ beyond the range of squares") {
+  Eigen::Matrix3d W = Eigen::Matrix3d::Identity();
+  W(1, 2) = W(2, 1) = 0.5;
+  for (double const mu : {1e-150, 1e-160, 1e-200, 1e-300, 1e-320}) {
+    for (double const guess : {0., 1e10, 1e300}) {
+      auto const c = slant::contact::detail::solve_one_contact<3, double>(
+          W, Eigen::Vector3d(-1, 3, 4), mu, guess);
+      CHECK(c.r(0) == doctest::Approx(1));
+      CHECK(std::abs(c.r(1) / mu + 0.6) <= 1e-3);  // digits of mu itself where it is subnormal
+      CHECK(std::abs(c.r(2) / mu + 0.8) <= 1e-3);
+      CHECK(c.slip > 1e149);
+    }
+  }
+  // A block that is tiny: its determinant is below the range.
+  auto const c = slant::contact::detail::solve_one_contact<3, double>(
+      1e-170 * W, Eigen::Vector3d(-1, 0.1, 0.1), 1., 0.);
+  CHECK((1e-170 * W * c.r + Eigen::Vector3d(-1, 0.1, 0.1)).norm() <= 1e-15);
 }
 
 }  // namespace friction_gauss_seidel_test

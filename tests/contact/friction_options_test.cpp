@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <limits>
 #include <string>
 
 #include "support/message.hpp"
@@ -11,33 +11,31 @@
 namespace friction_options_test {
 
 using slant::contact::friction_method;
-
-/// What validate says of the options after a change.
-template <class Change>
-std::string complaint(Change change) {
-  slant::contact::friction_options<double> o;
-  change(o);
-  return test::complaint([&] { o.validate(); });
-}
+using options = slant::contact::friction_options<double>;
 
 TEST_CASE("friction options: the defaults are valid, each bad one is named") {
-  auto const names = [](std::string const& text, char const* name) {
-    return text.find(name) != std::string::npos;
+  CHECK(test::complaint([] { options{}.validate(); }) == "nothing thrown");
+  struct bad {
+    char const* name;
+    options o;
   };
-  CHECK(complaint([](auto&) {}) == "nothing thrown");
-  CHECK(names(complaint([](auto& o) { o.tolerance = 0; }), "tolerance"));
-  CHECK(names(complaint([](auto& o) { o.tolerance = std::nan(""); }), "tolerance"));
-  CHECK(names(complaint([](auto& o) { o.damping = -1; }), "damping"));
-  CHECK(names(complaint([](auto& o) { o.first_sweeps = -1; }), "first_sweeps"));
-  CHECK(names(complaint([](auto& o) { o.further_sweeps = -1; }), "further_sweeps"));
-  CHECK(names(complaint([](auto& o) { o.sweeps = -1; }), "sweeps"));
-  CHECK(names(complaint([](auto& o) { o.newton_steps = -1; }), "newton_steps"));
-  CHECK(names(complaint([](auto& o) { o.interior_steps = -1; }), "interior_steps"));
-  CHECK(names(complaint([](auto& o) { o.interior_point.fraction = 1; }), "fraction"));
-  CHECK(names(complaint([](auto& o) { o.attempt = 0; }), "attempt"));
-  CHECK(names(complaint([](auto& o) { o.halvings = -1; }), "halvings"));
-  CHECK(names(complaint([](auto& o) { o.patience = 0; }), "patience"));
-  CHECK(names(complaint([](auto& o) { o.gauss_seidel.shrink = 2; }), "shrink"));
+  for (auto const& [name, o] :
+       {bad{"tolerance", {.tolerance = 0}},
+        {"tolerance", {.tolerance = std::numeric_limits<double>::quiet_NaN()}},
+        {"first_sweeps", {.first_sweeps = -1}},
+        {"further_sweeps", {.further_sweeps = -1}},
+        {"sweeps", {.sweeps = -1}},
+        {"newton_steps", {.newton_steps = -1}},
+        {"interior_steps", {.interior_steps = -1}},
+        {"attempt", {.attempt = 0}},
+        {"halvings", {.halvings = -1}},
+        {"damping", {.damping = -1}},
+        {"patience", {.patience = 0}},
+        {"shrink", {.gauss_seidel = {.shrink = 2}}},
+        {"fraction", {.interior_point = {.fraction = 1}}}}) {
+    CAPTURE(name);
+    CHECK(test::complaint([&o = o] { o.validate(); }).find(name) != std::string::npos);
+  }
 }
 
 TEST_CASE("friction options: methods have names") {

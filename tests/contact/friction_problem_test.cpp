@@ -3,14 +3,19 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-#include <string>
-
+#include <Eigen/Core>
 #include "support/message.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
 
 namespace friction_problem_test {
 
 using problem = slant::contact::friction_problem<double>;
+using slant::contact::asymmetry;
+using slant::contact::require_symmetric;
 
 problem identity(int n, int contacts) {
   problem p{.W = Eigen::SparseMatrix<double>(n, n),
@@ -34,27 +39,66 @@ TEST_CASE("sizes tell the dimension") {
 }
 
 TEST_CASE("what is not valid is named") {
-  auto const has = [](problem const& p, char const* part) {
-    return complaint(p).find(part) != std::string::npos;
+  double const infinity = std::numeric_limits<double>::infinity();
+  auto const refused = [](char const* part, auto change) {
+    problem p = identity(6, 2);
+    change(p);
+    CAPTURE(part);
+    CHECK(complaint(p).find(part) != std::string::npos);
   };
-  CHECK(has(identity(5, 2), "size of q"));
-  problem p = identity(6, 2);
-  p.W.resize(5, 6);
-  CHECK(has(p, "rows of W"));
-  p = identity(6, 2);
-  p.W.resize(6, 7);
-  CHECK(has(p, "columns of W"));
-  p = identity(6, 2);
-  p.q[3] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(has(p, "q[3]"));
-  p = identity(6, 2);
-  p.mu[1] = -0.1;
-  CHECK(has(p, "mu[1]: got -0.1"));
-  p.mu[1] = std::numeric_limits<double>::infinity();
-  CHECK(has(p, "mu[1]"));
-  p = identity(6, 2);
-  p.W.coeffRef(2, 2) = std::numeric_limits<double>::infinity();
-  CHECK(has(p, "W(2, 2)"));
+  refused("size of q", [](auto& p) { p.q.conservativeResize(5); });
+  refused("rows of W", [](auto& p) { p.W.resize(5, 6); });
+  refused("columns of W", [](auto& p) { p.W.resize(6, 7); });
+  refused("q[3]", [](auto& p) { p.q[3] = std::nan(""); });
+  refused("mu[1]: got -0.1", [](auto& p) { p.mu[1] = -0.1; });
+  refused("mu[1]", [&](auto& p) { p.mu[1] = infinity; });
+  refused("W(2, 2)", [&](auto& p) { p.W.coeffRef(2, 2) = infinity; });
+}
+
+Eigen::SparseMatrix<double> sparse(Eigen::MatrixXd const& A) {
+  return A.sparseView();
+}
+
+TEST_CASE("asymmetry: the largest difference over the largest entry") {
+  Eigen::Matrix3d A;
+  A << 4, 1, 0, 1.5, -8, 0, 0, 2, 3;
+  CHECK(asymmetry(sparse(A)) == 0.25);
+  CHECK(asymmetry(sparse(A + A.transpose())) == 0);
+  CHECK(asymmetry(sparse(1e-300 * A)) == doctest::Approx(0.25));
+  CHECK(asymmetry(sparse(0x1p1020 * A)) == 0.25);
+  CHECK(asymmetry(sparse(A - A.transpose())) == 2);
+  CHECK(asymmetry(sparse(Eigen::Matrix3d::Zero())) == 0);
+  CHECK(asymmetry(sparse(Eigen::MatrixXd(0, 0))) == 0);
+  for (double const bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Eigen::Matrix3d B = A;
+    B(0, 1) = bad;
+    CHECK(std::isnan(asymmetry(sparse(B))));
+    CHECK_THROWS_AS(require_symmetric("W", sparse(B)), slant::bad_input);
+  }
+  CHECK_THROWS_WITH_AS((void)asymmetry(sparse(Eigen::MatrixXd::Zero(2, 3))),
+                       "columns of W: got 3, expected as many as rows, 2", slant::bad_input);
+}
+
+TEST_CASE("asymmetry: what rounding does to H M^-1 H' is allowed, more is not") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  auto const draw = [&] { return number(random); };
+  Eigen::MatrixXd const H = Eigen::MatrixXd::NullaryExpr(60, 20, draw);
+  Eigen::VectorXd const m = Eigen::VectorXd::NullaryExpr(20, [&] { return 2 + draw(); });
+  Eigen::MatrixXd W = (H * m.cwiseInverse().asDiagonal()) * H.transpose();
+  CHECK(asymmetry(sparse(W)) > 0);
+  CHECK_NOTHROW(require_symmetric("W", sparse(W)));
+  W(3, 7) += 1e-5 * W.cwiseAbs().maxCoeff();
+  double const found = asymmetry(sparse(W));
+  CHECK(found == doctest::Approx(1e-5).epsilon(1e-3));
+  try {
+    require_symmetric("W.mtx", sparse(W));
+    FAIL("accepted");
+  } catch (slant::bad_input const& refused) {
+    CHECK(std::string(refused.what())
+              .starts_with("W.mtx: got a matrix of asymmetry " + slant::detail::show(found) +
+                           ", expected a symmetric one, max |W - W^T| <= "));
+  }
 }
 
 }  // namespace friction_problem_test

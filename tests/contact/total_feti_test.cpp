@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "feti_scenes.hpp"
-#include "scenes.hpp"
-
 #include <slant/methods/constrained_newton.hpp>
+
+#include <slant/contact/preconditioners.hpp>
+#include <slant/iteration/solve.hpp>
+#include <slant/iteration/stopping.hpp>
+#include <slant/operators/any_operator.hpp>
 
 #include <doctest/doctest.h>
 
+#include <fem/decomposed_brick.hpp>
 #include <support/dense_of.hpp>
 #include <support/effort.hpp>
+#include <support/floating_parts.hpp>
+#include "scenes.hpp"
+#include "support/message.hpp"
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "support/message.hpp"
 
 namespace total_feti_test {
 
@@ -21,8 +26,41 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::contact::friction_disc;
+using slant::contact::frictionless;
 using slant::contact::total_feti;
-using test::decomposed_brick;
+
+/// A brick of cubes of c × c × c cells, one for each subdomain.
+struct decomposed_brick : fem::decomposed_brick {
+  slant::contact::floating_bodies<double> bodies;
+
+  decomposed_brick(std::array<int, 3> const& cubes, int c, fem::brick_load load)
+      : fem::decomposed_brick(
+            fem::make_decomposed_brick({.cubes = cubes, .cells = c, .load = load})),
+        bodies(examples::floating_parts(parts)) {}
+
+  /// Contact data for the unknowns of all subdomains.
+  [[nodiscard]] slant::contact::data<double> data(bool friction) const {
+    return examples::contact_data(scene, parts, friction);
+  }
+};
+
+auto accurate() {
+  return (slant::reduced_gradient_below(1e-10) && slant::feasibility_below(1e-10)) ||
+         slant::at_most(100);
+}
+
+/// Displacements of the scene, the mean of the copies, which must agree with each other.
+template <class Problem, class Method>
+Eigen::VectorXd displacement(decomposed_brick const& brick, Problem const& problem,
+                             Method const& method) {
+  auto const r = slant::solve(method, problem.zero(), accurate());
+  CAPTURE(r.reason);
+  CHECK(r.converged());
+  CHECK(r.iterations() <= 30);
+  Eigen::VectorXd const u = problem.displacement(r.x(), method.multipliers(r.state));
+  CHECK((brick.parts.glue * u).norm() <= 1e-8 * u.norm());
+  return brick.parts.mean * u;
+}
 
 /// What the load rests on, or why it cannot.
 template <class Bodies, class Data>
@@ -30,7 +68,7 @@ auto solved(Bodies const& bodies, Data const& data) {
   total_feti const problem(friction_disc{}, bodies, data);
   auto const qp = problem.qp();
   slant::constrained_newton const method{qp, problem.constraints()};
-  auto r = slant::solve(method, problem.zero(), test::accurate());
+  auto r = slant::solve(method, problem.zero(), accurate());
   VectorXd u = problem.displacement(r.x(), method.multipliers(r.state));
   sparse const K = slant::contact::block_stiffness(bodies);
   VectorXd const rest = K * u - data.f + problem.rows().transpose() * r.x();
@@ -58,15 +96,15 @@ TEST_CASE(
     auto const qp = problem.qp();
     // With the far node SMALSE-M may get no further than rounding errors allow, but says so.
     slant::smalse const smalse{qp, problem.constraints()};
-    auto const r = slant::solve(smalse, problem.zero(), test::accurate());
+    auto const r = slant::solve(smalse, problem.zero(), accurate());
     VectorXd const u = problem.displacement(r.x(), smalse.multipliers(r.state));
     CAPTURE(r.reason);
     CHECK((far > 0 || r.converged()));
     CHECK((!r.converged() || (brick.parts.mean * u - expected).norm() <= 1e-8 * expected.norm()));
     slant::constrained_newton const newton{qp, problem.constraints()};
-    VectorXd const v = test::displacement(brick, problem, newton);
+    VectorXd const v = displacement(brick, problem, newton);
     CHECK((v - expected).norm() <= 1e-8 * expected.norm());
-    CHECK(slant::solve(newton, problem.zero(), test::accurate()).iterations() <= 12);
+    CHECK(slant::solve(newton, problem.zero(), accurate()).iterations() <= 12);
   }
 }
 
@@ -220,6 +258,41 @@ TEST_CASE("bad input") {
   refused([](auto& b) { b.c[0] = std::numeric_limits<double>::quiet_NaN(); });
   CHECK_THROWS_AS((total_feti(slant::contact::frictionless{}, brick.bodies, data)),
                   slant::bad_input);
+}
+
+using preconditioner =
+    slant::any_operator<VectorXd, slant::laws<slant::self_adjoint, slant::positive_semidefinite>>;
+
+TEST_CASE(
+    "without preconditioner, lumped and Dirichlet in the face, contact that holds and opens") {
+  for (auto const load : {fem::brick_load::pull, fem::brick_load::lift}) {
+    decomposed_brick const brick({2, 1, 1}, test::effort(3, 2), load);
+    auto const expected =
+        test::reference(brick.scene.K, examples::contact_data(brick.scene, false)).u;
+    total_feti const problem(frictionless{}, brick.bodies, brick.data(false));
+    auto const qp = problem.qp();
+    auto const K = slant::contact::block_stiffness(brick.bodies);
+    auto const steps_with = [&](preconditioner const& M) {
+      slant::constrained_newton const method{qp, problem.constraints(), M};
+      VectorXd const u = displacement(brick, problem, method);
+      CHECK((u - expected).norm() <= 1e-8 * expected.norm());
+      auto const r = slant::solve(method, problem.zero(), accurate());
+      CHECK(r.iterations() <= 15);
+      CHECK(r.state.fallback_count == 0);
+      return static_cast<double>(r.state.work.inner_iterations);
+    };
+    double const without = steps_with(preconditioner(slant::identity(qp.size())));
+    double const lumped =
+        steps_with(preconditioner(slant::contact::lumped_preconditioner(K, problem.rows())));
+    double const dirichlet =
+        steps_with(preconditioner(slant::contact::dirichlet_preconditioner(K, problem.rows())));
+    CAPTURE(without);
+    CAPTURE(lumped);
+    CAPTURE(dirichlet);
+    CHECK(lumped < 0.6 * without);
+    CHECK(dirichlet <
+          0.6 * without);  // with two cells along an edge not better than the lumped one
+  }
 }
 
 }  // namespace total_feti_test

@@ -3,6 +3,7 @@
 // from_files on data that are valid and look wrong, and on bodies that supports do not hold.
 #include <doctest/doctest.h>
 
+#include <contact/loose_brick.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -26,27 +27,15 @@ fem::contact_scene<3> brick() {
 
 /// The brick without its clamp, as contact holds it: pressed and pushed, with a slip bound.
 fem::contact_scene<3> loose_brick(double push, double slip) {
+  test::loose_brick const loose(1, {-push, 0, 0}, slip);
   auto scene = brick();
-  auto const mesh = fem::make_brick_mesh(1);
-  auto const own = fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
-  scene.K = fem::stiffness<3>(mesh, own, fem::lame(2.119e5, 0.277));
-  scene.mesh = mesh;
-  scene.f = Eigen::VectorXd::Zero(own.count);
-  fem::add_tractions<3>(
-      mesh, own, {{fem::brick_side::top, {0, 0, -1}}, {fem::brick_side::right, {-push, 0, 0}}},
-      scene.f);
-  auto const nodes = mesh.nodes_on(fem::brick_side::bottom);
-  auto const m = static_cast<Eigen::Index>(nodes.size());
-  scene.N = Eigen::SparseMatrix<double>(m, own.count);
-  scene.T = Eigen::SparseMatrix<double>(2 * m, own.count);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    int const first = own.first[nodes[static_cast<std::size_t>(i)]];
-    scene.N.insert(i, first + 2) = -1;
-    scene.T.insert(2 * i, first) = 1;
-    scene.T.insert(2 * i + 1, first + 1) = 1;
-  }
-  scene.d = Eigen::VectorXd::Zero(m);
-  scene.g = Eigen::VectorXd::Constant(m, slip);
+  scene.mesh = loose.mesh;
+  scene.K = loose.K;
+  scene.f = loose.data.f;
+  scene.N = loose.data.N;
+  scene.T = loose.data.T;
+  scene.d = loose.data.d;
+  scene.g = loose.data.g;
   return scene;
 }
 
@@ -106,7 +95,7 @@ TEST_CASE("from_files: warnings in the report and on standard error, refusals wi
 }
 
 TEST_CASE("from_files: a body that contact and friction hold, without supports") {
-  auto const scene = loose_brick(0.3, 0.06);
+  auto const scene = loose_brick(0.3, 0.05);
   problem_files const files(scene);
   json const result = solved(files, put_coordinates(files, scene));
   CHECK(result["status"] == "converged");
@@ -117,10 +106,10 @@ TEST_CASE("from_files: a body that contact and friction hold, without supports")
   CHECK(result["kkt_residual"].get<double>() < 1e-6);
   REQUIRE(result["free_motions"].size() == 1);
   CHECK(result["free_motions"][0]["text"] ==
-        "body 0 (unknowns 0 to 47) can move along x, y and z and turn about x, y and z");
+        "body 0 (unknowns 0 to 107) can move along x, y and z and turn about x, y and z");
   CHECK(result["free_motions"][0]["motions"] == 6);
-  CHECK(files.read("lambda.txt").head(8).sum() == doctest::Approx(3));
-  check_refusal(files.solve("--method kprgp"), ": body 0 (unknowns 0 to 47) has 6 free motions");
+  CHECK(files.read("lambda.txt").head(12).sum() == doctest::Approx(3));
+  check_refusal(files.solve("--method kprgp"), ": body 0 (unknowns 0 to 107) has 6 free motions");
 
   problem_files const sliding(loose_brick(0.3, 0.01));
   auto const ran = sliding.solve(put_coordinates(sliding, scene));
@@ -128,16 +117,16 @@ TEST_CASE("from_files: a body that contact and friction hold, without supports")
   json const slid = json::parse(ran.out);
   CHECK(slid["status"] == "unbounded");
   CHECK(slid["reason"] ==
-        "neither contact nor friction holds the bodies under this load: body 0 (unknowns 0 to 47) "
+        "neither contact nor friction holds the bodies under this load: body 0 (unknowns 0 to 107) "
         "moves along -x");
   problem_files const smooth(loose_brick(0, 0.01));
   smooth.remove("T.mtx");
   smooth.remove("g.txt");
   CHECK(solved(smooth)["energy_error"].get<double>() <= 1e-8);
 
-  sliding.put("F.txt", "1\n1\n1\n1\n1\n1\n1\n1\n");
+  sliding.put("F.txt", "1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n");
   check_refusal(sliding.solve("--coulomb " + word((sliding.input() / "F.txt").string())),
-                ": body 0 (unknowns 0 to 47) has 6 free motions");
+                ": body 0 (unknowns 0 to 107) has 6 free motions");
 }
 
 TEST_CASE(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// wire_tables, brick_tables and two_bodies: printed numbers, ours beside them, and the right
+// The programs behind the tables of the documents: printed numbers, ours beside them, and the right
 // status.
 #include <doctest/doctest.h>
 
@@ -28,6 +28,15 @@ bool has_line(std::string const& text, std::string const& words) {
     if (same) return true;
   }
   return false;
+}
+
+/// The number behind a caption.
+double number_behind(std::string const& text, std::string const& caption) {
+  auto const at = text.find(caption);
+  REQUIRE(at != std::string::npos);
+  double value = -1;
+  std::istringstream(text.substr(at + caption.size())) >> value;
+  return value;
 }
 
 }  // namespace
@@ -93,6 +102,52 @@ TEST_CASE("two_bodies: one scene only; not converged is not success") {
   CHECK(contains(ran.out, "iteration_limit"));
 }
 
+TEST_CASE("decomposed_brick: the displacements of the whole brick, by both methods") {
+  for (std::string const options :
+       {"", " --frictionless", " --method smalse", " --frictionless --method smalse"}) {
+    CAPTURE(options);
+    auto const ran = run("decomposed_brick", "--cubes 2 1 1 --cells 2 --tolerance 1e-10" + options);
+    CHECK(ran.status == 0);
+    CHECK(ran.err == "");
+    CHECK(contains(ran.out, "status                 converged\n"));
+    CHECK(number_behind(ran.out, "coarse problem") == 12);
+    CHECK(number_behind(ran.out, "largest jump") <= 1e-8);
+    double const difference = number_behind(ran.out, "beside the whole brick");
+    CHECK(difference >= 0);
+    CHECK(difference <= 1e-8);
+  }
+}
+
+TEST_CASE("decomposed_brick: too few steps, and bad options") {
+  auto const impatient = run("decomposed_brick", "--cubes 2 1 1 --cells 2 --max-iterations 1");
+  CHECK(impatient.status == 1);
+  CHECK(contains(impatient.out, "iteration_limit"));
+  for (std::string const options :
+       {"--cubes 2 1", "--cubes 2 1 0", "--load push", "--method ssn"}) {
+    examples_test::check_refused(run("decomposed_brick", options),
+                                 options.substr(0, options.find(' ')));
+  }
+}
+
+TEST_CASE("stacked_bricks: a stack that stands, and loads without equilibrium") {
+  io_test::temporary_folder const folder;
+  auto const held =
+      run("stacked_bricks", "--bricks 2 --cells 2 --output " + word(folder.path().string()));
+  CHECK(held.status == 0);
+  CHECK(held.err == "");
+  for (auto const* expected : {"load \"hold\"", "factors        2,", "status         converged",
+                               "equilibrium", "of the projector"})
+    CHECK(contains(held.out, expected));
+  CHECK(contains(io_test::get(folder / "stack.vtu"), "contact_force"));
+  for (auto const* load : {"lift", "tip"}) {
+    CAPTURE(load);
+    auto const ran = run("stacked_bricks", "--bricks 2 --cells 2 --load " + std::string(load));
+    CHECK(ran.status == 1);
+    CHECK(contains(ran.out, "unbounded: no solution: the energy falls for ever"));
+    CHECK(contains(ran.out, "direction      K d = "));
+  }
+}
+
 TEST_CASE("the programs of tables refuse bad options in one line") {
   auto const check = [](std::string const& name, std::string const& options,
                         std::string const& expected) {
@@ -102,6 +157,7 @@ TEST_CASE("the programs of tables refuse bad options in one line") {
   check("wire_tables", "--table 4.9", "--table: got 4.9, expected 4.1 to 4.7, or all");
   check("brick_tables", "--cells 3", "--cells: got 3, expected a whole number from 4 to 16");
   check("brick_tables", "--load push", "--load: got push, expected press, pull, lift or all");
+  check("stacked_bricks", "--load push", "--load: got push, expected hold, lift or tip");
   check("two_bodies", "--plates 4 1", "--plates: got 1, expected a whole number from 2 to 1000");
   check("two_bodies", "--bricks x", "--bricks: got x, expected a whole number from 2 to 100");
   check("two_bodies", "--scene beams", "--scene: got beams, expected plates, bricks or both");

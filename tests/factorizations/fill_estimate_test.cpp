@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/fill_estimate.hpp>
 
-#include <fem/steel_brick.hpp>
-
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
 #include <Eigen/SparseCholesky>
+#include <fem/steel_brick.hpp>
+#include "factorizations/spd_examples.hpp"
+
+#include <vector>
 
 namespace fill_estimate_test {
 
@@ -39,6 +42,52 @@ TEST_CASE("counting stops where enough is known; nothing to factor, nothing to c
   CHECK(slant::estimate_fill(sparse(0, 0)).operations == 0);
   CHECK_THROWS_WITH_AS((void)slant::estimate_fill(sparse(2, 3)),
                        "columns of K: got 3, expected rows of K, 2", slant::bad_input);
+}
+
+/// Every entry of k as a block of ones, m × m.
+sparse blown_up(sparse const& k, int m) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < k.outerSize(); ++j) {
+    for (sparse::InnerIterator e(k, j); e; ++e) {
+      for (int a = 0; a < m; ++a) {
+        for (int b = 0; b < m; ++b)
+          entries.emplace_back(int(e.row()) * m + a, j * m + b, e.value());
+      }
+    }
+  }
+  sparse result(k.rows() * m, k.cols() * m);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+TEST_CASE("nodes of three unknowns become one vertex; the graph is that of the nodes") {
+  sparse const nodes = test::grid_laplacian(3, 0.1);
+  slant::detail::quotient_graph const quotient(blown_up(nodes, 3));
+  REQUIRE(quotient.size() == 27);
+  for (int v = 0; v < 27; ++v) CHECK(quotient.weight(v) == 3);
+  Eigen::MatrixXd const expected =
+      Eigen::MatrixXd(nodes).unaryExpr([](double v) { return v != 0 ? 1.0 : 0.0; });
+  CHECK(Eigen::MatrixXd(quotient.graph()) == expected);
+
+  std::vector<char> marked(81, 0);
+  marked[7] = marked[80] = 1;
+  auto const groups = quotient.groups(marked);
+  for (std::size_t v = 0; v < 27; ++v) CHECK(int(groups[v]) == (v == 2 || v == 26 ? 1 : 0));
+
+  std::vector<int> order(27);
+  for (int v = 0; v < 27; ++v) order[std::size_t(v)] = 26 - v;
+  auto const all = quotient.expanded(order);
+  REQUIRE(all.size() == 81);
+  for (std::size_t i = 0; i < 81; ++i) CHECK(all[i] == int(3 * (26 - i / 3) + i % 3));
+}
+
+TEST_CASE("unknowns that differ stay apart; room to insert does not matter; nothing at all") {
+  sparse k = test::grid_laplacian(3, 0.1);
+  CHECK(slant::detail::quotient_graph(k).size() == 27);
+  k.reserve(Eigen::VectorXi::Constant(27, 20));
+  CHECK_FALSE(k.isCompressed());
+  CHECK(slant::detail::quotient_graph(k).size() == 27);
+  CHECK(slant::detail::quotient_graph(sparse(0, 0)).size() == 0);
 }
 
 }  // namespace fill_estimate_test

@@ -2,13 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <fem/active_counts.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <tridiagonal/example_1.hpp>
 
 namespace active_counts_test {
 
@@ -29,24 +24,6 @@ TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
   CHECK(counts(Eigen::Vector4d(0, 3, 0, 5), origin) == fem::active_counts{0, 0});
   CHECK((fem::active_blocks(set, A, Eigen::VectorXd(Eigen::Vector4d(-1, 9, 0, 5)), origin) ==
          std::vector<bool>{true, true, false}));
-}
-
-TEST_CASE("the active blocks do not depend on units") {
-  Eigen::SparseMatrix<double> const A = example_1::matrix();
-  Eigen::VectorXd const b = example_1::right_hand_side(), g = example_1::radii();
-  for (double const stiffness : {1.0, 0x1p-60, 0x1p60})
-    for (double const length : {1.0, 0x1p-40, 0x1p40}) {
-      auto const set = slant::discs<slant::planar>((length * g).eval());
-      Eigen::SparseMatrix<double> const scaled = stiffness * A;
-      Eigen::VectorXd const load = stiffness * length * b;
-      auto const qp = slant::separable_qp{
-          slant::matrix<slant::self_adjoint, slant::positive_definite>(scaled), load, set};
-      auto const report = slant::solve(slant::kprgp{qp}, Eigen::VectorXd::Zero(12).eval(),
-                                       slant::reduced_gradient_below(1e-10) || slant::at_most(500));
-      REQUIRE(report.converged());
-      CHECK((fem::active_blocks(set, scaled, load, report.x()) ==
-             std::vector<bool>{false, true, true, false, true, false}));
-    }
 }
 
 TEST_CASE("sizes are checked") {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fem/five_point.hpp>
 #include <limits>
-#include <numbers>
 #include <oracle/naive_membrane.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/testing/archetypes.hpp>
@@ -60,26 +59,6 @@ TEST_CASE("without a matrix the same as with one, and as the sum over the triang
   }
 }
 
-// sin(jπx/width) sin(kπy/height) on the nodes is an eigenvector of the Laplacian.
-TEST_CASE("eigenvalues of the Laplacian in closed form") {
-  fem::rectangle_grid<> const grid{.nx = 9, .ny = 6, .width = 2, .height = 3};
-  fem::five_point<> const a(grid, [](double) { return 1.0; });
-  double const π = std::numbers::pi;
-  for (int j : {1, 4, 9})
-    for (int k : {1, 6}) {
-      Eigen::VectorXd const v = fem::at_nodes(grid, [&](double x, double y) {
-        return std::sin(j * π * x / 2) * std::sin(k * π * y / 3);
-      });
-      double const in_x = 2 * std::sin(j * π / 20) / grid.hx();
-      double const in_y = 2 * std::sin(k * π / 14) / grid.hy();
-      double const λ = grid.hx() * grid.hy() * (in_x * in_x + in_y * in_y);
-      Eigen::VectorXd y(v.size());
-      a.apply(v, y);
-      CHECK((y - λ * v).norm() < 1e-13 * a.largest_eigenvalue_bound() * v.norm());
-      CHECK(λ < a.largest_eigenvalue_bound());
-    }
-}
-
 TEST_CASE("the bound of the spectrum holds where the weight varies, and is not far off") {
   auto const a = some_operator(8, 9);
   double const bound = a.largest_eigenvalue_bound();
@@ -89,17 +68,6 @@ TEST_CASE("the bound of the spectrum holds where the weight varies, and is not f
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 9; ++j) zigzag[i + 8 * j] = i < 2 ? ((i + j) % 2 == 0 ? 1 : -1) : 0;
   CHECK(zigzag.dot(A * zigzag) > bound / 2 * zigzag.squaredNorm());
-}
-
-TEST_CASE("the energy of a linear function is that of its slope") {
-  // v = x on the nodes of a line, except for the last edge, where it falls to zero.
-  fem::rectangle_grid<> const grid{.nx = 4, .ny = 1, .width = 5, .height = 2};
-  fem::five_point<> const a(grid, [](double) { return 3.0; });
-  Eigen::VectorXd const v = fem::at_nodes(grid, [](double x, double) { return x; });
-  Eigen::VectorXd y(4);
-  a.apply(v, y);
-  // Triangles of area 1/2 with weight 3: slopes in x four times 1 and once −4, in y twice v/1.
-  CHECK(v.dot(y) == doctest::Approx(3 * (4 + 16) + 2 * 3 * (1 + 4 + 9 + 16)));
 }
 
 TEST_CASE("an application does not allocate") {

@@ -133,30 +133,6 @@ TEST_CASE("the naive method agrees, node by node, and in what it touches") {
   check(fem::make_double_obstacle<>(nx, ny), one);
 }
 
-TEST_CASE("solutions have the symmetries of their problems") {
-  auto const largest = [](VectorXd const& v) { return v.cwiseAbs().maxCoeff(); };
-  auto const mirrored = [](fem::rectangle_grid<> const& g, VectorXd const& v, bool in_x, bool in_y,
-                           bool swapped) {
-    VectorXd image(v.size());
-    for (Eigen::Index j = 0; j < g.ny; ++j)
-      for (Eigen::Index i = 0; i < g.nx; ++i) {
-        Eigen::Index const k = in_x ? g.nx - 1 - i : i;
-        Eigen::Index const l = in_y ? g.ny - 1 - j : j;
-        image[g.unknown(i, j)] = v[swapped ? g.unknown(l, k) : g.unknown(k, l)];
-      }
-    return image;
-  };
-  auto const torsion = fem::make_elastic_torsion<>(14, 14);
-  VectorXd const v = solve(torsion);
-  CHECK(largest(v - mirrored(torsion.grid, v, true, false, false)) < 1e-10 * largest(v));
-  CHECK(largest(v - mirrored(torsion.grid, v, false, true, false)) < 1e-10 * largest(v));
-  CHECK(largest(v - mirrored(torsion.grid, v, false, false, true)) < 1e-10 * largest(v));
-  auto const bearing = fem::make_journal_bearing<>(15, 10);
-  VectorXd const p = solve(bearing);
-  CHECK(largest(p - mirrored(bearing.grid, p, false, true, false)) < 1e-10 * largest(p));
-  CHECK(largest(p - mirrored(bearing.grid, p, true, false, false)) > 0.1 * largest(p));
-}
-
 TEST_CASE("from a coarse grid: few steps, however fine the grid is") {
   // Without optimisation two grids; the steps are counted all the same.
   int const finest = test::effort(128, 32);
@@ -178,20 +154,6 @@ TEST_CASE("from a coarse grid: few steps, however fine the grid is") {
   check([](int n) { return fem::make_journal_bearing<>(n, n); });
   check([](int n) { return fem::make_lower_obstacle<>(n, n); });
   check([](int n) { return fem::make_double_obstacle<>(n, n); });
-}
-
-TEST_CASE("bounds on one side may as well be half lines") {
-  auto const m = fem::make_journal_bearing<>(12, 9);
-  VectorXd const zero = VectorXd::Zero(m.grid.size());
-  auto const set = slant::half_lines(m.lower);
-  auto const by_half_lines =
-      slant::solve(slant::symmetric_newton{slant::separable_qp{m.A, m.b, set},
-                                           fem::incomplete_five_point<>(m.A),
-                                           {.step_length = 2 / m.A.largest_eigenvalue_bound()}},
-                   zero, slant::reduced_gradient_below(1e-12) || slant::at_most(300));
-  auto const by_intervals = run_newton(m, m.A, zero);
-  CHECK(by_half_lines.state.work == by_intervals.state.work);
-  CHECK((by_half_lines.x() - by_intervals.x()).isZero(0));
 }
 
 TEST_CASE("data out of range are refused") {

@@ -7,19 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fem/brick_mesh.hpp>
-#include <fem/double_obstacle.hpp>
 #include <fem/plots/contact_line_plot.hpp>
 #include <fem/plots/contact_plot.hpp>
-#include <fem/plots/flow_plot.hpp>
 #include <fem/plots/gnuplot.hpp>
 #include <fem/plots/history_plot.hpp>
-#include <fem/plots/membrane_plot.hpp>
-#include <fem/plots/slip_history_plot.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_plates.hpp>
 #include <initializer_list>
 #include <io/io_support.hpp>
-#include <limits>
 #include <string>
 
 namespace plots_test {
@@ -108,67 +103,6 @@ TEST_CASE("histories: what a logarithmic axis cannot show is left out; Newton st
   CHECK(series[1].newton_steps[0].residual == 4.5);
   CHECK(fem::history_script("h.png", {}, {}).empty());
   CHECK_FALSE(fem::history_plot("h.png", {{"only zero", {{1, 0}}}}).written);
-}
-
-TEST_CASE("slip by steps: states along one line of nodes, shares of the whole side") {
-  auto const scene = fem::make_steel_brick({.k = 1});  // 3 × 2 nodes, the side is 3 × 1
-  auto const field = fem::make_contact_field(scene, Eigen::VectorXd::Zero(scene.f.size()).eval(),
-                                             Eigen::VectorXd::Ones(scene.contact_count()).eval(),
-                                             Eigen::VectorXd::Zero(scene.T.rows()).eval());
-  using enum fem::contact_state;
-  std::vector<fem::slip_record> const records{{0.5, {stick, stick, stick, stick, stick, stick}},
-                                              {1.0, {slip, slip, stick, stick, open, open}}};
-  auto const script = fem::slip_history_script("slip.png", field, records, "It's slipping");
-  check_holds(script, {"'It''s slipping'", "$shares << EOD\n0.25 0 0.5 0 1\n"});
-  CHECK(rows_of(script, "$line") == 3 * 2);  // one of two lines of three nodes, two steps
-  CHECK(rows_of(script, "$shares") == 2);
-  CHECK(fem::slip_history_plot("slip.png", field, {}, "none").message.starts_with("no picture"));
-}
-
-TEST_CASE("membranes: a row per node, of many every n-th, and the counts of the states") {
-  auto const m = fem::make_double_obstacle<>(3, 2);
-  Eigen::VectorXd const v = Eigen::VectorXd::LinSpaced(6, 1, 6);
-  fem::membrane_contact<> const contact{(Eigen::VectorXi(6) << -1, 0, 1, 0, 0, -1).finished(), v};
-  check_holds(fem::membrane_script("m.png", "It's", m, v, contact),
-              {"set output 'm.png'", "title 'It''s'", "0.25 0.33333333 1 -1\n",
-               "0.75 0.66666667 6 -1\n", "lower obstacle 2, none 3, upper obstacle 1 nodes"});
-  auto const many = fem::make_double_obstacle<>(500, 3);
-  Eigen::VectorXd const zero = Eigen::VectorXd::Zero(1500);
-  auto const script =
-      fem::membrane_script("m.png", "", many, zero, {Eigen::VectorXi::Zero(1500), zero});
-  CHECK(rows_of(script, "$nodes") == 3 * (167 + 1));  // and a blank line behind each line
-}
-
-TEST_CASE("flows: arrows, a row per wall node and the counts of the states") {
-  // Made up: three nodes at the bottom of a square are its wall, the second of which slips.
-  fem::stokes_flow flow;
-  flow.domain = fem::make_rectangle({3, 3}, {1, 1});
-  flow.dirichlet = {"left", "top"};
-  flow.wall = "bottom";
-  flow.slip_bound = [](auto const&) { return 2.0; };
-  flow.velocity = [](Eigen::Vector2d const& x) -> Eigen::Vector2d { return {x[1], 0}; };
-  auto const scene = fem::make_stokes_scene(flow);
-  fem::stokes_solution solution;
-  solution.u = Eigen::VectorXd::Constant(scene.velocity_count(), 0.25);
-  solution.tangential = scene.g[1] * Eigen::VectorXd::Unit(3, 1);
-  solution.normal = Eigen::VectorXd::Zero(3);
-  solution.p = Eigen::VectorXd::Zero(scene.pressure_count());
-  auto field = fem::make_wall_field(scene, solution);
-  field.state = {fem::wall_state::stick, fem::wall_state::slip, fem::wall_state::stick};
-  auto const script = [&] {
-    return fem::flow_script("f.png", scene, solution, field, {{0, 0}, {1.01, 1.01}},
-                            {{0, 0}, {0.5, 0.5}}, "It's");
-  };
-  // The second node is at the middle of the wall, σ_t = −2 between −2 and 2, slipping.
-  check_holds(script(), {"title 'stick 2'", "title 'slip 1'", "'It''s'", "title 'bounds'",
-                         " 0.66666667 0 -2 2 -2 1 \n"});
-  CHECK(rows_of(script(), "$channel") == 16);
-  CHECK(rows_of(script(), "$wall") == 3);
-  field.bound.setConstant(std::numeric_limits<double>::infinity());
-  CHECK_FALSE(contains(script(), "bounds"));
-  auto const none = fem::flow_plot("/no/such/folder/f.png", scene, solution, {}, {{0, 0}, {1, 1}},
-                                   {{0, 0}, {1, 1}}, "");
-  CHECK(none.message == "no picture: there are no wall nodes");
 }
 
 TEST_CASE("pictures become a PNG where gnuplot is installed") {

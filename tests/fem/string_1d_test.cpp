@@ -52,21 +52,6 @@ TEST_CASE("the free wire has the closed form of its difference equation") {
   }
 }
 
-TEST_CASE("it converges to sin 6πt and -sin 2πt with the second order") {
-  auto const error = [](Eigen::Index m) {
-    auto const wire = fem::make_wire(m);
-    auto const y = wire.shape(solve(wire));
-    double worst = 0;
-    for (Eigen::Index node = 0; node < 2 * m; ++node)
-      worst = std::max({worst, std::abs(y(node, 0) - std::sin(6 * π * wire.t(node))),
-                        std::abs(y(node, 1) + std::sin(2 * π * wire.t(node)))});
-    return worst;
-  };
-  double const coarse = error(20);
-  double const fine = error(40);
-  CHECK(coarse / fine == doctest::Approx(std::pow(81.0 / 41.0, 2)).epsilon(0.05));
-}
-
 TEST_CASE("the energy is that of the piecewise linear wire") {
   auto const wire = fem::make_wire(4);
   Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(16, -1, 2).array().sin();

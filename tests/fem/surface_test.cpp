@@ -47,23 +47,6 @@ TEST_CASE("an affine traction has the right resultant and the right moments") {
   CHECK(forces.bottomRows(2).isZero(0));
 }
 
-TEST_CASE("fixed nodes take no load") {
-  auto const mesh = fem::make_brick_mesh(1);
-  auto const unknowns = fem::number_unknowns(
-      mesh, [&](Eigen::Index node) { return mesh.on(fem::brick_side::left, node); });
-  Eigen::VectorXd f = Eigen::VectorXd::Zero(unknowns.count);
-  fem::add_traction<3>(mesh, unknowns, fem::brick_side::top, {0, 0, -1}, f);
-  CHECK(f.sum() == doctest::Approx(-2.5));  // the nodes at x = 0 would have taken half a cell
-}
-
-TEST_CASE("loads accumulate") {
-  auto const mesh = fem::make_brick_mesh(1);
-  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.node_count());
-  fem::add_traction<3>(mesh, all_unknown(mesh), fem::brick_side::top, {0, 0, -1}, f);
-  fem::add_traction<3>(mesh, all_unknown(mesh), fem::brick_side::top, {0, 0, -2}, f);
-  CHECK(f.sum() == doctest::Approx(-9));
-}
-
 TEST_CASE("trapezoidal weights sum to the area and patches tile the side") {
   auto const mesh = fem::make_brick_mesh(2, {2.5, 0.75, 1.25});
   for (fem::box_side const side :

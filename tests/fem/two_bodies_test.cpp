@@ -85,36 +85,6 @@ TEST_CASE("rigid rotations of both bodies keep the contact closed, of one they o
   }
 }
 
-TEST_CASE("action and reaction: contact forces sum to zero over both bodies") {
-  auto const scene = fem::make_two_bricks(3);
-  Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(9, 1, 2);
-  Eigen::VectorXd const μ = Eigen::VectorXd::LinSpaced(18, -1, 3);
-  Eigen::VectorXd const force = scene.N.transpose() * λ + scene.T.transpose() * μ;
-  auto const nodal = scene.displacement(force);
-  CHECK(nodal.rowwise().sum().norm() < 1e-14);
-  // What the upper body feels points up: against its outer normal (0, 0, −1).
-  CHECK(nodal.row(2).head(nodal.cols() / 2).sum() == doctest::Approx(-λ.sum()));
-}
-
-TEST_CASE("the stiffness is that of the bodies alone, each in its place") {
-  auto const pair = halves<3>(1);
-  auto const scene = fem::make_two_body_scene(pair);
-  auto const alone = [](fem::loaded_box<3> const& box) {
-    return fem::make_contact_scene<3>({.mesh = box.mesh,
-                                       .material = box.material,
-                                       .fixed = box.fixed,
-                                       .contact = {2, false}})
-        .K.toDense();
-  };
-  Eigen::MatrixXd const K1 = alone(pair.first);
-  Eigen::MatrixXd const K2 = alone(pair.second);
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(scene.K.rows(), scene.K.rows());
-  expected.topLeftCorner(K1.rows(), K1.rows()) = K1;
-  expected.bottomRightCorner(K2.rows(), K2.rows()) = K2;
-  CHECK((scene.K.toDense() == expected));
-  CHECK(scene.K.isCompressed());
-}
-
 TEST_CASE("the printed numbers of unknowns and multipliers") {
   for (auto const& row : fem::lecture_table_5) {
     CHECK(12 * row.k * (row.k + 1) == row.unknowns);

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "toy_method.hpp"
-
 #include <slant/iteration/iterates.hpp>
 
+#include <slant/iteration/solve.hpp>
+#include <slant/testing/archetypes.hpp>
+
 #include <doctest/doctest.h>
+
 #include <range/v3/view/take.hpp>
 #include <range/v3/view/take_while.hpp>
 #include <range/v3/view/transform.hpp>
+#include "toy_method.hpp"
 
 #include <vector>
 
 namespace iterates_test {
+
+namespace archetype = slant::testing::archetype;
 
 TEST_CASE("iterates begins with the start and ends behind the state at rest") {
   toy::halving method;
@@ -76,6 +81,27 @@ TEST_CASE("taking n states performs n - 1 steps") {
   }
   CHECK(states == 4);
   CHECK(method.steps <= 4);  // the view may look one ahead, never more
+}
+
+TEST_CASE("solve runs a minimal method to its end, or to that of a minimal rule") {
+  archetype::iterative_method const method;
+  archetype::observer seen;
+  auto const r = slant::solve(method, 5, archetype::stopping_rule(0), seen);
+  CHECK(r.converged());
+  CHECK(r.iterations() == 5);
+  CHECK(seen.seen() == 7);  // six numbers, and the state that came to rest
+  auto const stopped = slant::solve(method, 5, archetype::stopping_rule(3) || slant::at_most(10));
+  CHECK(stopped.status == slant::status::interrupted);
+  CHECK(stopped.reason == "below");
+  CHECK(stopped.x() == 2);
+  CHECK(slant::solve(method, 5, archetype::stopping_rule(3) && slant::at_most(4)).x() == 1);
+}
+
+TEST_CASE("iterates shows the states of a minimal method") {
+  archetype::iterative_method const method;
+  int sum = 0;
+  for (auto const& s : slant::iterates(method, 4)) sum += s.x;
+  CHECK(sum == 4 + 3 + 2 + 1);
 }
 
 }  // namespace iterates_test

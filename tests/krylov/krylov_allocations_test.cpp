@@ -7,9 +7,8 @@
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/krylov/face_cg.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>

@@ -34,17 +34,6 @@ struct everything {
   void keep(VectorXd const& x, VectorXd& y) const { y = x; }
 };
 
-TEST_CASE("sizes and numbers of a linear system are checked") {
-  auto const A = test::spd(test::with_spectrum(test::log_spaced(4, 10)));
-  using slant::bad_input;
-  CHECK_NOTHROW(slant::detail::check_linear_system(A, VectorXd(VectorXd::Ones(4))));
-  CHECK_THROWS_AS(slant::detail::check_linear_system(A, VectorXd(VectorXd::Ones(5))), bad_input);
-  VectorXd b = VectorXd::Ones(4);
-  b(2) = std::numeric_limits<double>::infinity();
-  CHECK_THROWS_WITH_AS(slant::detail::check_linear_system(A, b),
-                       "b[2]: got inf, expected a finite number", bad_input);
-}
-
 TEST_CASE("first residual and its scale: one product, none from zero") {
   auto const M = test::with_spectrum(test::log_spaced(4, 10));
   auto const A = slant::counted(test::spd(M));

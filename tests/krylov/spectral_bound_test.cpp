@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
 #include <slant/krylov/spectral_bound.hpp>
+
 #include <slant/operators/counted.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/diagonal.hpp>
 
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <Eigen/Eigenvalues>
 #include <support/effort.hpp>
+#include "spd_matrices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
 
 namespace spectral_bound_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using slant::detail::largest_tridiagonal_eigenvalue;
+using slant::detail::smallest_tridiagonal_eigenvalue;
 
 TEST_CASE("the bound is never below the largest eigenvalue, and not far above it") {
   int tested = 0;
@@ -94,6 +103,83 @@ TEST_CASE("zero operator, no unknowns, broken operators") {
   CHECK_THROWS_WITH_AS((void)slant::largest_eigenvalue_bound(A, VectorXd(4), {.steps = 1}),
                        "steps: got 1, expected at least 2 Lanczos steps", slant::bad_input);
   CHECK_THROWS_AS((void)slant::largest_eigenvalue_bound(A, VectorXd(4), {.failure = 0}),
+                  slant::bad_input);
+}
+
+/// All eigenvalues, ascending.
+Eigen::VectorXd by_eigen(std::vector<double> const& a, std::vector<double> const& b) {
+  auto const n = Eigen::Index(a.size());
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    T(i, i) = a[std::size_t(i)];
+    if (i + 1 < n) T(i, i + 1) = T(i + 1, i) = b[std::size_t(i)];
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(T).eigenvalues();
+}
+
+TEST_CASE("random matrices of all sizes, as by a dense eigenvalue solver") {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> gaussian;
+  for (std::size_t n = 1; n <= 30; ++n) {
+    std::vector<double> a(n), b(n - 1);
+    for (auto& e : a) e = gaussian(generator);
+    for (auto& e : b) e = std::exp(3 * gaussian(generator));
+    Eigen::VectorXd const expected = by_eigen(a, b);
+    double const tolerance = 1e-14 * double(n) * (expected.cwiseAbs().maxCoeff() + 1);
+    CHECK(std::abs(largest_tridiagonal_eigenvalue(a, b) - expected(expected.size() - 1)) <=
+          tolerance);
+    CHECK(std::abs(smallest_tridiagonal_eigenvalue(a, b) - expected(0)) <= tolerance);
+  }
+}
+
+TEST_CASE("closed form: tridiag(-1, 2, -1)") {
+  for (std::size_t const n : {1U, 2U, 5U, 100U}) {
+    std::vector<double> const a(n, 2.0), b(n - 1, -1.0);
+    double const π = std::acos(-1.0), λ = 2 - 2 * std::cos(double(n) * π / double(n + 1));
+    CHECK(largest_tridiagonal_eigenvalue(a, b) == doctest::Approx(λ).epsilon(1e-15));
+    CHECK(smallest_tridiagonal_eigenvalue(a, b) == doctest::Approx(4 - λ).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("decoupled, zero and negative matrices; powers of two change nothing") {
+  CHECK(largest_tridiagonal_eigenvalue<double>({3, 7, -1}, {0, 0}) == 7);
+  CHECK(smallest_tridiagonal_eigenvalue<double>({3, 7, -1}, {0, 0}) == -1);
+  CHECK(largest_tridiagonal_eigenvalue<double>({0, 0}, {0}) == 0);
+  CHECK(largest_tridiagonal_eigenvalue<double>({-4, -2}, {0}) == -2);
+  std::vector<double> const a{1, 2, 3}, b{0.5, 0.25};
+  double const λ = largest_tridiagonal_eigenvalue(a, b);
+  for (int e : {-900, 900}) {
+    auto const in = [e](std::vector<double> v) {
+      for (auto& x : v) x = std::ldexp(x, e);
+      return v;
+    };
+    CHECK(largest_tridiagonal_eigenvalue(in(a), in(b)) == std::ldexp(λ, e));
+  }
+}
+
+TEST_CASE(
+    "the length is best for small condition numbers, near 2/σ_max for large ones, always safe") {
+  for (double κ : {1.0, 1.5, 3.0, 10.0, 1e6}) {
+    for (Eigen::Index n : {5, 40, test::effort(200, 60)}) {
+      auto const M = test::with_spectrum(test::log_spaced(n, κ));
+      double const σ = M.operatorNorm();
+      auto const step = slant::safe_gradient_step(test::spd(M), VectorXd(n), 1.9);
+      CHECK(step.length * σ < 2);
+      CHECK(step.length * σ <= 1.9 + 1e-12);
+      CHECK(step.length * σ > 0.6 * std::min(1.9, 2 / (1 + 1 / κ)));
+      CHECK(step.σ == doctest::Approx(σ).epsilon(0.02));
+      CHECK(step.applications <= n);
+    }
+  }
+}
+
+TEST_CASE("zero operator, operators out of range") {
+  auto const nothing = slant::declare<slant::self_adjoint, slant::positive_semidefinite>(
+      slant::diagonal(VectorXd(VectorXd::Zero(3))));
+  CHECK(slant::safe_gradient_step(nothing, VectorXd(3), 1.9).length == 1);
+  auto const tiny =
+      slant::diagonal<slant::positive_definite>(VectorXd(VectorXd::Constant(3, 1e-310)));
+  CHECK_THROWS_AS(static_cast<void>(slant::safe_gradient_step(tiny, VectorXd(3), 1.9)),
                   slant::bad_input);
 }
 

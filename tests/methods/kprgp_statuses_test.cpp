@@ -5,7 +5,7 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "mixture.hpp"
-
 #include <slant/iteration/solve.hpp>
+
+#include <slant/iteration/iterates.hpp>
+#include <slant/iteration/stopping.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/operators/counted.hpp>
-
+#include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
@@ -14,16 +17,21 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <Eigen/Eigenvalues>
 #include <krylov/spd_matrices.hpp>
-#include <limits>
 #include <oracle/certificate.hpp>
 #include <oracle/dense_newton.hpp>
+#include "example_one.hpp"
+#include "mixture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace kprgp_test {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
 using test::mixture;
 
 TEST_CASE("kprgp agrees with Newton's method on dense data, whatever its options") {
@@ -99,6 +107,338 @@ TEST_CASE("the report counts every product, and a given step length saves those 
   };
   CHECK(run(slant::kprgp_options<double>{}).setup_applications > 0);
   CHECK(run(slant::kprgp_options<double>{.step_length = 1.0}).setup_applications == 0);
+}
+
+// P_Λ(x0), its gradient, the parts of the reduced gradient: by their definitions.
+TEST_CASE("the first state is that of the projected start") {
+  test::mixture const p(30);
+  auto const A = test::spd(p.A);
+  auto const set = p.set();
+  slant::kprgp const method{slant::separable_qp{A, p.b, set}, {.step_length = 0.7}};
+  VectorXd const x0 = 3 * test::random_vector(20, 11);
+  auto const s = method.start(x0);
+  CHECK(s.x == slant::project(set, x0));
+  VectorXd const r = p.A * s.x - p.b;
+  CHECK((s.unit * s.r - r).norm() <= 1e-14 * r.norm());
+  CHECK(s.r.norm() <= 1);
+  VectorXd const reduced = (s.x - slant::project(set, VectorXd(s.x - 0.7 * r))) / 0.7;
+  CHECK((s.unit * s.reduced - reduced).norm() <= 1e-13 * r.norm());
+  CHECK(s.reduced_gradient_norm == doctest::Approx(reduced.norm()).epsilon(1e-12));
+  VectorXd free = reduced;
+  s.face.keep(reduced, free);
+  double const square = s.unit * s.unit;
+  CHECK(s.φr * square == doctest::Approx(free.dot(r)).epsilon(1e-11));
+  CHECK(s.βr * square == doctest::Approx((reduced - free).dot(r)).epsilon(1e-11));
+  VectorXd const origin = slant::project(set, VectorXd(VectorXd::Zero(20)));
+  VectorXd const there = slant::project(set, VectorXd(origin - 0.7 * (p.A * origin - p.b)));
+  CHECK(s.gradient_scale == doctest::Approx((origin - there).norm() / 0.7));
+  CHECK(s.iteration == 0);
+  CHECK(s.status == slant::status::running);
+  CHECK(s.work.operator_applications == 2);
+  CHECK(method.start(VectorXd::Zero(20)).work.operator_applications == 1);
+}
+
+/// α̃ that kprgp takes for the matrix M, and the largest eigenvalue of M.
+double step_times_norm(MatrixXd const& M, slant::kprgp_options<double> const& options = {}) {
+  auto const A = test::spd(M);
+  auto const n = M.rows();
+  slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(n)), slant::half_lines(n)};
+  return slant::kprgp(qp, options).start(VectorXd::Zero(n)).step_length * M.operatorNorm();
+}
+
+TEST_CASE("the default step is the best of the gradient method, at most step_factor / σ_max") {
+  for (double κ : {1.0, 1.5, 3.0, 10.0}) {
+    MatrixXd const M = test::with_spectrum(test::log_spaced(20, κ));
+    double const best = 2 / (1 + 1 / κ);
+    CHECK(step_times_norm(M) == doctest::Approx(std::min(1.9, best)).epsilon(1e-10));
+    CHECK(step_times_norm(M, {.step_factor = 0.5}) == doctest::Approx(0.5).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a projection is found in one step, whatever the units") {
+  // min ½ s ‖x‖² − s cᵀx over Λ is P_Λ(c).
+  auto const set = slant::cartesian(slant::discs(VectorXd{{1.0, 2.0, 0.5}}), slant::half_lines(4));
+  VectorXd const c = test::random_vector(10);
+  for (double s : {1e-9, 1.0, 1e9}) {
+    MatrixXd const M = s * MatrixXd::Identity(10, 10);
+    auto const A = test::spd(M);
+    slant::separable_qp const qp{A, VectorXd(s * c), set};
+    auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(10)),
+                                slant::reduced_gradient_below(1e-14) || slant::at_most(10));
+    CHECK(r.converged());
+    CHECK(r.iterations() <= 2);
+    VectorXd expected(10);
+    set.project(c, expected);
+    CHECK((r.x() - expected).norm() <= 1e-14);
+  }
+}
+
+auto spd(VectorXd const& d) {
+  return slant::diagonal<slant::positive_definite>(VectorXd(d));
+}
+
+TEST_CASE("what the constraints absorb does not make the tolerance looser") {
+  auto const stop = slant::reduced_gradient_below(1e-8) || slant::at_most(100);
+  VectorXd const zero = VectorXd::Zero(2), one = VectorXd::Ones(2);
+  for (double pressed : {-1.0, -1e9, -1e20}) {
+    CAPTURE(pressed);
+    VectorXd const b{{pressed, 1.0}};
+    slant::separable_qp const qp{spd(one), b, slant::half_lines(2)};
+    auto const r = slant::solve(slant::kprgp{qp}, zero, stop);
+    CHECK(r.converged());
+    CHECK((r.x() - VectorXd{{0.0, 1.0}}).norm() <= 1e-7);
+  }
+  // Nearly linear: the bounds decide, not A.
+  slant::separable_qp const steep{spd(1e-9 * one), one, slant::intervals(one)};
+  auto const r = slant::solve(slant::kprgp{steep}, zero, stop);
+  CHECK(r.converged());
+  CHECK(r.x() == one);
+}
+
+TEST_CASE("nor does a start far away") {
+  MatrixXd M = 2 * MatrixXd::Identity(20, 20);
+  M.diagonal(1).setConstant(-1);
+  M.diagonal(-1).setConstant(-1);
+  auto const A = test::spd(M);
+  VectorXd const b = VectorXd::Zero(20);
+  VectorXd lower = VectorXd::Constant(20, -std::numeric_limits<double>::infinity());
+  lower(3) = 1;
+  lower(11) = 2;
+  slant::separable_qp const qp{A, b, slant::half_lines(lower)};
+  auto const stop = slant::reduced_gradient_below(1e-8) || slant::at_most(5000);
+  auto const near = slant::solve(slant::kprgp{qp}, b, stop);
+  REQUIRE(near.converged());
+  for (double size : {1e4, 1e8, 1e12}) {
+    auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Constant(20, size)), stop);
+    CHECK(r.converged());
+    CHECK((r.x() - near.x()).norm() <= 1e-6);
+  }
+}
+
+TEST_CASE("a solution next to the origin is found there, wherever the run starts") {
+  VectorXd const d{{1.0, 2.0}}, zero = VectorXd::Zero(2);
+  slant::separable_qp const qp{spd(d), zero, slant::half_lines(VectorXd(VectorXd::Ones(2)))};
+  auto const r = slant::solve(slant::kprgp{qp}, VectorXd{{1e8, 1e8}},
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(10));
+  CHECK(r.converged());
+  CHECK(r.iterations() == 0);
+  CHECK(r.x() == VectorXd::Ones(2));
+}
+
+TEST_CASE("a huge bound elsewhere, or a tiny step, does not make the first point the solution") {
+  VectorXd const b{{0.0, 1.0}}, one = VectorXd::Ones(2);
+  slant::separable_qp const qp{spd(one), b, slant::half_lines(VectorXd{{1e20, 0.0}})};
+  auto const stop = slant::reduced_gradient_below(1e-8) || slant::at_most(100);
+  for (auto const& options :
+       {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.step_length = 1e-12}}) {
+    auto const r = slant::solve(slant::kprgp{qp, options}, VectorXd(VectorXd::Zero(2)), stop);
+    CHECK(r.converged());
+    CHECK(r.x()(1) == doctest::Approx(1));
+  }
+}
+
+TEST_CASE("an operator that declares to be definite is never called unbounded") {
+  for (double κ : {1e14, 1e16, 1e20}) {
+    VectorXd const b = VectorXd::Ones(2);
+    slant::separable_qp const qp{spd(VectorXd{{κ, 1.0}}), b, slant::free_components(2)};
+    auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(2)),
+                                slant::reduced_gradient_below(1e-12) || slant::at_most(100));
+    CHECK(r.converged());
+    CHECK(r.x()(0) == doctest::Approx(1 / κ));
+    CHECK(r.x()(1) == doctest::Approx(1));
+  }
+}
+
+TEST_CASE("a kernel is told from a soft direction by A, not by the step length asked for") {
+  auto const A = slant::declare<slant::self_adjoint, slant::positive_semidefinite>(
+      slant::diagonal(VectorXd{{1.0, 1e-7}}));
+  VectorXd const b = VectorXd::Ones(2);
+  slant::separable_qp const qp{A, b, slant::half_lines(2)};
+  for (double step : {1.0, 1e-6, 1e-10}) {
+    auto const r =
+        slant::solve(slant::kprgp{qp, {.step_length = step}}, VectorXd(VectorXd::Zero(2)),
+                     slant::reduced_gradient_below(1e-8) || slant::at_most(100));
+    CHECK(r.converged());
+    CHECK(r.x()(1) == doctest::Approx(1e7));
+  }
+}
+
+TEST_CASE("an eigenvalue whose reciprocal is no number is refused by name") {
+  VectorXd const one = VectorXd::Ones(1);
+  slant::separable_qp const qp{spd(1e-310 * one), one, slant::intervals(one)};
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(slant::kprgp(qp).start(one)),
+      "A: got largest eigenvalue 1e-310, expected one whose reciprocal is a finite number > 0",
+      slant::bad_input);
+}
+
+// Discs beside free components, A singular, b not in its range: a long way along the discs.
+auto discs_beside_free_components() {
+  return slant::cartesian(slant::discs(VectorXd(VectorXd::Ones(4))), slant::free_components(4));
+}
+struct slow_problem {
+  MatrixXd M;
+  VectorXd b;
+  explicit slow_problem(unsigned seed) {
+    VectorXd spectrum = VectorXd::Zero(12);
+    spectrum.head(8) = test::log_spaced(8, 25);
+    M = test::with_spectrum(spectrum, seed);
+    VectorXd const x = test::random_vector(12, seed),
+                   p = slant::project(discs_beside_free_components(), x);
+    b = M * p + 0.1 * (x - p);
+    VectorXd const y = test::random_vector(12, seed + 500);
+    VectorXd const kernel = y - M.completeOrthogonalDecomposition().solve(M * y);
+    b += 1e-3 * b.norm() / kernel.norm() * kernel;
+  }
+};
+
+TEST_CASE("slow is not stalled: q still falls where the reduced gradient does not") {
+  slow_problem const p(20);
+  auto const A =
+      slant::declare<slant::self_adjoint, slant::positive_semidefinite>(slant::matrix(p.M));
+  slant::separable_qp const qp{A, p.b, discs_beside_free_components()};
+  auto const q_after = [&](slant::index steps) {
+    auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(12)),
+                                slant::reduced_gradient_below(1e-10) || slant::at_most(steps));
+    CHECK(r.status == slant::status::iteration_limit);
+    VectorXd const x = r.x();
+    return 0.5 * x.dot(p.M * x) - p.b.dot(x);
+  };
+  CHECK(q_after(6000) < q_after(2000));
+}
+
+double q_of(Eigen::MatrixXd const& A, VectorXd const& b, VectorXd const& x) {
+  return x.dot(0.5 * (A * x) - b);
+}
+
+/// Does q fall by the factor of [K Theorem 1] in every step? Returns the number of steps seen.
+template <class Method>
+int check_decrease(Method const& method, Eigen::MatrixXd const& M, VectorXd const& b,
+                   VectorXd const& x0, VectorXd const& solution, double η) {
+  double const q_min = q_of(M, b, solution);
+  double const gap0 = q_of(M, b, x0) - q_min;
+  double last = gap0;
+  int seen = 0;
+  for (auto const& s : slant::iterates(method, x0)) {
+    double const gap = q_of(M, b, s.x) - q_min;
+    if (!(gap > 1e-12 * gap0)) break;  // rounding errors of q
+    if (seen > 0) CHECK(gap <= η * last);
+    last = gap;
+    ++seen;
+  }
+  return seen;
+}
+
+TEST_CASE("AS-S: the decrease of q of Theorem 1, discs and intervals") {
+  test::example_one<double> const p;
+  test::example_one_solution<double> const solution;
+  auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
+  Eigen::MatrixXd const M = p.A;
+  VectorXd const σ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues();
+  auto const box = slant::intervals(VectorXd(VectorXd::Constant(12, 1.5)));
+  auto const plane = slant::separable_qp{p.a(), p.b, box};
+  oracle::dense_qp plain{M, p.b.cast<long double>(), {}, {}};
+  for (Eigen::Index i = 0; i < 12; ++i) plain.intervals.push_back({i, -1.5, 1.5});
+  VectorXd const corner = oracle::solve_dense(plain).x.cast<double>();
+  for (double Γ : {0.5, 1.0, 3.0}) {
+    for (double β : {0.5, 1.0, 1.9}) {
+      CAPTURE(Γ);
+      CAPTURE(β);
+      double const α = β / σ(11), Γ_max = std::max(Γ, 1 / Γ);
+      double const η = 1 - α * σ(0) / (2 + 2 * Γ_max * Γ_max);
+      slant::kprgp_options<double> const o{.proportioning = Γ, .step_length = α};
+      CHECK(check_decrease(slant::as_s(qp, o), M, p.b, p.zero(), solution.x, η) > 5);
+      CHECK(check_decrease(slant::as_s(plane, o), M, p.b, p.zero(), corner, η) > 1);
+      CHECK(check_decrease(slant::as(plane, o), M, p.b, p.zero(), corner, η) > 1);
+    }
+  }
+}
+
+TEST_CASE("AS-S agrees with Newton's method on dense data, whatever its options") {
+  test::mixture const p(30);
+  auto const reference = oracle::solve_dense(p.plain());
+  auto const A = test::spd(p.A);
+  auto const qp = slant::separable_qp{A, p.b, p.set()};
+  for (auto const& o :
+       {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.proportioning = 0.01},
+        slant::kprgp_options<double>{.proportioning = 100},
+        slant::kprgp_options<double>{.half_step = false}}) {
+    auto const r = slant::solve(slant::as_s(qp, o), VectorXd(VectorXd::Zero(20)),
+                                slant::reduced_gradient_below(1e-13) || slant::at_most(20000));
+    REQUIRE(r.converged());
+    CHECK((r.x() - reference.x.cast<double>()).norm() <= 1e-10 * r.x().norm());
+  }
+}
+
+TEST_CASE("a block on its boundary that the gradient pulls inside is free for AS-S at once") {
+  VectorXd const b{{3.0, 1.0}};
+  Eigen::MatrixXd const M{{2.0, 1.0}, {1.0, 2.0}};
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(M);
+  auto const set = slant::half_lines(2);
+  auto const qp = slant::separable_qp{A, b, set};
+  VectorXd const zero = VectorXd::Zero(2);
+  auto const first_step = [&](auto const& method) {
+    auto s = method.start(zero);
+    method.step(s);
+    return s.last_step;
+  };
+  CHECK(first_step(slant::as_s(qp)) == slant::kprgp_step::conjugate_gradient);
+  CHECK(first_step(slant::as(qp)) == slant::kprgp_step::proportioning);
+}
+
+TEST_CASE("blocks are released only from (nearly) the minimum on the face") {
+  auto const M = test::with_spectrum(test::log_spaced(20, 100));
+  VectorXd const b = 3 * test::random_vector(20, 5);
+  auto const A = test::spd(M);
+  auto const qp = slant::separable_qp{A, b, slant::half_lines(20)};
+  oracle::dense_qp plain{M, b.cast<long double>(), {}, {}};
+  for (Eigen::Index i = 0; i < 20; ++i) plain.intervals.push_back({i, 0});
+  VectorXd const reference = oracle::solve_dense(plain).x.cast<double>();
+  for (double δ : {0.5, 1e-2, 1e-8}) {
+    CAPTURE(δ);
+    slant::qpc const method{qp, {.face_accuracy = δ}};
+    auto s = method.start(VectorXd::Ones(20));
+    int releases = 0, faces = 0;
+    for (int k = 0; k < 500 && s.reduced_gradient_norm > 1e-10 * s.gradient_scale; ++k) {
+      double const φ = s.φr, β = s.βr, first = s.φr_at_restart;
+      VectorXd const before = s.x;
+      auto const face = s.face;
+      method.step(s);
+      if (s.last_step != slant::kprgp_step::conjugate_gradient) ++faces;
+      if (s.last_step != slant::kprgp_step::proportioning) continue;
+      ++releases;
+      CHECK(φ <= δ * δ * std::max(first, β));
+      // q is as small as it gets without releasing anything, up to that accuracy.
+      VectorXd free_gradient = M * before - b;
+      face.keep(free_gradient, free_gradient);
+      CHECK(free_gradient.squaredNorm() <=
+            1.0001 * s.unit * s.unit * δ * δ * std::max(first, β) + 1e-24 * b.squaredNorm());
+    }
+    CHECK(releases > 0);
+    CHECK(faces > releases);
+    CHECK((s.x - reference).norm() <= 1e-8 * reference.norm());
+  }
+}
+
+TEST_CASE("bounds and intervals only: to the last digits, agreeing with dense Newton") {
+  auto const M = test::with_spectrum(test::log_spaced(20, 100));
+  VectorXd const b = 3 * test::random_vector(20, 5);
+  auto const A = test::spd(M);
+  auto const set = slant::cartesian(slant::half_lines(10), slant::intervals(VectorXd{{0.1, 1e-3}}),
+                                    slant::free_components(8));
+  oracle::dense_qp plain{M, b.cast<long double>(), {}, {}};
+  for (Eigen::Index i = 0; i < 10; ++i) plain.intervals.push_back({i, 0});
+  plain.intervals.push_back({10, -0.1, 0.1});
+  plain.intervals.push_back({11, -1e-3, 1e-3});
+  auto const reference = oracle::solve_dense(plain);
+  auto const counting = slant::counted(A);
+  auto const qp = slant::separable_qp{counting, b, set};
+  auto const r = slant::solve(slant::qpq{qp}, VectorXd(VectorXd::Zero(20)),
+                              slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
+  REQUIRE(r.converged());
+  CHECK((r.x() - reference.x.cast<double>()).norm() <= 1e-10 * r.x().norm());
+  CHECK(counting.applications() ==
+        r.state.work.operator_applications + r.state.work.setup_applications);
 }
 
 }  // namespace kprgp_test

@@ -13,17 +13,18 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Core>
 #include <Eigen/Dense>
+#include <support/allocation_guard.hpp>
 
 #include <cmath>
 #include <limits>
-#include <support/allocation_guard.hpp>
+#include <string>
 
 namespace successive_approximations_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
 constexpr Eigen::Index n = 12;
 
 MatrixXd laplacian() {
@@ -206,6 +207,23 @@ TEST_CASE("goes on from a solution after the data have changed") {
   CHECK(slant::detail::run_to_end(method, s, rule).how == slant::status::converged);
   CHECK(s.work.operator_applications < spent.operator_applications);
   CHECK((s.x - family.by_relaxation()).norm() <= 1e-10);
+}
+
+struct inner_state {};
+using state = slant::successive_state<inner_state, Eigen::VectorXd>;
+
+TEST_CASE("what a status means here; where the inner method is to blame, its own") {
+  state s{};
+  CHECK(s.status == slant::status::running);
+  s.status = slant::status::converged;
+  CHECK(s.reason() == "x solves the problem that belongs to it");
+  s.status = slant::status::stalled;
+  CHECK(s.reason() == "the fixed point iteration gets no nearer");
+  s.status = slant::status::unbounded;
+  for (auto const inner : {slant::status::unbounded, slant::status::breakdown}) {
+    s.inner_status = inner;
+    CHECK(s.reason() == "the inner method reports: " + std::string(slant::to_string(inner)));
+  }
 }
 
 }  // namespace successive_approximations_test

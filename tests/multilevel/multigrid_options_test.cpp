@@ -24,8 +24,18 @@ TEST_CASE("options out of range are named") {
                        slant::bad_input);
   CHECK_THROWS_WITH_AS(options{.levels = 0}.validate(), "levels: got 0, expected at least 1",
                        slant::bad_input);
+  for (slant::index const b : {-1, 4}) {
+    CHECK_THROWS_AS(options{.block_size = b}.validate(), slant::bad_input);
+  }
   CHECK_THROWS_WITH_AS(options{.block_size = -1}.validate(),
-                       "block_size: got -1, expected a number >= 0", slant::bad_input);
+                       "block_size: got -1, expected a number from 0 to 3", slant::bad_input);
+  for (double const c : {1.0, nan}) {
+    CHECK_THROWS_AS(options{.complexity = c}.validate(), slant::bad_input);
+  }
+  CHECK_THROWS_WITH_AS(options{.coordinates = Eigen::MatrixXd::Zero(4, 2)}.validate(),
+                       "rows of coordinates: got 4, expected 2 or 3", slant::bad_input);
+  CHECK_THROWS_AS(options{.coordinates = Eigen::MatrixXd::Constant(3, 2, nan)}.validate(),
+                  slant::bad_input);
 }
 
 }  // namespace multigrid_options_test

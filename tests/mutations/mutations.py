@@ -68,7 +68,7 @@ class Workshop:
 
     def flags(self, library):
         own = [f"-I{library}/include", f"-I{library}/concepts", f"-I{ROOT}/examples",
-               f"-I{ROOT}/tests", f'-DSLANT_TEST_DATA="{ROOT}/tests/data"',
+               f"-I{ROOT}/tests", f'-DSLANT_SOURCE="{ROOT}"',
                f'-DSLANT_PROGRAMS="{ROOT}/build/release/examples"']
         return [*own, *self.other_flags, "-O1", "-w"]
 

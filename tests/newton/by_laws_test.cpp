@@ -4,8 +4,8 @@
 #include "newton_scene.hpp"
 
 #include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/slanting/smooth.hpp>
 #include <slant/testing/archetypes.hpp>
 

@@ -2,13 +2,20 @@
 //
 // Classical Newton: the smooth special case, its rates, and the ways in which it fails.
 #include <slant/iteration/solve.hpp>
+
 #include <slant/iteration/stopping.hpp>
 #include <slant/newton/semismooth_newton.hpp>
+#include <slant/sets/contact_sets.hpp>
 #include <slant/slanting/smooth.hpp>
+#include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <newton/newton_scene.hpp>
+#include <oracle/certificate.hpp>
+#include <support/allocation_guard.hpp>
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -18,6 +25,9 @@ namespace semismooth_newton_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+namespace archetype = slant::testing::archetype;
+constexpr int m = 8;
+constexpr double smallest_radius = 1e-3;
 
 /// One equation with the derivative given.
 template <class Value, class Derivative>
@@ -75,20 +85,22 @@ TEST_CASE("quadratic convergence: e⁺ ≤ c e² in each step, five steps to the
 }
 
 TEST_CASE("a root of multiplicity m: linear with 1 − 1/m, quadratic with steps of length m") {
-  for (int m : {2, 3}) {
-    CAPTURE(m);
+  for (int multiplicity : {2, 3}) {
+    CAPTURE(multiplicity);
     auto const F =
-        equation([m](double y) { return std::pow(y - 1, m) * (y + 2); },
-                 [m](double y) { return std::pow(y - 1, m - 1) * (m * (y + 2) + (y - 1)); });
+        equation([multiplicity](double y) { return std::pow(y - 1, multiplicity) * (y + 2); },
+                 [multiplicity](double y) {
+                   return std::pow(y - 1, multiplicity - 1) * (multiplicity * (y + 2) + (y - 1));
+                 });
     auto const slow =
         errors(slant::semismooth_newton{F, slant::direct_solver{}, slant::full_step{}}, number(2),
                number(1), 20, 1e-5);
     REQUIRE(slow.size() > 8);
     for (std::size_t k = 6; k < slow.size(); ++k) {
-      CHECK(slow[k] / slow[k - 1] == doctest::Approx(1 - 1.0 / m).epsilon(0.05));
+      CHECK(slow[k] / slow[k - 1] == doctest::Approx(1 - 1.0 / multiplicity).epsilon(0.05));
     }
-    slant::semismooth_newton const known{F, slant::direct_solver{},
-                                         slant::multiple_root{.multiplicity = double(m)}};
+    slant::semismooth_newton const known{
+        F, slant::direct_solver{}, slant::multiple_root{.multiplicity = double(multiplicity)}};
     auto const fast = errors(known, number(2), number(1), 20, 1e-12);
     REQUIRE(fast.size() <= 6);
     for (std::size_t k = 1; k < fast.size(); ++k) CHECK(fast[k] <= fast[k - 1] * fast[k - 1]);
@@ -270,6 +282,288 @@ TEST_CASE("bad input is named") {
       (slant::semismooth_newton{
           F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.step_offset = -1}}),
       slant::bad_input);
+}
+
+TEST_CASE("a function, its operator and a vector that can do the least") {
+  archetype::slanting_function const F(3);  // |y| + y/2: zero at y = 0 only
+  auto const r =
+      slant::solve(slant::semismooth_newton{F}, archetype::vector(VectorXd{{1.0, 2.0, 5.0}}),
+                   slant::residual_below(1e-12) || slant::at_most(20));
+  using solver = decltype(slant::semismooth_newton{F})::solver_for<archetype::vector>;
+  static_assert(std::is_same_v<solver, slant::bicgstab_solver>);
+  CHECK(r.converged());
+  CHECK(r.x().local().norm() <= 1e-12);
+}
+
+TEST_CASE("a natural residual of archetypes") {
+  newton_scene::data const d(4);
+  archetype::spd_operator const A(d.A);
+  auto const set = newton_scene::contact_set(4, 1e-2);
+  auto const F = slant::natural_residual(A, archetype::vector(d.b), set, d.ρ);
+  auto const stop = slant::residual_below(1e-12) || slant::at_most(40);
+  auto const r = slant::solve(slant::semismooth_newton{F}, archetype::vector(d.zero()), stop);
+  auto const definite = d.definite();
+  auto const same = slant::natural_residual(definite, d.b, set, d.ρ);
+  auto const expected = slant::solve(slant::semismooth_newton{same}, d.zero(), stop);
+  REQUIRE(r.converged());
+  CHECK((r.x().local() - expected.x()).norm() <= 1e-12 * expected.x().norm());
+  CHECK(r.state.work == expected.state.work);
+}
+
+TEST_CASE("a scalar without silent conversions gives the bits of double") {
+  using S = archetype::scalar;
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  newton_scene::data const d(4);
+  auto const strictly = [](double v) { return S(v); };
+  matrix const strict = d.A.unaryExpr(strictly);
+  vector const b = d.b.unaryExpr(strictly), zero = d.zero().unaryExpr(strictly);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(strict);
+  auto const F = slant::natural_residual(A, b, newton_scene::contact_set<S>(4, 1e-2), S(d.ρ));
+  auto const definite = d.definite();
+  auto const G = slant::natural_residual(definite, d.b, newton_scene::contact_set(4, 1e-2), d.ρ);
+  auto const r = slant::solve(slant::semismooth_newton{F}, zero,
+                              slant::residual_below(S(1e-12)) || slant::at_most(40));
+  auto const expected = slant::solve(slant::semismooth_newton{G}, d.zero(),
+                                     slant::residual_below(1e-12) || slant::at_most(40));
+  REQUIRE(r.converged());
+  CHECK(r.iterations() == expected.iterations());
+  VectorXd const x = r.x().unaryExpr([](S const& x_i) { return x_i.value(); });
+  CHECK((x - expected.x()).norm() <= 1e-12 * expected.x().norm());
+}
+
+TEST_CASE("bad starts: far away, infeasible, random") {
+  newton_scene::data const d(m);
+  auto const A = d.definite();
+  auto const F =
+      slant::natural_residual(A, d.b, newton_scene::contact_set(m, smallest_radius), d.ρ);
+  auto const stop = slant::residual_below(1e-10) || slant::at_most(200);
+  VectorXd const solution = slant::solve(slant::semismooth_newton{F}, d.zero(), stop).x();
+  for (double size : {1.0, 1e3, 1e10}) {
+    for (unsigned seed : {1U, 2U, 3U}) {
+      VectorXd const x0 = size * slanting_support::random_vector(3 * m, seed);
+      auto const r = slant::solve(slant::semismooth_newton{F}, x0, stop);
+      CAPTURE(size);
+      CHECK(r.converged());
+      CHECK((r.x() - solution).norm() <= 1e-8 * solution.norm());
+      CHECK(r.state.residual_scale == slant::norm(slant::evaluate(F, d.zero())));
+    }
+  }
+}
+
+TEST_CASE("slip bounds of zero and infinity: points and free pairs") {
+  newton_scene::data const d(4);
+  auto const A = d.definite();
+  double const infinity = std::numeric_limits<double>::infinity();
+  auto const set =
+      slant::cartesian(slant::power(slant::half_line<>{}, 4),
+                       slant::power(slant::ball<2>{}, VectorXd{{0.0, infinity, 0.5, 0.0}}));
+  auto const F = slant::natural_residual(A, d.b, set, d.ρ);
+  auto const stop = slant::residual_below(1e-13) || slant::at_most(60);
+  auto const check = [&](auto const& method) {
+    auto const r = slant::solve(method, d.zero(), stop);
+    REQUIRE(r.converged());
+    VectorXd const x = r.x(), force = d.A * x - d.b;
+    CHECK(x.segment<2>(4).norm() <= 1e-12);
+    CHECK(x.segment<2>(10).norm() <= 1e-12);
+    CHECK(force.segment<2>(6).norm() <= 1e-11);
+    CHECK(x.segment<2>(8).norm() <= 0.5 * (1 + 1e-12));
+  };
+  check(slant::semismooth_newton{F});
+  check(slant::semismooth_newton{F, slant::direct_solver{}});
+  // Weak contact: bounds that are active without a force.
+  auto const G = slant::natural_residual(A, d.zero(), set, d.ρ);
+  auto const r =
+      slant::solve(slant::semismooth_newton{G}, slanting_support::random_vector(12, 3), stop);
+  CHECK(r.converged());
+  CHECK(r.x().norm() <= 1e-12);
+}
+
+oracle::dense_qp dense(newton_scene::data const& d) {
+  oracle::dense_qp qp{.A = d.A, .b = d.b.cast<oracle::real>()};
+  for (int i = 0; i < m; ++i) {
+    qp.intervals.push_back({.at = i, .lower = 0});
+    double const part = double(i) / (m - 1);
+    qp.circles.push_back({.first = m + 2 * i,
+                          .second = m + 2 * i + 1,
+                          .radius = smallest_radius * std::pow(3 / smallest_radius, part)});
+  }
+  return qp;
+}
+
+TEST_CASE("all solvers and globalisations find the same solution, which is proved to be one") {
+  newton_scene::data const d(m);
+  auto const A = d.definite();
+  auto const set = newton_scene::contact_set(m, smallest_radius);
+  auto const F = slant::natural_residual(A, d.b, set, d.ρ);
+  auto const stop = slant::residual_below(1e-14) || slant::at_most(60);
+  auto const reference = slant::solve(slant::semismooth_newton{F}, d.zero(), stop);
+  REQUIRE(reference.converged());
+  auto const certificate = oracle::certify(dense(d), reference.x().cast<oracle::real>());
+  CHECK(certificate.infeasibility <= 1e-13);
+  CHECK(certificate.energy_error <= 1e-8);  // √ε: the gap is known to ε
+  // Something of everything: free and active bounds, sticking and sliding discs.
+  auto const G = F.slant(reference.x());
+  auto const& state = slant::slant_of_projection(G);
+  int free = 0, sticking = 0;
+  for (int i = 0; i < m; ++i) {
+    free += state.part<0>().block(i)(0, 0) > 0;
+    sticking += state.part<1>().block(i) == MatrixXd(MatrixXd::Identity(2, 2));
+  }
+  REQUIRE((free > 0 && free < m && sticking < m));
+
+  auto const check = [&](auto const& method) {
+    auto const r = slant::solve(method, d.zero(), stop);
+    CHECK(r.converged());
+    CHECK(r.iterations() <= 20);
+    CHECK((r.x() - reference.x()).norm() <= 1e-12 * reference.x().norm());
+  };
+  check(slant::semismooth_newton{F, slant::symmetrized_cg{.warm_start = true}});
+  check(slant::semismooth_newton{F, slant::bicgstab_solver{}});
+  check(slant::semismooth_newton{F, slant::bicgstab_solver{.warm_start = true}});
+  check(slant::semismooth_newton{F, slant::direct_solver{}});
+  check(slant::semismooth_newton{F, slant::by_laws{}, slant::halving_line_search{},
+                                 slant::adaptive_precision{}});
+  check(slant::semismooth_newton{F, slant::direct_solver{}, slant::full_step{}});
+}
+
+TEST_CASE("units do not matter: powers of two give the same bits") {
+  newton_scene::data const d(m);
+  auto const A = d.definite();
+  auto const F =
+      slant::natural_residual(A, d.b, newton_scene::contact_set(m, smallest_radius), d.ρ);
+  auto const stop = slant::residual_below(1e-12) || slant::at_most(60);
+  auto const reference = slant::solve(slant::semismooth_newton{F}, d.zero(), stop);
+  REQUIRE(reference.converged());
+  for (int of_A : {0, 400, -400}) {
+    for (int of_x : {0, 400, -400}) {
+      MatrixXd const matrix = std::ldexp(1.0, of_A) * d.A;
+      VectorXd const b = std::ldexp(1.0, of_A) * (std::ldexp(1.0, of_x) * d.b);
+      auto const B = slant::matrix<slant::self_adjoint, slant::positive_definite>(matrix);
+      auto const set = newton_scene::contact_set(m, smallest_radius, std::ldexp(1.0, of_x));
+      auto const H = slant::natural_residual(B, b, set, std::ldexp(d.ρ, -of_A));
+      auto const r = slant::solve(slant::semismooth_newton{H}, d.zero(), stop);
+      CAPTURE(of_A);
+      CAPTURE(of_x);
+      CHECK(r.converged());
+      CHECK(r.state.work == reference.state.work);
+      CHECK(VectorXd(std::ldexp(1.0, -of_x) * r.x()) == reference.x());
+    }
+  }
+}
+
+/// A problem whose first step from zero has to be shortened, whatever the solver.
+struct scene {
+  scene()
+      : A(slant::counted(d.definite())),
+        F(slant::natural_residual(A, d.b, newton_scene::contact_set(m, 1.5), d.ρ)) {}
+  using counted_type = decltype(slant::counted(std::declval<newton_scene::data>().definite()));
+  using function_type = decltype(slant::natural_residual(
+      std::declval<counted_type const&>(), VectorXd(), newton_scene::contact_set(1, 1.0), 1.0));
+
+  newton_scene::data d{m};
+  counted_type A;
+  function_type F;
+};
+
+/// Steps until the residual is small; each is shown to check(state before, state, products).
+template <class Method, class Check>
+void run(scene const& p, Method const& method, VectorXd const& x0, Check check) {
+  p.A.reset_counts();
+  auto s = method.start(x0);
+  CHECK(p.A.applications() == 1 + s.work.setup_applications);
+  while (s.status == slant::status::running && s.residual_norm > 1e-12 * s.residual_scale &&
+         s.iteration < 40) {
+    auto const before = s;
+    auto const products = p.A.applications();
+    method.step(s);
+    check(before, s, p.A.applications() - products);
+    CHECK(p.A.applications() == s.work.operator_applications + s.work.setup_applications);
+  }
+  CHECK(s.residual_norm <= 1e-12 * s.residual_scale);
+}
+
+TEST_CASE(
+    "symmetrized_cg: one for F, one for the right-hand side, one an iteration, one a halving") {
+  scene const p;
+  slant::index halvings = 0, inner = 0;
+  run(p, slant::semismooth_newton{p.F}, p.d.zero(),
+      [&](auto const& before, auto const& s, slant::index products) {
+        CHECK(products == 1 + s.inner_iterations + s.trials);
+        CHECK(s.work.inner_iterations == before.work.inner_iterations + s.inner_iterations);
+        CHECK(s.length == std::ldexp(1.0, int(1 - s.trials)));
+        halvings += s.trials - 1;
+        inner += s.inner_iterations;
+      });
+  CHECK(halvings > 0);
+  CHECK(inner > 10);
+}
+
+TEST_CASE("a warm start costs one more, and only after a shortened step") {
+  scene const p;
+  slant::index warm = 0;
+  run(p, slant::semismooth_newton{p.F, slant::symmetrized_cg{.warm_start = true}}, p.d.zero(),
+      [&](auto const& before, auto const& s, slant::index products) {
+        bool const shortened = before.iteration > 0 && before.length < 1;
+        CHECK(products == 1 + shortened + s.inner_iterations + s.trials);
+        warm += shortened;
+      });
+  CHECK(warm > 0);
+}
+
+TEST_CASE("bicgstab_solver: two an iteration, less one if it ends half way") {
+  scene const p;
+  run(p, slant::semismooth_newton{p.F, slant::bicgstab_solver{}}, p.d.zero(),
+      [&](auto const&, auto const& s, slant::index products) {
+        CHECK(products <= 2 * s.inner_iterations + s.trials);
+        CHECK(products >= 2 * s.inner_iterations - 1 + s.trials);
+      });
+}
+
+TEST_CASE("direct_solver: the columns of A once a step, and one product for F") {
+  scene const p;
+  run(p, slant::semismooth_newton{p.F, slant::direct_solver{}}, p.d.zero(),
+      [&](auto const&, auto const& s, slant::index products) {
+        CHECK(products == s.trials);
+        CHECK(s.work.factorizations == s.iteration);
+        CHECK(p.A.counts().columns == 24 * s.iteration);
+      });
+}
+
+TEST_CASE("inexact steps cost less than accurate ones") {
+  scene const p;
+  auto const stop = slant::residual_below(1e-10) || slant::at_most(60);
+  auto const products = [&](auto const& rule) {
+    auto const r = slant::solve(
+        slant::semismooth_newton{p.F, slant::by_laws{}, slant::halving_line_search{}, rule},
+        p.d.zero(), stop);
+    CHECK(r.converged());
+    return r.state.work.operator_applications;
+  };
+  auto const accurate = products(slant::fixed_forcing{.tolerance = 1e-12});
+  CHECK(products(slant::eisenstat_walker{}) < 0.7 * double(accurate));
+  CHECK(products(slant::adaptive_precision{}) < accurate);
+}
+
+TEST_CASE("no step allocates, shortened ones included") {
+  scene const p;
+  auto const check = [&](auto const& method) {
+    auto s = method.start(p.d.zero());
+    slant::index halvings = 0;
+    slant::testing::allocation_guard const guard;
+    while (s.status == slant::status::running && s.residual_norm > 1e-10 * s.residual_scale) {
+      method.step(s);
+      halvings += s.trials - 1;
+    }
+    auto const allocations = guard.count();
+    CHECK(allocations == 0);
+    CHECK(s.iteration > 3);
+    CHECK(halvings > 0);
+  };
+  check(slant::semismooth_newton{p.F});
+  check(slant::semismooth_newton{p.F, slant::symmetrized_cg{.warm_start = true}});
+  check(slant::semismooth_newton{p.F, slant::bicgstab_solver{}, slant::halving_line_search{},
+                                 slant::eisenstat_walker{.η_first = 0.1}});
 }
 
 }  // namespace semismooth_newton_test

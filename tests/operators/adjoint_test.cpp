@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/adjoint.hpp>
+#include <slant/operators/letter.hpp>
 
 #include <slant/operators/diagonal.hpp>
 #include <slant/testing/archetypes.hpp>
@@ -48,7 +48,7 @@ TEST_CASE("archetypes: only what has an adjoint") {
   auto const t = slant::adjoint(b);
   static_assert(slant::spd_operator<decltype(t), archetype::vector>);
   slant::testing::check_operator_laws(t, x);
-  static_assert(!slant::linear_operator<slant::adjoint_operator<archetype::linear_operator const&>,
+  static_assert(!slant::linear_operator<slant::expr::adjoint_view<archetype::linear_operator>,
                                         archetype::vector>);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/congruence.hpp>
+#include <slant/operators/product.hpp>
 
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/identity.hpp>
@@ -76,10 +76,6 @@ TEST_CASE("archetypes") {
       slant::congruence(b, slant::inverse(archetype::spd_factorization(test::random_spd(4, 9))));
   static_assert(slant::psd_operator<decltype(s), archetype::vector>);
   slant::testing::check_operator_laws(s, x, {.roundings = 1000});
-  // B without an adjoint is no B
-  using wrong =
-      slant::congruence_operator<archetype::linear_operator, archetype::spd_operator>;
-  static_assert(!slant::linear_operator<wrong, archetype::vector>);
 }
 
 TEST_CASE("sizes must fit") {

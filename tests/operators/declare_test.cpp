@@ -25,7 +25,6 @@ TEST_CASE("a product of commuting matrices is declared to be what it is") {
   static_assert(spd_operator<decltype(a), VectorXd>);
   static_assert(has_accumulate<decltype(a), VectorXd>);
   static_assert(has_columns<decltype(a), MatrixXd>);
-  CHECK(&a.get() == &p);
   CHECK(test::matches(a, MatrixXd(m * m)));
   testing::check_operator_laws(a);
 }
@@ -42,12 +41,13 @@ TEST_CASE("laws of the operator are kept, with what follows from both") {
 TEST_CASE("the inverse has what the declared laws imply") {
   using namespace slant;
   auto const d = diagonal<positive_definite>(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
-  auto const a = declare<self_adjoint, positive_definite>(product(d, d));
+  auto const a = declare<self_adjoint, positive_definite>(product(op<"D">(d), d));
   auto const b = inverse(a);
   static_assert(spd_operator<decltype(b), VectorXd>);
   static_assert(spd_operator<decltype(inverse(b)), VectorXd>);
-  static_assert(laws_of<decltype(inverse(declare<positive_semidefinite>(product(d, d))))> ==
-                laws<law::positive_semidefinite>);
+  static_assert(
+      laws_of<decltype(inverse(declare<positive_semidefinite>(product(op<"D">(d), d))))> ==
+      laws<law::positive_semidefinite>);
   static_assert(!has_inverse<decltype(declare<self_adjoint>(MatrixXd(3, 3))), VectorXd>);
   testing::check_operator_laws(a);
   testing::check_operator_laws(b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
@@ -23,7 +23,6 @@ TEST_CASE("a multiple is the multiple of the matrix") {
   MatrixXd const m = test::random_dense(4, 4, 1);
   auto const a = slant::scaled(-1.5, m);
   CHECK(test::matches(a, MatrixXd(-1.5 * m)));
-  CHECK(a.factor() == -1.5);
   static_assert(slant::has_accumulate<decltype(a), VectorXd>);
   static_assert(slant::has_adjoint_accumulate<decltype(a), VectorXd>);
   static_assert(slant::has_diagonal<decltype(a), VectorXd>);
@@ -62,9 +61,6 @@ TEST_CASE("the inverse, where the part knows its own") {
   static_assert(slant::has_inverse<decltype(p), VectorXd>);
   static_assert(slant::spd_operator<decltype(p.inverse()), VectorXd>);
   slant::testing::check_operator_laws(p);
-  static_assert(
-      !slant::has_inverse<decltype(slant::scaled(slant::any_sign(4.0), slant::identity(3))),
-                          VectorXd>);
 }
 
 TEST_CASE("the factor of an inverse is rounded in the scalar of the vector") {

@@ -4,11 +4,9 @@
 // the laws that they declare.
 #include "numbers.hpp"
 
-#include <slant/operators/adjoint.hpp>
-#include <slant/operators/congruence.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/operators/product.hpp>
-#include <slant/operators/scaled.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/testing/operator_breaches.hpp>
 

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/ball.hpp>
+
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <type_traits>
+#include <vector>
 
 namespace blocks_test {
+
+using slant::consecutive;
+using slant::place;
+using slant::planar;
+using slant::detail::parameter_list;
+using slant::detail::takes_parameters;
 
 /// A client's block that names no scalar.
 struct nameless {
@@ -87,6 +97,103 @@ TEST_CASE("blocks: the smallest of several steps") {
   CHECK(!spoilt(1.0));
   CHECK(spoilt(quiet_nan));
   CHECK(spoilt.value() != spoilt.value());
+}
+
+TEST_CASE("block_list: what counts as a list of parameters") {
+  static_assert(parameter_list<std::vector<double>>);
+  static_assert(parameter_list<Eigen::VectorXf>);
+  static_assert(parameter_list<decltype(-Eigen::VectorXd())>);
+  static_assert(parameter_list<slant::testing::archetype::vector>);
+  static_assert(!parameter_list<double>);
+  static_assert(takes_parameters<slant::ball<2>, std::vector<double>>);
+  static_assert(takes_parameters<slant::interval<>, double, Eigen::VectorXd>);
+  static_assert(!takes_parameters<slant::interval<>, Eigen::VectorXd>);
+  static_assert(!takes_parameters<slant::ball<2>, std::vector<const char*>>);
+}
+
+TEST_CASE("block_list: entries of all kinds of lists") {
+  using slant::detail::parameter_at;
+  CHECK(parameter_at(std::vector<double>{1, 2}, 1) == 2.0);
+  CHECK(parameter_at(7.0, 5) == 7.0);
+  Eigen::VectorXd const g = Eigen::Vector2d(3, 4);
+  CHECK(parameter_at(-g, 1) == -4.0);
+  CHECK(parameter_at(slant::testing::archetype::vector(g), 0) == 3.0);
+  CHECK(slant::detail::parameter_count(1.0, g, 2.0, g) == 2);
+}
+
+TEST_CASE("block_list: copies of a block share it") {
+  slant::detail::identical_blocks<slant::ball<2>> const blocks(slant::ball<2>{3.0}, 1000000);
+  CHECK(blocks.size() == 1000000);
+  CHECK(blocks[999999].radius() == 3.0);
+  CHECK(&blocks[0] == &blocks[5]);
+}
+
+TEST_CASE("place: consecutive blocks own a segment, planar ones a component of each plane") {
+  auto const c = slant::block_place<2, consecutive>(1, 3);
+  CHECK(c.index() == 1);
+  CHECK(c.size() == 2);
+  CHECK(c.component(0) == 2);
+  CHECK(c.component(1) == 3);
+  auto const p = slant::block_place<2, planar>(1, 3);
+  CHECK(p.index() == 1);
+  CHECK(p.component(0) == 1);
+  CHECK(p.component(1) == 4);
+}
+
+TEST_CASE("place: views read and write the block's part only") {
+  Eigen::VectorXd x(6);
+  x << 0, 1, 2, 3, 4, 5;
+  auto const p = slant::block_place<2, planar>(2, 3);
+  CHECK(p.in(x) == Eigen::Vector2d(2, 5));
+  CHECK(p.value(x) == Eigen::Vector2d(2, 5));
+  auto view = p.in(x);
+  view *= 10;
+  p.put(x, Eigen::Vector2d(7, 8));
+  slant::block_place<2, consecutive>(0, 3).in(x).setConstant(-1);
+  CHECK(x == (Eigen::VectorXd(6) << -1, -1, 7, 3, 4, 8).finished());
+  Eigen::VectorXd const& unwritable = x;
+  CHECK(p.in(unwritable) == Eigen::Vector2d(7, 8));
+  static_assert(!std::is_assignable_v<decltype(p.in(unwritable)(0)), double>);
+}
+
+TEST_CASE("place: views of strided parts, expressions and vectors that are no Eigen vectors") {
+  Eigen::VectorXd x(12);
+  x << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11;
+  auto const p = slant::block_place<2, planar>(1, 3);
+  Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<2>> every_other(x.data(), 6);
+  CHECK(p.in(every_other) == Eigen::Vector2d(2, 8));
+  auto const expression = every_other + every_other;
+  CHECK(p.in(expression) == Eigen::Vector2d(4, 16));
+  slant::testing::archetype::vector v(x.head(6));
+  p.in(v).setZero();
+  CHECK(v.local() == (Eigen::VectorXd(6) << 0, 0, 2, 3, 0, 5).finished());
+}
+
+TEST_CASE("place: nested places compose") {
+  auto const outer = slant::block_place<3, planar>(1, 4);  // components 1, 5, 9
+  auto const inner = place<2>(1, 1, 2);                    // the last two of three
+  auto const both = outer.then(inner);
+  static_assert(std::is_same_v<decltype(both), place<2, planar> const>);
+  CHECK(both.index() == 2);
+  CHECK(both.component(0) == 5);
+  CHECK(both.component(1) == 9);
+  auto const shifted = place<>(3, 10, 12).then(outer);
+  CHECK(shifted.index() == 4);
+  CHECK(shifted.component(0) == 11);
+  CHECK(shifted.component(2) == 19);
+  static_assert(
+      std::is_same_v<decltype(place<>(0, 5, 4).then(place<2>(0, 0, 2))), place<2, consecutive>>);
+}
+
+TEST_CASE("place: composing is associative") {
+  auto const a = place<>(2, 7, 12);
+  auto const b = slant::block_place<4, planar>(1, 3, 2);
+  auto const c = place<2>(1, 2, 2);
+  auto const left = a.then(b).then(c);
+  auto const right = a.then(b.then(c));
+  static_assert(std::is_same_v<decltype(left), decltype(right)>);
+  CHECK(left.index() == right.index());
+  for (int j = 0; j < 2; ++j) CHECK(left.component(j) == right.component(j));
 }
 
 }  // namespace blocks_test

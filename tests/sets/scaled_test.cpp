@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/scaled.hpp>  // the other `scaled`: the two must live side by side
+#include <slant/operators/product.hpp>  // the other `scaled`: the two must live side by side
 #include <slant/sets/ball.hpp>
+#include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/scaled.hpp>
 #include <slant/sets/second_order_cone.hpp>
+#include <slant/testing/set_laws.hpp>
+
+#include <doctest/doctest.h>
 
 #include "counting_disc.hpp"
 #include "oracle/precise.hpp"
 #include "support/allocation_guard.hpp"
-
-#include <doctest/doctest.h>
 
 #include <limits>
 
@@ -17,6 +19,7 @@ namespace scaled_test {
 
 using namespace products;
 using Eigen::Vector2d;
+using Eigen::VectorXd;
 using slant::scaled;
 
 TEST_CASE_TEMPLATE("scaled: a disc of c times the radius", S, float, double, long double,
@@ -57,25 +60,6 @@ TEST_CASE("scaled: a cone is its own multiple") {
   CHECK(set.support(Eigen::Vector3d(1, 0.1, 0)) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("scaled: products in place, without allocation") {
-  vec<> const g = numbers(5, 1).cwiseAbs();
-  auto const discs = slant::discs(g);
-  auto const set = scaled(2.0, discs);
-  auto const twin = slant::discs(vec<>(2 * g));
-  vec<> const x = numbers(10, 2) * 3;
-  vec<> y = x;
-  slant::testing::allocation_guard const guard;
-  set.project(y, y);
-  bool const inside = set.contains(y);
-  double const step = set.step_to_boundary(y, x);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(inside);
-  CHECK((y - slant::project(twin, x)).norm() <= 1e-14);
-  CHECK(step == doctest::Approx(twin.step_to_boundary(y, x)));
-  CHECK(set.support(x) == doctest::Approx(twin.support(x)));
-}
-
 TEST_CASE("scaled: operators and sets") {
   Eigen::VectorXd const x = Vector2d(1, 2);
   auto const operator_a = scaled(3.0, Eigen::MatrixXd(Eigen::Matrix2d::Identity()));
@@ -95,6 +79,63 @@ TEST_CASE("scaled: bad factors are named") {
   CHECK_THROWS_AS(
       static_cast<void>(scaled(std::numeric_limits<double>::quiet_NaN(), slant::half_lines(3))),
       slant::bad_input);
+}
+
+/// Two half lines, a disc at the components 2 and 3, a free unknown; and each blown up by d by
+/// hand.
+auto plain() {
+  return slant::cartesian(slant::half_lines(VectorXd{{0.5, -1.0}}), slant::discs(VectorXd{{2.0}}),
+                          slant::free_components(1));
+}
+auto twin() {
+  return slant::cartesian(slant::half_lines(VectorXd{{1.0, -3.0}}), slant::discs(VectorXd{{0.5}}),
+                          slant::free_components(1));
+}
+VectorXd const d{{2.0, 3.0, 0.25, 0.25, 7.0}};
+
+TEST_CASE("block_scaled: every block has its own factor") {
+  auto const set = slant::block_scaled(d, plain());
+  auto const other = twin();
+  CHECK(slant::dimension_of(set) == 5);
+  CHECK(slant::block_count(set) == slant::block_count(other));
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    std::srand(seed);
+    VectorXd const x = 3 * VectorXd::Random(5);
+    VectorXd y(5), expected(5);
+    slant::project(set, x, y);
+    slant::project(other, x, expected);
+    CHECK((y - expected).cwiseAbs().maxCoeff() <= 1e-15);
+    CHECK(set.contains(y));
+    CHECK(set.contains(x) == other.contains(x));
+    VectorXd const v = VectorXd::Random(5);
+    CHECK(set.step_to_boundary(y, v) == doctest::Approx(other.step_to_boundary(y, v)));
+  }
+}
+
+TEST_CASE("block_scaled: the laws of sets") {
+  auto const set = slant::block_scaled(d, plain());
+  slant::testing::check_set_laws(set, VectorXd(5));
+}
+
+TEST_CASE("block_scaled: no allocation") {
+  auto const set = slant::block_scaled(d, plain());
+  VectorXd const x = VectorXd::Constant(5, -4.0);
+  VectorXd y(5);
+  slant::testing::allocation_guard const guard;
+  slant::project(set, x, y);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+TEST_CASE("block_scaled: factors are checked") {
+  CHECK_THROWS_WITH(static_cast<void>(slant::block_scaled(VectorXd{{1.0}}, plain())),
+                    "d: got 1, expected the dimension of the set, 5");
+  CHECK_THROWS_WITH(
+      static_cast<void>(slant::block_scaled(VectorXd{{1.0, 0.0, 1.0, 1.0, 1.0}}, plain())),
+      "d(1): got 0, expected a finite number > 0");
+  CHECK_THROWS_WITH(
+      static_cast<void>(slant::block_scaled(VectorXd{{1.0, 1.0, 1.0, 2.0, 1.0}}, plain())),
+      "d(3): got 2, expected 1 as for the other unknowns of its block");
 }
 
 }  // namespace scaled_test

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <sstream>
 #include <type_traits>
 
 namespace arithmetic_test {
@@ -50,13 +51,27 @@ TEST_CASE("formulas say what they say on paper") {
   CHECK(at_y(id - 2 * p + client::doubling{}) == 3 * y - 2 * plus);
 }
 
+TEST_CASE("formulas print themselves and their slanting operators") {
+  Eigen::MatrixXd const m = slanting_support::random_spd(2, 1);
+  VectorXd const b = VectorXd::Ones(2), y{{1.0, -2.0}};
+  slant::identity_map const x(2);
+  auto const A = slant::op<"A", slant::self_adjoint, slant::positive_definite>(m);
+  auto const F = x - slant::positive_part(2) * (x - 0.5 * (A * x - b));
+  std::ostringstream out;
+  out << F << "\n" << F.slant(y) << "\n" << -(2 * A * slant::positive_part(x + b));
+  CHECK(out.str() ==
+        "x ↦ x − max(0, x − 0.5 (A x − c))   (2 → 2)\n"
+        "I − diag (I − 0.5 A)   (2 × 2, no laws)\n"
+        "x ↦ −2 A max(0, x + c)   (2 → 2)");
+}
+
 TEST_CASE("temporaries are owned, variables referenced") {
   auto const f = [] { return slant::identity_map(3) - 2.0 * slant::positive_part(3); }();
   VectorXd const y{{1.0, -2.0, 4.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{-1.0, -2.0, -4.0}});
   auto const p = slant::positive_part(3);
   auto const g = p + p;
-  CHECK(&g.left() == &p);
+  CHECK(&g.term<0>() == &p);
 }
 
 TEST_CASE("operators of slant and Eigen matrices keep their own arithmetic") {

@@ -82,10 +82,9 @@ TEST_CASE("it is the composition that stands on paper") {
   auto const a = definite(m);
   auto const set = contact_set();
   auto const f = slant::natural_residual(a, b, set, 0.1);
-  slant::identity_map const id(6);
-  auto const formula = slant::identity_map{6} -
-                       slant::projection(set) *
-                           (slant::identity_map{6} - slant::positive(0.1) * slant::affine(a, -b));
+  auto const id = [] { return slant::identity_map(6); };
+  auto const formula =
+      id() - slant::projection(set) * (id() - slant::positive(0.1) * (a * id() - VectorXd(b)));
   static_assert(std::is_same_v<decltype(f), decltype(formula)>);
   CHECK(slant::evaluate(f, x) == slant::evaluate(formula, x));
 }

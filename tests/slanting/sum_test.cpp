@@ -46,7 +46,7 @@ TEST_CASE("laws of the sum follow from those of the parts") {
                           VectorXd>);
   static_assert(!slant::declares_self_adjoint<
                 slant::slant_operator_t<std::remove_cvref_t<decltype(h)>, VectorXd>>);
-  CHECK(&g.left() == &definite);  // referenced
+  CHECK(&g.term<0>() == &definite);  // referenced
 }
 
 TEST_CASE("parts of which nothing is known but the concept") {

@@ -3,7 +3,7 @@
 // Every letter with every other, a b, a + b, a − b with numbers in front, a b c, a b + c and
 // palindromes of five: each inferred law holds for the dense matrix. Letters are in general position,
 // so a law that does not follow from the structure does not hold by accident either.
-#include "expressions/letters.hpp"
+#include "operators/letters.hpp"
 
 #include <boost/hana/for_each.hpp>
 

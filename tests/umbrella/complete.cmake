@@ -18,7 +18,7 @@ foreach(base IN ITEMS include concepts)
 endforeach()
 
 set(waiting
-    slant/slant.hpp slant/contact/contact.hpp slant/expressions/describe.hpp slant/factorizations/factorizations.hpp slant/io/io.hpp
+    slant/slant.hpp slant/contact/contact.hpp slant/operators/describe.hpp slant/factorizations/factorizations.hpp slant/io/io.hpp
     slant/iteration/iterates.hpp slant/multilevel/multilevel.hpp)
 set(reached "")
 while(waiting)

@@ -124,6 +124,12 @@ template <template <auto, class, unsigned> class T, auto Name, class P, unsigned
 struct parts_of<T<Name, P, Flags>> {
   using type = part_list<P>;
 };
+
+/// A letter of an expression that stands for the adjoint of its operator.
+template <class A>
+inline constexpr bool is_adjoint_letter = false;
+template <template <auto, class, unsigned> class T, auto Name, class P, unsigned Flags>
+inline constexpr bool is_adjoint_letter<T<Name, P, Flags>> = (Flags & 1) != 0;
 template <template <class, law_set> class T, class P, law_set L>
 struct parts_of<T<P, L>> {
   using type = part_list<std::remove_cvref_t<P>>;
@@ -172,7 +178,8 @@ template <bool Adjoint, class V, class A, class... Rest>
 /// A list of the innermost flawed part of A (A itself, if its parts are fine), or an empty one.
 template <bool Adjoint, class V, class A>
 consteval auto flawed_part(part_list<A>) {
-  using inside = decltype(first_flawed<Adjoint, V>(typename parts_of<A>::type{}));
+  constexpr bool adjoint = Adjoint || is_adjoint_letter<A>;
+  using inside = decltype(first_flawed<adjoint, V>(typename parts_of<A>::type{}));
   if constexpr (!std::is_same_v<inside, part_list<>>) {
     return inside{};
   } else if constexpr (is_flawed<Adjoint, A, V>()) {
@@ -230,7 +237,7 @@ struct vector_demands {
 enum class law_demand : unsigned char { none, semidefinite, definite };
 
 /// What says which part of A breaks a law of L, as an error of its own; void of what cannot say, which
-/// is all but expressions (expressions/explain.hpp).
+/// is all but expressions (operators/explain.hpp).
 template <class A, law_set L>
 struct complaint_about {
   using type = void;

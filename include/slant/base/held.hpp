@@ -26,7 +26,7 @@ using kept_t = std::conditional_t<std::is_lvalue_reference_v<T> && !handle<T>,
 template <class T> concept forgets_types = requires { requires T::forgets_types; };
 
 /// One kept part. held<U const&> points to an object that must outlive it, held<U> owns a U. Both
-/// can be copied and moved if U can; access is read-only.
+/// can be copied and moved if U can; access is read-only, but for who owns a held<U>.
 template <class T>
 class held {
   static_assert(std::is_same_v<T, std::remove_cvref_t<T>>, "use kept_t<T> for the type of a part");
@@ -46,6 +46,7 @@ class held {
   held(U&& value) : value_(std::forward<U>(value)) {}  // NOLINT(google-explicit-constructor)
 
   [[nodiscard]] T const& get() const noexcept { return value_; }
+  [[nodiscard]] T& get() noexcept { return value_; }
 
  private:
   T value_;

@@ -20,9 +20,9 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/load_stepper.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/problems/separable_qp.hpp>
 
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <Eigen/SparseCore>

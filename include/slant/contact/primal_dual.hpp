@@ -14,7 +14,7 @@
 
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/friction_law.hpp>
-#include <slant/operators/adjoint.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/restriction.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/projection.hpp>

@@ -24,8 +24,8 @@
 #include <slant/contact/friction_law.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
 #include <slant/operators/block_diagonal.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/problems/equality_constraints.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>

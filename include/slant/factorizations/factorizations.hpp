@@ -12,6 +12,7 @@
 // Operators that hold one:
 #include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
+#include <slant/factorizations/woodbury.hpp>
 
 // Kernels of semidefinite matrices:
 #include <slant/factorizations/computed_kernel.hpp>

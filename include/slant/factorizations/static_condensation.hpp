@@ -22,8 +22,8 @@
 #include <slant/factorizations/condensation_options.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/factorizations/parts/contact_ordering.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/product.hpp>
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
 #include <slant/factorizations/parts/cholmod_condensation.hpp>
 #endif

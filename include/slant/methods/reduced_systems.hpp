@@ -17,10 +17,10 @@
 #pragma once
 
 #include <slant/methods/parts/barrier.hpp>
-#include <slant/operators/adjoint.hpp>
 #include <slant/operators/block.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <utility>

@@ -1,126 +1,112 @@
 // SPDX-License-Identifier: MIT
 //
-// Aggregation: nodes that are strongly coupled become one node of the next coarser level [Vaněk,
-// Mandel, Brezina 1996, Algorithm 2].
+// Smoothed aggregation [Vaněk, Mandel, Brezina 1996]: a coarse level from the entries of a matrix.
+// Nodes that are strongly coupled become one node of the coarse level (Algorithm 2),
 //
 //     1  a node whose strong neighbours are all unassigned becomes, with them, an aggregate
 //     2  what is left joins the aggregate of step 1 that it is coupled to most strongly
 //     3  what is left still becomes aggregates of neighbours
 //
-// A node is a block of consecutive unknowns. Nodes i and j are strongly coupled if ‖K_ij‖² > θ²
-// ‖K_ii‖ ‖K_jj‖ in the norm of Frobenius: what is coupled weakly, as across a soft layer, cannot be
-// corrected by one coarse unknown.
+// on each of which the near kernel B of the matrix is made orthonormal, B = Q R (Algorithm 1). Q is
+// what the coarse unknowns of the aggregate stand for, R the near kernel of the coarse level. One
+// step of Jacobi's method takes the energy out of the jumps between aggregates,
+//
+//     P = (I − ω D⁻¹A) Q,     ω = damping / λ_max(D⁻¹A),     D the diagonal blocks.
+//
+// Nodes i and j are strongly coupled if ‖A_ij‖² > θ² ‖A_ii‖ ‖A_jj‖ in the norm of Frobenius: what is
+// coupled weakly, as across a soft layer, cannot be corrected by one coarse unknown. A node without
+// strong neighbours takes those with θ = 0.02; one that has none of these either has no part in the
+// coarse level, because sweeps of Gauss–Seidel reach it.
 #pragma once
 
-#include <slant/base/partitions.hpp>
-#include <slant/concepts/laws.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/krylov/spectral_bound.hpp>
-
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
+#include <slant/multilevel/block_matrix.hpp>
+#include <slant/multilevel/parts/lanes.hpp>
+#include <slant/multilevel/parts/prolongation.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace slant {
 
 /// Which aggregate each node belongs to.
 struct aggregation {
-  std::vector<int> of;  ///< one entry per node
+  std::vector<int> of;  ///< one entry per node; −1: none
   index count = 0;      ///< number of aggregates
 };
 
-namespace detail {
-
-/// Strong neighbours of each node, itself left out, with the square of the strength.
-template <class S>
-struct strong_graph {
-  std::vector<std::size_t> first{0};
-  std::vector<std::pair<int, S>> edges;
-
-  template <class M>
-  strong_graph(M const& k, node_blocks const& nodes, S const& θ) {
+/// Aggregates of the nodes of A; θ ≥ 0 as at the top of this file.
+template <int N, class T>
+[[nodiscard]] aggregation aggregate(block_matrix<N, T> const& A, double θ) {
+  auto const n = static_cast<std::size_t>(A.nodes());
+  auto const square = [](T const* block) {
+    T s(0);
+    for (int k = 0; k < N * N; ++k) s += block[k] * block[k];
+    return s;
+  };
+  std::vector<T> size(n);
+  for (int i = 0; i < A.nodes(); ++i) {
     using std::sqrt;
-    auto const owner = nodes.owners();
-    auto const n = static_cast<std::size_t>(nodes.count());
-    std::vector<S> diagonal(n, S(0)), sum(n, S(0));
-    std::vector<int> row;
-    auto const visit = [&](index i, auto f) {
-      for (int j = nodes.begin(i); j < nodes.end(i); ++j) {
-        for (typename M::InnerIterator e(k, j); e; ++e) {
-          f(owner[static_cast<std::size_t>(M::IsRowMajor ? e.col() : e.row())], e.value());
-        }
-      }
-    };
-    for (index i = 0; i < nodes.count(); ++i) {
-      auto& d = diagonal[static_cast<std::size_t>(i)];
-      visit(i, [&](int j, S const& v) { d += j == i ? v * v : S(0); });
-      d = sqrt(d);
-    }
-    for (index i = 0; i < nodes.count(); ++i) {
-      row.clear();
-      visit(i, [&](int j, S const& v) {
-        auto& s = sum[static_cast<std::size_t>(j)];
-        if (s == S(0) && v != S(0)) row.push_back(j);
-        s += v * v;
+    size[static_cast<std::size_t>(i)] = T(sqrt(square(A.diagonal(i))));
+  }
+  // Strong neighbours and ‖A_ij‖²/‖A_jj‖.
+  std::vector<int> first{0}, neighbour;
+  std::vector<T> strength;
+  neighbour.reserve(static_cast<std::size_t>(A.blocks()));
+  strength.reserve(static_cast<std::size_t>(A.blocks()));
+  for (int i = 0; i < A.nodes(); ++i) {
+    auto const gather = [&](double least) {
+      T const limit = T(least) * T(least) * size[static_cast<std::size_t>(i)];
+      A.for_each_in_row(i, [&](int j, T const* block) {
+        T const other = size[static_cast<std::size_t>(j)];
+        T const s = square(block);
+        if (j == i || !(s > limit * other)) return;
+        neighbour.push_back(j);
+        strength.push_back(s / other);
       });
-      for (int const j : row) {
-        S const size = std::exchange(sum[static_cast<std::size_t>(j)], S(0));
-        S const limit = θ * θ * diagonal[static_cast<std::size_t>(i)];
-        if (j != i && size > limit * diagonal[static_cast<std::size_t>(j)]) {
-          edges.emplace_back(j, size / diagonal[static_cast<std::size_t>(j)]);
-        }
-      }
-      first.push_back(edges.size());
+    };
+    gather(θ);
+    // A sweep divides errors by 50 where couplings are below 0.02; others need a coarse level.
+    if (static_cast<int>(neighbour.size()) == first.back() && θ > 0.02) gather(0.02);
+    first.push_back(static_cast<int>(neighbour.size()));
+  }
+  auto const neighbours = [&](std::size_t i, auto f) {
+    for (int e = first[i]; e < first[i + 1]; ++e) {
+      f(neighbour[static_cast<std::size_t>(e)], strength[static_cast<std::size_t>(e)]);
     }
-  }
-  template <class F>
-  void for_each(index i, F f) const {
-    auto const j = static_cast<std::size_t>(i);
-    for (std::size_t e = first[j]; e < first[j + 1]; ++e) f(edges[e].first, edges[e].second);
-  }
-};
-
-}  // namespace detail
-
-/// Aggregates of the nodes of a symmetric K; θ as at the top of this file.
-template <class M>
-[[nodiscard]] aggregation aggregate(Eigen::SparseCompressedBase<M> const& k,
-                                    node_blocks const& nodes, double θ) {
-  using S = typename M::Scalar;
-  detail::strong_graph<S> const graph(k.derived(), nodes, S(θ));
-  aggregation a{std::vector<int>(static_cast<std::size_t>(nodes.count()), -1), 0};
-  auto const of = [&a](index i) -> int& { return a.of[static_cast<std::size_t>(i)]; };
-  auto const open = [&](index i) {
-    of(i) = static_cast<int>(a.count);
-    graph.for_each(i, [&](int j, S const&) {
-      if (of(j) < 0) of(j) = static_cast<int>(a.count);
+  };
+  aggregation a{std::vector<int>(n, -1), 0};
+  auto const open = [&](std::size_t i) {
+    a.of[i] = static_cast<int>(a.count);
+    neighbours(i, [&](int j, T) {
+      int& of = a.of[static_cast<std::size_t>(j)];
+      if (of < 0) of = static_cast<int>(a.count);
     });
     ++a.count;
   };
-  for (index i = 0; i < nodes.count(); ++i) {
-    bool free = of(i) < 0;
-    graph.for_each(i, [&](int j, S const&) { free = free && of(j) < 0; });
+  for (std::size_t i = 0; i < n; ++i) {
+    bool free = a.of[i] < 0 && first[i] < first[i + 1];
+    for (int e = first[i]; free && e < first[i + 1]; ++e) {
+      free = a.of[static_cast<std::size_t>(neighbour[static_cast<std::size_t>(e)])] < 0;
+    }
     if (free) open(i);
   }
   std::vector<int> const seeds = a.of;
-  for (index i = 0; i < nodes.count(); ++i) {
-    if (of(i) >= 0) continue;
-    S strongest(0);
-    graph.for_each(i, [&](int j, S const& strength) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (a.of[i] >= 0) continue;
+    T strongest(0);
+    neighbours(i, [&](int j, T s) {
       int const there = seeds[static_cast<std::size_t>(j)];
-      if (there < 0 || !(strength > strongest)) return;
-      strongest = strength;
-      of(i) = there;
+      if (there < 0 || !(s > strongest)) return;
+      strongest = s;
+      a.of[i] = there;
     });
   }
-  for (index i = 0; i < nodes.count(); ++i) {
-    if (of(i) < 0) open(i);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (a.of[i] < 0 && first[i] < first[i + 1]) open(i);
   }
   return a;
 }
@@ -129,166 +115,198 @@ template <class M>
 
 namespace slant::detail {
 
-// --- tentative prolongation ----------------------------------------------------------------------
-//
-// The tentative prolongation of smoothed aggregation [Vaněk, Mandel, Brezina 1996, Algorithm 1]:
-// on each aggregate the candidates B of the near kernel are made orthonormal, B = Q R. Q is what
-// the coarse unknowns of the aggregate stand for, R are the candidates of the coarse level: P₀ R =
-// B, so that the range of P₀ holds the near kernel exactly.
-//
-// Candidates that depend on the others there (the rotation of a single node) get no coarse unknown.
+/// Candidates of the near kernel: M motions of nodes of N unknowns, an N × M block by rows for each
+/// node. In double, because rotations about a point far away differ little from translations.
+template <int N, int M>
+struct near_kernel {
+  std::vector<double> blocks;
 
-template <class S>
-using row_major_sparse = Eigen::SparseMatrix<S, Eigen::RowMajor>;
-
-/// P₀, and nodes and candidates of the coarse level.
-template <class S>
-struct tentative_prolongation {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-
-  row_major_sparse<S> P;
-  node_blocks nodes;
-  matrix_type candidates;
-
-  tentative_prolongation(aggregation const& a, node_blocks const& fine, matrix_type const& B) {
-    std::vector<std::vector<int>> members(static_cast<std::size_t>(a.count));
-    for (index i = 0; i < fine.count(); ++i) {
-      auto& list = members[static_cast<std::size_t>(a.of[static_cast<std::size_t>(i)])];
-      for (int j = fine.begin(i); j < fine.end(i); ++j) list.push_back(j);
-    }
-    std::vector<Eigen::Triplet<S>> entries;
-    entries.reserve(static_cast<std::size_t>(B.size()));
-    matrix_type coarse(a.count * B.cols(), B.cols());
-    int next = 0;
-    matrix_type Q, R;
-    for (auto const& list : members) {
-      orthonormalise(B, list, Q, R);
-      for (index c = 0; c < Q.cols(); ++c) {
-        for (std::size_t j = 0; j < list.size(); ++j) {
-          S const value = Q(static_cast<index>(j), c);
-          if (value != S(0)) entries.emplace_back(list[j], next + static_cast<int>(c), value);
-        }
-      }
-      coarse.middleRows(next, R.rows()) = R;
-      next += static_cast<int>(R.rows());
-      nodes.first.push_back(next);
-    }
-    candidates = coarse.topRows(next);
-    P.resize(B.rows(), next);
-    P.setFromTriplets(entries.begin(), entries.end());
-  }
-
- private:
-  /// Q with orthonormal columns that span the rows `list` of B, R = QᵀB. Gram and Schmidt, twice.
-  static void orthonormalise(matrix_type const& B, std::vector<int> const& list, matrix_type& Q,
-                             matrix_type& R) {
-    using std::sqrt;
-    auto const rows = static_cast<index>(list.size());
-    Q.resize(rows, B.cols());
-    matrix_type const part = B(list, Eigen::all);
-    index rank = 0;
-    for (index c = 0; c < B.cols(); ++c) {
-      auto q = Q.col(rank);
-      q = part.col(c);
-      S const size = q.norm();
-      for (int twice = 0; twice < 2; ++twice) {
-        for (index l = 0; l < rank; ++l) q -= Q.col(l).dot(q) * Q.col(l);
-      }
-      S const left = q.norm();
-      if (!(left > sqrt(std::numeric_limits<S>::epsilon()) * size)) continue;
-      q /= left;
-      if (++rank == rows) break;
-    }
-    Q.conservativeResize(rows, rank);
-    R = Q.transpose() * part;
+  [[nodiscard]] double const* at(int i) const {
+    return blocks.data() + static_cast<std::size_t>(i) * (N * M);
   }
 };
 
-// --- smoothed prolongation -----------------------------------------------------------------------
-//
-// P = (I − ω D⁻¹K) P₀, D = diag(K), ω = damping / λ_max(D⁻¹K): one step of Jacobi's method takes
-// the energy out of the jumps between aggregates [Vaněk, Mandel, Brezina 1996].
-//
-// λ_max: a few Lanczos steps, raised by what they may have missed, or the bound of Gershgorin if
-// that is smaller. A value too small would cost convergence, never definiteness.
-
-/// y = D^−½ K D^−½ x.
-template <class S>
-struct unit_diagonal_operator {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
-  row_major_sparse<S> const& k;
-  vector_type root;  // D^−½
-
-  [[nodiscard]] index rows() const { return k.rows(); }
-  [[nodiscard]] index cols() const { return k.cols(); }
-  struct room {
-    vector_type scaled;
-  };
-  [[nodiscard]] room workspace(vector_type const&) const { return {vector_type(k.rows())}; }
-  void apply(vector_type const& x, vector_type& y, room& w) const {
-    w.scaled = root.cwiseProduct(x);
-    y.noalias() = k * w.scaled;
-    y.array() *= root.array();
-  }
-};
-
-/// An estimate of λ_max(D⁻¹K) from above for a symmetric K with positive diagonal d.
-template <class S, class V>
-[[nodiscard]] S jacobi_eigenvalue(row_major_sparse<S> const& k, V const& d) {
-  using std::abs;
-  using std::sqrt;
-  V root(d.size());
-  for (index i = 0; i < d.size(); ++i) root[i] = S(1) / sqrt(d[i]);
-  S gershgorin(0);
-  for (index i = 0; i < k.rows(); ++i) {
-    S sum(0);
-    for (typename row_major_sparse<S>::InnerIterator e(k, i); e; ++e) {
-      sum += abs(e.value()) * root[e.col()];
+/// A := LLᵀ = RᵀR, a (M × M by columns) becomes R by rows, with a zero row for a candidate that
+/// depends on those before it; `inverse` R⁻¹ by rows, without those rows and columns.
+template <int M>
+void cholesky_of_candidates(double* a, double* inverse) {
+  // A candidate keeps some 1e-16 of its square when what it has in common with others is taken out.
+  double const least = 4096 * std::numeric_limits<double>::epsilon();
+  double R[M * M] = {}, X[M * M] = {};
+  for (int c = 0; c < M; ++c) {
+    double d = a[M * c + c];
+    for (int k = 0; k < c; ++k) d -= R[M * k + c] * R[M * k + c];
+    if (!(d > least * a[M * c + c])) continue;
+    double const root = std::sqrt(d);
+    R[M * c + c] = root;
+    for (int j = c + 1; j < M; ++j) {
+      double s = a[M * j + c];
+      for (int k = 0; k < c; ++k) s -= R[M * k + c] * R[M * k + j];
+      R[M * c + j] = s / root;
     }
-    gershgorin = std::max<S>(gershgorin, sum * root[i]);
   }
-  unit_diagonal_operator<S> const scaled{k, root};
-  auto const lanczos = largest_eigenvalue_bound(scaled, root, {.steps = 12, .failure = 0.5});
-  return std::min<S>(gershgorin, lanczos.upper);
+  for (int j = 0; j < M; ++j) {
+    if (R[M * j + j] == 0) continue;
+    X[M * j + j] = 1 / R[M * j + j];
+    for (int i = j - 1; i >= 0; --i) {
+      if (R[M * i + i] == 0) continue;
+      double s = 0;
+      for (int k = i + 1; k <= j; ++k) s += R[M * i + k] * X[M * k + j];
+      X[M * i + j] = -s / R[M * i + i];
+    }
+  }
+  std::copy(R, R + M * M, a);
+  std::copy(X, X + M * M, inverse);
 }
 
-/// P from P₀.
-template <class S>
-[[nodiscard]] row_major_sparse<S> smoothed_prolongation(row_major_sparse<S> const& k,
-                                                        row_major_sparse<S> const& P0, S damping) {
-  using std::sqrt;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const d = k.diagonal();
-  S const ω = damping / jacobi_eigenvalue(k, d);
-  row_major_sparse<S> smooth = k * P0;
-  for (index i = 0; i < smooth.rows(); ++i) {
-    for (typename row_major_sparse<S>::InnerIterator e(smooth, i); e; ++e) {
-      e.valueRef() *= -ω / d[i];
-    }
-  }
-  row_major_sparse<S> P = P0 + smooth;
-  // Of an aggregate without neighbours the damped step may leave nothing: it stays as it was.
-  using columns = Eigen::Array<S, Eigen::Dynamic, 1>;
-  auto const squares = [](row_major_sparse<S> const& m) {
-    columns sums = columns::Zero(m.cols());
-    for (index i = 0; i < m.rows(); ++i) {
-      for (typename row_major_sparse<S>::InnerIterator e(m, i); e; ++e) {
-        sums[e.col()] += e.value() * e.value();
+/// Q of all nodes, N × M blocks by rows, and the near kernel R of the aggregates.
+template <int N, int M, class T>
+[[nodiscard]] std::vector<T> orthonormal_candidates(aggregation const& a,
+                                                    near_kernel<N, M> const& B,
+                                                    near_kernel<M, M>& R) {
+  auto const n = a.of.size();
+  R.blocks.assign(static_cast<std::size_t>(a.count) * M * M, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (a.of[i] < 0) continue;
+    double const* const b = B.at(static_cast<int>(i));
+    double* const gram = R.blocks.data() + static_cast<std::size_t>(a.of[i]) * (M * M);
+    for (int c = 0; c < M; ++c) {
+      for (int k = c; k < M; ++k) {
+        double s = 0;
+        for (int q = 0; q < N; ++q) s += b[M * q + c] * b[M * q + k];
+        gram[M * k + c] += s;
       }
     }
-    return sums;
-  };
-  S const enough = sqrt(std::numeric_limits<S>::epsilon());
-  columns const keep = (squares(P) < enough * squares(P0)).template cast<S>();
-  if ((keep > S(0)).any()) {
-    for (index i = 0; i < smooth.rows(); ++i) {
-      for (typename row_major_sparse<S>::InnerIterator e(smooth, i); e; ++e) {
-        if (keep[e.col()] > S(0)) e.valueRef() = S(0);
+  }
+  std::vector<double> inverses(R.blocks.size());
+  for (index g = 0; g < a.count; ++g) {
+    auto const at = static_cast<std::size_t>(g) * (M * M);
+    cholesky_of_candidates<M>(R.blocks.data() + at, inverses.data() + at);
+  }
+  std::vector<T> Q(n * N * M + prolongation<N, M, T>::beyond, T(0));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (a.of[i] < 0) continue;
+    double const* const b = B.at(static_cast<int>(i));
+    double const* const x = inverses.data() + static_cast<std::size_t>(a.of[i]) * (M * M);
+    for (int q = 0; q < N; ++q) {
+      for (int c = 0; c < M; ++c) {
+        double s = 0;
+        for (int k = 0; k <= c; ++k) s += b[M * q + k] * x[M * k + c];
+        Q[(i * N + static_cast<std::size_t>(q)) * M + static_cast<std::size_t>(c)] = T(s);
       }
     }
-    P = P0 + smooth;
   }
-  P.makeCompressed();
+  return Q;
+}
+
+/// λ_max(D⁻¹A) within a few percent, by the power method and the quotient of Rayleigh; D given by
+/// its inverses as for the sweeps. A value too small costs convergence, never definiteness.
+template <int N, class T>
+[[nodiscard]] T largest_jacobi_eigenvalue(block_matrix<N, T> const& A, T const* inverses) {
+  constexpr int stride = block_matrix<N, T>::stride;
+  constexpr int steps = 8;
+  std::vector<T> x(A.padded_size(), T(0)), y(x.size(), T(0));
+  unsigned random = 1;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    random = random * 1664525u + 1013904223u;  // [Knuth 1997, 3.3.4, table 1]
+    x[k] = static_cast<int>(k % stride) < N ? T(random >> 8) / T(1 << 23) - T(1) : T(0);
+  }
+  T λ(1);
+  for (int step = 0; step < steps; ++step) {
+    // y holds D x from the second step on.
+    auto const dot = [&] {
+      double sum = 0;
+      for (int i = 0; i < A.nodes(); ++i) {
+        T s(0);
+        for (int c = 0; c < N; ++c) {
+          auto const k = static_cast<std::size_t>(i) * stride + static_cast<std::size_t>(c);
+          s += x[k] * y[k];
+        }
+        sum += static_cast<double>(s);
+      }
+      return sum;
+    };
+    double const xDx = step == 0 ? 0.0 : dot();
+    A.multiply(x.data(), y.data());
+    double const xAx = dot();
+    if (step > 0 && xDx > 0) λ = T(xAx / xDx);
+    if (!(xAx > 0)) return λ;
+    T const scale = T(1 / std::sqrt(xAx));
+    for (int i = 0; i < A.nodes(); ++i) {
+      auto const k = static_cast<std::size_t>(i) * stride;
+      using columns = lanes<T, N>;
+      columns z = columns::zero(), image = columns::zero();
+      image.add(y.data() + k, scale);
+      image.store_padded(y.data() + k);
+      unrolled<N>([&](auto c) __attribute__((always_inline)) {
+        z.add(inverses + k * N + stride * c, image[c]);
+      });
+      z.store_padded(x.data() + k);
+    }
+  }
+  return λ;
+}
+
+/// P = (I − ω D⁻¹A) Q for the candidates Q of aggregates; ω = 0: P = Q.
+template <int N, int M, class T>
+[[nodiscard]] prolongation<N, M, T> smoothed_prolongation(block_matrix<N, T> const& A,
+                                                          T const* inverses, aggregation const& a,
+                                                          std::vector<T> const& Q, T ω) {
+  using wide = lanes<T, M>;
+  constexpr int stride = block_matrix<N, T>::stride;
+  constexpr std::size_t size = N * M;
+  prolongation<N, M, T> P;
+  P.coarse_nodes = static_cast<int>(a.count);
+  P.first.reserve(a.of.size() + 1);
+  P.column.reserve(a.of.size() * 4);
+  P.entries.reserve(a.of.size() * 4 * size);
+  std::vector<int> place(static_cast<std::size_t>(a.count), -1), list;
+  std::vector<wide> sums;  // −ω (A Q)_iJ, N lanes for each J
+  for (int i = 0; i < A.nodes(); ++i) {
+    int const own = a.of[static_cast<std::size_t>(i)];
+    if (own >= 0) {
+      list.clear();
+      A.for_each_in_row(i, [&](int j, T const* block) {
+        int const J = a.of[static_cast<std::size_t>(j)];
+        if (J < 0 || (J != own && ω == T(0))) return;
+        int& at = place[static_cast<std::size_t>(J)];
+        if (at < 0) {
+          at = static_cast<int>(list.size()) * N;
+          list.push_back(J);
+          if (sums.size() < list.size() * N) sums.resize(list.size() * N);
+          for (int q = 0; q < N; ++q) sums[static_cast<std::size_t>(at + q)] = wide::zero();
+        }
+        wide* const to = sums.data() + at;
+        T const* const from = Q.data() + static_cast<std::size_t>(j) * size;
+        unrolled<N>([&](auto k) __attribute__((always_inline)) {
+          wide const row = wide::load(from + M * k);
+          unrolled<N>([&](auto q) __attribute__((always_inline)) {
+            to[q].add(row, -ω * block[N * k + q]);
+          });
+        });
+      });
+      std::sort(list.begin(), list.end());
+      T const* const inverse = inverses + static_cast<std::size_t>(i) * (N * stride);
+      for (int const J : list) {
+        wide const* const from = sums.data() + place[static_cast<std::size_t>(J)];
+        std::size_t const at = P.entries.size();
+        P.column.push_back(J);
+        P.entries.resize(at + size);
+        for (int q = 0; q < N; ++q) {
+          wide s = wide::zero();
+          if (J == own) {
+            s = wide::load(Q.data() + static_cast<std::size_t>(i) * size +
+                           static_cast<std::size_t>(M * q));
+          }
+          for (int k = 0; k < N; ++k) s.add(from[k], inverse[stride * k + q]);
+          s.store(P.entries.data() + at + static_cast<std::size_t>(M * q));
+        }
+        place[static_cast<std::size_t>(J)] = -1;
+      }
+    }
+    P.first.push_back(static_cast<int>(P.column.size()));
+  }
+  P.entries.resize(P.entries.size() + prolongation<N, M, T>::beyond, T(0));
   return P;
 }
 

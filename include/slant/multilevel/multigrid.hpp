@@ -1,40 +1,60 @@
 // SPDX-License-Identifier: MIT
 //
-// Multigrid by smoothed aggregation [Vaněk, Mandel, Brezina 1996]: an operator M ≈ K⁻¹ for a sparse
-// symmetric positive definite K, of the cost of a few products by K and with a condition number of
-// M K that hardly depends on the mesh.
+// Multigrid: an operator M ≈ K⁻¹ for a sparse symmetric positive definite K, of the cost of a few
+// products by K and with a condition number of M K that hardly depends on the mesh.
 //
-//     cycle(b):   x ← forwards sweep of Gauss–Seidel from 0
-//                 x ← x + P cycle(Pᵀ(b − K x))          K_coarse = PᵀK P, the last one factored
+//     cycle(b):   x ← forwards sweep of block Gauss–Seidel from 0,   r ← b − K x
+//                 x ← x + P cycle(Pᵀr)            K_coarse = PᵀK P, the last one factored
 //                 x ← backwards sweep
 //
-// What sweeps do not reach is the near kernel of K: constants of a Laplacian, rigid-body modes in
-// elasticity. It is given by candidates, which the coarse levels represent exactly.
+// P: of the user, as interpolation on nested meshes; or by smoothed aggregation (aggregation.hpp),
+// which represents the near kernel of K, what sweeps do not reach, exactly: constants of a
+// Laplacian, rigid-body modes in elasticity.
 //
-// Faces. With some unknowns held at zero the same hierarchy serves the matrix K_FF of the others:
-// the sweeps pass over what is held and the coarse correction leaves it out. Such a cycle is the
-// sum of the symmetrised sweep, definite on the face, and of a semidefinite term, so it is definite
-// for every face, and nothing is set up anew when the face changes.
+// Precision. The levels are of floats: a cycle is a correction that an outer iteration in double
+// takes as a preconditioner, and sweeps wait for memory. K itself is not kept. The levels are those
+// of K/2^e and a cycle works on x/2^k, so that the range of floats is no limit in any units.
+//
+// Definite. Forwards before and backwards after the coarse correction make M = S + B Bᵀ with the
+// symmetrised sweep S = (D + Lᵀ)⁻¹ D (D + L)⁻¹, definite for every matrix with definite diagonal
+// blocks, and a semidefinite rest, however inexact the coarse levels are. No bound of a spectrum is
+// needed that would have to be right. On a singular K, of bodies that float, M is definite as well.
+//
+// Faces. On a face H = Π K Π + C takes the place of K (parts/node_face.hpp): the inverses of the
+// diagonal blocks at the surface are all that the sweeps know of it, and P is truncated by Π. The
+// rows of the coarse levels that come from nodes where the face has changed, and no others, are
+// formed anew [truncated multigrid: Gräser, Kornhuber 2009]. Levels hold no face: a workspace does.
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
+#include <slant/base/partitions.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/factorization.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/factorizations/factorize.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/multilevel/aggregation.hpp>
-#include <slant/operators/inverse.hpp>
+#include <slant/multilevel/block_matrix.hpp>
+#include <slant/multilevel/parts/dense_factor.hpp>
+#include <slant/multilevel/parts/galerkin.hpp>
+#include <slant/multilevel/parts/node_face.hpp>
+#include <slant/multilevel/parts/prolongation.hpp>
+#include <slant/multilevel/parts/semidefinite_inverse.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace slant {
@@ -43,17 +63,33 @@ namespace slant {
 
 /// Options of multigrid.
 struct multigrid_options {
+  /// Of the nodes, a column for each, in 2 or 3 rows; node i has the unknowns D i … D i + D − 1.
+  /// From them come the rigid-body modes of elasticity. Empty: the near kernel is what is given
+  /// otherwise, or constants.
+  Eigen::MatrixXd coordinates{};
   index block_size = 0;  ///< unknowns of a node, consecutive; 0: from the pattern of K, 1 to 3
-  double strength = 0.04;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
+  double strength = 0.02;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
   double damping = 4.0 / 3;  ///< ω λ_max(D⁻¹K) in (0, 2): the smoothing of the prolongation
   index sweeps = 1;          ///< of Gauss–Seidel before and after each coarse correction, >= 1
-  index coarsest = 600;      ///< a level with so few unknowns is factored, >= 1
-  index levels = 20;         ///< at most so many, >= 1
+  /// A level with so few unknowns is factored, >= 1. A last level with more, where there is none
+  /// that is smaller, is factored up to twice as many (or 1200), else smoothed.
+  index coarsest = 500;
+  index levels = 20;  ///< at most so many, >= 1
+  /// > 1: numbers of the matrices of all levels over those of the finest. A level that would exceed
+  /// its share is coarsened along weaker couplings, θ/2, θ/4, …, 0; where that is not enough, its P
+  /// is not smoothed, which costs up to twice the cycles.
+  double complexity = 2;
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using detail::show;
-    if (block_size < 0) throw bad_input("block_size", show(block_size), "a number >= 0");
+    if (coordinates.size() > 0 && coordinates.rows() != 2 && coordinates.rows() != 3) {
+      throw bad_input("rows of coordinates", show(coordinates.rows()), "2 or 3");
+    }
+    detail::require_finite_entries("coordinates", coordinates);
+    if (block_size < 0 || block_size > 3) {
+      throw bad_input("block_size", show(block_size), "a number from 0 to 3");
+    }
     if (!(strength >= 0 && strength < 1)) {
       throw bad_input("strength", show(strength), "a number in [0, 1)");
     }
@@ -63,6 +99,7 @@ struct multigrid_options {
     if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
     if (coarsest < 1) throw bad_input("coarsest", show(coarsest), "at least 1");
     if (levels < 1) throw bad_input("levels", show(levels), "at least 1");
+    if (!(complexity > 1)) throw bad_input("complexity", show(complexity), "a number > 1");
   }
 };
 
@@ -70,104 +107,347 @@ struct multigrid_options {
 
 namespace slant::detail {
 
-// --- gauss seidel --------------------------------------------------------------------------------
-//
-// Sweeps of Gauss–Seidel over a symmetric matrix, perhaps with unknowns that are held at zero:
-// those are passed over, which is the sweep over the principal submatrix of the others.
-//
-// Why Gauss–Seidel: forwards before and backwards after the coarse correction makes the cycle
-// self-adjoint and definite for every definite matrix, whatever is held. No bound of a spectrum is
-// needed that would have to be right.
+// --- hierarchy -----------------------------------------------------------------------------------
 
-/// Nothing is held.
-struct nothing_held {
-  constexpr bool operator()(index) const { return false; }
+/// The inverse of the diagonal block i of a coarse level, for the sweeps; pivots are measured by
+/// those of `free` as well, the level while nothing is held.
+template <int N, class T>
+void invert_diagonal(block_matrix<N, T> const& A, block_matrix<N, T> const& free, int i,
+                     T* inverses) {
+  constexpr int stride = block_matrix<N, T>::stride;
+  double a[N * N], least[N], scale[N];
+  for (int k = 0; k < N * N; ++k) a[k] = static_cast<double>(A.diagonal(i)[k]);
+  for (int c = 0; c < N; ++c) {
+    scale[c] = a[(N + 1) * c];
+    // Unknowns that others of the node make up, as rotations of what a face leaves of an aggregate.
+    double const size = std::max(scale[c], static_cast<double>(free.diagonal(i)[(N + 1) * c]));
+    least[c] = 16 * static_cast<double>(std::numeric_limits<T>::epsilon()) * std::max(size, 0.0);
+  }
+  invert_semidefinite<N>(a, least, scale);
+  T* const to = inverses + static_cast<std::size_t>(i) * (N * stride);
+  for (int c = 0; c < N; ++c) {
+    for (int q = 0; q < stride; ++q) to[stride * c + q] = q < N ? T(a[N * c + q]) : T(0);
+  }
+}
+
+/// A level, and P from the next coarser one with nodes of M unknowns.
+template <int N, int M, class T>
+struct multigrid_level {
+  block_matrix<N, T> A;
+  std::vector<T> inverses;  // of the diagonal blocks
+  prolongation<N, M, T> P;
+  std::size_t longest = 0;  // of the rows of A P
 };
 
-/// Unknown i is held if entry i of a list is not zero.
-struct held_where {
-  unsigned char const* entries;
-  bool operator()(index i) const { return entries[i] != 0; }
-};
-
-/// A symmetric matrix, prepared for sweeps. Rows are compressed, their entries sorted.
-template <class S>
-class gauss_seidel {
+/// What is the same for every right-hand side and face: level 0 has nodes of N unknowns, the others
+/// of M.
+template <int N, int M, class T>
+class hierarchy {
  public:
-  using matrix_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
+  using fine_level = multigrid_level<N, M, T>;
+  using coarse_level = multigrid_level<M, M, T>;
 
-  gauss_seidel() = default;
-  /// The diagonal of K must be positive.
-  explicit gauss_seidel(matrix_type k) : k_(std::move(k)), inverse_(k_.rows()) {
-    k_.makeCompressed();
-    diagonal_.resize(static_cast<std::size_t>(k_.rows()));
-    for (index i = 0; i < k_.rows(); ++i) {
-      int e = k_.outerIndexPtr()[i];
-      while (k_.innerIndexPtr()[e] != i) ++e;
-      diagonal_[static_cast<std::size_t>(i)] = e;
-      inverse_[i] = S(1) / k_.valuePtr()[e];
+  fine_level fine;
+  std::vector<double> diagonal;      // D of level 0, N² numbers each
+  std::vector<coarse_level> coarse;  // the last one without P
+  dense_factor<N, T> only;           // of level 0 if there is no other
+  dense_factor<M, T> last;           // of the last level
+  bool factored = false;             // whether there is such a factor
+  bool smoothed = true;              // all P by smoothing, none above the limit of complexity
+
+  [[nodiscard]] std::vector<index> sizes() const {
+    std::vector<index> list{fine.A.rows()};
+    for (auto const& l : coarse) list.push_back(l.A.rows());
+    return list;
+  }
+  /// Numbers of all matrices over those of the first.
+  [[nodiscard]] double complexity() const {
+    double sum = 0;
+    for (auto const& l : coarse) sum += double(l.A.blocks()) * (M * M);
+    return fine.A.blocks() == 0 ? 1 : 1 + sum / (double(fine.A.blocks()) * (N * N));
+  }
+
+  /// Level 0: factor · K.
+  template <class K>
+  void begin(K const& k, typename K::Scalar const& factor) {
+    using S = typename K::Scalar;
+    constexpr int stride = block_matrix<N, T>::stride;
+    fine.A = block_matrix<N, T>(k, factor);
+    auto const n = static_cast<std::size_t>(fine.A.nodes());
+    diagonal.assign(n * N * N, 0.0);
+    fine.inverses.assign(n * N * stride, T(0));
+    for (std::size_t i = 0; i < n; ++i) {
+      double* const a = diagonal.data() + i * (N * N);
+      for (int c = 0; c < N; ++c) {
+        index const column = static_cast<index>(i) * N + c;
+        auto const* const inner = k.innerIndexPtr();
+        index const end = k.isCompressed() ? index(k.outerIndexPtr()[column + 1])
+                                           : index(k.outerIndexPtr()[column]) +
+                                                 index(k.innerNonZeroPtr()[column]);
+        index e = std::lower_bound(inner + k.outerIndexPtr()[column], inner + end,
+                                   static_cast<index>(i) * N) -
+                  inner;
+        for (; e < end && inner[e] < static_cast<index>(i) * N + N; ++e) {
+          a[N * c + (inner[e] - static_cast<index>(i) * N)] =
+              static_cast<double>(S(k.valuePtr()[e] * factor));
+        }
+        // In double it may be a number that is none in T.
+        if (!(T(a[(N + 1) * c]) >= std::numeric_limits<T>::min())) {
+          throw bad_input("K",
+                          "diagonal entry " + show(column) + " = " + show(k.coeff(column, column)),
+                          "a symmetric positive definite matrix");
+        }
+      }
+      double inverse[N * N], least[N], scale[N];
+      std::copy(a, a + N * N, inverse);
+      for (int c = 0; c < N; ++c) {
+        scale[c] = a[(N + 1) * c];
+        least[c] = 64 * std::numeric_limits<double>::epsilon() * scale[c];
+      }
+      invert_semidefinite<N>(inverse, least, scale);
+      for (int c = 0; c < N; ++c) {
+        for (int q = 0; q < N; ++q) {
+          fine.inverses[(i * N + std::size_t(c)) * stride + std::size_t(q)] = T(inverse[N * c + q]);
+        }
+      }
     }
   }
 
-  [[nodiscard]] matrix_type const& matrix() const { return k_; }
+  /// The level below the last one by P, which becomes its prolongation.
+  template <int F>
+  void append(multigrid_level<F, M, T>& above, prolongation<F, M, T> P, block_matrix<M, T> C) {
+    constexpr int stride = block_matrix<M, T>::stride;
+    above.P = std::move(P);
+    galerkin_scratch<F, M, T> scratch(above.P, above.longest);
+    galerkin(above.A, above.P, C, scratch);
+    std::vector<T> inverses(static_cast<std::size_t>(C.nodes()) * M * stride, T(0));
+    for (int i = 0; i < C.nodes(); ++i) invert_diagonal(C, C, i, inverses.data());
+    coarse.push_back({std::move(C), std::move(inverses), {}, 0});
+  }
 
-  /// x = (D + L)⁻¹ b and r = b − K x = −Lᵀx: together they cost one product.
-  template <class V, class Held>
-  void forwards_from_zero(V const& b, V& x, V& r, Held held) const {
-    for (index i = 0; i < k_.rows(); ++i) {
-      x[i] = held(i) ? S(0) : S((b[i] - row(begin(i), middle(i), x)) * inverse_[i]);
-    }
-    for (index i = 0; i < k_.rows(); ++i) {
-      r[i] = held(i) ? S(0) : S(-row(middle(i) + 1, end(i), x));
-    }
-  }
-  /// r = b − K x, 0 where x is held.
-  template <class V, class Held>
-  void residual(V const& b, V const& x, V& r, Held held) const {
-    for (index i = 0; i < k_.rows(); ++i) {
-      r[i] = held(i) ? S(0) : S(b[i] - row(begin(i), end(i), x));
+  /// Levels by aggregation until one is small enough. B: near kernel of level 0, or, if there are
+  /// others already, of the last.
+  void aggregate_all(near_kernel<N, M> const& B, multigrid_options const& o) {
+    near_kernel<M, M> next;
+    if (!done(fine.A, o)) {
+      if (!aggregate_below(fine, B, next, o)) return;
+      aggregate_rest(std::move(next), o);
     }
   }
-  template <class V, class Held>
-  void forwards(V const& b, V& x, Held held) const {
-    for (index i = 0; i < k_.rows(); ++i) relax(i, b, x, held);
+  void aggregate_rest(near_kernel<M, M> B, multigrid_options const& o) {
+    near_kernel<M, M> next;
+    while (!done(coarse.back().A, o)) {
+      // append() makes a new last level, after it has used this one.
+      coarse.reserve(coarse.size() + 1);
+      if (!aggregate_below(coarse.back(), B, next, o)) return;
+      std::swap(B.blocks, next.blocks);
+    }
   }
-  template <class V, class Held>
-  void backwards(V const& b, V& x, Held held) const {
-    for (index i = k_.rows() - 1; i >= 0; --i) relax(i, b, x, held);
+
+  /// Factors the last level. Throws bad_input if K is found not to be semidefinite.
+  void finish(multigrid_options const& o) {
+    auto const factor = [&](auto& to, auto const& A) {
+      // A level that would not become smaller has few couplings, and sweeps solve it well enough.
+      if (A.rows() > std::max<index>(2 * o.coarsest, 1200)) return;
+      to = std::remove_reference_t<decltype(to)>(A.nodes());
+      double const lowest = to.factor(A, A, whole_blocks{});
+      if (lowest < -std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()))) {
+        throw bad_input("K", "a negative pivot on level " + show(static_cast<index>(coarse.size())),
+                        "a symmetric positive definite matrix");
+      }
+      factored = true;
+    };
+    if (coarse.empty()) {
+      factor(only, fine.A);
+    } else {
+      factor(last, coarse.back().A);
+    }
   }
 
  private:
-  [[nodiscard]] int begin(index i) const { return k_.outerIndexPtr()[i]; }
-  [[nodiscard]] int end(index i) const { return k_.outerIndexPtr()[i + 1]; }
-  [[nodiscard]] int middle(index i) const { return diagonal_[static_cast<std::size_t>(i)]; }
+  template <int F>
+  [[nodiscard]] bool done(block_matrix<F, T> const& A, multigrid_options const& o) const {
+    return A.rows() <= o.coarsest || static_cast<index>(coarse.size()) + 1 >= o.levels;
+  }
 
-  /// Σ K_ij x_j over entries [from, to); four sums that do not wait for each other.
-  template <class V>
-  [[nodiscard]] S row(int from, int to, V const& x) const {
-    S const* const values = k_.valuePtr();
-    int const* const columns = k_.innerIndexPtr();
-    S a(0), b(0), c(0), d(0);
-    int e = from;
-    for (; e + 3 < to; e += 4) {
-      a += values[e] * x[columns[e]];
-      b += values[e + 1] * x[columns[e + 1]];
-      c += values[e + 2] * x[columns[e + 2]];
-      d += values[e + 3] * x[columns[e + 3]];
+  [[nodiscard]] static double weaker(double θ) { return θ > 0.01 ? θ / 2 : 0; }
+
+  /// The level below, with its near kernel; false if there is none that is smaller.
+  template <int F>
+  bool aggregate_below(multigrid_level<F, M, T>& above, near_kernel<F, M> const& B,
+                       near_kernel<M, M>& next, multigrid_options const& o) {
+    // A level may have so many of the numbers of the one above that all have what the limit allows.
+    double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
+    T const λ = largest_jacobi_eigenvalue(above.A, above.inverses.data());
+    double θ = o.strength;
+    bool smooth = λ > T(0);
+    while (true) {
+      aggregation const a = aggregate(above.A, θ);
+      if (a.count == 0 || 10 * a.count > 9 * index(above.A.nodes())) {
+        if (θ == 0) return false;
+        θ = weaker(θ);
+        continue;
+      }
+      auto const Q = orthonormal_candidates<F, M, T>(a, B, next);
+      T const ω = smooth ? T(o.damping) / λ : T(0);
+      auto P = smoothed_prolongation<F, M, T>(above.A, above.inverses.data(), a, Q, ω);
+      auto C = galerkin_pattern(above.A, P, above.longest);
+      if (smooth && double(C.blocks()) * (M * M) > most) {
+        if (θ == 0) smooth = false;
+        θ = weaker(θ);
+        continue;
+      }
+      smoothed = smoothed && smooth;
+      append(above, std::move(P), std::move(C));
+      return true;
     }
-    for (; e < to; ++e) a += values[e] * x[columns[e]];
-    return (a + b) + (c + d);
   }
-  template <class V, class Held>
-  void relax(index i, V const& b, V& x, Held held) const {
-    if (held(i)) return;
-    x[i] += (b[i] - row(begin(i), end(i), x)) * inverse_[i];
-  }
-
-  matrix_type k_;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> inverse_;
-  std::vector<int> diagonal_;  // where the entry K_ii is stored
 };
+
+// --- cycle ---------------------------------------------------------------------------------------
+
+/// Block vectors of a level.
+template <class T>
+struct level_vectors {
+  std::vector<T> x, b, r;
+
+  explicit level_vectors(std::size_t n) : x(n, T(0)), b(n, T(0)), r(n, T(0)) {}
+};
+
+/// What belongs to a face: copies of the coarse levels whose rows follow it.
+template <int N, int M, class T, class V>
+struct levels_on_face {
+  node_face<N, T> face;
+  std::vector<block_matrix<M, T>> A;  // of coarse levels
+  std::vector<std::vector<T>> inverses;
+  dense_factor<N, T> only;
+  dense_factor<M, T> last;
+  galerkin_scratch<N, M, T> first_scratch;
+  std::vector<galerkin_scratch<M, M, T>> scratch;
+  std::vector<int> moved, parents;
+  V probe, image;
+
+  levels_on_face(hierarchy<N, M, T> const& h, V const& prototype)
+      : face(h.fine.A.nodes(), h.fine.inverses),
+        only(h.only),
+        last(h.last),
+        probe(prototype),
+        image(prototype) {
+    if (!h.coarse.empty()) first_scratch = {h.fine.P, h.fine.longest};
+    std::size_t most = static_cast<std::size_t>(h.fine.A.nodes());
+    moved.reserve(most);
+    parents.reserve(most);
+    for (std::size_t l = 0; l < h.coarse.size(); ++l) {
+      A.push_back(h.coarse[l].A);
+      inverses.push_back(h.coarse[l].inverses);
+      scratch.emplace_back();
+      if (l + 1 < h.coarse.size()) scratch.back() = {h.coarse[l].P, h.coarse[l].longest};
+    }
+  }
+};
+
+/// The workspace of a cycle for vectors V.
+template <int N, int M, class T, class V>
+struct cycle_workspace {
+  level_vectors<T> fine;
+  std::vector<level_vectors<T>> coarse;
+  std::optional<levels_on_face<N, M, T, V>> on_face;
+
+  explicit cycle_workspace(hierarchy<N, M, T> const& h) : fine(h.fine.A.padded_size()) {
+    for (auto const& l : h.coarse) coarse.emplace_back(l.A.padded_size());
+  }
+};
+
+/// Sweeps before the coarse correction: x from 0, and r = b − A x, or less than that at a surface.
+template <int N, class T>
+void smooth_before(block_matrix<N, T> const& A, T const* inverses, level_vectors<T>& v,
+                   index sweeps) {
+  A.forwards_from_zero(inverses, v.b.data(), v.x.data(), v.r.data());
+  for (index k = 1; k < sweeps; ++k) A.forwards(inverses, v.b.data(), v.x.data());
+}
+
+/// x = cycle(b) on the levels below the finest, from l on.
+template <int N, int M, class T, class V>
+void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, bool on_face,
+                  std::size_t l, index sweeps) {
+  auto const& A = on_face ? w.on_face->A[l] : h.coarse[l].A;
+  auto const& inverses = on_face ? w.on_face->inverses[l] : h.coarse[l].inverses;
+  auto& v = w.coarse[l];
+  bool const last = l + 1 == h.coarse.size();
+  if (last && h.factored) {
+    (on_face ? w.on_face->last : h.last).solve(v.b.data(), v.x.data());
+    return;
+  }
+  smooth_before(A, inverses.data(), v, sweeps);
+  if (!last) {
+    if (sweeps > 1) A.residual(v.b.data(), v.x.data(), v.r.data());
+    auto const& P = h.coarse[l].P;
+    P.restrict_to(v.r.data(), w.coarse[l + 1].b.data());
+    coarse_cycle(h, w, on_face, l + 1, sweeps);
+    P.add_to(w.coarse[l + 1].x.data(), v.x.data());
+  }
+  for (index k = 0; k < sweeps; ++k) A.backwards(inverses.data(), v.b.data(), v.x.data());
+}
+
+/// x = cycle(b) on all levels.
+template <int N, int M, class T, class V>
+void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, bool on_face,
+           index sweeps) {
+  auto& v = w.fine;
+  auto* const face = on_face ? &w.on_face->face : nullptr;
+  T const* const inverses = face ? face->inverses() : h.fine.inverses.data();
+  smooth_before(h.fine.A, inverses, v, sweeps);
+  if (!h.coarse.empty() || h.factored) {
+    if (sweeps > 1) {
+      h.fine.A.residual(v.b.data(), v.x.data(), v.r.data());
+      if (face) face->subtract_curvature(v.x.data(), v.r.data());
+    }
+    if (face) {
+      face->project(v.r.data());
+      face->remember(v.x.data());
+    }
+    if (h.coarse.empty()) {
+      (on_face ? w.on_face->only : h.only).solve(v.r.data(), v.r.data());
+      for (std::size_t k = 0; k < v.x.size(); ++k) v.x[k] += v.r[k];
+    } else {
+      h.fine.P.restrict_to(v.r.data(), w.coarse.front().b.data());
+      coarse_cycle(h, w, on_face, 0, sweeps);
+      h.fine.P.add_to(w.coarse.front().x.data(), v.x.data());
+    }
+    if (face) face->project_change(v.x.data());
+  }
+  for (index k = 0; k < sweeps; ++k) h.fine.A.backwards(inverses, v.b.data(), v.x.data());
+}
+
+/// The coarse levels follow the face. Returns how many of their rows were formed anew.
+template <int N, int M, class T, class V, class Face>
+index enter_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, Face const& face,
+                 double weight) {
+  if (!w.on_face) w.on_face.emplace(h, V(h.fine.A.rows()));
+  auto& f = *w.on_face;
+  f.face.assign(face, weight, h.diagonal, f.probe, f.image, f.moved);
+  if (f.moved.empty()) return 0;
+  auto const blocks = f.face.formed_blocks();
+  if (h.coarse.empty()) {
+    if (h.factored) f.only.factor(h.fine.A, h.fine.A, blocks);
+    return 0;
+  }
+  index rows = 0;
+  auto const invert = [&](std::size_t l) {
+    for (int const i : f.parents) invert_diagonal(f.A[l], h.coarse[l].A, i, f.inverses[l].data());
+    rows += static_cast<index>(f.parents.size());
+    std::swap(f.moved, f.parents);
+  };
+  galerkin_anew(h.fine.A, h.fine.P, f.A.front(), f.moved, f.parents, f.first_scratch, blocks);
+  invert(0);
+  for (std::size_t l = 0; l + 1 < f.A.size(); ++l) {
+    galerkin_anew(f.A[l], h.coarse[l].P, f.A[l + 1], f.moved, f.parents, f.scratch[l],
+                  whole_blocks{});
+    invert(l + 1);
+  }
+  if (h.factored) f.last.factor(f.A.back(), h.coarse.back().A, whole_blocks{});
+  return rows;
+}
 
 }  // namespace slant::detail
 
@@ -175,16 +455,19 @@ namespace slant {
 
 // --- multigrid -----------------------------------------------------------------------------------
 
-/// The V-cycle for a matrix of scalars S. Copies share the levels, which never change.
-template <class S = double>
+/// The V-cycle for vectors of scalars S, with levels of scalars T. Copies share the levels, which
+/// never change.
+template <class S = double, class T = float>
 class multigrid {
+  template <int N, int M>
+  using levels = detail::hierarchy<N, M, T>;
+  using all_levels =
+      std::variant<levels<3, 6>, levels<3, 3>, levels<2, 3>, levels<2, 2>, levels<1, 1>>;
+
  public:
   using scalar = S;
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  using sparse_type = detail::row_major_sparse<S>;
-  using factor_type = decltype(slant::factorize(std::declval<Eigen::SparseMatrix<S> const&>()));
-  using inverse_type = decltype(slant::inverse(std::declval<factor_type const&>()));
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
   /// A vector of scalars S, no matrix of several.
@@ -192,196 +475,336 @@ class multigrid {
   static constexpr bool column =
       std::same_as<scalar_t<X>, S> && int(local_t<X>::ColsAtCompileTime) == 1;
 
-  /// For K (n × n, both triangles) whose near kernel consists of constants, one for each unknown of
-  /// a node. Throws bad_input if K is not square, finite and symmetric, or found not to be
-  /// definite, if the block size does not divide n, and for options out of range.
+  /// By aggregation, for K (n × n, both triangles) whose near kernel consists of the rigid-body
+  /// modes of options.coordinates, or without these of constants, one for each unknown of a node.
+  /// Throws bad_input if K is not square, finite and symmetric, or found not to be semidefinite, if
+  /// sizes do not fit, and for options out of range.
   template <class M>
   explicit multigrid(Eigen::SparseMatrixBase<M> const& k, multigrid_options const& o = {})
       : multigrid(k, matrix_type(0, 0), o) {}
-  /// For candidates of the near kernel: n × r with r ≥ 1 columns, finite; such as
-  /// contact::rigid_body_modes of the nodes. No columns: constants.
+  /// For candidates of the near kernel: n × r, finite, r at most 6 in space, 3 in the plane, 1 with
+  /// one unknown a node; such as contact::rigid_body_modes of the nodes. No columns: constants.
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, Eigen::MatrixBase<B> const& candidates,
             multigrid_options const& o = {})
-      : levels_(std::make_shared<hierarchy>()), sweeps_(o.sweeps) {
+      : sweeps_(o.sweeps) {
     o.validate();
-    sparse_type K = k.derived();
-    detail::require_symmetric_matrix("K", K);
-    K.makeCompressed();
-    rows_ = K.rows();
-    index const b = o.block_size > 0 ? o.block_size : detected_block_size(K);
-    if (rows_ % b != 0) {
-      throw bad_input("block_size", detail::show(b), "a divisor of " + detail::show(rows_));
-    }
-    matrix_type modes = candidates;
-    if (modes.cols() == 0) modes = matrix_type::Identity(b, b).replicate(rows_ / b, 1);
-    detail::check_size("rows of the candidates", modes.rows(), rows_, "the size of K,");
-    detail::require_finite_entries("candidates", modes);
-    if (rows_ > 0) build(std::move(K), node_blocks(rows_, b), std::move(modes), o);
+    auto const& K = compressed(k.derived());
+    prepare(K);
+    matrix_type const modes = candidates_for(candidates, o);
+    if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
+    index const b = block_size(K, modes.cols(), o);
+    with_levels(b, modes.cols() > b, [&]<int N, int W>(levels<N, W>& h) {
+      h.begin(K, factor_);
+      h.aggregate_all(kernel<N, W>(modes), o);
+      h.finish(o);
+    });
+    note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), modes.cols(), o);
+  }
+  /// With prolongations of the user, the one from level 1 to level 0 first: weights of nodes (nodes
+  /// × coarse nodes) or matrices of unknowns. If they end at a level with more than twice
+  /// options.coarsest unknowns, aggregation continues. Throws bad_input as above.
+  template <class M, class P>
+  multigrid(Eigen::SparseMatrixBase<M> const& k, std::vector<P> const& prolongations,
+            multigrid_options const& o = {})
+      : sweeps_(o.sweeps) {
+    o.validate();
+    auto const& K = compressed(k.derived());
+    prepare(K);
+    index const b = block_size(K, 0, o);
+    with_levels(b, false, [&]<int N, int W>(levels<N, W>& h) {
+      h.begin(K, factor_);
+      if constexpr (N == W) {
+        h.coarse.reserve(prolongations.size());
+        for (std::size_t l = 0; l < prolongations.size(); ++l) {
+          auto const below = [&](auto& above) {
+            auto p = detail::prolongation_from<N, T>(
+                prolongations[l], above.A.nodes(),
+                "prolongation " + detail::show(static_cast<index>(l)));
+            auto C = detail::galerkin_pattern(above.A, p, above.longest);
+            h.append(above, std::move(p), std::move(C));
+          };
+          if (l == 0) {
+            below(h.fine);
+          } else {
+            below(h.coarse.back());
+          }
+        }
+        if (h.coarse.empty()) {
+          h.aggregate_all(constants<N, W>(h.fine.A.nodes()), o);
+        } else if (h.coarse.back().A.rows() > 2 * o.coarsest) {
+          h.aggregate_rest(constants<W, W>(h.coarse.back().A.nodes()), o);
+        }
+        h.finish(o);
+      }
+    });
+    description_ = "prolongations of the user: " + levels_text();
   }
 
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
-  /// Unknowns of each level, the finest first, the factored one last.
+  /// Unknowns of each level, the finest first.
   [[nodiscard]] std::vector<index> sizes() const {
-    std::vector<index> list;
-    for (auto const& l : levels_->smooth) list.push_back(l.sweep.matrix().rows());
-    if (levels_->coarsest) list.push_back(levels_->coarsest->rows());
-    return list;
+    return std::visit([](auto const& h) { return h.sizes(); }, *levels_);
   }
-  /// Entries of all matrices that a cycle passes through over those of K: 1.2 to 1.6 as a rule.
+  /// Numbers of the matrices of all levels over those of the finest: 1.2 to 1.6 as a rule.
   [[nodiscard]] double complexity() const {
-    if (levels_->smooth.empty()) return 1;
-    double sum = 0;
-    for (auto const& l : levels_->smooth) sum += double(l.sweep.matrix().nonZeros());
-    return (sum + double(levels_->coarsest_entries)) /
-           double(levels_->smooth.front().sweep.matrix().nonZeros());
+    return std::visit([](auto const& h) { return h.complexity(); }, *levels_);
   }
+  /// A sentence: which levels, and what would make better ones.
+  [[nodiscard]] std::string const& description() const { return description_; }
 
-  /// Vectors of all levels, and which unknowns are held.
+  /// Vectors of all levels, and the face entered last with the coarse levels that follow it.
   struct workspace_type {
-    struct vectors {
-      vector_type x, b, r;
-    };
-    std::vector<vectors> levels;
-    std::vector<unsigned char> held;
-    std::optional<workspace_t<inverse_type, vector_type>> factor;
+    std::variant<detail::cycle_workspace<3, 6, T, vector_type>,
+                 detail::cycle_workspace<3, 3, T, vector_type>,
+                 detail::cycle_workspace<2, 3, T, vector_type>,
+                 detail::cycle_workspace<2, 2, T, vector_type>,
+                 detail::cycle_workspace<1, 1, T, vector_type>>
+        levels;
+    index rows_formed = 0;  ///< rows of blocks of coarse levels formed anew for faces, so far
   };
   template <class X>
     requires column<X>
   [[nodiscard]] workspace_type workspace(X const&) const {
-    workspace_type w;
-    for (index const n : sizes()) {
-      w.levels.push_back({vector_type(n), vector_type(n), vector_type(n)});
-    }
-    w.held.assign(static_cast<std::size_t>(rows_), 0);
-    if (levels_->coarsest) {
-      w.factor.emplace(slant::workspace(levels_->inverse(), w.levels.back().b));
-    }
-    return w;
+    return std::visit([](auto const& h) { return workspace_type{workspace_of(h), 0}; }, *levels_);
   }
 
   /// y = M x.
   template <class X, class Y>
     requires column<X>
   void apply(X const& x, Y& y, workspace_type& w) const {
-    run(x, y, w, detail::nothing_held{});
+    run(x, y, w, false);
   }
 
-  /// Unknowns that the face does not keep are held from now on. Not for curved faces, which mix
-  /// them.
+  /// From now on apply_on_face is for H = Π K Π + weight · C, where face.keep(x, y) is y = Π x and
+  /// face.add_curvature(α, x, y), if there is one, y += α C x; blocks of the face lie within nodes.
+  /// Rows of coarse levels are formed where the face has changed. The first face of a workspace
+  /// allocates, later ones where they have nodes that no face had before. Throws bad_input if Π is
+  /// no projector on every node.
+  template <class Face>
+  void enter(Face const& face, S const& weight, workspace_type& w) const {
+    if (rows_ == 0) return;
+    with_workspace(w, [&](auto const& h, auto& v) {
+      double const κ = static_cast<double>(S(weight * factor_));
+      w.rows_formed += detail::enter_face(h, v, face, κ);
+    });
+  }
+  /// The same without curvature.
   template <class Face>
   void enter(Face const& face, workspace_type& w) const {
-    if (rows_ == 0) return;
-    auto& [kept, ones, r] = w.levels.front();
-    ones.setOnes();
-    face.keep(ones, kept);
-    for (index i = 0; i < rows_; ++i) {
-      w.held[static_cast<std::size_t>(i)] = kept[i] == S(0) ? 1 : 0;
-    }
+    enter(face, S(0), w);
   }
-  /// y ≈ (K_FF)⁻¹ x on the face entered last, 0 elsewhere.
+  /// y ≈ H⁻¹x on the face entered last, 0 off it.
   template <class X, class Y>
     requires column<X>
   void apply_on_face(X const& x, Y& y, workspace_type& w) const {
-    run(x, y, w, detail::held_where{w.held.data()});
+    run(x, y, w, true);
   }
 
  private:
-  struct smooth_level {
-    detail::gauss_seidel<S> sweep;
-    sparse_type P;  // from the next coarser level
-  };
-  struct hierarchy {
-    std::vector<smooth_level> smooth;
-    std::optional<factor_type> coarsest;
-    index coarsest_entries = 0;
-    S unit{1};  // 1/2^e; the levels are those of K/2^e
-
-    [[nodiscard]] inverse_type inverse() const { return slant::inverse(*coarsest); }
-  };
-
-  void build(sparse_type K, node_blocks nodes, matrix_type candidates, multigrid_options const& o) {
-    auto& h = *levels_;
-    h.unit = S(1) / unit_near(S(K.diagonal().cwiseAbs().maxCoeff()));
-    K *= h.unit;
-    while (true) {
-      require_positive_diagonal(K, h.smooth.size(), h.unit);
-      bool const last =
-          K.rows() <= o.coarsest || static_cast<index>(h.smooth.size()) + 1 >= o.levels;
-      detail::tentative_prolongation<S> t =
-          last ? detail::tentative_prolongation<S>({}, {}, matrix_type(0, 0))
-               : detail::tentative_prolongation<S>(aggregate(K, nodes, o.strength), nodes,
-                                                   candidates);
-      // Where aggregation gets nowhere little is coupled, and a factorisation is cheap.
-      if (last || t.P.cols() == 0 || 10 * t.P.cols() > 9 * K.rows()) break;
-      sparse_type P = detail::smoothed_prolongation<S>(K, t.P, S(o.damping));
-      sparse_type const KP = K * P;
-      sparse_type coarse = sparse_type(P.transpose()) * KP;
-      h.smooth.push_back({detail::gauss_seidel<S>(std::move(K)), std::move(P)});
-      K = std::move(coarse);
-      nodes = std::move(t.nodes);
-      candidates = std::move(t.candidates);
-    }
-    h.coarsest_entries = K.nonZeros();
-    Eigen::SparseMatrix<S> const transposed = K.transpose();
-    Eigen::SparseMatrix<S> const symmetric = S(0.5) * (Eigen::SparseMatrix<S>(K) + transposed);
-    h.coarsest.emplace(slant::factorize(symmetric));
+  template <int N, int M>
+  static detail::cycle_workspace<N, M, T, vector_type> workspace_of(levels<N, M> const& h) {
+    return detail::cycle_workspace<N, M, T, vector_type>(h);
   }
 
-  static void require_positive_diagonal(sparse_type const& K, std::size_t depth, S const& unit) {
-    vector_type const d = K.diagonal() / unit;
-    for (index i = 0; i < d.size(); ++i) {
-      if (d[i] > S(0)) continue;
-      throw bad_input("K",
-                      "diagonal entry " + detail::show(i) + " = " + detail::show(d[i]) +
-                          " on level " + detail::show(static_cast<index>(depth)),
-                      "a symmetric positive definite matrix");
+  template <class M>
+  static decltype(auto) compressed(M const& k) {
+    if constexpr (std::derived_from<M, Eigen::SparseCompressedBase<M>>) {
+      return (k);
+    } else {
+      return Eigen::SparseMatrix<S>(k);
     }
   }
 
-  template <class X, class Y, class Held>
-  void run(X const& x, Y& y, workspace_type& w, Held held) const {
-    if (rows_ == 0) return;
-    w.levels.front().b = slant::local(x);
-    cycle(0, w, held);
-    slant::local(y) = levels_->unit * w.levels.front().x;
+  /// Size and unit of K.
+  template <class M>
+  void prepare(M const& K) {
+    detail::require_square("K", K);
+    rows_ = K.rows();
+    S most(0);
+    for (index j = 0; j < K.outerSize(); ++j) {
+      using std::abs;
+      S const d = K.coeff(j, j);
+      if (!detail::is_finite(d)) detail::require_finite_entries("K", K);
+      most = std::max<S>(most, abs(d));
+    }
+    factor_ = S(1) / unit_near(most);
   }
 
-  template <class Held>
-  void cycle(std::size_t depth, workspace_type& w, Held held) const {
-    auto& here = w.levels[depth];
-    if (depth == levels_->smooth.size()) {
-      slant::apply(levels_->inverse(), here.b, here.x, *w.factor);
-      for (index i = 0; i < here.x.size(); ++i) {
-        if (held(i)) here.x[i] = S(0);
+  template <class B>
+  [[nodiscard]] matrix_type candidates_for(Eigen::MatrixBase<B> const& given,
+                                           multigrid_options const& o) const {
+    if (given.cols() > 0) {
+      detail::check_size("rows of the candidates", given.rows(), rows_, "the size of K,");
+      return given;
+    }
+    if (o.coordinates.size() == 0) return matrix_type(0, 0);
+    index const D = o.coordinates.rows();
+    detail::check_size("coordinates", o.coordinates.size(), rows_, "a column for each node of K,");
+    return rigid_motions(o.coordinates, D);
+  }
+
+  /// Translations, and rotations about the mean of the nodes in units of their extent.
+  static matrix_type rigid_motions(Eigen::MatrixXd const& nodes, index D) {
+    Eigen::VectorXd const largest = nodes.rowwise().maxCoeff();
+    Eigen::VectorXd const least = nodes.rowwise().minCoeff();
+    Eigen::VectorXd const centre = least / 2 + largest / 2;
+    double const extent = unit_near((largest / 2 - least / 2).maxCoeff());
+    matrix_type R = matrix_type::Zero(nodes.size(), D == 2 ? 3 : 6);
+    for (index i = 0; i < nodes.cols(); ++i) {
+      Eigen::VectorXd const x = (nodes.col(i) - centre) / extent;
+      for (index a = 0; a < D; ++a) R(D * i + a, a) = S(1);
+      index mode = D;
+      for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
+        for (index b = a + 1; b < D; ++b, ++mode) {
+          R(D * i + a, mode) = S(-x[b]);
+          R(D * i + b, mode) = S(x[a]);
+        }
       }
-      return;
     }
-    auto const& level = levels_->smooth[depth];
-    auto& below = w.levels[depth + 1];
-    level.sweep.forwards_from_zero(here.b, here.x, here.r, held);
-    for (index i = 1; i < sweeps_; ++i) level.sweep.forwards(here.b, here.x, held);
-    if (sweeps_ > 1) level.sweep.residual(here.b, here.x, here.r, held);
-    below.b.noalias() = level.P.transpose() * here.r;
-    cycle(depth + 1, w, detail::nothing_held{});
-    here.r.noalias() = level.P * below.x;
-    for (index i = 0; i < here.x.size(); ++i) {
-      if (!held(i)) here.x[i] += here.r[i];
-    }
-    for (index i = 0; i < sweeps_; ++i) level.sweep.backwards(here.b, here.x, held);
+    return R;
   }
 
-  std::shared_ptr<hierarchy> levels_;
+  /// Unknowns of a node for so many candidates.
+  template <class M>
+  [[nodiscard]] index block_size(M const& K, index candidates, multigrid_options const& o) const {
+    index b = o.block_size;
+    if (b == 0 && o.coordinates.size() > 0) b = o.coordinates.rows();
+    if (b == 0) {
+      b = detected_block_size(K);
+      for (index const wider : {2, 3}) {
+        if (most_candidates(b) < candidates && rows_ % wider == 0) b = std::max(b, wider);
+      }
+    }
+    if (rows_ % b != 0) {
+      throw bad_input("block_size", detail::show(b), "a divisor of " + detail::show(rows_));
+    }
+    if (candidates > most_candidates(b)) {
+      throw bad_input("columns of the candidates", detail::show(candidates),
+                      "at most " + detail::show(most_candidates(b)) + " for nodes of " +
+                          detail::show(b) + " unknowns");
+    }
+    return b;
+  }
+  static index most_candidates(index b) { return b == 3 ? 6 : b == 2 ? 3 : 1; }
+
+  /// f(levels) for nodes of b unknowns, coarse ones with rotations or without.
+  template <class F>
+  void with_levels(index b, bool rotations, F f) {
+    auto const with = [&]<int N, int M>(std::integral_constant<int, N>,
+                                        std::integral_constant<int, M>) {
+      auto all = std::make_shared<all_levels>(std::in_place_type<levels<N, M>>);
+      f(std::get<levels<N, M>>(*all));
+      levels_ = std::move(all);
+    };
+    constexpr std::integral_constant<int, 1> one;
+    constexpr std::integral_constant<int, 2> two;
+    constexpr std::integral_constant<int, 3> three;
+    constexpr std::integral_constant<int, 6> six;
+    if (b == 3 && rotations) with(three, six);
+    if (b == 3 && !rotations) with(three, three);
+    if (b == 2 && rotations) with(two, three);
+    if (b == 2 && !rotations) with(two, two);
+    if (b == 1) with(one, one);
+  }
+  template <class F>
+  void with_workspace(workspace_type& w, F f) const {
+    std::visit(
+        [&]<int N, int M>(levels<N, M> const& h) {
+          f(h, std::get<detail::cycle_workspace<N, M, T, vector_type>>(w.levels));
+        },
+        *levels_);
+  }
+
+  template <int N, int M>
+  [[nodiscard]] static detail::near_kernel<N, M> constants(int nodes) {
+    detail::near_kernel<N, M> B;
+    B.blocks.assign(static_cast<std::size_t>(nodes) * N * M, 0.0);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i) {
+      for (std::size_t c = 0; c < N; ++c) B.blocks[i * N * M + c * M + c] = 1;
+    }
+    return B;
+  }
+  template <int N, int M>
+  [[nodiscard]] detail::near_kernel<N, M> kernel(matrix_type const& modes) const {
+    if (modes.cols() == 0) return constants<N, M>(static_cast<int>(rows_ / N));
+    detail::near_kernel<N, M> B;
+    B.blocks.assign(static_cast<std::size_t>(rows_) * M, 0.0);
+    for (index c = 0; c < modes.cols(); ++c) {
+      for (index i = 0; i < rows_; ++i) {
+        B.blocks[static_cast<std::size_t>(i * M + c)] = static_cast<double>(modes(i, c));
+      }
+    }
+    return B;
+  }
+
+  [[nodiscard]] std::string levels_text() const {
+    std::string text;
+    for (index const n : sizes()) {
+      text += (text.empty() ? "levels of " : ", ") + detail::show(n);
+    }
+    return text + " unknowns, complexity " + detail::show(std::round(100 * complexity()) / 100);
+  }
+  void note(bool smoothed, index candidates, multigrid_options const& o) {
+    bool const nodes =
+        std::visit([]<int N, int M>(levels<N, M> const&) { return N > 1; }, *levels_);
+    std::string const kernel =
+        o.coordinates.size() > 0 && candidates > 0 ? "rigid-body modes of the coordinates"
+        : candidates > 0                           ? detail::show(candidates) + " candidates given"
+        : nodes ? "translations only, which in elasticity takes up to twice the cycles that "
+                  "coordinates of the nodes would"
+                : "constants";
+    description_ = "smoothed aggregation with " + kernel + ": " + levels_text();
+    if (!smoothed) description_ += "; not smoothed where that would exceed the limit of complexity";
+  }
+
+  template <class X, class Y>
+  void run(X const& x, Y& y, workspace_type& w, bool on_face) const {
+    if (rows_ == 0) return;
+    with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
+                                        detail::cycle_workspace<N, M, T, vector_type>& v) {
+      constexpr int stride = block_matrix<N, T>::stride;
+      S const* const from = slant::local(x).data();
+      S* const to = slant::local(y).data();
+      auto const nodes = static_cast<std::size_t>(h.fine.A.nodes());
+      S most(0);
+      for (index i = 0; i < rows_; ++i) {
+        S const size = from[i] < S(0) ? S(-from[i]) : from[i];
+        if (!(size <= most)) most = size;
+      }
+      S const unit = unit_near(most), inverse = S(1) / unit;
+      for (std::size_t i = 0; i < nodes; ++i) {
+        for (std::size_t c = 0; c < N; ++c) {
+          v.fine.b[i * stride + c] = T(S(from[i * N + c] * inverse));
+        }
+      }
+      bool const faced = on_face && v.on_face.has_value();
+      detail::cycle(h, v, faced, sweeps_);
+      for (std::size_t i = 0; i < nodes; ++i) {
+        for (std::size_t c = 0; c < N; ++c) {
+          to[i * N + c] = S(S(v.fine.x[i * stride + c]) * unit) * factor_;
+        }
+      }
+      if (faced) v.on_face->face.complete(from, to, factor_);
+    });
+  }
+
+  std::shared_ptr<all_levels const> levels_;
   index rows_ = 0;
   index sweeps_;
+  S factor_{1};  // a power of two; the levels are those of factor · K
+  std::string description_;
 };
 
 template <class M>
 multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const& = {})
     -> multigrid<typename M::Scalar>;
 template <class M, class B>
-multigrid(Eigen::SparseMatrixBase<M> const&, B const&, multigrid_options const& = {})
+multigrid(Eigen::SparseMatrixBase<M> const&, Eigen::MatrixBase<B> const&,
+          multigrid_options const& = {}) -> multigrid<typename M::Scalar>;
+template <class M, class P>
+multigrid(Eigen::SparseMatrixBase<M> const&, std::vector<P> const&, multigrid_options const& = {})
     -> multigrid<typename M::Scalar>;
 
 }  // namespace slant

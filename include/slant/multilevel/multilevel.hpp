@@ -5,5 +5,6 @@
 
 // IWYU pragma: begin_exports
 #include <slant/multilevel/aggregation.hpp>
+#include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/multigrid.hpp>
 // IWYU pragma: end_exports

@@ -15,8 +15,8 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/newton/direction.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/slanting/assembled_operator.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -39,9 +39,9 @@ struct stored_matrix<matrix_operator<M, L>> {
   static constexpr bool sparse = is_sparse_matrix<M>;
   static auto const& of(matrix_operator<M, L> const& g) { return g.get(); }
 };
-template <class A>
-struct stored_matrix<operator_view<A>> : stored_matrix<A> {
-  static auto const& of(operator_view<A> const& g) { return stored_matrix<A>::of(g.underlying()); }
+template <auto Name, class A>
+struct stored_matrix<expr::letter<Name, A, 0>> : stored_matrix<A> {
+  static auto const& of(expr::letter<Name, A, 0> const& g) { return stored_matrix<A>::of(g.get()); }
 };
 
 template <class V>

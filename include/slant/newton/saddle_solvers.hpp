@@ -8,7 +8,6 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/parts/schur_reduction.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/product.hpp>

@@ -9,9 +9,9 @@
 // matrix is symmetric is declared by the caller: `declare<self_adjoint>(block(…))`.
 #pragma once
 
-#include <slant/operators/adjoint.hpp>
 #include <slant/operators/composition.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/letter.hpp>
 
 #include <boost/hana/at.hpp>
 #include <boost/hana/tuple.hpp>
@@ -20,7 +20,6 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -33,8 +32,7 @@ namespace slant::detail {
 // get copies, which live in the workspace.
 
 template <class A>
-inline constexpr bool is_zero_operator<adjoint_operator<A>> =
-    is_zero_operator<std::remove_cvref_t<A>>;
+inline constexpr bool is_zero_operator<expr::adjoint_view<A>> = is_zero_operator<A>;
 
 template <class X>
 using segment_t = decltype(slant::local(std::declval<X&>()).middleRows(index{}, index{}));
@@ -133,7 +131,7 @@ template <class... A>
 struct block_row_of {
   static constexpr std::size_t size = sizeof...(A);
   template <std::size_t J>
-  using block_type = std::remove_cvref_t<std::tuple_element_t<J, std::tuple<A...>>>;
+  using block_type = std::remove_cvref_t<detail::nth<J, A...>>;
   template <class Y>
   static constexpr bool have_columns = ((detail::is_zero_operator<std::remove_cvref_t<A>> ||
                                          has_columns<std::remove_cvref_t<A>, plain_t<Y>>)&&...);
@@ -153,11 +151,11 @@ template <operand... A>
 template <class... Rows>
 class block_operator {
   static constexpr std::size_t m = sizeof...(Rows);
-  static constexpr std::size_t n = std::tuple_element_t<0, std::tuple<Rows...>>::size;
+  static constexpr std::size_t n = detail::nth<0, Rows...>::size;
   static_assert(((Rows::size == n) && ...), "all rows of blocks have the same number of blocks");
 
   template <std::size_t I, std::size_t J>
-  using block_type = typename std::tuple_element_t<I, std::tuple<Rows...>>::template block_type<J>;
+  using block_type = typename detail::nth<I, Rows...>::template block_type<J>;
 
   // The same code serves A and Aᵀ: block (I, J) of A, or the adjoint of block (J, I).
   template <bool Adjoint>
@@ -170,8 +168,7 @@ class block_operator {
   template <bool Adjoint, std::size_t I, std::size_t J>
   [[nodiscard]] decltype(auto) part() const {
     if constexpr (Adjoint) {
-      return adjoint_operator<block_type<J, I> const&>(
-          held<block_type<J, I> const&>(part<false, J, I>()));
+      return expr::adjoint_view<block_type<J, I>>(part<false, J, I>());
     } else {
       return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
     }
@@ -183,7 +180,7 @@ class block_operator {
   };
   template <std::size_t I, std::size_t J>
   struct typed<true, I, J> {
-    using type = adjoint_operator<block_type<J, I> const&>;
+    using type = expr::adjoint_view<block_type<J, I>>;
     static constexpr bool is_zero = detail::is_zero_operator<block_type<J, I>>;
   };
 
@@ -279,7 +276,7 @@ class block_operator {
   template <bool Adjoint, class X>
   [[nodiscard]] auto make_workspace(X const& x) const {
     return [&]<std::size_t... P>(std::index_sequence<P...>) {
-      return std::make_tuple(
+      return boost::hana::make_tuple(
           detail::part_workspace<P % width<Adjoint> == first_block<Adjoint, P / width<Adjoint>>>(
               part<Adjoint, P / width<Adjoint>, P % width<Adjoint>>(), x)...);
     }(places<Adjoint>{});
@@ -297,7 +294,7 @@ class block_operator {
       }
       (detail::apply_part < !Add &&
            J == first > (part<Adjoint, I, J>(), α, x, col_begin[J], y, row_begin[I],
-                         std::get<I * width<Adjoint> + J>(w)),
+                         boost::hana::at_c<I * width<Adjoint> + J>(w)),
        ...);
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {

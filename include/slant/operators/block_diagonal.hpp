@@ -5,9 +5,9 @@
 #pragma once
 
 #include <slant/base/parallel_for.hpp>
-#include <slant/operators/adjoint.hpp>
 #include <slant/operators/block.hpp>
 #include <slant/operators/composition.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/matrix.hpp>
 
 #include <boost/hana/at.hpp>
@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,7 +27,7 @@ class block_diagonal_operator {
   static constexpr std::make_index_sequence<n> blocks{};
 
   template <bool Adjoint, class B>
-  using oriented = std::conditional_t<Adjoint, adjoint_operator<std::remove_cvref_t<B> const&>,
+  using oriented = std::conditional_t<Adjoint, expr::adjoint_view<std::remove_cvref_t<B>>,
                                       std::remove_cvref_t<B>>;
 
   template <bool Adjoint, std::size_t I>
@@ -36,7 +35,7 @@ class block_diagonal_operator {
     auto const& block = boost::hana::at_c<I>(parts_).get();
     if constexpr (Adjoint) {
       using B = std::remove_cvref_t<decltype(block)>;
-      return adjoint_operator<B const&>(held<B const&>(block));
+      return expr::adjoint_view<B>(block);
     } else {
       return (block);
     }
@@ -122,7 +121,7 @@ class block_diagonal_operator {
   template <bool Adjoint, class X>
   [[nodiscard]] auto make_workspace(X const& x) const {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return std::make_tuple(detail::part_workspace<true>(part<Adjoint, I>(), x)...);
+      return boost::hana::make_tuple(detail::part_workspace<true>(part<Adjoint, I>(), x)...);
     }(blocks);
   }
   template <bool Adjoint, bool Add, class S, class X, class Y, class W>
@@ -131,7 +130,7 @@ class block_diagonal_operator {
     auto const& col_begin = Adjoint ? row_begin_ : col_begin_;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (detail::apply_part<!Add>(part<Adjoint, I>(), α, x, col_begin[I], y, row_begin[I],
-                                std::get<I>(w)),
+                                boost::hana::at_c<I>(w)),
        ...);
     }(blocks);
   }
@@ -196,12 +195,12 @@ class diagonal_blocks_operator {
   }
 
   template <class X>
-    requires detail::block_part<adjoint_operator<A const&>, X>
+    requires detail::block_part<expr::adjoint_view<A>, X>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
     return workspaces(blocks_, x, transposed);
   }
   template <class X, class Y, class W>
-    requires detail::block_part<adjoint_operator<A const&>, X>
+    requires detail::block_part<expr::adjoint_view<A>, X>
   void apply_adjoint(X const& x, Y& y, W& w) const {
     detail::parallel_for(block_count(), rows() + cols(), [&](index i) {
       detail::apply_part<true>(transposed(block(i)), scalar_t<X>(1), x, row_begin(i), y,
@@ -210,9 +209,7 @@ class diagonal_blocks_operator {
   }
 
  private:
-  static adjoint_operator<A const&> transposed(A const& block) {
-    return adjoint_operator<A const&>(held<A const&>(block));
-  }
+  static expr::adjoint_view<A> transposed(A const& block) { return expr::adjoint_view<A>(block); }
 
   /// One workspace for each block, in its order.
   template <class X, class F>

@@ -8,10 +8,15 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/laws.hpp>
 
+#include <cstddef>
 #include <initializer_list>
+#include <tuple>
 #include <utility>
 
 namespace slant::detail {
+
+template <std::size_t I, class... T>
+using nth = std::tuple_element_t<I, std::tuple<T...>>;
 
 // --- applicable ----------------------------------------------------------------------------------
 //

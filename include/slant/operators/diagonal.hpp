@@ -31,6 +31,12 @@ class diagonal_operator {
   [[nodiscard]] index cols() const { return entries().size(); }
   /// The vector d.
   [[nodiscard]] decltype(auto) entries() const { return slant::local(d_.get()); }
+  /// The vector d, if it is owned; that its new entries keep the laws is for the caller to know.
+  [[nodiscard]] decltype(auto) entries()
+    requires(!std::is_reference_v<D>)
+  {
+    return slant::local(d_.get());
+  }
 
   template <class X, class Y>
     requires std::same_as<scalar_t<X>, scalar>

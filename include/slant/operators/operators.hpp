@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All operators.
+// All operators, and formulas of them: B * Kinv * adjoint(B) + 1e-3 * identity(m). describe(A), which
+// prints the tree of one, has a header of its own.
 #pragma once
 
 // IWYU pragma: begin_exports
@@ -11,16 +12,24 @@
 #include <slant/operators/restriction.hpp>
 #include <slant/operators/small_blocks.hpp>
 
+// Written as mathematics, with laws that the compiler knows:
+#include <slant/operators/applied.hpp>  // A * x
+#include <slant/operators/explain.hpp>  // errors that name the formula
+#include <slant/operators/letter.hpp>   // names, adjoint
+#include <slant/operators/mirror.hpp>   // laws of products and sums
+#include <slant/operators/number.hpp>   // numbers in front and their signs
+#include <slant/operators/product.hpp>  // A B C, B A Bᵀ
+#include <slant/operators/sum.hpp>      // A + B − C
+#include <slant/operators/syntax.hpp>   // + − *, printing
+#include <slant/operators/text.hpp>     // names and symbols
+
 // Made of operators:
-#include <slant/operators/adjoint.hpp>
 #include <slant/operators/block.hpp>
 #include <slant/operators/block_diagonal.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/kronecker.hpp>
+#include <slant/operators/range_sum.hpp>
 #include <slant/operators/schur_complement.hpp>
-#include <slant/operators/sum.hpp>
 
 // Any of them: with other laws, counted, of one type:
 #include <slant/operators/any_operator.hpp>

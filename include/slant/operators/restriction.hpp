@@ -13,8 +13,8 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/operators/composition.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 
 #include <cstddef>
 #include <initializer_list>
@@ -151,7 +151,8 @@ class restriction : public detail::component_list {
 template <class A>
 class restricted_operator {
   using part = std::remove_cvref_t<A>;
-  using congruence_type = congruence_operator<restriction const&, part const&>;
+
+  [[nodiscard]] auto congruence() const { return slant::congruence(r_, a_.get()); }
 
  public:
   static constexpr law_set laws = detail::restricted_laws(laws_of<A>);
@@ -220,8 +221,6 @@ class restricted_operator {
   }
 
  private:
-  [[nodiscard]] congruence_type congruence() const { return {r_, a_.get()}; }
-
   held<A> a_;
   restriction r_;
 };

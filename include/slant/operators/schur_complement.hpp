@@ -10,9 +10,8 @@
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
-#include <slant/operators/adjoint.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 

@@ -1,249 +1,238 @@
 // SPDX-License-Identifier: MIT
 //
-// The sum of two or more operators of the same size. The first term writes y, the others add to it
-// (capability apply_add), so a sum costs what the hand-written loop costs.
-//
-// Closure: self-adjoint if all terms are, semidefinite if all are, definite if in addition one is.
+// A sum T₁ + … + T_n: one flat sequence of terms, which are letters and products. A − B is
+// A + (−1) B. The first term writes y, the others add to it (capability apply_add), so a sum costs
+// what the hand-written loop costs. Laws: mirror.hpp.
 #pragma once
 
-#include <slant/base/diagnosis.hpp>
-#include <slant/base/vector_algebra.hpp>
-#include <slant/operators/composition.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 
-#include <cstddef>
-#include <string>
-#include <tuple>
-#include <utility>
+namespace slant::expr {
 
-namespace slant {
+/// y ← y + α T x. The number of a product goes into α, also where its first factor cannot add.
+template <class T, class S, class X, class Y, class W>
+void add_term(T const& t, S const& α, X const& x, Y& y, W& w) {
+  if constexpr (has_accumulate<T, plain_t<X>>) {
+    expr::run_add(t, α, x, y, w);
+  } else if constexpr (is_product<T>) {
+    t.apply_core(x, w.product, w.inner);
+    vectors::axpy(S(α * expr::value_as<S>(t.coefficient())), w.product, y);
+  } else {
+    expr::run(t, x, w.product, w.inner);
+    vectors::axpy(α, w.product, y);
+  }
+}
 
-/// y = A₁x + A₂x + …. Each A is `Operator const&` (referenced) or an operator type (owned).
-template <class... A>
-class sum_operator {
-  static_assert(sizeof...(A) >= 1);
-  static constexpr std::make_index_sequence<sizeof...(A) - 1> rest{};
-  using first_term = std::remove_cvref_t<std::tuple_element_t<0, std::tuple<A...>>>;
+template <class... T>
+[[nodiscard]] sum<T...> make_sum(hana::tuple<T...> terms);
+
+template <class... T>
+class sum : public base_of_node<T...> {
+  static constexpr std::make_index_sequence<sizeof...(T) - 1> rest{};
+  using first = nth<0, T...>;
 
  public:
-  static constexpr law_set laws = detail::sum_laws({laws_of<A>...});
+  static constexpr law_set laws = expr::sum_laws<T...>();
 
-  /// All terms have the same size; slant::sum checks it.
-  explicit sum_operator(held<A>... terms) : terms_(std::move(terms)...) {}
+  /// The sizes agree. Throws bad_input if a name stands for two objects.
+  explicit sum(hana::tuple<T...> terms) : terms_(std::move(terms)) {
+    dictionary names;
+    enter(names);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (check_partner<I>(), ...);
+    }(std::index_sequence_for<T...>{});
+  }
+
+  [[nodiscard]] hana::tuple<T...> const& terms() const noexcept { return terms_; }
+  template <std::size_t I>
+  [[nodiscard]] auto const& term() const noexcept {
+    return hana::at_c<I>(terms_);
+  }
+  template <std::size_t I>
+  [[nodiscard]] auto& term() noexcept {
+    return hana::at_c<I>(terms_);
+  }
 
   [[nodiscard]] index rows() const { return term<0>().rows(); }
   [[nodiscard]] index cols() const { return term<0>().cols(); }
 
-  /// f(term) for each term in turn.
-  template <class F>
-  void for_each(F f) const {
-    std::apply([&](auto const&... kept) { (f(kept.get()), ...); }, terms_);
-  }
-
   template <class X>
-    requires(linear_operator<std::remove_cvref_t<A>, plain_t<X>> && ...)
+    requires(linear_operator<T, plain_t<X>> && ...)
   [[nodiscard]] auto workspace(X const& x) const {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return std::make_tuple(slant::workspace(term<0>(), x),
-                             detail::accumulate_workspace(term<I + 1>(), x)...);
+      return hana::make_tuple(slant::workspace(term<0>(), x),
+                              slant::detail::accumulate_workspace(term<I + 1>(), x)...);
     }(rest);
   }
   template <class X, class Y, class W>
-    requires(detail::applies<first_term, X, Y> &&
-             (detail::adds<std::remove_cvref_t<A>, X, Y> && ...))
+    requires slant::detail::applies<first, X, Y> && (slant::detail::adds<T, X, Y> && ...)
   void apply(X const& x, Y& y, W& w) const {
-    slant::apply(term<0>(), x, y, std::get<0>(w));
+    expr::run(term<0>(), x, y, hana::at_c<0>(w));
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (detail::accumulate(term<I + 1>(), scalar_t<X>(1), x, y, std::get<I + 1>(w)), ...);
+      (expr::add_term(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)), ...);
     }(rest);
   }
   template <class X, class Y, class W>
-    requires(detail::accumulates<std::remove_cvref_t<A>, X, Y> && ...)
+    requires(slant::detail::accumulates<T, X, Y> && ...)
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (slant::apply_add(term<I>(), α, x, y, std::get<I>(w)), ...);
-    }(std::index_sequence_for<A...>{});
+      (expr::run_add(term<I>(), α, x, y, hana::at_c<I>(w)), ...);
+    }(std::index_sequence_for<T...>{});
   }
 
   template <class X>
-    requires(has_adjoint<std::remove_cvref_t<A>, plain_t<X>> && ...)
+    requires(has_adjoint<T, plain_t<X>> && ...)
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return std::make_tuple(slant::adjoint_workspace(term<0>(), x),
-                             detail::accumulate_adjoint_workspace(term<I + 1>(), x)...);
+      return hana::make_tuple(slant::adjoint_workspace(term<0>(), x),
+                              slant::detail::accumulate_adjoint_workspace(term<I + 1>(), x)...);
     }(rest);
   }
   template <class X, class Y, class W>
-    requires(detail::applies_adjoint<first_term, X, Y> &&
-             (detail::adds_adjoint<std::remove_cvref_t<A>, X, Y> && ...))
+    requires slant::detail::applies_adjoint<first, X, Y> &&
+             (slant::detail::adds_adjoint<T, X, Y> && ...)
   void apply_adjoint(X const& x, Y& y, W& w) const {
-    slant::apply_adjoint(term<0>(), x, y, std::get<0>(w));
+    slant::apply_adjoint(term<0>(), x, y, hana::at_c<0>(w));
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (detail::accumulate_adjoint(term<I + 1>(), scalar_t<X>(1), x, y, std::get<I + 1>(w)), ...);
+      (slant::detail::accumulate_adjoint(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)),
+       ...);
     }(rest);
   }
   template <class X, class Y, class W>
-    requires(detail::accumulates_adjoint<std::remove_cvref_t<A>, X, Y> && ...)
+    requires(slant::detail::accumulates_adjoint<T, X, Y> && ...)
   void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (slant::apply_adjoint_add(term<I>(), α, x, y, std::get<I>(w)), ...);
-    }(std::index_sequence_for<A...>{});
+      (slant::apply_adjoint_add(term<I>(), α, x, y, hana::at_c<I>(w)), ...);
+    }(std::index_sequence_for<T...>{});
   }
 
   template <class D>
-    requires(has_diagonal<std::remove_cvref_t<A>, plain_t<D>> && ...)
+    requires(has_diagonal<T, plain_t<D>> && ...)
   void diagonal(D& d) const {
-    auto more = slant::like(d, rows());
-    term<0>().diagonal(d);
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      ((term<I + 1>().diagonal(more), slant::local(d) += slant::local(more)), ...);
-    }(rest);
+    add_up(d, [](auto const& t, auto& part) { t.diagonal(part); });
   }
   template <class Y>
-    requires(has_columns<std::remove_cvref_t<A>, plain_t<Y>> && ...)
-  void columns(index first, Y& y) const {
-    auto more = slant::like(y, rows());
-    term<0>().columns(first, y);
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      ((term<I + 1>().columns(first, more), slant::local(y) += slant::local(more)), ...);
-    }(rest);
+    requires(has_columns<T, plain_t<Y>> && ...)
+  void columns(index first_column, Y& y) const {
+    add_up(y, [&](auto const& t, auto& part) { t.columns(first_column, part); });
+  }
+
+  [[nodiscard]] auto adjoint() const
+    requires(expression<T> && ...)
+  {
+    if constexpr (laws.contains(law::self_adjoint)) {
+      return *this;
+    } else {
+      return expr::make_sum(hana::transform(terms_, [](auto const& t) { return t.adjoint(); }));
+    }
+  }
+
+  void enter(dictionary& names) const {
+    hana::unpack(terms_, [&](auto const&... t) { (expr::enter(t, names), ...); });
+  }
+  void print(std::string& out) const {
+    bool next = false;
+    auto const print_term = [&]<class U>(U const& t) {
+      if (next) {
+        if constexpr (is_product<U>) {
+          double const c = expr::value_as<double>(t.coefficient());
+          out += c < 0 ? " − " : " + ";
+          if (std::abs(c) != 1) out += number_text(std::abs(c)) + " ";
+          t.print_core(out);
+        } else {
+          out += " + ";
+          expr::print(t, out);
+        }
+      } else {
+        expr::print(t, out);
+      }
+      next = true;
+    };
+    hana::unpack(terms_, [&](auto const&... t) { (print_term(t), ...); });
+  }
+  static constexpr void spell(ascii& out) {
+    bool next = false;
+    (((next ? out.add(" + ") : out), next = true, expr::spell<T>(out)), ...);
   }
 
  private:
   template <std::size_t I>
-  [[nodiscard]] auto const& term() const noexcept {
-    return std::get<I>(terms_).get();
+  void check_partner() const {
+    constexpr std::size_t partner = partners<T...>()[I];
+    if constexpr (partner > I && partner < sizeof...(T)) {
+      expr::check_mirror(term<I>(), term<partner>());
+    }
+  }
+  /// y = Σ part(Tᵢ).
+  template <class Y, class Part>
+  void add_up(Y& y, Part const& part) const {
+    auto more = slant::like(y, rows());
+    part(term<0>(), y);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      ((part(term<I + 1>(), more), slant::local(y) += slant::local(more)), ...);
+    }(rest);
   }
 
-  std::tuple<held<A>...> terms_;
+  hana::tuple<T...> terms_;
 };
 
-namespace detail {
-
-/// One complaint per term that is no operator; a fold over the terms would only say that one is
-/// not.
-template <class Term>
-void check_term() {
-  static_assert(operand<Term>, "a term of a sum must be an operator or an Eigen matrix");
+template <class... T>
+sum<T...> make_sum(hana::tuple<T...> terms) {
+  return sum<T...>(std::move(terms));
 }
 
-}  // namespace detail
-
-/// A₁ + A₂ + …. Throws bad_input if the sizes differ.
-template <class... A>
-  requires(sizeof...(A) >= 2)
-[[nodiscard]] auto sum(A&&... a) {
-  if constexpr (!(operand<A> && ...)) {
-    (detail::check_term<A>(), ...);
-    return detail::stand_in{};
+template <class A>
+[[nodiscard]] auto terms_of(A const& a) {
+  if constexpr (is_sum<A>) {
+    return a.terms();
   } else {
-    sum_operator<part_t<A>...> s{held<part_t<A>>(slant::as_operator(std::forward<A>(a)))...};
-    index i = 0;
-    s.for_each([&](auto const& term) {
-      detail::require_size(std::string("A").append(std::to_string(++i)), term, s.rows(), s.cols(),
-                           "the size of A1");
-    });
+    return hana::tuple<A>(a);
+  }
+}
+
+/// A + B + C ….
+template <class A, class B, class... C>
+[[nodiscard]] auto add(A const& a, B const& b, C const&... c) {
+  if (a.rows() != b.rows() || a.cols() != b.cols()) expr::refuse_sizes(a, b, true);
+  auto s = expr::make_sum(hana::concat(expr::terms_of(a), expr::terms_of(b)));
+  if constexpr (sizeof...(C) > 0) {
+    return expr::add(s, c...);
+  } else {
     return s;
   }
 }
 
-// --- difference ----------------------------------------------------------------------------------
-//
-// The difference of two operators of the same size. Closure: self-adjoint if both are; nothing is
-// known about definiteness.
+}  // namespace slant::expr
 
-/// y = A x − B x. A and B are `Operator const&` (referenced) or operator types (owned).
-template <class A, class B>
-class difference_operator {
-  using left = std::remove_cvref_t<A>;
-  using right = std::remove_cvref_t<B>;
+namespace slant {
 
-  template <class First, class Second>
-  struct workspace_type {
-    First a;
-    Second b;
-  };
-
- public:
-  static constexpr law_set laws = detail::difference_laws(laws_of<A>, laws_of<B>);
-
-  /// The sizes agree; slant::difference checks it.
-  difference_operator(held<A> a, held<B> b) : a_(std::move(a)), b_(std::move(b)) {}
-
-  [[nodiscard]] index rows() const { return a_.get().rows(); }
-  [[nodiscard]] index cols() const { return a_.get().cols(); }
-
-  template <class X>
-    requires linear_operator<left, plain_t<X>> && linear_operator<right, plain_t<X>>
-  [[nodiscard]] auto workspace(X const& x) const {
-    return make_workspace(slant::workspace(a_.get(), x), detail::accumulate_workspace(b_.get(), x));
+/// A₁ + A₂ + …, as A₁ + A₂. @throws bad_input if the sizes differ.
+template <class A, class... B>
+  requires(sizeof...(B) >= 1)
+[[nodiscard]] auto sum(A&& a, B&&... b) {
+  if constexpr (!(operand<A> && ... && operand<B>)) {
+    (detail::check_part_of_formula<A>(), ..., detail::check_part_of_formula<B>());
+    return detail::stand_in{};
+  } else {
+    index i = 1;
+    auto const check = [&](auto const& term) {
+      ++i;
+      if (term.rows() != a.rows() || term.cols() != a.cols()) {
+        detail::require_size("A" + std::to_string(i), term, a.rows(), a.cols(), "the size of A1");
+      }
+    };
+    (check(b), ...);
+    return expr::add(expr::as_expression(std::forward<A>(a)),
+                     expr::as_expression(std::forward<B>(b))...);
   }
-  template <class X, class Y, class W>
-    requires detail::applies<left, X, Y> && detail::adds<right, X, Y>
-  void apply(X const& x, Y& y, W& w) const {
-    slant::apply(a_.get(), x, y, w.a);
-    detail::accumulate(b_.get(), scalar_t<X>(-1), x, y, w.b);
-  }
-  template <class X, class Y, class W>
-    requires detail::accumulates<left, X, Y> && detail::accumulates<right, X, Y>
-  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    slant::apply_add(a_.get(), α, x, y, w.a);
-    slant::apply_add(b_.get(), scalar_t<X>(-α), x, y, w.b);
-  }
+}
 
-  template <class X>
-    requires has_adjoint<left, plain_t<X>> && has_adjoint<right, plain_t<X>>
-  [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return make_workspace(slant::adjoint_workspace(a_.get(), x),
-                          detail::accumulate_adjoint_workspace(b_.get(), x));
-  }
-  template <class X, class Y, class W>
-    requires detail::applies_adjoint<left, X, Y> && detail::adds_adjoint<right, X, Y>
-  void apply_adjoint(X const& x, Y& y, W& w) const {
-    slant::apply_adjoint(a_.get(), x, y, w.a);
-    detail::accumulate_adjoint(b_.get(), scalar_t<X>(-1), x, y, w.b);
-  }
-  template <class X, class Y, class W>
-    requires detail::accumulates_adjoint<left, X, Y> && detail::accumulates_adjoint<right, X, Y>
-  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    slant::apply_adjoint_add(a_.get(), α, x, y, w.a);
-    slant::apply_adjoint_add(b_.get(), scalar_t<X>(-α), x, y, w.b);
-  }
-
-  template <class D>
-    requires has_diagonal<left, plain_t<D>> && has_diagonal<right, plain_t<D>>
-  void diagonal(D& d) const {
-    auto subtrahend = slant::like(d, rows());
-    a_.get().diagonal(d);
-    b_.get().diagonal(subtrahend);
-    vectors::subtract(subtrahend, d);
-  }
-  template <class Y>
-    requires has_columns<left, plain_t<Y>> && has_columns<right, plain_t<Y>>
-  void columns(index first, Y& y) const {
-    auto subtrahend = slant::like(y, rows());
-    a_.get().columns(first, y);
-    b_.get().columns(first, subtrahend);
-    vectors::subtract(subtrahend, y);
-  }
-
- private:
-  template <class First, class Second>
-  [[nodiscard]] static workspace_type<First, Second> make_workspace(First a, Second b) {
-    return {std::move(a), std::move(b)};
-  }
-
-  held<A> a_;
-  held<B> b_;
-};
-
-/// A − B. Throws bad_input if the sizes differ.
+/// A − B, as A - B. @throws bad_input if the sizes differ.
 template <operand A, operand B>
 [[nodiscard]] auto difference(A&& a, B&& b) {
-  held<part_t<A>> first{slant::as_operator(std::forward<A>(a))};
-  held<part_t<B>> second{slant::as_operator(std::forward<B>(b))};
-  detail::require_size("B", second.get(), first.get().rows(), first.get().cols(), "the size of A");
-  return difference_operator<part_t<A>, part_t<B>>{std::move(first), std::move(second)};
+  detail::require_size("B", b, a.rows(), a.cols(), "the size of A");
+  return expr::add(expr::as_expression(std::forward<A>(a)),
+                   expr::negate(expr::as_expression(std::forward<B>(b))));
 }
 
 }  // namespace slant

@@ -12,9 +12,8 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <Eigen/SparseCore>

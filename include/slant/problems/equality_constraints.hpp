@@ -17,12 +17,12 @@
 #pragma once
 
 #include <slant/factorizations/dense_ldlt.hpp>
-#include <slant/operators/adjoint.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <Eigen/SparseCore>
@@ -30,6 +30,22 @@
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+namespace slant::detail {
+
+/// Q = Gᵀ(GGᵀ)⁻¹G from the factors of GGᵀ. Refers to both.
+template <class S>
+[[nodiscard]] auto onto_range_of(Eigen::SparseMatrix<S> const& G, dense_ldlt<S> const& factors) {
+  return declare<self_adjoint, slant::projector>(
+      congruence(adjoint(matrix(G)), slant::inverse(factors)));
+}
+/// I − Q. Refers to Q.
+template <class Q>
+[[nodiscard]] auto complement_of(Q const& q) {
+  return declare<self_adjoint, slant::projector>(difference(identity(q.rows()), q));
+}
+
+}  // namespace slant::detail
 
 namespace slant {
 
@@ -58,6 +74,8 @@ class equality_constraints {
         kept_(independent_rows(unit_rows_)),
         G_(rows_of(unit_rows_, kept_)),
         factors_(dense_type(G_ * sparse_type(G_.transpose()))),
+        range_projector_(detail::onto_range_of(G_, factors_)),
+        kernel_projector_(detail::complement_of(range_projector_)),
         nearest_(G.cols()) {
     vector_type const unit_e = e.cwiseQuotient(lengths_);
     vector_type weights(G_.rows());
@@ -83,15 +101,10 @@ class equality_constraints {
   }
 
   /// Q, the projector onto range Gᵀ.
-  [[nodiscard]] auto range_projector() const& {
-    return declare<self_adjoint, projector>(
-        congruence(adjoint(matrix(G_)), slant::inverse(factors_)));
-  }
+  [[nodiscard]] auto const& range_projector() const& { return range_projector_; }
   auto range_projector() const&& = delete;
   /// P = I − Q, the projector onto ker G.
-  [[nodiscard]] auto kernel_projector() const& {
-    return declare<self_adjoint, projector>(difference(identity(size()), range_projector()));
-  }
+  [[nodiscard]] auto const& kernel_projector() const& { return kernel_projector_; }
   auto kernel_projector() const&& = delete;
   /// The rows of G that are independent, each divided by its length.
   [[nodiscard]] sparse_type const& unit_rows() const& { return G_; }
@@ -216,7 +229,9 @@ class equality_constraints {
   std::vector<index> kept_;  // rows that are independent
   sparse_type G_;            // these, of length 1
   dense_ldlt<S> factors_;    // of GGᵀ
-  vector_type nearest_;      // x̄
+  decltype(detail::onto_range_of(G_, factors_)) range_projector_;
+  decltype(detail::complement_of(range_projector_)) kernel_projector_;
+  vector_type nearest_;  // x̄
 };
 
 template <class S>

@@ -18,8 +18,8 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/scaled.hpp>
 

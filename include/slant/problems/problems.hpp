@@ -9,6 +9,7 @@
 #include <slant/problems/cut_face.hpp>
 #include <slant/problems/equality_constraints.hpp>
 #include <slant/problems/equilibrated.hpp>
+#include <slant/problems/minimise.hpp>
 #include <slant/problems/polyhedral_qp.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/problems/separable_qp.hpp>

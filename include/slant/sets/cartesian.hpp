@@ -49,6 +49,9 @@ class cartesian_base {
 
   static constexpr std::size_t part_count = sizeof...(Parts);
 
+  /// The parts, as they are kept.
+  [[nodiscard]] auto&& parts() && noexcept { return std::move(parts_); }
+
   template <std::size_t I>
   [[nodiscard]] constexpr part_type<I> const& part() const {
     return boost::hana::at_c<I>(parts_).get();

@@ -24,6 +24,7 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/power.hpp>
+#include <slant/sets/syntax.hpp>  // Λ * Μ, c * Λ, Λ + c
 
 // Faces, and slanting operators of projections:
 #include <slant/sets/curved_face.hpp>

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Affine functions y ↦ A y + c and linear ones y ↦ A y, from any linear operator.
+// Linear functions y ↦ A y, the identity, and functions shifted by a vector, y ↦ F(y) ± c:
 //
-//     auto gradient = slant::affine(A, -b);     // ∇q(x) = A x − b
+//     auto gradient = slant::affine(A, -b);     // ∇q(x) = A x − b; in formulas A * x - b
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/slanting/assembled_operator.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
 #include <utility>
@@ -19,7 +18,9 @@ namespace slant {
 template <class A>
 class linear_map : public slanting_base {
   using operator_type = std::remove_cvref_t<A>;
-  using view = detail::operator_view<operator_type>;
+  /// A by reference; an expression is a handle already.
+  using view = std::conditional_t<expression<operator_type>, operator_type,
+                                  expr::letter<expr::nameless{}, operator_type, 0>>;
 
  public:
   explicit linear_map(held<A> a) : a_(std::move(a)) {}
@@ -49,51 +50,92 @@ class linear_map : public slanting_base {
     g = view(a_.get());
   }
 
+  [[nodiscard]] detail::written write(detail::written const& y) const {
+    std::string text;
+    expr::print(a_.get(), text);
+    return {text + " " + y.as_factor(), false};
+  }
+
  private:
   held<A> a_;
 };
 
-/// F(y) = A y + c, F° = A. A and C are `T const&` (referenced) or plain types (owned).
-template <class A, class C>
-class affine_map : public slanting_base {
+/// F(y) ± c. F and C are `T const&` (referenced) or plain types (owned).
+template <class F, class C, bool Minus>
+class shifted_map : public slanting_base {
+  using function_type = std::remove_cvref_t<F>;
   using vector_type = std::remove_cvref_t<C>;
 
  public:
-  affine_map(linear_map<A> a, held<C> c) : linear_(std::move(a)), c_(std::move(c)) {}
+  /// c has as many entries as F has values.
+  shifted_map(held<F> f, held<C> c) : f_(std::move(f)), c_(std::move(c)) {}
 
-  [[nodiscard]] index rows() const { return linear_.rows(); }
-  [[nodiscard]] index cols() const { return linear_.cols(); }
-  /// A.
-  [[nodiscard]] auto const& matrix() const noexcept { return linear_.matrix(); }
+  [[nodiscard]] index rows() const { return f_.get().rows(); }
+  [[nodiscard]] index cols() const { return f_.get().cols(); }
+  /// F.
+  [[nodiscard]] function_type const& function() const noexcept { return f_.get(); }
   /// c.
   [[nodiscard]] vector_type const& offset() const noexcept { return c_.get(); }
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
-    return linear_.workspace(y);
+    return slant::workspace(function(), y);
   }
   template <class Y, class V, class W>
-    requires(has_workspace_value<linear_map<A>, plain_t<Y>> &&
+    requires(slanting_function<function_type, plain_t<Y>> &&
              std::same_as<scalar_t<Y>, scalar_t<vector_type>>)
   void value(Y const& y, V& v, W& w) const {
-    linear_.value(y, v, w);
-    vectors::add(c_.get(), v);
+    slant::evaluate(function(), y, v, w);
+    if constexpr (Minus) {
+      vectors::subtract(offset(), v);
+    } else {
+      vectors::add(offset(), v);
+    }
   }
   template <class Y>
-  [[nodiscard]] auto slant(Y const& y) const
-    requires requires(linear_map<A> const& f) { f.slant(y); }
-  {
-    return linear_.slant(y);
+    requires slanting_function<function_type, plain_t<Y>>
+  [[nodiscard]] auto slant(Y const& y) const {
+    return function().slant(y);
   }
-  template <class Y, class G>
-  void slant(Y const& y, G& g) const {
-    linear_.slant(y, g);
+  template <class Y, class W>
+    requires slanting_function<function_type, plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return slant::slant_from_value(function(), y, w);
+  }
+  template <class Y, class G, class W>
+  void slant(Y const& y, G& g, W& w) const {
+    slant::update_slant(function(), y, g, w);
+  }
+  template <class Y, class G, class W>
+  void slant_after_value(Y const& y, G& g, W& w) const {
+    slant::update_slant_after_value(function(), y, g, w);
+  }
+
+  [[nodiscard]] detail::written write(detail::written const& y) const {
+    detail::written sum = detail::write(function(), y);
+    sum.append({Minus ? "−c" : "c", false}, false);
+    return sum;
   }
 
  private:
-  linear_map<A> linear_;
+  held<F> f_;
   held<C> c_;
 };
+
+namespace detail {
+
+/// y ↦ F(y) ± c; lvalues are referenced, an expression such as 2 b is evaluated and owned.
+/// @throws bad_input if c has not as many entries as F has values, or one that is not finite.
+template <bool Minus, class F, class C>
+[[nodiscard]] auto shifted_by(F&& f, C&& c) {
+  using kept = kept_vector_t<C>;
+  held<kept> offset{plain_vector(std::forward<C>(c))};
+  require_offset("c", offset.get(), f.rows());
+  return shifted_map<kept_t<F>, kept, Minus>(held<kept_t<F>>(std::forward<F>(f)),
+                                             std::move(offset));
+}
+
+}  // namespace detail
 
 /// y ↦ A y for an operator or an Eigen matrix; an lvalue A is referenced.
 template <operand A>
@@ -106,11 +148,7 @@ template <operand A>
 template <operand A, class C>
   requires has_like<std::remove_cvref_t<C>>
 [[nodiscard]] auto affine(A&& a, C&& c) {
-  auto f = slant::linear(std::forward<A>(a));
-  using kept = detail::kept_vector_t<C>;
-  held<kept> offset{detail::plain_vector(std::forward<C>(c))};
-  detail::require_offset("c", offset.get(), f.rows());
-  return affine_map<part_t<A>, kept>(std::move(f), std::move(offset));
+  return detail::shifted_by<false>(slant::linear(std::forward<A>(a)), std::forward<C>(c));
 }
 
 // --- identity ------------------------------------------------------------------------------------
@@ -136,6 +174,8 @@ class identity_map : public slanting_base {
   }
   template <has_local Y>
   void slant(Y const&, identity_operator&) const {}
+
+  [[nodiscard]] detail::written write(detail::written y) const { return y; }
 
  private:
   identity_operator identity_;

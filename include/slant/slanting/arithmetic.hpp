@@ -2,10 +2,14 @@
 //
 // Formulas with slanting functions, as they stand on paper:
 //
-//     auto F = identity_map{n} - projection(Λ) * (identity_map{n} - positive(ρ) * affine(A, -b));
+//     slant::identity_map const x(n);
+//     auto F = x - projection(Λ) * (x - ρ * (A * x - b));
+//     std::cout << F;                // x ↦ x − P(x − 0.5 (A x − c))   (12 → 12)
+//     std::cout << F.slant(y);       // I − P° (I − 0.5 A)   (12 × 12, no laws)
 //
-//     f + g, f - g, -f     add, subtract, scale(-1, f)
-//     c * f                scale(c, f);  c may be positive(ρ)
+//     f + g, f - g, -f     sums and differences, kept flat:  (F ± G)° = F° ± G°
+//     f + c, f - c         c a vector:  (F ± c)° = F°
+//     c * f                c a number > 0, or any_sign(c):  (c F)° = c F°
 //     f * g                compose(f, g): y ↦ f(g(y)), as for operators; never a pointwise product
 //     A * f, f * A         A an operator or Eigen matrix: compose with y ↦ A y
 //
@@ -14,84 +18,18 @@
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
-#include <slant/operators/scaled.hpp>
-#include <slant/operators/sum.hpp>
+#include <slant/operators/syntax.hpp>
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/composition.hpp>
-#include <slant/slanting/parts/pairs.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
+#include <boost/hana/concat.hpp>
+#include <boost/hana/tuple.hpp>
+
+#include <ostream>
+#include <string>
 #include <type_traits>
 #include <utility>
-
-namespace slant::detail {
-
-// --- sum -----------------------------------------------------------------------------------------
-//
-// The sum of two slanting functions: (F + G)° = F° + G°.
-
-// --- two terms -----------------------------------------------------------------------------------
-//
-// What the sum and the difference of two slanting functions share.
-
-/// Temporaries of a function of two functions; `other` holds the values of the second.
-template <class First, class Second, class Vector>
-struct two_terms_workspace {
-  First first;
-  Second second;
-  Vector other;
-};
-
-/// F(y) ± G(y). Rule::combine(v, other) joins the values, rule(F°, G°) the slanting operators.
-template <class Rule, class F, class G>
-class two_terms : public function_pair<F, G> {
-  using pair = function_pair<F, G>;
-
- public:
-  using pair::left;
-  using pair::pair;
-  using pair::right;
-  using pair::rows;
-
-  template <class Y>
-  [[nodiscard]] auto workspace(Y const& y) const {
-    using first = decltype(slant::workspace(left(), y));
-    using second = decltype(slant::workspace(right(), y));
-    return two_terms_workspace<first, second, plain_t<Y>>{
-        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows())};
-  }
-  template <class Y, class V, class W>
-    requires pair::template
-  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
-    slant::evaluate(left(), y, v, w.first);
-    slant::evaluate(right(), y, w.other, w.second);
-    Rule::combine(slant::local(v), slant::local(w.other));
-  }
-  template <class Y>
-    requires pair::template
-  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
-    return assembled_operator(Rule{}, left().slant(y), right().slant(y));
-  }
-  template <class Y, class W>
-    requires pair::template
-  usable<plain_t<Y>> [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
-    return assembled_operator(Rule{}, slant::slant_from_value(left(), y, w.first),
-                              slant::slant_from_value(right(), y, w.second));
-  }
-  template <class Y, class S, class W>
-  void slant(Y const& y, S& s, W& w) const {
-    slant::update_slant(left(), y, s.template part<0>(), w.first);
-    slant::update_slant(right(), y, s.template part<1>(), w.second);
-  }
-  template <class Y, class S, class W>
-  void slant_after_value(Y const& y, S& s, W& w) const {
-    slant::update_slant_after_value(left(), y, s.template part<0>(), w.first);
-    slant::update_slant_after_value(right(), y, s.template part<1>(), w.second);
-  }
-};
-
-}  // namespace slant::detail
 
 namespace slant {
 
@@ -99,143 +37,180 @@ namespace slant {
 
 namespace detail {
 
-struct sum_rule {
-  template <class V, class T>
-  static void combine(V&& v, T const& other) {
-    v += other;
-  }
-  template <class A, class B>
-  [[nodiscard]] sum_operator<A const&, B const&> operator()(A const& a, B const& b) const {
-    return sum_operator<A const&, B const&>(a, b);
-  }
+/// Temporaries of each term; `other` holds the values of all but the first, one after the other.
+template <class Inner, class Vector>
+struct sum_map_workspace {
+  Inner inner;
+  Vector other;
 };
 
 }  // namespace detail
 
-/// F(y) + G(y). F and G are `Function const&` (referenced) or function types (owned).
+/// F₁(y) + F₂(y) + …; F₁ − F₂ has the term −F₂. Each F is `Function const&` (referenced) or a
+/// function type (owned).
+template <class... F>
+class sum_map : public slanting_base {
+  static constexpr std::make_index_sequence<sizeof...(F) - 1> rest{};
+  template <class V>
+  static constexpr bool usable = (slanting_function<std::remove_cvref_t<F>, V> && ...);
+
+ public:
+  using parts_type = boost::hana::tuple<held<F>...>;
+
+  /// The sizes agree.
+  explicit sum_map(parts_type parts) : parts_(std::move(parts)) {}
+
+  [[nodiscard]] index rows() const { return term<0>().rows(); }
+  [[nodiscard]] index cols() const { return term<0>().cols(); }
+  /// F_{I+1}.
+  template <std::size_t I>
+  [[nodiscard]] auto const& term() const noexcept {
+    return boost::hana::at_c<I>(parts_).get();
+  }
+  /// The terms, as they are kept.
+  [[nodiscard]] parts_type&& parts() && noexcept { return std::move(parts_); }
+
+  template <class Y>
+  [[nodiscard]] auto workspace(Y const& y) const {
+    using inner = boost::hana::tuple<decltype(slant::workspace(
+        std::declval<std::remove_cvref_t<F> const&>(), y))...>;
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return detail::sum_map_workspace<inner, plain_t<Y>>{inner{slant::workspace(term<I>(), y)...},
+                                                          slant::like(y, rows())};
+    }(std::index_sequence_for<F...>{});
+  }
+  template <class Y, class V, class W>
+    requires usable<plain_t<Y>>
+  void value(Y const& y, V& v, W& w) const {
+    slant::evaluate(term<0>(), y, v, boost::hana::at_c<0>(w.inner));
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (add(term<I + 1>(), y, v, w.other, boost::hana::at_c<I + 1>(w.inner)), ...);
+    }(rest);
+  }
+  template <class Y>
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant(Y const& y) const {
+    return slants([&](auto const& f, auto) { return f.slant(y); });
+  }
+  template <class Y, class W>
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return slants([&](auto const& f, auto i) {
+      return slant::slant_from_value(f, y, boost::hana::at_c<i()>(w.inner));
+    });
+  }
+  template <class Y, class G, class W>
+  void slant(Y const& y, G& g, W& w) const {
+    for_each([&](auto const& f, auto i) {
+      slant::update_slant(f, y, g.template term<i()>(), boost::hana::at_c<i()>(w.inner));
+    });
+  }
+  template <class Y, class G, class W>
+  void slant_after_value(Y const& y, G& g, W& w) const {
+    for_each([&](auto const& f, auto i) {
+      slant::update_slant_after_value(f, y, g.template term<i()>(),
+                                      boost::hana::at_c<i()>(w.inner));
+    });
+  }
+
+  [[nodiscard]] detail::written write(detail::written const& y) const {
+    detail::written sum;
+    for_each([&](auto const& f, auto i) { sum.append(detail::write(f, y), i() == 0); });
+    return sum;
+  }
+
+ private:
+  /// v ← v + f(y). The number in front of a composition goes into the addition.
+  template <class T, class Y, class V, class O, class W>
+  static void add(T const& f, Y const& y, V& v, O& other, W& w) {
+    if constexpr (detail::is_composition<T>) {
+      f.value_without_number(y, other, w);
+      vectors::axpy(expr::value_as<scalar_t<Y>>(f.coefficient()), other, v);
+    } else {
+      slant::evaluate(f, y, other, w);
+      vectors::add(other, v);
+    }
+  }
+  template <class Slant>
+  [[nodiscard]] auto slants(Slant const& slant_of) const {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return expr::make_sum(boost::hana::make_tuple(
+          slant_of(term<I>(), std::integral_constant<std::size_t, I>{})...));
+    }(std::index_sequence_for<F...>{});
+  }
+  /// visit(term, its number as a constant).
+  template <class Visit>
+  void for_each(Visit const& visit) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (visit(term<I>(), std::integral_constant<std::size_t, I>{}), ...);
+    }(std::index_sequence_for<F...>{});
+  }
+
+  parts_type parts_;
+};
+
+namespace detail {
+
+template <class F>
+inline constexpr bool is_sum_map = false;
+template <class... F>
+inline constexpr bool is_sum_map<sum_map<F...>> = true;
+
+/// The terms of an own sum; anything else is one term.
+template <class F>
+[[nodiscard]] auto terms_of_function(F&& f) {
+  if constexpr (!std::is_lvalue_reference_v<F> && is_sum_map<F>) {
+    return std::move(f).parts();
+  } else {
+    return boost::hana::tuple<held<kept_t<F>>>(held<kept_t<F>>(std::forward<F>(f)));
+  }
+}
+
+template <class... F>
+[[nodiscard]] auto make_sum_map(boost::hana::tuple<held<F>...> parts) {
+  return sum_map<F...>(std::move(parts));
+}
+
+/// Throws bad_input unless f and g have as many values and arguments.
 template <class F, class G>
-using sum_map = detail::two_terms<detail::sum_rule, F, G>;
+void require_terms(F const& f, G const& g) {
+  require_equal_sizes("g.rows()", g.rows(), f.rows(), "f.rows()");
+  require_equal_sizes("g.cols()", g.cols(), f.cols(), "f.cols()");
+}
+
+}  // namespace detail
 
 /// y ↦ F(y) + G(y), also spelled f + g. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto add(F&& f, G&& g) {
-  return sum_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
+  detail::require_terms(f, g);
+  return detail::make_sum_map(boost::hana::concat(detail::terms_of_function(std::forward<F>(f)),
+                                                  detail::terms_of_function(std::forward<G>(g))));
 }
-
-// --- difference ----------------------------------------------------------------------------------
-//
-// The difference of two slanting functions: (F − G)° = F° − G°.
-
-namespace detail {
-
-struct difference_rule {
-  template <class V, class T>
-  static void combine(V&& v, T const& other) {
-    v -= other;
-  }
-  template <class A, class B>
-  [[nodiscard]] difference_operator<A const&, B const&> operator()(A const& a, B const& b) const {
-    return difference_operator<A const&, B const&>(a, b);
-  }
-};
-
-}  // namespace detail
-
-/// F(y) − G(y). F and G are `Function const&` (referenced) or function types (owned).
-template <class F, class G>
-using difference_map = detail::two_terms<detail::difference_rule, F, G>;
 
 /// y ↦ F(y) − G(y), also spelled f - g. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto subtract(F&& f, G&& g) {
-  return difference_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
+  detail::require_terms(f, g);
+  return slant::add(std::forward<F>(f), detail::scale_by(expr::minus_one{}, std::forward<G>(g)));
 }
 
-// --- scaled --------------------------------------------------------------------------------------
-//
-// A multiple of a slanting function: (c F)° = c F°. `positive(c) * f` keeps the laws of F° that
-// hold for positive multiples only.
-
-namespace detail {
-
-template <class S, bool Positive>
-struct scaled_rule {
-  S factor;
-
-  template <class A>
-  [[nodiscard]] scaled_operator<S, A const&, Positive> operator()(A const& a) const {
-    return scaled_operator<S, A const&, Positive>(factor, a);
+/// y ↦ c F(y), also spelled c * f. An lvalue f is referenced. F° keeps the laws that hold for
+/// positive multiples, so a plain c is > 0; any_sign(c) loses them.
+/// @throws bad_input unless 0 < c < ∞, or c is marked by any_sign.
+template <expr::number_in_front S, slanting_part F>
+[[nodiscard]] auto scale(S const& c, F&& f) {
+  auto const number = expr::as_number(c);
+  if constexpr (expr::sign_of<std::remove_const_t<decltype(number)>> == expr::sign::plus) {
+    if (!(number.value > decltype(number.value)(0))) {
+      throw bad_input("c", detail::show(number.value),
+                      "a number > 0 in front of a function; for others write -(c * f) or "
+                      "any_sign(c) * f");
+    }
   }
-};
-
-}  // namespace detail
-
-/// c F(y). F is `Function const&` (referenced) or a function type (owned).
-template <class S, class F, bool Positive>
-class scaled_map : public slanting_base {
-  using inner_type = std::remove_cvref_t<F>;
-  using rule = detail::scaled_rule<S, Positive>;
-
- public:
-  /// c is finite, and > 0 if Positive; slant::scale checks it.
-  scaled_map(S c, held<F> f) : c_(std::move(c)), f_(std::move(f)) {}
-
-  [[nodiscard]] index rows() const { return inner().rows(); }
-  [[nodiscard]] index cols() const { return inner().cols(); }
-  [[nodiscard]] S const& factor() const noexcept { return c_; }
-  [[nodiscard]] inner_type const& inner() const noexcept { return f_.get(); }
-
-  template <class Y>
-  [[nodiscard]] auto workspace(Y const& y) const {
-    return slant::workspace(inner(), y);
-  }
-  template <class Y, class V, class W>
-    requires slanting_function<inner_type, plain_t<Y>>
-  void value(Y const& y, V& v, W& w) const {
-    slant::evaluate(inner(), y, v, w);
-    vectors::scale(static_cast<scalar_t<Y>>(c_), v);
-  }
-  template <class Y>
-    requires slanting_function<inner_type, plain_t<Y>>
-  [[nodiscard]] auto slant(Y const& y) const {
-    return detail::assembled_operator(rule{c_}, inner().slant(y));
-  }
-  template <class Y, class W>
-    requires slanting_function<inner_type, plain_t<Y>>
-  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
-    return detail::assembled_operator(rule{c_}, slant::slant_from_value(inner(), y, w));
-  }
-  template <class Y, class G, class W>
-  void slant(Y const& y, G& g, W& w) const {
-    g.rule() = rule{c_};
-    slant::update_slant(inner(), y, g.template part<0>(), w);
-  }
-  template <class Y, class G, class W>
-  void slant_after_value(Y const& y, G& g, W& w) const {
-    g.rule() = rule{c_};
-    slant::update_slant_after_value(inner(), y, g.template part<0>(), w);
-  }
-
- private:
-  S c_;
-  held<F> f_;
-};
-
-/// y ↦ c F(y), also spelled c * f. An lvalue f is referenced.
-/// @throws bad_input if c is NaN or infinite.
-template <class S, slanting_part F>
-  requires scalar<S> || std::is_integral_v<S>
-[[nodiscard]] auto scale(S c, F&& f) {
-  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
-  return scaled_map<S, kept_t<F>, false>(std::move(c), std::forward<F>(f));
-}
-
-/// y ↦ c F(y) for a factor known to be positive: scale(positive(ρ), f).
-template <class S, slanting_part F>
-[[nodiscard]] auto scale(positive_factor<S> c, F&& f) {
-  return scaled_map<S, kept_t<F>, true>(c.value(), std::forward<F>(f));
+  return detail::scale_by(number, std::forward<F>(f));
 }
 
 // --- arithmetic ----------------------------------------------------------------------------------
@@ -243,45 +218,60 @@ template <class S, slanting_part F>
 /// An operator or Eigen matrix that is not itself a slanting function.
 template <class A> concept linear_factor = operand<A> && !slanting_map<A>;
 
+/// A vector that is added to the values of a function.
+template <class C> concept constant_term = has_like<std::remove_cvref_t<C>> && !slanting_map<C>;
+
 template <slanting_map F, slanting_map G>
 [[nodiscard]] auto operator+(F&& f, G&& g) {
   return slant::add(std::forward<F>(f), std::forward<G>(g));
 }
-
 template <slanting_map F, slanting_map G>
 [[nodiscard]] auto operator-(F&& f, G&& g) {
   return slant::subtract(std::forward<F>(f), std::forward<G>(g));
 }
-
 template <slanting_map F>
 [[nodiscard]] auto operator-(F&& f) {
-  return slant::scale(-1, std::forward<F>(f));
+  return detail::scale_by(expr::minus_one{}, std::forward<F>(f));
+}
+
+template <slanting_map F, constant_term C>
+[[nodiscard]] auto operator+(F&& f, C&& c) {
+  return detail::shifted_by<false>(std::forward<F>(f), std::forward<C>(c));
+}
+template <slanting_map F, constant_term C>
+[[nodiscard]] auto operator-(F&& f, C&& c) {
+  return detail::shifted_by<true>(std::forward<F>(f), std::forward<C>(c));
 }
 
 template <class S, slanting_map F>
-  requires scalar<S> || std::is_integral_v<S>
-[[nodiscard]] auto operator*(S c, F&& f) {
-  return slant::scale(std::move(c), std::forward<F>(f));
-}
-
-template <class S, slanting_map F>
-[[nodiscard]] auto operator*(positive_factor<S> c, F&& f) {
-  return slant::scale(std::move(c), std::forward<F>(f));
+  requires expr::number_in_front<S>
+[[nodiscard]] auto operator*(S const& c, F&& f) {
+  return slant::scale(c, std::forward<F>(f));
 }
 
 template <slanting_map F, slanting_map G>
 [[nodiscard]] auto operator*(F&& f, G&& g) {
   return slant::compose(std::forward<F>(f), std::forward<G>(g));
 }
-
 template <linear_factor A, slanting_map F>
 [[nodiscard]] auto operator*(A&& a, F&& f) {
-  return slant::compose(slant::linear(std::forward<A>(a)), std::forward<F>(f));
+  if constexpr (std::is_same_v<std::remove_cvref_t<F>, identity_map>) {
+    detail::require_cols("A", a, f.rows(), "the size of x");
+    return slant::linear(std::forward<A>(a));
+  } else {
+    return slant::compose(slant::linear(std::forward<A>(a)), std::forward<F>(f));
+  }
 }
-
 template <slanting_map F, linear_factor A>
 [[nodiscard]] auto operator*(F&& f, A&& a) {
   return slant::compose(std::forward<F>(f), slant::linear(std::forward<A>(a)));
+}
+
+/// x ↦ x − P(x − 0.5 (A x − c))   (12 → 12)
+template <slanting_map F>
+std::ostream& operator<<(std::ostream& out, F const& f) {
+  return out << "x ↦ " << detail::write(f, {"x", false}).text << "   (" << f.cols() << " → "
+             << f.rows() << ")";
 }
 
 }  // namespace slant

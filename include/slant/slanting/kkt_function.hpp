@@ -84,17 +84,17 @@ class kkt_operator : public Composed {
 
   /// (H, Jᵀ), with jacobian() = J.
   [[nodiscard]] auto const& curvature() const noexcept {
-    return this->template part<0>().template part<1>();
+    return this->template part<0>().template term<1>();
   }
   /// J.
   [[nodiscard]] auto const& jacobian() const noexcept { return curvature().jacobian(); }
   /// 1 for the inequalities in 𝒜, 0 for those in ℐ.
   [[nodiscard]] auto const& active() const noexcept {
-    return this->template part<1>().template part<0>();
+    return this->template part<1>().first_weights();
   }
   /// A.
   [[nodiscard]] auto const& hessian() const noexcept {
-    return this->template part<0>().template part<0>().template part<0>().underlying();
+    return expr::opened(this->template part<0>().template term<0>().template factor<0>());
   }
   /// The composition itself.
   [[nodiscard]] Composed& composed() noexcept { return *this; }

@@ -33,16 +33,9 @@ struct max_kernel {
   }
 };
 
-/// The diagonal projector diag(p), p a vector of zeros and ones.
-struct indicator_rule {
-  template <class P>
-  using made = diagonal_operator<P const&, slant::laws<slant::self_adjoint, slant::projector>>;
-
-  template <class P>
-  [[nodiscard]] made<P> operator()(P const& p) const {
-    return made<P>(held<P const&>(p));
-  }
-};
+/// diag(p), p a vector of zeros and ones.
+template <class V>
+using indicator = diagonal_operator<V, slant::laws<slant::self_adjoint, slant::projector>>;
 
 }  // namespace detail
 
@@ -66,15 +59,19 @@ class positive_part_map : public slanting_base {
   }
   template <has_local Y>
   [[nodiscard]] auto slant(Y const& y) const {
-    detail::assembled_operator g(detail::indicator_rule{}, slant::like(y, n_));
+    detail::indicator<plain_t<Y>> g{held<plain_t<Y>>(slant::like(y, n_))};
     slant(y, g);
     return g;
   }
   template <has_local Y, class G>
   void slant(Y const& y, G& g) const {
     using S = scalar_t<Y>;
-    slant::local(g.template part<0>()) = slant::local(y).unaryExpr(
+    g.entries() = slant::local(y).unaryExpr(
         [](S const& a) { return detail::max_kernel::slopes(a, S(0)).first; });
+  }
+
+  [[nodiscard]] detail::written write(detail::written const& y) const {
+    return {"max(0, " + y.text + ")", false};
   }
 
  private:

@@ -31,11 +31,10 @@ template <operand A, class B, class Set, class S>
   if (!(ρ > S(0) && detail::is_finite(ρ))) {
     throw bad_input("rho", detail::show(ρ), "a finite number > 0");
   }
-  auto c = slant::like(b, n);
-  vectors::negate(b, c);
-  auto gradient = slant::affine(std::forward<A>(a), std::move(c));
-  return identity_map(n) - slant::projection(std::forward<Set>(set)) *
-                               (identity_map(n) - slant::positive(ρ) * std::move(gradient));
+  identity_map const x(n);
+  return identity_map(n) -
+         slant::projection(std::forward<Set>(set)) *
+             (identity_map(n) - slant::positive(ρ) * (std::forward<A>(a) * x - plain_t<B>(b)));
 }
 
 }  // namespace slant

@@ -6,7 +6,6 @@
 
 #include <slant/concepts/convex_set.hpp>
 #include <slant/sets/slants.hpp>
-#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
 #include <concepts>
@@ -61,6 +60,10 @@ class projection_map : public slanting_base {
     requires std::same_as<G, set_slant_t<Y>>
   void slant(Y const& y, G& g) const {
     slant::projection_slant(set(), argument(y), g);
+  }
+
+  [[nodiscard]] detail::written write(detail::written const& y) const {
+    return {"P(" + y.text + ")", false};
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What compositions of slanting functions ask of their parts, and how they keep vectors.
+// What compositions of slanting functions ask of their parts, how they keep vectors and derivatives, and
+// how functions are written.
 //
 // Lifetime, for all of slant/slanting. A composition references the functions, operators, sets and
 // vectors that were passed as lvalues and owns those passed as rvalues. An operator F°(y) owns what
@@ -14,6 +15,8 @@
 #include <slant/concepts/member_names.hpp>
 #include <slant/concepts/slanting_function.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/operators/text.hpp>
 
 #include <string>
 #include <string_view>
@@ -75,6 +78,54 @@ void require_offset(std::string_view name, C const& c, index n) {
     if (!is_finite(entry)) {
       throw bad_input(name, show(entry), "a finite number").at(i);
     }
+  }
+}
+
+// --- derivative ----------------------------------------------------------------------------------
+//
+// Derivatives that come as Eigen matrices, wrapped without looking at their entries: a NaN that
+// shows up in an iteration is not bad input, it is for the method to report.
+
+/// The operator itself, or an operator with the asserted laws that owns the matrix.
+template <law_set L, operand D>
+[[nodiscard]] auto derivative_operator(D&& d) {
+  if constexpr (eigen_matrix<D>) {
+    using matrix_type = typename std::remove_cvref_t<D>::PlainObject;
+    return matrix_operator<matrix_type, L>(held<matrix_type>(matrix_type(std::forward<D>(d))));
+  } else {
+    return std::remove_cvref_t<D>(std::forward<D>(d));
+  }
+}
+
+// --- functions as text ---------------------------------------------------------------------------
+
+/// What F(y) looks like.
+struct written {
+  std::string text{};
+  bool is_sum = false;
+
+  [[nodiscard]] std::string as_factor() const { return is_sum ? "(" + text + ")" : text; }
+  /// + term, or its minus for a sign that is there.
+  void append(written const& term, bool first) {
+    std::string_view const minus = "−";
+    if (first) {
+      *this = term;
+    } else if (term.text.starts_with(minus)) {
+      text += " − " + term.text.substr(minus.size());
+    } else {
+      text += " + " + term.text;
+    }
+    is_sum = is_sum || !first;
+  }
+};
+
+/// F(y) by the function's own write(y), else by its symbol or type.
+template <class F>
+[[nodiscard]] written write(F const& f, written const& y) {
+  if constexpr (requires { f.write(y); }) {
+    return f.write(y);
+  } else {
+    return {std::string(expr::symbol_of(&f)) + "(" + y.text + ")", false};
   }
 }
 

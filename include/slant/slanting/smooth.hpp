@@ -8,7 +8,6 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
-#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
 #include <concepts>

@@ -10,7 +10,6 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/composition.hpp>
-#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
 #include <boost/hana/at.hpp>
@@ -19,7 +18,6 @@
 
 #include <cstddef>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -53,7 +51,7 @@ concept writes_rows =
     std::is_same_v<local_t<X>, std::remove_cvref_t<X>> &&
     std::is_same_v<local_t<Y>, std::remove_cvref_t<Y>> && applies<A, X, rows_view_t<Y>>;
 
-/// y = (A₁x; A₂x; …), all with the same number of columns.
+/// y = (A₁x; A₂x; …), all with the same number of columns. Owns the A, which can be renewed.
 template <class... A>
 class stacked_operator {
   static_assert(sizeof...(A) >= 1);
@@ -61,28 +59,38 @@ class stacked_operator {
  public:
   static constexpr law_set laws{};
 
-  explicit stacked_operator(held<A>... parts) : parts_(std::move(parts)...) {}
+  explicit stacked_operator(A... parts) : parts_(std::move(parts)...) {}
+
+  /// A_{I+1}.
+  template <std::size_t I>
+  [[nodiscard]] auto const& part() const noexcept {
+    return boost::hana::at_c<I>(parts_);
+  }
+  template <std::size_t I>
+  [[nodiscard]] auto& part() noexcept {
+    return boost::hana::at_c<I>(parts_);
+  }
 
   [[nodiscard]] index rows() const {
     index n = 0;
     for_each([&](auto const& a, auto, index) { n += a.rows(); });
     return n;
   }
-  [[nodiscard]] index cols() const { return boost::hana::at_c<0>(parts_).get().cols(); }
+  [[nodiscard]] index cols() const { return boost::hana::at_c<0>(parts_).cols(); }
 
   template <class X>
-    requires(linear_operator<std::remove_cvref_t<A>, plain_t<X>> && ...)
+    requires(linear_operator<A, plain_t<X>> && ...)
   [[nodiscard]] auto workspace(X const& x) const {
-    return boost::hana::unpack(parts_, [&](auto const&... kept) {
-      return std::make_tuple(make_stacked_part_workspace(slant::workspace(kept.get(), x),
-                                                         slant::like(x, kept.get().rows()))...);
+    return boost::hana::unpack(parts_, [&](auto const&... a) {
+      return boost::hana::make_tuple(
+          make_stacked_part_workspace(slant::workspace(a, x), slant::like(x, a.rows()))...);
     });
   }
   template <class X, class Y, class W>
-    requires(applies<std::remove_cvref_t<A>, X, plain_t<X>> && ...)
+    requires(applies<A, X, plain_t<X>> && ...)
   void apply(X const& x, Y& y, W& w) const {
     for_each([&](auto const& a, auto i, index first) {
-      auto& own = std::get<i()>(w);
+      auto& own = boost::hana::at_c<i()>(w);
       if constexpr (writes_rows<std::remove_cvref_t<decltype(a)>, X, Y>) {
         auto rows = slant::local(y).middleRows(first, a.rows());
         slant::apply(a, x, rows, own.inner);
@@ -94,19 +102,19 @@ class stacked_operator {
   }
 
   template <class X>
-    requires(has_adjoint<std::remove_cvref_t<A>, plain_t<X>> && ...)
+    requires(has_adjoint<A, plain_t<X>> && ...)
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return boost::hana::unpack(parts_, [&](auto const&... kept) {
-      return std::make_tuple(part_adjoint_workspace(kept.get(), x)...);
+    return boost::hana::unpack(parts_, [&](auto const&... a) {
+      return boost::hana::make_tuple(part_adjoint_workspace(a, x)...);
     });
   }
   /// y = A₁ᵀx₁ + A₂ᵀx₂ + ….
   template <class X, class Y, class W>
-    requires(adds_adjoint<std::remove_cvref_t<A>, plain_t<X>, Y> && ...)
+    requires(adds_adjoint<A, plain_t<X>, Y> && ...)
   void apply_adjoint(X const& x, Y& y, W& w) const {
     vectors::set_zero(y);
     for_each([&](auto const& a, auto i, index first) {
-      auto& own = std::get<i()>(w);
+      auto& own = boost::hana::at_c<i()>(w);
       slant::local(own.rows) = slant::local(x).middleRows(first, a.rows());
       accumulate_adjoint(a, scalar_t<X>(1), own.rows, y, own.inner);
     });
@@ -128,11 +136,11 @@ class stacked_operator {
         f(a, i, first);
         first += a.rows();
       };
-      (one(boost::hana::at_c<I>(parts_).get(), std::integral_constant<std::size_t, I>{}), ...);
+      (one(boost::hana::at_c<I>(parts_), std::integral_constant<std::size_t, I>{}), ...);
     }(std::index_sequence_for<A...>{});
   }
 
-  boost::hana::tuple<held<A>...> parts_;
+  boost::hana::tuple<A...> parts_;
 };
 
 }  // namespace slant::detail
@@ -140,17 +148,6 @@ class stacked_operator {
 namespace slant {
 
 // --- stack ---------------------------------------------------------------------------------------
-
-namespace detail {
-
-struct stack_rule {
-  template <class... A>
-  [[nodiscard]] stacked_operator<A const&...> operator()(A const&... a) const {
-    return stacked_operator<A const&...>(held<A const&>(a)...);
-  }
-};
-
-}  // namespace detail
 
 /// (F₁(y); F₂(y); …). Each F is `Function const&` (referenced) or a function type (owned).
 template <class... F>
@@ -182,7 +179,7 @@ class stack_map : public slanting_base {
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
     return boost::hana::unpack(parts_, [&](auto const&... f) {
-      return std::make_tuple(detail::make_stacked_part_workspace(
+      return boost::hana::make_tuple(detail::make_stacked_part_workspace(
           slant::workspace(f.get(), y), slant::like(y, f.get().rows()))...);
     });
   }
@@ -190,7 +187,7 @@ class stack_map : public slanting_base {
     requires usable<plain_t<Y>>
   void value(Y const& y, V& v, W& w) const {
     for_each([&](auto const& f, auto i, index first) {
-      auto& own = std::get<i()>(w);
+      auto& own = boost::hana::at_c<i()>(w);
       slant::evaluate(f, y, own.rows, own.inner);
       slant::local(v).segment(first, f.rows()) = slant::local(own.rows);
     });
@@ -198,20 +195,20 @@ class stack_map : public slanting_base {
   template <class Y>
     requires usable<plain_t<Y>>
   [[nodiscard]] auto slant(Y const& y) const {
-    return boost::hana::unpack(parts_, [&](auto const&... f) {
-      return detail::assembled_operator(detail::stack_rule{}, f.get().slant(y)...);
-    });
+    return boost::hana::unpack(
+        parts_, [&](auto const&... f) { return detail::stacked_operator(f.get().slant(y)...); });
   }
   template <class Y, class G, class W>
   void slant(Y const& y, G& g, W& w) const {
     for_each([&](auto const& f, auto i, index) {
-      slant::update_slant(f, y, g.template part<i()>(), std::get<i()>(w).inner);
+      slant::update_slant(f, y, g.template part<i()>(), boost::hana::at_c<i()>(w).inner);
     });
   }
   template <class Y, class G, class W>
   void slant_after_value(Y const& y, G& g, W& w) const {
     for_each([&](auto const& f, auto i, index) {
-      slant::update_slant_after_value(f, y, g.template part<i()>(), std::get<i()>(w).inner);
+      slant::update_slant_after_value(f, y, g.template part<i()>(),
+                                      boost::hana::at_c<i()>(w).inner);
     });
   }
 

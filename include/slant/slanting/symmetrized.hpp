@@ -38,24 +38,25 @@ struct newton_parts {
   static constexpr bool known = false;
 };
 
-/// I − G (I − ρ A), ρ marked as positive.
+/// I − G (I − ρ A), ρ known to be positive.
 template <class G, class A, class S>
-struct newton_parts<assembled_operator<
-    difference_rule, identity_operator,
-    assembled_operator<product_rule, G,
-                       assembled_operator<difference_rule, identity_operator,
-                                          assembled_operator<scaled_rule<S, true>, A>>>>> {
+struct newton_parts<
+    expr::sum<identity_operator,
+              expr::product<expr::minus_one, G,
+                            expr::sum<identity_operator,
+                                      expr::product<expr::number<S, expr::sign::minus>, A>>>>> {
   static constexpr bool known = true;
   using slant_type = G;
   using operator_type = A;
 
   template <class M>
   static auto const& slant_part(M const& m) {
-    return m.template part<1>().template part<0>();
+    return m.template term<1>().template factor<0>();
   }
+  /// −ρ A.
   template <class M>
   static auto const& scaled_part(M const& m) {
-    return m.template part<1>().template part<1>().template part<1>();
+    return m.template term<1>().template factor<1>().template term<1>();
   }
 };
 
@@ -89,14 +90,15 @@ template <symmetrizable M>
 
 /// ρ of I − G (I − ρ A).
 template <symmetrizable M>
-[[nodiscard]] auto const& step_length(M const& m) {
-  return detail::newton_parts<M>::scaled_part(m).rule().factor;
+[[nodiscard]] auto step_length(M const& m) {
+  auto const& minus_ρ = detail::newton_parts<M>::scaled_part(m).coefficient();
+  return expr::value_as<decltype(minus_ρ.value)>(expr::negated(minus_ρ));
 }
 
 /// A of I − G (I − ρ A).
 template <symmetrizable M>
 [[nodiscard]] auto const& hessian(M const& m) {
-  return detail::newton_parts<M>::scaled_part(m).template part<0>();
+  return detail::newton_parts<M>::scaled_part(m).template factor<0>();
 }
 
 // --- symmetrized ---------------------------------------------------------------------------------

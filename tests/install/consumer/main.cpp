@@ -9,9 +9,9 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/iterates.hpp>
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/sets/ball.hpp>
 #include <string>
 #if defined(CONSUMER_HAS_vtu)

@@ -5,9 +5,9 @@
 // max-lines-clang: 20
 //
 // B K⁻¹ B where B K⁻¹ Bᵀ is meant: the first line shows the formula and the place.
-#include <slant/expressions/expressions.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/krylov/cg.hpp>
+#include <slant/operators/operators.hpp>
 
 auto method(Eigen::MatrixXd const& matrix, Eigen::MatrixXd const& stiffness,
             Eigen::VectorXd const& b) {

@@ -5,8 +5,8 @@
 // max-lines-clang: 20
 //
 // Two matrices that happen to be one: the compiler sees two.
-#include <slant/expressions/expressions.hpp>
 #include <slant/krylov/cg.hpp>
+#include <slant/operators/operators.hpp>
 
 auto method(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& b) {
   auto const I = slant::identity(matrix.cols());

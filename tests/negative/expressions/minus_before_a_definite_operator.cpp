@@ -5,8 +5,8 @@
 // max-lines-clang: 20
 //
 // A maximum written as a minimum.
-#include <slant/expressions/expressions.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 

@@ -6,7 +6,7 @@
 //
 // B A Bᵀ where the adjoint of B returns its result: B is named, not the composition.
 #include <slant/krylov/cg.hpp>
-#include <slant/operators/congruence.hpp>
+#include <slant/operators/product.hpp>
 
 #include <Eigen/Core>
 

@@ -6,7 +6,7 @@
 //
 // A sum of multiples, one of which is of an operator on vectors of float: that one is named.
 #include <slant/operators/identity.hpp>
-#include <slant/operators/scaled.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>

@@ -5,7 +5,7 @@
 // max-lines-clang: 30
 //
 // An operator minus apply_adjoint: nobody knows its adjoint.
-#include <slant/operators/adjoint.hpp>
+#include <slant/operators/letter.hpp>
 
 #include <Eigen/Core>
 

@@ -5,8 +5,8 @@
 // max-lines-clang: 35
 //
 // The outer factor of B A Bᵀ minus apply_adjoint.
-#include <slant/operators/congruence.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/product.hpp>
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// expect: has_apply_member
-// expect-clang: 'has_apply_member['<]
+// expect: a term or factor must be an operator.*has_apply_member
+// expect-clang: a term or factor must be an operator.*'has_apply_member['<]
 // max-lines-gcc: 25
 // max-lines-clang: 30
 //

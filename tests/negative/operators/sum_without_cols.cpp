@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: a term of a sum must be an operator.*'has_cols['<]
+// expect: a term or factor must be an operator.*'has_cols['<]
 // max-lines-gcc: 25
 // max-lines-clang: 30
 //

@@ -5,45 +5,12 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/operators/composition.hpp>
-#include <slant/slanting/assembled_operator.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
 #include <type_traits>
 #include <utility>
 
 namespace slant::detail {
-
-// --- function pair -------------------------------------------------------------------------------
-//
-// Two slanting functions of the same argument with equally many values.
-
-/// F and G are `Function const&` (referenced) or function types (owned).
-template <class F, class G>
-class function_pair : public slanting_base {
- public:
-  using left_type = std::remove_cvref_t<F>;
-  using right_type = std::remove_cvref_t<G>;
-
-  /// Throws bad_input if the numbers of values or of arguments differ.
-  function_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
-    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
-    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
-  }
-
-  [[nodiscard]] index rows() const { return left().rows(); }
-  [[nodiscard]] index cols() const { return left().cols(); }
-  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
-  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
-
- protected:
-  template <class V>
-  static constexpr bool usable =
-      slanting_function<left_type, V> && slanting_function<right_type, V>;
-
- private:
-  held<F> f_;
-  held<G> g_;
-};
 
 // --- weighted sum operator -----------------------------------------------------------------------
 //
@@ -61,29 +28,34 @@ struct weighted_sum_workspace {
   Vector product;
 };
 
-/// y = p∘(A x) + q∘(B x). Refers to all four. With Chooses all pᵢ are 0 or 1, qᵢ = 1 − pᵢ, or both
-/// are NaN.
-template <bool Chooses, class P, class Q, class A, class B>
+/// y = p∘(A x) + q∘(B x), p and q of type P. Owns all four, which can be renewed. With Chooses all pᵢ
+/// are 0 or 1, qᵢ = 1 − pᵢ, or both are NaN.
+template <bool Chooses, class P, class A, class B>
 class weighted_sum_operator {
  public:
   static constexpr law_set laws{};
 
-  weighted_sum_operator(P const& p, Q const& q, A const& a, B const& b)
-      : p_(&p), q_(&q), a_(&a), b_(&b) {}
+  weighted_sum_operator(P p, P q, A a, B b)
+      : p_(std::move(p)), q_(std::move(q)), a_(std::move(a)), b_(std::move(b)) {}
 
-  [[nodiscard]] index rows() const { return a_->rows(); }
-  [[nodiscard]] index cols() const { return a_->cols(); }
+  [[nodiscard]] index rows() const { return a_.rows(); }
+  [[nodiscard]] index cols() const { return a_.cols(); }
+  /// p, q, A and B, to be renewed.
+  [[nodiscard]] P const& first_weights() const noexcept { return p_; }
+  [[nodiscard]] P& first_weights() noexcept { return p_; }
+  [[nodiscard]] P& second_weights() noexcept { return q_; }
+  [[nodiscard]] A& first() noexcept { return a_; }
+  [[nodiscard]] B& second() noexcept { return b_; }
 
   template <class X>
     requires linear_operator<A, plain_t<X>> && linear_operator<B, plain_t<X>>
   [[nodiscard]] auto workspace(X const& x) const {
-    return make_workspace(slant::workspace(*a_, x), slant::workspace(*b_, x),
-                          slant::like(x, rows()));
+    return make_workspace(slant::workspace(a_, x), slant::workspace(b_, x), slant::like(x, rows()));
   }
   template <class X, class Y, class W>
     requires applies<A, X, Y> && applies<B, X, plain_t<X>>
   void apply(X const& x, Y& y, W& w) const {
-    slant::apply(*a_, x, y, w.first);
+    slant::apply(a_, x, y, w.first);
     auto& result = slant::local(y);
     auto const add = [&](auto const& product) {
       for (index j = 0; j < result.cols(); ++j) {
@@ -95,9 +67,9 @@ class weighted_sum_operator {
       }
     };
     if constexpr (shows_segment<B, X>) {
-      add(b_->segment(x));
+      add(b_.segment(x));
     } else {
-      slant::apply(*b_, x, w.product, w.second);
+      slant::apply(b_, x, w.product, w.second);
       add(slant::local(w.product));
     }
   }
@@ -111,16 +83,16 @@ class weighted_sum_operator {
         result.col(j) += α * weights.cwiseProduct(product.col(j));
       }
     };
-    slant::apply(*a_, x, w.product, w.first);
+    slant::apply(a_, x, w.product, w.first);
     add(p());
-    slant::apply(*b_, x, w.product, w.second);
+    slant::apply(b_, x, w.product, w.second);
     add(q());
   }
 
   template <class X>
     requires has_adjoint<A, plain_t<X>> && has_adjoint<B, plain_t<X>>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return make_workspace(slant::adjoint_workspace(*a_, x), accumulate_adjoint_workspace(*b_, x),
+    return make_workspace(slant::adjoint_workspace(a_, x), accumulate_adjoint_workspace(b_, x),
                           slant::like(x, rows()));
   }
   /// y = Aᵀ(p∘x) + Bᵀ(q∘x).
@@ -128,14 +100,14 @@ class weighted_sum_operator {
     requires applies_adjoint<A, plain_t<X>, Y> && adds_adjoint<B, plain_t<X>, Y>
   void apply_adjoint(X const& x, Y& y, W& w) const {
     weigh(p(), x, w.product);
-    slant::apply_adjoint(*a_, w.product, y, w.first);
+    slant::apply_adjoint(a_, w.product, y, w.first);
     weigh(q(), x, w.product);
-    accumulate_adjoint(*b_, scalar_t<X>(1), w.product, y, w.second);
+    accumulate_adjoint(b_, scalar_t<X>(1), w.product, y, w.second);
   }
 
  private:
-  [[nodiscard]] decltype(auto) p() const { return slant::local(*p_); }
-  [[nodiscard]] decltype(auto) q() const { return slant::local(*q_); }
+  [[nodiscard]] decltype(auto) p() const { return slant::local(p_); }
+  [[nodiscard]] decltype(auto) q() const { return slant::local(q_); }
 
   /// yᵢ = bᵢ where pᵢ = 0; NaN where pᵢ is.
   template <class Column, class B2>
@@ -159,10 +131,10 @@ class weighted_sum_operator {
     }
   }
 
-  P const* p_;
-  Q const* q_;
-  A const* a_;
-  B const* b_;
+  P p_;
+  P q_;
+  A a_;
+  B b_;
 };
 
 // --- pointwise pair ------------------------------------------------------------------------------
@@ -173,15 +145,6 @@ class weighted_sum_operator {
 //     F̃°(y) = diag(p) F°(y) + diag(q) G°(y).
 //
 // The maximum, the minimum and the Fischer–Burmeister function are three choices of κ.
-
-/// diag(p) A + diag(q) B; Chooses: each row is that of A or that of B.
-template <bool Chooses>
-struct weighted_sum_rule {
-  template <class P, class Q, class A, class B>
-  [[nodiscard]] auto operator()(P const& p, Q const& q, A const& a, B const& b) const {
-    return weighted_sum_operator<Chooses, P, Q, A, B>(p, q, a, b);
-  }
-};
 
 /// `f` and `g` hold F(y) and G(y).
 template <class First, class Second, class Vector>
@@ -194,15 +157,26 @@ struct pointwise_pair_workspace {
 
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
 /// the slopes are always (1, 0) or (0, 1), or NaN.
+/// F and G are `Function const&` (referenced) or function types (owned).
 template <class Kernel, class F, class G>
-class pointwise_pair : public function_pair<F, G> {
-  using pair = function_pair<F, G>;
+class pointwise_pair : public slanting_base {
+  using left_type = std::remove_cvref_t<F>;
+  using right_type = std::remove_cvref_t<G>;
+  template <class V>
+  static constexpr bool usable =
+      slanting_function<left_type, V> && slanting_function<right_type, V>;
 
  public:
-  using pair::left;
-  using pair::pair;
-  using pair::right;
-  using pair::rows;
+  /// Throws bad_input if the numbers of values or of arguments differ.
+  pointwise_pair(held<F> f, held<G> g) : f_(std::move(f)), g_(std::move(g)) {
+    require_equal_sizes("g.rows()", right().rows(), left().rows(), "f.rows()");
+    require_equal_sizes("g.cols()", right().cols(), left().cols(), "f.cols()");
+  }
+
+  [[nodiscard]] index rows() const { return left().rows(); }
+  [[nodiscard]] index cols() const { return left().cols(); }
+  [[nodiscard]] left_type const& left() const noexcept { return f_.get(); }
+  [[nodiscard]] right_type const& right() const noexcept { return g_.get(); }
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
@@ -213,19 +187,21 @@ class pointwise_pair : public function_pair<F, G> {
         slant::like(y, rows())};
   }
   template <class Y, class V, class W>
-    requires pair::template
-  usable<plain_t<Y>> void value(Y const& y, V& v, W& w) const {
+    requires usable<plain_t<Y>>
+  void value(Y const& y, V& v, W& w) const {
     evaluate_parts(y, w);
     slant::local(v) = slant::local(w.f).binaryExpr(
         slant::local(w.g), [](auto const& a, auto const& b) { return Kernel::value(a, b); });
   }
   template <class Y>
-    requires pair::template
-  usable<plain_t<Y>> [[nodiscard]] auto slant(Y const& y) const {
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
-    assembled_operator s(weighted_sum_rule<Kernel::chooses>{}, slant::like(y, rows()),
-                         slant::like(y, rows()), left().slant(y), right().slant(y));
+    using first = slant_operator_t<left_type, Y>;
+    using second = slant_operator_t<right_type, Y>;
+    weighted_sum_operator<Kernel::chooses, plain_t<Y>, first, second> s(
+        slant::like(y, rows()), slant::like(y, rows()), left().slant(y), right().slant(y));
     set_slopes(s, w);
     return s;
   }
@@ -237,8 +213,8 @@ class pointwise_pair : public function_pair<F, G> {
   template <class Y, class S, class W>
   void slant_after_value(Y const& y, S& s, W& w) const {
     set_slopes(s, w);
-    slant::update_slant_after_value(left(), y, s.template part<2>(), w.first);
-    slant::update_slant_after_value(right(), y, s.template part<3>(), w.second);
+    slant::update_slant_after_value(left(), y, s.first(), w.first);
+    slant::update_slant_after_value(right(), y, s.second(), w.second);
   }
 
  private:
@@ -249,14 +225,17 @@ class pointwise_pair : public function_pair<F, G> {
   }
   template <class S, class W>
   void set_slopes(S& s, W const& w) const {
-    auto& p = slant::local(s.template part<0>());
-    auto& q = slant::local(s.template part<1>());
+    auto& p = slant::local(s.first_weights());
+    auto& q = slant::local(s.second_weights());
     for (index i = 0; i < rows(); ++i) {
       auto const [at_f, at_g] = Kernel::slopes(slant::local(w.f)[i], slant::local(w.g)[i]);
       p[i] = at_f;
       q[i] = at_g;
     }
   }
+
+  held<F> f_;
+  held<G> g_;
 };
 
 }  // namespace slant::detail

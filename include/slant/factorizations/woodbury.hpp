@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The inverse after a change of low rank (Woodbury 1950; Golub, Van Loan, Matrix Computations, §2.1.4),
+//
+//     (K + U C Uᵀ)⁻¹ = K⁻¹ − V S⁻¹ Vᵀ,     V = K⁻¹U,   S = C⁻¹ + UᵀV.
+//
+// K and C symmetric positive definite, U with p columns: p solutions with K once, then one for each
+// application. Where U C Uᵀ outweighs K by a factor 1/ε on range(U), the difference keeps no digits
+// there: K + U C Uᵀ itself should be factored then.
+#pragma once
+
+#include <slant/base/diagnosis.hpp>
+#include <slant/factorizations/dense_ldlt.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/inverse.hpp>
+#include <slant/operators/product.hpp>
+#include <slant/operators/sum.hpp>
+
+#include <Eigen/Core>
+
+#include <utility>
+
+namespace slant {
+
+/// (K + U C Uᵀ)⁻¹ from K⁻¹, an spd_operator, which is referenced if it is an lvalue; U is n × p and C
+/// p × p, dense. The result is an spd_operator.
+/// @throws bad_input if sizes do not fit, or C or S is not symmetric positive definite.
+template <operand K, class U, class C>
+  requires declares_self_adjoint<K> && declares_positive_definite<K>
+[[nodiscard]] auto woodbury(K&& k_inverse, Eigen::MatrixBase<U> const& u,
+                            Eigen::MatrixBase<C> const& c) {
+  using dense = Eigen::Matrix<typename U::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  detail::require_rows("U", u, k_inverse.rows(), "the size of K");
+  detail::require_size("C", c, u.cols(), u.cols(), "the columns of U");
+  dense const columns = u;
+  dense v(columns.rows(), columns.cols());
+  for (index j = 0; j < columns.cols(); ++j) {
+    Eigen::Matrix<typename U::Scalar, Eigen::Dynamic, 1> const column = columns.col(j);
+    auto image = column;
+    slant::apply(k_inverse, column, image);
+    v.col(j) = image;
+  }
+  dense s(c.rows(), c.cols());
+  dense_ldlt(c).solve(dense(dense::Identity(c.rows(), c.cols())), s);
+  dense const projected = columns.transpose() * v;
+  s += (projected + projected.transpose()) / 2;
+  dense_ldlt factors(dense((s + s.transpose()) / 2));
+  return declare<self_adjoint, positive_definite>(
+      difference(std::forward<K>(k_inverse),
+                 congruence(matrix(std::move(v)), slant::inverse(std::move(factors)))));
+}
+
+}  // namespace slant

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+//
+// A face as multigrid sees it: for each node i the projector Π_i onto the motions that are left and
+// the curvature C_i ⪰ 0 of the boundary along them, so that
+//
+//     H = Π A Π + C,      Π = diag(Π_i),   C = diag(C_i).
+//
+// Nodes with Π_i = I and C_i = 0 are all but those of the surface and are not stored. From a face of
+// any set (sets/face.hpp, sets/curved_face.hpp) Π and C are read by applying them to N vectors, the
+// c-th of which is 1 in component c of every node; where their image of one vector of pseudo-random
+// numbers is what it was, nothing has changed and nothing is read.
+//
+// Great curvature. A direction v in which C_i is λ, more than 1/√ε of A_ii, hardly moves, and in
+// short scalars A_ii + C_i would forget A_ii. The levels hold such directions: they work with
+// Π' = Π − v vᵀ and C' = C − λ v vᵀ. Their part of the inverse, v vᵀ/λ, is added at the end in
+// double; what couples them to the others is ε^¼ of both at most.
+//
+// Lag. Coarse levels approximate. They follow a node whose Π' or C' has changed by a part of
+// what it is or of A_ii, and no other: a surface that slides turns a little in every step.
+#pragma once
+
+#include <slant/base/entries.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/multilevel/parts/lanes.hpp>
+#include <slant/multilevel/parts/semidefinite_inverse.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace slant::detail {
+
+template <int N, class T>
+class node_face {
+ public:
+  using small = Eigen::Matrix<double, N, N>;
+  static constexpr int stride = lanes<T, N>::size;
+
+  /// What is known of a node of the surface.
+  struct node {
+    int i;                   ///< which
+    small projector;         ///< Π_i
+    small curvature;         ///< C_i, in units of the levels
+    small level_projector;   ///< Π'_i
+    small level_curvature;   ///< C'_i
+    small stiff_inverse;     ///< Σ v vᵀ/λ
+    small formed_projector;  ///< Π'_i and C'_i of which the coarse levels have been formed
+    small formed_curvature;
+    std::array<T, static_cast<std::size_t>(N) * stride> mask;  ///< Π'_i, columns of `stride`
+  };
+
+  node_face() = default;
+  /// Nothing is held of n nodes whose diagonal blocks have the inverses `inverses` (as for the
+  /// sweeps).
+  node_face(int n, std::vector<T> inverses)
+      : inverses_(inverses), free_(std::move(inverses)), place_(static_cast<std::size_t>(n), -1) {}
+
+  [[nodiscard]] std::vector<node> const& surface() const { return surface_; }
+  [[nodiscard]] T const* inverses() const { return inverses_.data(); }
+
+  /// Becomes the face, its curvature times `weight`. `moved`: the nodes that the coarse levels have
+  /// to follow. Returns whether anything changed at all. probe and image: vectors for the face.
+  /// Throws bad_input if Π or C has entries between nodes, or Π_i is no projector.
+  template <class Face, class V>
+  bool assign(Face const& face, double weight, std::vector<double> const& diagonal, V& probe,
+              V& image, std::vector<int>& moved) {
+    using S = scalar_t<V>;
+    moved.clear();
+    std::fill(changed_.begin(), changed_.end(), static_cast<unsigned char>(0));
+    auto const project = [&] { face.keep(probe, image); };
+    bool changed = read(project, &node::projector, projected_, probe, image);
+    auto const bend = [&] {
+      slant::local(image).setZero();
+      if constexpr (requires { face.add_curvature(S(1), probe, image); }) {
+        if (weight > 0) face.add_curvature(S(weight), probe, image);
+      }
+    };
+    if (weight > 0 || !bent_.empty()) {
+      changed = read(bend, &node::curvature, bent_, probe, image) || changed;
+    }
+    if (!changed) return false;
+    for (std::size_t k = 0; k < surface_.size(); ++k) {
+      if (changed_[k] == 0) continue;
+      node& here = surface_[k];
+      double const* const a = diagonal.data() + static_cast<std::size_t>(here.i) * (N * N);
+      prepare(here, a);
+      if (!follows(here, a)) continue;
+      here.formed_projector = here.level_projector;
+      here.formed_curvature = here.level_curvature;
+      moved.push_back(here.i);
+    }
+    return true;
+  }
+
+  /// Π' A_ij Π' + δ_ij C' as the coarse levels have to know it.
+  struct blocks {
+    node_face const* face;
+    mutable std::array<T, static_cast<std::size_t>(N) * N> buffer;
+
+    [[nodiscard]] T const* operator()(int i, int j, T const* entries) const {
+      int const k = face->place_[static_cast<std::size_t>(i)];
+      int const l = face->place_[static_cast<std::size_t>(j)];
+      if (k < 0 && l < 0) return entries;
+      std::array<T, static_cast<std::size_t>(N) * N> half;
+      if (k >= 0) {
+        multiply(face->surface_[static_cast<std::size_t>(k)].formed_projector, entries,
+                 half.data());
+      } else {
+        std::copy(entries, entries + N * N, half.begin());
+      }
+      if (l >= 0) {  // from the right, by the symmetric projector
+        small const& p = face->surface_[static_cast<std::size_t>(l)].formed_projector;
+        for (int c = 0; c < N; ++c) {
+          for (int q = 0; q < N; ++q) {
+            T s(0);
+            for (int m = 0; m < N; ++m) {
+              s += half[static_cast<std::size_t>(N * m + q)] * T(p(m, c));
+            }
+            buffer[static_cast<std::size_t>(N * c + q)] = s;
+          }
+        }
+      } else {
+        buffer = half;
+      }
+      if (i == j) {
+        small const& c = face->surface_[static_cast<std::size_t>(k)].formed_curvature;
+        for (std::size_t m = 0; m < N * N; ++m) buffer[m] += T(c.data()[m]);
+      }
+      return buffer.data();
+    }
+  };
+  [[nodiscard]] blocks formed_blocks() const { return {this, {}}; }
+
+  /// r ← Π'r.
+  void project(T* r) const {
+    for (node const& here : surface_) project_at(here, r + offset(here.i));
+  }
+  /// r ← r − C x, for r that is projected afterwards.
+  void subtract_curvature(T const* x, T* r) const {
+    for (node const& here : surface_) {
+      for (int c = 0; c < N; ++c) {
+        for (int q = 0; q < N; ++q) {
+          r[offset(here.i) + static_cast<std::size_t>(q)] -=
+              T(here.level_curvature(q, c)) * x[offset(here.i) + static_cast<std::size_t>(c)];
+        }
+      }
+    }
+  }
+  /// y ← Π'y + factor Σ v vᵀx/λ, vectors of N numbers a node.
+  template <class S>
+  void complete(S const* x, S* y, S const& factor) const {
+    for (node const& here : surface_) {
+      S* const to = y + static_cast<index>(here.i) * N;
+      S const* const from = x + static_cast<index>(here.i) * N;
+      S sums[N];
+      for (int q = 0; q < N; ++q) {
+        sums[q] = S(0);
+        for (int c = 0; c < N; ++c) {
+          sums[q] += S(here.level_projector(q, c)) * to[c] +
+                     S(here.stiff_inverse(q, c)) * (factor * from[c]);
+        }
+      }
+      std::copy(sums, sums + N, to);
+    }
+  }
+  /// Keeps x on the surface, and gives it back with the projection of what was added to it.
+  void remember(T const* x) {
+    for (std::size_t k = 0; k < surface_.size(); ++k) {
+      std::copy_n(x + offset(surface_[k].i), stride, kept_.data() + k * stride);
+    }
+  }
+  void project_change(T* x) const {
+    for (std::size_t k = 0; k < surface_.size(); ++k) {
+      T* const here = x + offset(surface_[k].i);
+      T const* const old = kept_.data() + k * stride;
+      for (int c = 0; c < N; ++c) here[c] -= old[c];
+      project_at(surface_[k], here);
+      for (int c = 0; c < N; ++c) here[c] += old[c];
+    }
+  }
+
+ private:
+  static constexpr double lag = 0.05;
+
+  [[nodiscard]] static std::size_t offset(int i) { return static_cast<std::size_t>(i) * stride; }
+  [[gnu::always_inline]] static void project_at(node const& here, T* x) {
+    lanes<T, N> s = lanes<T, N>::zero();
+    for (int c = 0; c < N; ++c) s.add(here.mask.data() + stride * c, x[c]);
+    s.store_padded(x);
+  }
+  static void multiply(small const& p, T const* entries, T* to) {
+    for (int c = 0; c < N; ++c) {
+      for (int q = 0; q < N; ++q) {
+        T s(0);
+        for (int m = 0; m < N; ++m) s += T(p(q, m)) * entries[N * c + m];
+        to[N * c + q] = s;
+      }
+    }
+  }
+
+  /// The place of node i, a new one if it has none.
+  std::size_t at(int i) {
+    int& place = place_[static_cast<std::size_t>(i)];
+    if (place < 0) {
+      place = static_cast<int>(surface_.size());
+      node fresh;
+      fresh.i = i;
+      for (small* m : {&fresh.projector, &fresh.level_projector, &fresh.formed_projector}) {
+        m->setIdentity();
+      }
+      for (small* m : {&fresh.curvature, &fresh.level_curvature, &fresh.formed_curvature}) {
+        m->setZero();
+      }
+      fresh.stiff_inverse.setZero();
+      fresh.mask.fill(T(0));
+      surface_.push_back(fresh);
+      changed_.push_back(0);
+      kept_.resize(surface_.size() * stride);
+    }
+    return static_cast<std::size_t>(place);
+  }
+  /// Reads the blocks of Π or C by `act`, which makes image of probe. `before` is the image of a
+  /// vector of pseudo-random numbers: where it is the same, nothing has changed. Returns whether
+  /// it has.
+  template <class Act, class V>
+  bool read(Act const& act, small node::*part, std::vector<double>& before, V& probe, V& image) {
+    using S = scalar_t<V>;
+    auto& x = slant::local(probe);
+    auto const& y = slant::local(image);
+    auto const n = static_cast<int>(place_.size());
+    auto const scatter = [&] {
+      unsigned random = 1;
+      for (index k = 0; k < index(n) * N; ++k) {
+        random = random * 1664525u + 1013904223u;
+        x[k] = S(1) + S(double(random >> 8) / double(1 << 24));
+      }
+    };
+    scatter();
+    act();
+    bool const projects = part == &node::projector;
+    auto const unseen = before.empty();
+    bool same = !unseen;
+    if (unseen) before.assign(static_cast<std::size_t>(n) * N, 0.0);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      auto const value = static_cast<double>(y[static_cast<index>(k)]);
+      same = same && before[k] == value;
+      before[k] = value;
+    }
+    if (same) return false;
+    for (int c = 0; c < N; ++c) {
+      x.setZero();
+      for (int i = 0; i < n; ++i) x[index(N) * i + c] = S(1);
+      act();
+      for (int i = 0; i < n; ++i) {
+        S const* const column = y.data() + index(N) * i;
+        bool plain = true;
+        for (int q = 0; q < N; ++q) plain = plain && column[q] == S(projects && q == c ? 1 : 0);
+        if (plain && place_[static_cast<std::size_t>(i)] < 0) continue;
+        set_column(c, column, at(i), part);
+      }
+    }
+    scatter();
+    require_blocks(projects, part, before, x.data());
+    return true;
+  }
+  template <class S>
+  void set_column(int c, S const* values, std::size_t k, small node::*part) {
+    double* const to = (surface_[k].*part).data() + N * c;
+    for (int q = 0; q < N; ++q) {
+      auto const value = static_cast<double>(values[q]);
+      if (!(to[q] == value)) changed_[k] = 1;
+      to[q] = value;
+    }
+  }
+  /// Whether the blocks read make that image of x.
+  template <class S>
+  void require_blocks(bool projects, small node::*part, std::vector<double> const& image,
+                      S const* x) const {
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      double error = 0, size = 0;
+      for (int q = 0; q < N; ++q) {
+        double expected = projects ? static_cast<double>(x[i * N + std::size_t(q)]) : 0.0;
+        if (place_[i] >= 0) {
+          small const& m = surface_[static_cast<std::size_t>(place_[i])].*part;
+          expected = 0;
+          for (int c = 0; c < N; ++c) {
+            double const term =
+                m.data()[N * c + q] * static_cast<double>(x[i * N + std::size_t(c)]);
+            expected += term;
+            size += std::abs(term);
+          }
+        }
+        error += std::abs(expected - image[i * N + std::size_t(q)]);
+      }
+      if (error <= tolerance() * (projects ? std::max(size, 1.0) : size)) continue;
+      throw bad_input("face", "node " + show(static_cast<index>(i)) + " that moves with others",
+                      "blocks of the set within the nodes of " + show(index(N)) + " unknowns");
+    }
+  }
+  [[nodiscard]] static double tolerance() {
+    return std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()));
+  }
+
+  /// Everything of a node that follows from Π and C; a is its diagonal block.
+  void prepare(node& here, double const* a) {
+    require_projector(here);
+    double trace = 0;
+    for (int c = 0; c < N; ++c) trace += a[(N + 1) * c];
+    double const largest = largest_of(here.curvature);
+    here.level_projector = here.projector;
+    here.level_curvature = here.curvature;
+    here.stiff_inverse.setZero();
+    if (largest > 0) hold_stiff_directions(here, a, trace / N);
+    T* const inverse = inverses_.data() + offset(here.i) * N;
+    if (largest == 0 && here.projector.isIdentity(0)) {
+      std::copy_n(free_.data() + offset(here.i) * N, N * stride, inverse);
+    } else {
+      invert(here, a, trace / N, inverse);
+    }
+    for (int c = 0; c < N; ++c) {
+      for (int q = 0; q < stride; ++q) {
+        here.mask[static_cast<std::size_t>(stride * c + q)] =
+            q < N ? T(here.level_projector(q, c)) : T(0);
+      }
+    }
+  }
+  /// The inverse of Π'(A_ii + C')Π' on range(Π'), 0 off it, to `to`.
+  void invert(node const& here, double const* a, double unit, T* to) const {
+    small const& p = here.level_projector;
+    small h;
+    for (int k = 0; k < N * N; ++k) h.data()[k] = a[k] + here.level_curvature.data()[k];
+    h = product_of(p, product_of(h, p));
+    double least[N], scale[N];
+    for (int c = 0; c < N; ++c) {
+      for (int q = 0; q < N; ++q) h(q, c) += unit * ((q == c ? 1.0 : 0.0) - p(q, c));
+      scale[c] = a[(N + 1) * c];
+      least[c] = 64 * std::numeric_limits<double>::epsilon() * scale[c];
+    }
+    invert_semidefinite<N>(h.data(), least, scale);
+    h = product_of(p, product_of(h, p));
+    for (int c = 0; c < N; ++c) {
+      for (int q = 0; q < N; ++q) to[stride * c + q] = T(0.5 * (h(q, c) + h(c, q)));
+    }
+  }
+  static void hold_stiff_directions(node& here, double const* a, double unit) {
+    double const most = unit / tolerance();
+    symmetric_eigen<double, N> const e(here.curvature);
+    if (!(largest_of(e.values) > most)) return;
+    here.level_curvature.setZero();
+    for (int k = 0; k < N; ++k) {
+      double const λ = e.values[k];
+      small vv;
+      double bent = 0;
+      for (int c = 0; c < N; ++c) {
+        for (int q = 0; q < N; ++q) {
+          vv(q, c) = e.vectors(q, k) * e.vectors(c, k);
+          bent += a[N * c + q] * vv(q, c);
+        }
+      }
+      if (λ > most) {
+        here.level_projector -= vv;
+        here.stiff_inverse += vv / (λ + bent);
+      } else if (std::abs(λ) > std::numeric_limits<double>::epsilon() * largest_of(e.values)) {
+        here.level_curvature += λ * vv;
+      }
+    }
+  }
+  /// Whether the coarse levels have to follow.
+  [[nodiscard]] static bool follows(node const& here, double const* a) {
+    double trace = 0, turned = 0, bent = 0, size = 0;
+    for (int c = 0; c < N; ++c) trace += a[(N + 1) * c];
+    for (int k = 0; k < N * N; ++k) {
+      turned = std::max(turned,
+                        std::abs(here.level_projector.data()[k] - here.formed_projector.data()[k]));
+      bent = std::max(bent,
+                      std::abs(here.level_curvature.data()[k] - here.formed_curvature.data()[k]));
+      size = std::max(size, std::abs(here.formed_curvature.data()[k]));
+    }
+    return turned > lag || bent > lag * (size + trace / N);
+  }
+  static void require_projector(node const& here) {
+    small const& p = here.projector;
+    small const square = product_of(p, p);
+    bool good = true;
+    for (int k = 0; k < N * N; ++k) {
+      double const mirrored = p.data()[(k % N) * N + k / N];
+      good = good && std::abs(square.data()[k] - p.data()[k]) <= tolerance() &&
+             std::abs(mirrored - p.data()[k]) <= tolerance();
+    }
+    if (!good) {
+      throw bad_input("face", "no projector on node " + show(index(here.i)),
+                      "keep(x, y) to project onto the motions that are left");
+    }
+  }
+
+  std::vector<T> inverses_;  // of Π(A_ii + C)Π, all nodes
+  std::vector<T> free_;      // of A_ii
+  std::vector<int> place_;   // of each node in surface_, or −1
+  std::vector<node> surface_;
+  std::vector<unsigned char> changed_;
+  std::vector<T> kept_;
+  std::vector<double> projected_, bent_;  // images of Π and C, see read
+};
+
+}  // namespace slant::detail

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// The prolongation P from a coarse level, nodes of M unknowns, to a fine one, nodes of N, and its
+// transpose, the restriction. Entries are N × M blocks, stored by rows, or, with M = N, weights:
+// multiples of the identity, as those of interpolation on a mesh.
+#pragma once
+
+#include <slant/base/matrix_entries.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/multilevel/parts/lanes.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace slant::detail {
+
+template <int N, int M, class T>
+struct prolongation {
+  static constexpr int fine_stride = lanes<T, N>::size;
+  static constexpr int coarse_stride = lanes<T, M>::size;
+  static constexpr std::size_t beyond = static_cast<std::size_t>(coarse_stride - M);
+
+  std::vector<int> first{0};  // of each fine node
+  std::vector<int> column;    // coarse nodes, ascending in a row
+  std::vector<T> entries;     // and what loads read beyond the last block
+  int coarse_nodes = 0;
+  bool weights = false;
+
+  [[nodiscard]] int nodes() const { return static_cast<int>(first.size()) - 1; }
+  [[nodiscard]] int begin(int i) const { return first[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] int end(int i) const { return first[static_cast<std::size_t>(i) + 1]; }
+  [[nodiscard]] int at(int e) const { return column[static_cast<std::size_t>(e)]; }
+  [[nodiscard]] T const* block(int e) const {
+    return entries.data() + static_cast<std::size_t>(e) * (N * M);
+  }
+  [[nodiscard]] T weight(int e) const { return entries[static_cast<std::size_t>(e)]; }
+
+  /// b = Pᵀr, block vectors.
+  void restrict_to(T const* r, T* b) const {
+    using coarse = lanes<T, M>;
+    std::fill(b, b + static_cast<std::size_t>(coarse_nodes) * coarse_stride, T(0));
+    for (int i = 0; i < nodes(); ++i) {
+      T const* const from = r + static_cast<std::size_t>(i) * fine_stride;
+      for (int e = begin(i); e < end(i); ++e) {
+        T* const to = b + static_cast<std::size_t>(at(e)) * coarse_stride;
+        coarse s = coarse::load(to);
+        if (N == M && weights) {
+          s.add(from, weight(e));
+        } else {
+          T const* const p = block(e);
+          unrolled<N>([&](auto q) __attribute__((always_inline)) { s.add(p + M * q, from[q]); });
+        }
+        s.store_padded(to);
+      }
+    }
+  }
+  /// x += P z.
+  void add_to(T const* z, T* x) const {
+    using coarse = lanes<T, M>;
+    for (int i = 0; i < nodes(); ++i) {
+      T* const to = x + static_cast<std::size_t>(i) * fine_stride;
+      if (N == M && weights) {
+        coarse s = coarse::zero();
+        for (int e = begin(i); e < end(i); ++e) {
+          s.add(z + static_cast<std::size_t>(at(e)) * coarse_stride, weight(e));
+        }
+        for (int q = 0; q < N; ++q) to[q] += s[q];
+      } else {
+        std::array<coarse, N> s;
+        s.fill(coarse::zero());
+        for (int e = begin(i); e < end(i); ++e) {
+          coarse const from = coarse::load(z + static_cast<std::size_t>(at(e)) * coarse_stride);
+          T const* const p = block(e);
+          unrolled<N>([&](auto q) __attribute__((always_inline)) {
+            s[q].add_product(coarse::load(p + M * q), from);
+          });
+        }
+        for (int q = 0; q < N; ++q) to[q] += sum_of_lanes(s[static_cast<std::size_t>(q)]);
+      }
+    }
+  }
+};
+
+/// P of the user as blocks of N unknowns: rows are the nodes of the fine level and columns those of
+/// the coarse one, entries the weights; or rows and columns are unknowns. `nodes` fine nodes.
+/// Throws bad_input naming what does not fit.
+template <int N, class T, class S, int Order>
+[[nodiscard]] prolongation<N, N, T> prolongation_from(Eigen::SparseMatrix<S, Order> const& given,
+                                                      int nodes, std::string const& name) {
+  require_finite_entries(name, given);
+  bool const of_nodes = given.rows() == nodes;
+  if (!of_nodes && given.rows() != N * index(nodes)) {
+    throw bad_input("rows of " + name, show(given.rows()),
+                    show(index(nodes)) + " nodes or " + show(N * index(nodes)) + " unknowns");
+  }
+  int const size = of_nodes ? 1 : N;
+  if (given.cols() < size || given.cols() % size != 0) {
+    throw bad_input("columns of " + name, show(given.cols()),
+                    "a positive multiple of " + show(index(size)));
+  }
+  Eigen::SparseMatrix<S, Eigen::RowMajor> const P = given;
+  using row = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
+  prolongation<N, N, T> p;
+  p.coarse_nodes = static_cast<int>(P.cols()) / size;
+  p.weights = of_nodes;
+  p.first.reserve(static_cast<std::size_t>(nodes) + 1);
+  if (of_nodes) {
+    p.column.reserve(static_cast<std::size_t>(P.nonZeros()));
+    p.entries.reserve(static_cast<std::size_t>(P.nonZeros()) + p.beyond);
+    for (int i = 0; i < nodes; ++i) {
+      for (row e(P, i); e; ++e) {
+        p.column.push_back(static_cast<int>(e.col()));
+        p.entries.push_back(T(e.value()));
+      }
+      p.first.push_back(static_cast<int>(p.column.size()));
+    }
+    p.entries.resize(p.entries.size() + p.beyond, T(0));
+    return p;
+  }
+  std::vector<int> place(static_cast<std::size_t>(p.coarse_nodes), -1);
+  std::vector<T> blocks;  // N × N by rows
+  for (int i = 0; i < nodes; ++i) {
+    auto const start = p.column.size();
+    for (int a = 0; a < N; ++a) {
+      for (row e(P, N * i + a); e; ++e) {
+        int& at = place[static_cast<std::size_t>(e.col()) / N];
+        if (at >= static_cast<int>(start)) continue;
+        at = static_cast<int>(p.column.size());
+        p.column.push_back(static_cast<int>(e.col()) / N);
+      }
+    }
+    std::sort(p.column.begin() + static_cast<std::ptrdiff_t>(start), p.column.end());
+    for (auto e = start; e < p.column.size(); ++e) {
+      place[static_cast<std::size_t>(p.column[e])] = static_cast<int>(e);
+    }
+    blocks.resize(p.column.size() * N * N, T(0));
+    for (int a = 0; a < N; ++a) {
+      for (row e(P, N * i + a); e; ++e) {
+        auto const at = static_cast<std::size_t>(place[static_cast<std::size_t>(e.col()) / N]);
+        blocks[at * (N * N) + static_cast<std::size_t>(a * N) +
+               static_cast<std::size_t>(e.col()) % N] = T(e.value());
+      }
+    }
+    p.first.push_back(static_cast<int>(p.column.size()));
+  }
+  // Interpolation of all unknowns by the same weights is one of nodes.
+  p.weights = true;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    auto const in = k % (N * N);
+    p.weights = p.weights && blocks[k] == (in % (N + 1) == 0 ? blocks[k - in] : T(0));
+  }
+  if (p.weights) {
+    for (std::size_t e = 0; e < p.column.size(); ++e) blocks[e] = blocks[e * N * N];
+    blocks.resize(p.column.size());
+  }
+  p.entries = std::move(blocks);
+  p.entries.resize(p.entries.size() + p.beyond, T(0));
+  p.entries.shrink_to_fit();
+  return p;
+}
+
+}  // namespace slant::detail

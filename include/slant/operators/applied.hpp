@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+//
+// A * x for Eigen vectors: computed when it is assigned, straight into the vector on the left.
+//
+//     y = A * x;      y += A * x;      VectorXd y = A * x;      y.segment(0, m) = A * x;
+//     y = (A * x).in(w);               // with a workspace made earlier: no allocation
+//     r = A * x - b;                   // Eigen's arithmetic: one temporary for A x
+//     x = A * x;                       // bad_input: x is read and written
+//
+// Matrices with several columns are factors, not arguments: for those slant::apply(A, X, Y).
+#pragma once
+
+#include <slant/operators/syntax.hpp>
+
+#include <Eigen/Core>
+
+#include <functional>
+
+namespace slant::expr {
+template <class A, class X>
+class applied;
+template <class A, class X, class W>
+class applied_in;
+}  // namespace slant::expr
+
+namespace Eigen::internal {
+template <class A, class X>
+struct traits<slant::expr::applied<A, X>> {
+  using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
+  enum { Flags = EvalBeforeNestingBit };
+};
+template <class A, class X, class W>
+struct traits<slant::expr::applied_in<A, X, W>> {
+  using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
+  enum { Flags = EvalBeforeNestingBit };
+};
+}  // namespace Eigen::internal
+
+namespace slant::expr {
+
+/// Throws bad_input if y and x share memory, as far as both have any that can be seen.
+template <class X, class Y>
+void refuse_overlap(X const& x, Y const& y) {
+  if constexpr (requires { x.data(), y.data(), x.innerStride(), y.innerStride(); }) {
+    auto const end = [](auto const& v) { return v.data() + (v.size() - 1) * v.innerStride() + 1; };
+    std::less<void const*> const before{};
+    if (x.size() > 0 && y.size() > 0 && before(x.data(), end(y)) && before(y.data(), end(x))) {
+      throw bad_input("y = A * x", "a y that shares memory with x", "two different vectors");
+    }
+  }
+}
+
+template <class A, class X, class Y, class W>
+void assign(A const& a, X const& x, Y& y, W& w) {
+  expr::refuse_overlap(x, y);
+  if constexpr (slant::detail::applies<A, X, Y>) {
+    slant::apply(a, x, y, w);
+  } else {  // an operator on one type of vectors
+    plain_t<X> const from = x;
+    plain_t<X> to = slant::like(from, a.rows());
+    slant::apply(a, from, to, w);
+    y = to;
+  }
+}
+
+/// A x with temporaries that the caller keeps.
+template <class A, class X, class W>
+class applied_in : public Eigen::ReturnByValue<applied_in<A, X, W>> {
+ public:
+  applied_in(held<A> a, held<X> x, W& w) : a_(std::move(a)), x_(std::move(x)), w_(&w) {}
+
+  [[nodiscard]] index rows() const { return a_.get().rows(); }
+  [[nodiscard]] index cols() const { return 1; }
+  template <class Y>
+  void evalTo(Y& y) const {
+    expr::assign(a_.get(), x_.get(), y, *w_);
+  }
+
+ private:
+  held<A> a_;
+  held<X> x_;
+  W* w_;
+};
+
+/// A x, not yet computed. Lvalues that are no handles are referenced.
+template <class A, class X>
+class applied : public Eigen::ReturnByValue<applied<A, X>> {
+  using operator_type = std::remove_cvref_t<A>;
+  using vector_type = plain_t<std::remove_cvref_t<X>>;
+
+ public:
+  applied(held<A> a, held<X> x) : a_(std::move(a)), x_(std::move(x)) {}
+
+  [[nodiscard]] index rows() const { return a_.get().rows(); }
+  [[nodiscard]] index cols() const { return 1; }
+
+  template <class Y>
+  void evalTo(Y& y) const {
+    auto w = slant::workspace(a_.get(), x_.get());
+    expr::assign(a_.get(), x_.get(), y, w);
+  }
+  /// y ← y + A x.
+  template <class Y>
+  void add_to(Y& y) const {
+    auto const& a = a_.get();
+    expr::refuse_overlap(x_.get(), y);
+    if constexpr (slant::detail::adds<operator_type, std::remove_cvref_t<X>, Y>) {
+      auto w = slant::detail::accumulate_workspace(a, x_.get());
+      slant::detail::accumulate(a, scalar_t<Y>(1), x_.get(), y, w);
+    } else {
+      y += vector_type(*this);
+    }
+  }
+  /// The same with the temporaries slant::workspace(A, x).
+  template <class W>
+    requires std::same_as<W, workspace_t<operator_type, vector_type>>
+  [[nodiscard]] applied_in<A, X, W> in(W& w) const {
+    return applied_in<A, X, W>(a_, x_, w);
+  }
+
+ private:
+  held<A> a_;
+  held<X> x_;
+};
+
+/// A column of Eigen.
+template <class X>
+concept eigen_vector = eigen_matrix<X> && (std::remove_cvref_t<X>::ColsAtCompileTime == 1);
+
+/// How x is kept: like any part, views as they are, so that overlap shows; expressions evaluated.
+template <class X>
+using kept_vector_t = std::conditional_t<slant::detail::is_stored_matrix<X>, kept_t<X>,
+                                         typename std::remove_cvref_t<X>::PlainObject>;
+
+}  // namespace slant::expr
+
+namespace slant {
+
+/// A x, see the top of this file. @throws bad_input if x has not cols() entries.
+template <linear_term A, expr::eigen_vector X>
+[[nodiscard]] auto operator*(A&& a, X&& x) {
+  using kept = expr::kept_vector_t<X>;
+  detail::check_rows("x", x, index(a.cols()), "cols() of the operator");
+  return expr::applied<kept_t<A>, kept>(held<kept_t<A>>(std::forward<A>(a)),
+                                        held<kept>(static_cast<kept>(std::forward<X>(x))));
+}
+
+/// y ← y + A x without a temporary, where A can add.
+template <class Y, class A, class X>
+Y& operator+=(Eigen::MatrixBase<Y>& y, expr::applied<A, X> const& ax) {
+  ax.add_to(y.derived());
+  return y.derived();
+}
+
+}  // namespace slant

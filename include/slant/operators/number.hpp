@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+//
+// The number in front of a product. Its sign is part of the type, its value is not:
+//
+//     2.0 * A            plus: where A is semidefinite, so is 2 A. That the number is > 0 (>= 0 if
+//                        A is not definite) is checked as soon as a law depends on it
+//     -(2.0 * A), -A     minus: checked in the same way before the sign is turned
+//     any_sign(c) * A    any finite number; laws that depend on its sign are lost
+//     positive(c) * A    plus, checked here and now whatever A is
+//
+// Rejected: a plain number loses the laws (then everybody writes `positive` everywhere); constants
+// only, by a consteval constructor (then `c * A` of a variable does not compile). The price is that
+// a wrong sign is an exception at construction where it could be a lost law.
+#pragma once
+
+#include <slant/base/vector_algebra.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/operators/text.hpp>
+
+#include <concepts>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+// --- what the user writes in front ---------------------------------------------------------------
+
+/// A number known to be positive.
+template <class S>
+class positive_factor {
+ public:
+  /// Throws bad_input unless 0 < c < ∞.
+  explicit positive_factor(S c) : value_(std::move(c)) {
+    if (!(value_ > S(0)) || !detail::is_finite(value_)) {
+      throw bad_input("c", detail::show(value_), "a finite number > 0");
+    }
+  }
+  [[nodiscard]] S const& value() const noexcept { return value_; }
+
+ private:
+  S value_;
+};
+
+/// Marks c as positive. Throws bad_input unless 0 < c < ∞.
+template <class S>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] positive_factor<S> positive(S c) {
+  return positive_factor<S>(std::move(c));
+}
+
+/// A number of which nothing is promised.
+template <class S>
+struct any_sign_factor {
+  S value;
+};
+
+/// Marks c as a number of any sign: any_sign(c) * A is self-adjoint if A is, and no more.
+/// Throws bad_input if c is NaN or infinite.
+template <class S>
+  requires scalar<S> || std::is_integral_v<S>
+[[nodiscard]] any_sign_factor<S> any_sign(S c) {
+  if (!detail::is_finite(c)) throw bad_input("c", detail::show(c), "a finite number");
+  return {c};
+}
+
+}  // namespace slant
+
+namespace slant::detail {
+
+/// Throws bad_input unless c has the sign that keeps an operator semidefinite, or definite.
+template <class S>
+void require_keeping_sign(S const& c, bool definite) {
+  if (c > S(0) || (!definite && c == S(0))) return;
+  throw bad_input("c", show(c),
+                  definite ? "a number > 0 in front of a definite operator; for others write "
+                             "-(c * A) or any_sign(c) * A"
+                           : "a number >= 0 in front of a semidefinite operator; for others write "
+                             "-(c * A) or any_sign(c) * A");
+}
+
+}  // namespace slant::detail
+
+namespace slant::expr {
+
+enum class sign : signed char { minus = -1, any = 0, plus = 1 };
+
+[[nodiscard]] constexpr sign operator*(sign a, sign b) {
+  return static_cast<sign>(static_cast<int>(a) * static_cast<int>(b));
+}
+
+/// No number in front.
+struct one {};
+/// A minus in front.
+struct minus_one {};
+
+/// value / divisor, kept apart so that 1/c is rounded in the scalar of the vectors.
+template <class S, sign Sign>
+struct number {
+  S value;
+  S divisor;
+};
+
+template <class C>
+inline constexpr sign sign_of = sign::plus;
+template <>
+inline constexpr sign sign_of<minus_one> = sign::minus;
+template <class S, sign Sign>
+inline constexpr sign sign_of<number<S, Sign>> = Sign;
+
+/// The scalar of a product of numbers: the wider one; of a foreign scalar and a double, the former.
+template <class S, class T>
+using common_number = std::conditional_t<
+    std::is_floating_point_v<S> && std::is_floating_point_v<T>, std::common_type<S, T>,
+    std::type_identity<std::conditional_t<std::is_same_v<S, double>, T, S>>>::type;
+
+template <class C>
+[[nodiscard]] auto negated(C const& c) {
+  if constexpr (std::same_as<C, one>) {
+    return minus_one{};
+  } else if constexpr (std::same_as<C, minus_one>) {
+    return one{};
+  } else {
+    using S = decltype(c.value);
+    return number<S, sign_of<C> * sign::minus>{S(-c.value), c.divisor};
+  }
+}
+
+/// c d. Throws bad_input if the product leaves the range of its scalar.
+template <class C, class D>
+[[nodiscard]] auto multiply_numbers(C const& c, D const& d) {
+  if constexpr (std::same_as<C, one>) {
+    return d;
+  } else if constexpr (std::same_as<D, one>) {
+    return c;
+  } else if constexpr (std::same_as<C, minus_one>) {
+    return negated(d);
+  } else if constexpr (std::same_as<D, minus_one>) {
+    return negated(c);
+  } else {
+    using S = common_number<decltype(c.value), decltype(d.value)>;
+    number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
+                                         S(S(c.divisor) * S(d.divisor))};
+    bool const lost = p.value == S(0) && S(c.value) != S(0) && S(d.value) != S(0);
+    if (lost || p.divisor == S(0) || !slant::detail::is_finite(p.value) ||
+        !slant::detail::is_finite(p.divisor)) {
+      throw bad_input("c", slant::detail::show(c.value) + " * " + slant::detail::show(d.value),
+                      "numbers whose product is in the range of the scalar");
+    }
+    return p;
+  }
+}
+
+/// 1/c. Throws bad_input if that is not finite.
+template <class C>
+[[nodiscard]] C reciprocal(C const& c) {
+  if constexpr (std::is_empty_v<C>) {
+    return c;
+  } else {
+    using S = decltype(c.value);
+    if (c.value == S(0) || !slant::detail::is_finite(S(c.divisor / c.value))) {
+      throw bad_input("c", slant::detail::show(c.value), "a number with a finite reciprocal");
+    }
+    return {c.divisor, c.value};
+  }
+}
+
+/// The number as a T.
+template <class T, class C>
+[[nodiscard]] T value_as(C const& c) {
+  if constexpr (std::is_empty_v<C>) {
+    return T(static_cast<int>(sign_of<C>));
+  } else {
+    using S = decltype(c.value);
+    return c.divisor == S(1) ? static_cast<T>(c.value)
+                             : T(static_cast<T>(c.value) / static_cast<T>(c.divisor));
+  }
+}
+
+/// "", "−", "2 ", "−2 ".
+template <class C>
+[[nodiscard]] std::string text_in_front(C const& c) {
+  if constexpr (std::same_as<C, one>) {
+    return {};
+  } else {
+    double const v = expr::value_as<double>(c);
+    return v == -1 ? "−" : v < 0 ? "−" + number_text(-v) + " " : number_text(v) + " ";
+  }
+}
+
+/// Throws bad_input unless the number has the sign that a law of its product depends on.
+template <class C>
+void require_sign(C const& c, bool strictly) {
+  if constexpr (!std::is_empty_v<C> && sign_of<C> != sign::any) {
+    using S = decltype(c.value);
+    S const magnitude =
+        sign_of<C> == sign::plus ? S(c.value / c.divisor) : S(-(c.value / c.divisor));
+    slant::detail::require_keeping_sign(magnitude, strictly);
+  }
+}
+
+// --- as a number of an expression ----------------------------------------------------------------
+
+template <class S>
+inline constexpr bool is_marked = false;
+template <class S>
+inline constexpr bool is_marked<positive_factor<S>> = true;
+template <class S>
+inline constexpr bool is_marked<any_sign_factor<S>> = true;
+
+template <class S> concept number_in_front = is_marked<S> || std::is_arithmetic_v<S> || scalar<S>;
+
+/// Integers are kept as double.
+template <class S>
+using kept_number = std::conditional_t<std::is_integral_v<S>, double, S>;
+
+template <class S>
+[[nodiscard]] auto as_number(S const& c) {
+  using T = kept_number<S>;
+  T const value(c);
+  if (!slant::detail::is_finite(value)) {
+    throw bad_input("c", slant::detail::show(value), "a finite number");
+  }
+  return number<T, sign::plus>{value, T(1)};
+}
+template <class S>
+[[nodiscard]] auto as_number(positive_factor<S> const& c) {
+  return as_number(c.value());
+}
+template <class S>
+[[nodiscard]] auto as_number(any_sign_factor<S> const& c) {
+  using T = kept_number<S>;
+  return number<T, sign::any>{T(c.value), T(1)};
+}
+
+}  // namespace slant::expr

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+//
+// A₁ + … + A_p with as many terms as there are when the program runs, all of one type: the bodies or
+// subdomains of a problem. Terms of different types, known when it is compiled, are sum(A, B, …).
+//
+// Closure: self-adjoint, semidefinite, definite if the type is.
+#pragma once
+
+#include <slant/base/vector_algebra.hpp>
+#include <slant/operators/composition.hpp>
+#include <slant/operators/matrix.hpp>
+
+#include <ranges>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant {
+
+/// y = A₁x + … + A_p x, p ≥ 1. A is `Operator const&` (referenced) or an operator type (owned).
+template <class A>
+class range_sum_operator {
+  using part = std::remove_cvref_t<A>;
+
+ public:
+  static constexpr law_set laws = detail::sum_laws({laws_of<A>});
+
+  /// All terms have the same size and there is one; slant::sum checks it.
+  explicit range_sum_operator(std::vector<held<A>> terms) : terms_(std::move(terms)) {}
+
+  [[nodiscard]] index rows() const { return terms_.front().get().rows(); }
+  [[nodiscard]] index cols() const { return terms_.front().get().cols(); }
+  /// p.
+  [[nodiscard]] index term_count() const { return static_cast<index>(terms_.size()); }
+  [[nodiscard]] part const& term(index i) const {
+    return terms_[static_cast<std::size_t>(i)].get();
+  }
+
+  template <class X>
+    requires linear_operator<part, plain_t<X>>
+  [[nodiscard]] auto workspace(X const& x) const {
+    return workspaces([&](part const& a) { return detail::accumulate_workspace(a, x); });
+  }
+  template <class X, class Y, class W>
+    requires detail::adds<part, X, Y>
+  void apply(X const& x, Y& y, W& w) const {
+    vectors::set_zero(y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      detail::accumulate(terms_[i].get(), scalar_t<X>(1), x, y, w[i]);
+    }
+  }
+  template <class X, class Y, class W>
+    requires detail::adds<part, X, Y>
+  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      detail::accumulate(terms_[i].get(), α, x, y, w[i]);
+    }
+  }
+
+  template <class X>
+    requires has_adjoint<part, plain_t<X>>
+  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+    return workspaces([&](part const& a) { return detail::accumulate_adjoint_workspace(a, x); });
+  }
+  template <class X, class Y, class W>
+    requires detail::adds_adjoint<part, X, Y>
+  void apply_adjoint(X const& x, Y& y, W& w) const {
+    vectors::set_zero(y);
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      detail::accumulate_adjoint(terms_[i].get(), scalar_t<X>(1), x, y, w[i]);
+    }
+  }
+
+  template <class D>
+    requires has_diagonal<part, plain_t<D>>
+  void diagonal(D& d) const {
+    add_up(d, [](part const& a, auto& own) { a.diagonal(own); });
+  }
+  template <class Y>
+    requires has_columns<part, plain_t<Y>>
+  void columns(index first, Y& y) const {
+    add_up(y, [&](part const& a, auto& own) { a.columns(first, own); });
+  }
+
+ private:
+  template <class F>
+  [[nodiscard]] auto workspaces(F const& workspace_of) const {
+    std::vector<decltype(workspace_of(term(0)))> w;
+    w.reserve(terms_.size());
+    for (auto const& kept : terms_) w.push_back(workspace_of(kept.get()));
+    return w;
+  }
+  /// y = Σ own(Aᵢ).
+  template <class Y, class F>
+  void add_up(Y& y, F const& write) const {
+    auto own = slant::like(y, rows());
+    vectors::set_zero(y);
+    for (auto const& kept : terms_) {
+      write_part(write, kept.get(), own);
+      slant::local(y) += slant::local(own);
+    }
+  }
+
+  /// Not inlined: g++ 12 would see Eigen free `own` twice, were it resized in add_up.
+  template <class F, class Y>
+  [[gnu::noinline]] static void write_part(F const& write, part const& a, Y& own) {
+    write(a, own);
+  }
+
+  std::vector<held<A>> terms_;
+};
+
+/// A₁ + … + A_p over a range of operators or Eigen matrices, which are referenced if the range gives
+/// references to what an lvalue keeps.
+/// @throws bad_input if there is none, or sizes differ.
+template <std::ranges::input_range R>
+  requires(!operand<R>) && operand<std::ranges::range_reference_t<R>>
+[[nodiscard]] auto sum(R&& range) {
+  using part =
+      part_t<std::conditional_t<std::is_lvalue_reference_v<R>, std::ranges::range_reference_t<R>,
+                                std::remove_cvref_t<std::ranges::range_reference_t<R>>>>;
+  std::vector<held<part>> terms;
+  for (auto&& a : range) {
+    if constexpr (std::is_lvalue_reference_v<R>) {
+      terms.push_back(held<part>(slant::as_operator(std::forward<decltype(a)>(a))));
+    } else {
+      terms.push_back(held<part>(slant::as_operator(std::move(a))));
+    }
+  }
+  if (terms.empty()) throw bad_input("range", "no operator", "at least one");
+  auto const& first = terms.front().get();
+  for (std::size_t i = 1; i < terms.size(); ++i) {
+    auto const& a = terms[i].get();
+    if (a.rows() != first.rows() || a.cols() != first.cols()) {
+      detail::require_size("A" + std::to_string(i + 1), a, first.rows(), first.cols(),
+                           "the size of A1");
+    }
+  }
+  return range_sum_operator<part>(std::move(terms));
+}
+
+}  // namespace slant

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <slant/factorizations/ldlt.hpp>
+#include <slant/factorizations/woodbury.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+
+#include "krylov/spd_matrices.hpp"
+#include "operators/dense_oracle.hpp"
+#include "support/message.hpp"
+
+namespace woodbury_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+TEST_CASE("the inverse of K + U C Uᵀ, at any scale") {
+  for (double const unit : {1.0, 1e100, 1e-100}) {
+    CAPTURE(unit);
+    MatrixXd const k = unit * test::random_spd(9, 1), u = test::random_dense(9, 3, 2),
+                   c = unit * test::random_spd(3, 3);
+    auto const a = slant::woodbury(slant::inverse(slant::ldlt(k.sparseView())), u, c);
+    static_assert(slant::spd_operator<decltype(a), VectorXd>);
+    MatrixXd const expected = MatrixXd(k / unit + u * (c / unit) * u.transpose()).inverse() / unit;
+    VectorXd const x = test::random_column(9, 4);
+    VectorXd y(9);
+    slant::apply(a, x, y);
+    CHECK((y - expected * x).norm() <= 1e-12 * (expected * x).norm());
+    if (unit == 1) slant::testing::check_operator_laws(a, x, {.roundings = 1000});
+  }
+}
+
+TEST_CASE("bad input") {
+  MatrixXd const k = test::random_spd(4, 1), u = test::random_dense(4, 2, 2);
+  auto const inverse = slant::inverse(slant::dense_ldlt(k));
+  auto const woodbury = [&](MatrixXd const& U, MatrixXd const& C) {
+    return test::message<slant::bad_input>([&] { (void)slant::woodbury(inverse, U, C); });
+  };
+  CHECK(woodbury(u.topRows(3), MatrixXd::Identity(2, 2)) ==
+        "U: got 3 x 2, expected 4 rows (the size of K)");
+  CHECK(woodbury(u, MatrixXd::Identity(3, 3)) == "C: got 3 x 3, expected 2 x 2 (the columns of U)");
+  CHECK(woodbury(u, -MatrixXd::Identity(2, 2)).find("positive") != std::string::npos);
+}
+
+}  // namespace woodbury_test

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "block_vectors.hpp"
+#include "grids.hpp"
+
+#include <slant/multilevel/block_matrix.hpp>
+#include <slant/testing/operator_laws.hpp>
+
+#include <fem/steel_brick.hpp>
+#include <support/allocation_guard.hpp>
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+
+namespace block_matrix_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using sparse = Eigen::SparseMatrix<double>;
+using slant::block_matrix;
+using test::packed;
+using test::unpacked;
+
+/// Definite, 6 × 6 blocks of which some are missing and some have holes.
+sparse sample(int nodes) {
+  int const n = 6 * nodes;
+  MatrixXd K = MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    K(i, i) = 8 + i % 5;
+    for (int j = 0; j < i; ++j) {
+      bool const near = (i / 6 - j / 6) % 3 != 2;
+      if (near && (7 * i + 3 * j) % 4 == 0) K(i, j) = K(j, i) = 0.1 * ((5 * i + j) % 7 - 3.0);
+    }
+  }
+  return K.sparseView();
+}
+
+template <int N, class T>
+void check_against_eigen(sparse const& K) {
+  block_matrix<N, T> const A(K);
+  // The reference is one in double.
+  double const ε = 64 * std::max(double(std::numeric_limits<T>::epsilon()),
+                                 std::numeric_limits<double>::epsilon());
+  REQUIRE(A.rows() == K.rows());
+  MatrixXd const dense(K);
+  CHECK((test::dense(A) - dense).norm() <= ε * dense.norm());
+
+  // D, L from the dense matrix, sweeps by solves with them.
+  auto const n = K.rows();
+  MatrixXd D = MatrixXd::Zero(n, n), L = MatrixXd::Zero(n, n), inverse = D;
+  for (Eigen::Index i = 0; i < n; i += N) {
+    D.block<N, N>(i, i) = dense.block<N, N>(i, i);
+    L.block(i, 0, N, i) = dense.block(i, 0, N, i);
+    inverse.block<N, N>(i, i) = dense.block<N, N>(i, i).inverse();
+  }
+  auto const inverses = test::block_inverses<N, T>(inverse);
+  VectorXd const b = VectorXd::LinSpaced(n, -1, 2), start = VectorXd::LinSpaced(n, 1, -3);
+  auto const close = [&](std::vector<T> const& x, VectorXd const& expected) {
+    CHECK((unpacked<N, T>(x) - expected).norm() <= ε * (expected.norm() + b.norm()));
+  };
+  auto x = packed<N, T>(start), r = packed<N, T>(start);
+  auto const pb = packed<N, T>(b);
+  A.multiply(x.data(), r.data());
+  close(r, dense * start);
+  A.residual(pb.data(), x.data(), r.data());
+  close(r, b - dense * start);
+
+  VectorXd const once = (D + L).partialPivLu().solve(b);
+  A.forwards_from_zero(inverses.data(), pb.data(), x.data(), r.data());
+  close(x, once);
+  close(r, b - dense * once);
+  x = packed<N, T>(start);
+  A.forwards(inverses.data(), pb.data(), x.data());
+  close(x, (D + L).partialPivLu().solve(VectorXd(b - L.transpose() * start)));
+  x = packed<N, T>(start);
+  A.backwards(inverses.data(), pb.data(), x.data());
+  close(x, (D + L.transpose()).partialPivLu().solve(VectorXd(b - L * start)));
+}
+
+TEST_CASE("products, residuals and sweeps against dense algebra") {
+  for (int const nodes : {1, 2, 7}) {
+    sparse const K = sample(nodes);
+    check_against_eigen<3, float>(K);
+    check_against_eigen<3, double>(K);
+    check_against_eigen<6, float>(K);
+    check_against_eigen<6, double>(K);
+    check_against_eigen<2, float>(K);
+    check_against_eigen<2, double>(K);
+    check_against_eigen<1, float>(K);
+    check_against_eigen<1, double>(K);
+    check_against_eigen<3, long double>(K);
+  }
+  check_against_eigen<3, float>(fem::make_steel_brick({.k = 2}).K / 2e5);
+}
+
+TEST_CASE("the laws of an operator") {
+  slant::testing::check_operator_laws(block_matrix<3>(sample(5)));
+  slant::testing::check_operator_laws(block_matrix<6, float>(sample(5)), Eigen::VectorXf(30));
+}
+
+TEST_CASE("an uncompressed matrix, a row-major one, a factor") {
+  sparse K = sample(4);
+  MatrixXd const dense(K);
+  K.uncompress();
+  CHECK(test::dense(block_matrix<3>(K)) == dense);
+  CHECK(test::dense(block_matrix<3>(Eigen::SparseMatrix<double, Eigen::RowMajor>(K))) == dense);
+  CHECK(test::dense(block_matrix<3>(K, 0.25)) == 0.25 * dense);
+  CHECK(block_matrix<3>(sparse(0, 0)).rows() == 0);
+}
+
+TEST_CASE("blocks without an entry are not stored") {
+  sparse K(12, 12);
+  K.setIdentity();
+  K.coeffRef(4, 9) = K.coeffRef(9, 4) = 0.5;
+  block_matrix<3> const A(K);
+  CHECK(A.blocks() == 6);
+  CHECK(test::dense(A) == MatrixXd(K));
+}
+
+TEST_CASE("nothing allocates") {
+  block_matrix<3, float> const A(sample(6));
+  auto x = packed<3, float>(VectorXd::Ones(36)), b = x, r = x;
+  auto const inverses = test::block_inverses<3, float>(MatrixXd::Identity(36, 36));
+  slant::testing::allocation_guard guard;
+  A.multiply(b.data(), r.data());
+  A.forwards_from_zero(inverses.data(), b.data(), x.data(), r.data());
+  A.forwards(inverses.data(), b.data(), x.data());
+  A.backwards(inverses.data(), b.data(), x.data());
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+}
+
+TEST_CASE("what cannot be used is named") {
+  sparse K = sample(2);
+  CHECK_THROWS_AS(block_matrix<3>(sparse(3, 6)), slant::bad_input);
+  CHECK_THROWS_WITH_AS(block_matrix<3>(sparse(4, 4)), "K: got 4 rows, expected a multiple of 3",
+                       slant::bad_input);
+  K.coeffRef(3, 4) = 2;
+  CHECK_THROWS_AS(block_matrix<3>{K}, slant::bad_input);
+  K.coeffRef(3, 4) = K.coeffRef(4, 3) = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(block_matrix<3>{K}, "K(4, 3): got inf, expected a finite number",
+                       slant::bad_input);
+  K.coeffRef(3, 4) = K.coeffRef(4, 3) = 1;
+  CHECK_NOTHROW(block_matrix<3>{K});
+  K.coeffRef(3, 4) *= 1 + 4e-16;  // as assembly from many parts leaves it
+  CHECK_NOTHROW(block_matrix<3>{K});
+  K.coeffRef(3, 4) *= 1 + 1e-9;
+  CHECK_THROWS_AS(block_matrix<3>{K}, slant::bad_input);
+}
+
+}  // namespace block_matrix_test

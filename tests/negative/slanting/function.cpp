@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// case WITHOUT_SLANT: 'has_slant_member['<]
+// case WITHOUT_VALUE: a row of a stack must be a slanting function.*'has_value_member['<]
+// case OPERATOR: 'has_value_member['<]
+// max-lines-gcc: 25
+// max-lines-clang: 30
+//
+// The inner function of a composition minus its slanting operator; a row of a stack minus its value.
+// An operator is not a function: a sum needs y ↦ A y, slant::linear(A).
+#include <slant/slanting/affine.hpp>
+#include <slant/slanting/arithmetic.hpp>
+#include <slant/slanting/composition.hpp>
+#include <slant/slanting/stack.hpp>
+
+struct doubling {
+  slant::index rows() const { return 2; }
+  slant::index cols() const { return 2; }
+#ifndef WITHOUT_VALUE
+  void value(auto const& y, auto& f) const { f = 2 * y; }
+#endif
+#ifndef WITHOUT_SLANT
+  auto slant(auto const&) const { return slant::identity_operator(2); }
+#endif
+};
+
+#ifdef OPERATOR
+slant::identity_operator const term(2);
+#else
+auto const term = slant::linear(slant::identity_operator(2));
+#endif
+
+auto const sum = slant::add(slant::identity_map(2), term);
+#ifndef WITHOUT_VALUE
+auto const composition = slant::compose(slant::identity_map(2), doubling{});
+#endif
+#ifndef WITHOUT_SLANT
+auto const rows = slant::stack(slant::identity_map(2), doubling{});
+#endif

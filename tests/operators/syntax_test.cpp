@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+//
+// What is refused, printed, found by lookup; handles.
+#include "operators/letters.hpp"
+#include "support/message.hpp"
+
+#include <slant/krylov/cg.hpp>
+#include <slant/operators/counted.hpp>
+#include <slant/operators/describe.hpp>
+#include <slant/slanting/arithmetic.hpp>
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+namespace syntax_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slant::bad_input;
+using slant::identity;
+
+struct foreign {
+  [[nodiscard]] Eigen::Index rows() const { return 2; }
+  [[nodiscard]] Eigen::Index cols() const { return 2; }
+  void apply(auto const& x, auto& y) const { y = x; }
+};
+
+template <class A, class B> concept multiplies = requires(A const& a, B const& b) { a* b; };
+template <class A, class B> concept adds = requires(A const& a, B const& b) { a + b; };
+
+TEST_CASE("which operands find the operators, and which do not") {
+  using L = decltype(slant::op<"L">(foreign{}));
+  using B = decltype(slant::op<"B">(MatrixXd()));
+  static_assert(!multiplies<foreign, foreign> && !adds<foreign, MatrixXd>);
+  static_assert(multiplies<foreign, slant::identity_operator> && multiplies<L, foreign>);
+  static_assert(multiplies<B, MatrixXd> && multiplies<Eigen::SparseMatrix<double>, B>);
+  static_assert(multiplies<B, VectorXd> && !multiplies<VectorXd, B>);
+  static_assert(!adds<B, VectorXd> && !adds<B, double> && !multiplies<B, std::string>);
+  static_assert(!multiplies<B, slant::law_set>);
+  // Functions stay functions, Eigen's objects Eigen's.
+  static_assert(slant::slanting_map<decltype(std::declval<B>() * slant::identity_map{2})>);
+  static_assert(!slant::expression<decltype(std::declval<MatrixXd>() * std::declval<MatrixXd>())>);
+  static_assert(slant::eigen_matrix<decltype(std::declval<VectorXd&>().head(3))>);
+}
+
+TEST_CASE("what is refused, in a sentence that names it") {
+  SLANT_TEST_LETTERS;
+  using test::message;
+  auto const here = [](MatrixXd const& a) { return op(a); };
+  CHECK(message<bad_input>([&] { (void)(op<"B">(o.B) * Kinv * adjoint(op<"B">(o.R))); }) ==
+        "B: got two different objects, expected one object: a name stands for one operator");
+  CHECK(message<bad_input>([&] { (void)(op<"A">(o.S) + op<"A">(o.P)); }) ==
+        "A: got two different objects, expected one object: a name stands for one operator");
+  CHECK(message<bad_input>([&] { (void)(here(o.G) * adjoint(here(o.H))); }) ==
+        "an operator: got two different objects made by one op(…), one of them as an adjoint, "
+        "expected one object, or op<\"name\">(…), or distinct(…) of one of them");
+  CHECK_NOTHROW((void)(here(o.G) * here(o.H)));
+  CHECK_NOTHROW((void)(here(o.G) * adjoint(distinct(here(o.H)))));
+  CHECK_NOTHROW((void)(op<"B">(o.B) * adjoint(op<"B">(o.B))));
+  CHECK(message<bad_input>([&] { (void)(-2.0 * S); }) ==
+        "c: got -2, expected a number > 0 in front of a definite operator; for others write "
+        "-(c * A) or any_sign(c) * A");
+  CHECK(
+      message<bad_input>([&] { (void)(0.0 * S); }).starts_with("c: got 0, expected a number > 0"));
+  CHECK(message<bad_input>([&] {
+          (void)(-2.0 * B * S * adjoint(B));
+        }).starts_with("c: got -2, expected a number >= 0 in front of a semidefinite"));
+  CHECK_NOTHROW((void)(-2.0 * B * S));
+  CHECK_NOTHROW((void)(-2.0 * G));
+  CHECK_NOTHROW((void)(-(2.0 * S)));
+  CHECK(message<bad_input>([&] { (void)(std::nan("") * G); }) ==
+        "c: got nan, expected a finite number");
+  CHECK(message<bad_input>([&] {
+          (void)(1e-200 * (1e-200 * S));
+        }).starts_with("c: got 1e-200 * 1e-200, expected numbers whose product is in the range"));
+  CHECK(message<bad_input>([&] { (void)(S / 0.0); }) ==
+        "c: got 0, expected a number with a finite reciprocal");
+  CHECK(message<bad_input>([&] { (void)(B * S * B); }) ==
+        "B: got 4 x 7, expected 7 rows (the columns of B S)");
+  CHECK(message<bad_input>([&] { (void)(B + S); }) ==
+        "S: got 7 x 7, expected 4 x 7 (the size of B)");
+  CHECK(message<bad_input>([&] { (void)(S * identity(3)); }) ==
+        "I: got 3 x 3, expected 7 rows (the columns of S)");
+  CHECK(message<bad_input>([&] { (void)full_row_rank(adjoint(B)); }) ==
+        "B: got 7 x 4, expected at most as many rows as columns (independent rows)");
+}
+
+TEST_CASE("printing") {
+  SLANT_TEST_LETTERS;
+  auto const text = [](auto const& a) {
+    std::ostringstream out;
+    out << a;
+    return out.str();
+  };
+  CHECK(text(B * Kinv * adjoint(B) + 1e-3 * identity(m)) == "B K⁻¹ Bᵀ + 0.001 I   (4 × 4, spd)");
+  CHECK(text(-G) == "−G   (7 × 7, no laws)");
+  CHECK(text(S - 2 * P) == "S − 2 P   (7 × 7, self-adjoint)");
+  CHECK(text(-2 * G * H) == "−2 G H   (7 × 7, no laws)");
+  CHECK(text(2 * (S - P) * G) == "2 (S − P) G   (7 × 7, no laws)");
+  CHECK(text(adjoint(B * Kinv * G)) == "Gᵀ K⁻¹ Bᵀ   (7 × 4, no laws)");
+  CHECK(text(op<"F">(foreign{}) + foreign{}) == "F + foreign   (2 × 2, no laws)");
+  CHECK(text(+J) == "J   (7 × 7, orthogonal projector)");
+  CHECK(text(T + o.H) == "T + matrix   (7 × 7, no laws)");
+}
+
+TEST_CASE("describe") {
+  SLANT_TEST_LETTERS;
+  auto const Kc = op<"K">(slant::counted(Kinv));
+  auto const A = B * Kc * adjoint(B) - identity(m);
+  VectorXd const x = VectorXd::Ones(m);
+  VectorXd const y = A * x;
+  CHECK(describe(A) ==
+        "B K Bᵀ − I   4 × 4, self-adjoint, workspace 112 bytes\n"
+        "│  not positive_semidefinite: in the term -I, a minus stands before I\n"
+        "├─ B K Bᵀ   4 × 4, psd, workspace 112 bytes\n"
+        "│  │  not positive_definite: the rows of B may be dependent: assert full_row_rank(B)\n"
+        "│  ├─ B   4 × 7, no laws, matrix_operator, 28 entries\n"
+        "│  ├─ K   7 × 7, spd, counted_operator, 1 applications\n"
+        "│  └─ Bᵀ   7 × 4, no laws, matrix_operator, 28 entries\n"
+        "└─ −I   4 × 4, self-adjoint\n"
+        "   │  not positive_semidefinite: a minus stands before I\n"
+        "   └─ I   4 × 4, identity, identity_operator\n");
+  CHECK(describe(G * Kinv * G).find("│  not self_adjoint: G at the end is not adjoint(G)\n") !=
+        std::string::npos);
+  CHECK(describe(op<"W">(S + P)).find("└─ S + P   7 × 7, spd") != std::string::npos);
+  CHECK(y.isApprox(o.B * o.K.inverse() * o.B.transpose() * x - x, 1e-12));
+}
+
+/// Letters own what they were made of as an rvalue, and a method a copy of the expression.
+auto made_in_a_function(MatrixXd const& B, MatrixXd const& K, VectorXd const& b) {
+  auto const Bop = slant::op<"B">(B);
+  auto const Kinv = inverse(slant::op<"K">(slant::dense_ldlt(K)));
+  auto const A = Bop * Kinv * adjoint(Bop) + 0.5 * identity(B.rows());
+  return slant::cg{A, b};
+}
+
+TEST_CASE("expressions are handles: nothing dangles but what was named by an lvalue") {
+  SLANT_TEST_LETTERS;
+  VectorXd const b = VectorXd::LinSpaced(m, 1, 2);
+  auto const cg = made_in_a_function(o.B, o.K, b);
+  auto s = cg.start(VectorXd::Zero(m));
+  for (int i = 0; i < m; ++i) cg.step(s);
+  VectorXd const expected =
+      (o.B * o.K.inverse() * o.B.transpose() + 0.5 * MatrixXd::Identity(m, m)).ldlt().solve(b);
+  CHECK((s.x - expected).norm() <= 1e-12 * expected.norm());
+  static_assert(slant::handle<decltype(B)&> && !slant::handle<MatrixXd>);
+}
+
+}  // namespace syntax_test

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include <slant/concepts/capabilities.hpp>
+
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/operators/sum.hpp>
+#include <slant/sets/ball.hpp>
+#include <slant/sets/cartesian.hpp>
+#include <slant/sets/free_space.hpp>
+#include <slant/sets/power.hpp>
+#include <slant/sets/slants.hpp>
+#include <slant/testing/archetypes.hpp>
+
+#include <doctest/doctest.h>
+
+#include "counting_disc.hpp"
+#include "support/allocation_guard.hpp"
+
+#include <limits>
+
+namespace slants_test {
+
+using namespace products;
+using slant::block_diagonal_slant;
+using bounds = slant::block_diagonal_slant<double, 1>;
+using whole = slant::block_diagonal_slant<double, 1, slant::consecutive, true>;
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Two blocks that are easy to tell apart, in a given layout.
+template <class Layout>
+block_diagonal_slant<double, 2, Layout> example() {
+  block_diagonal_slant<double, 2, Layout> g(2);
+  Eigen::Matrix2d a;
+  a << 0.5, 0.25, 0.25, 0.75;
+  g.assign(0, a);
+  g.assign(1, Eigen::Matrix2d::Identity() / 4);
+  return g;
+}
+
+TEST_CASE("block_diagonal_slant: apply, apply_add and diagonal in both layouts") {
+  vec<> const x = Eigen::Vector4d(1, 2, 3, 4);
+  auto const consecutive = example<slant::consecutive>();
+  vec<> y = vec<>::Constant(4, quiet_nan);
+  consecutive.apply(x, y);
+  CHECK(y == Eigen::Vector4d(1, 1.75, 0.75, 1));
+  consecutive.apply_add(2.0, x, y);
+  CHECK(y == 3 * Eigen::Vector4d(1, 1.75, 0.75, 1));
+  consecutive.diagonal(y);
+  CHECK(y == Eigen::Vector4d(0.5, 0.75, 0.25, 0.25));
+
+  auto const planar = example<slant::planar>();
+  y.setConstant(quiet_nan);
+  planar.apply(x, y);
+  CHECK(y == Eigen::Vector4d(0.5 * 1 + 0.25 * 3, 0.5, 0.25 * 1 + 0.75 * 3, 1));
+  planar.diagonal(y);
+  CHECK(y == Eigen::Vector4d(0.5, 0.25, 0.75, 0.25));
+  planar.visit([](auto const& g, auto const& p) {
+    CHECK(g(0, 0) == (p.index() == 0 ? 0.5 : 0.25));
+    CHECK(p.component(1) == p.index() + 2);
+  });
+}
+
+TEST_CASE("block_diagonal_slant: without allocation, on matrices and on other vectors") {
+  auto const g = example<slant::planar>();
+  vec<> const x = numbers(4, 1);
+  vec<> y(4);
+  slant::testing::allocation_guard const guard;
+  g.apply(x, y);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  Eigen::MatrixXd many(4, 2);
+  many << x, 2 * x;
+  Eigen::MatrixXd product(4, 2);
+  g.apply(many, product);
+  CHECK(product.col(0) == y);
+  CHECK(product.col(1) == 2 * y);
+  slant::testing::archetype::vector const v(x);
+  slant::testing::archetype::vector w(vec<>(vec<>::Constant(4, quiet_nan)));
+  g.apply(v, w);
+  CHECK(w.local() == y);
+}
+
+TEST_CASE("block_diagonal_slant: declares its laws and has what operators have") {
+  using general = block_diagonal_slant<double, 2>;
+  static_assert(slant::self_adjoint_operator<general, vec<>>);
+  static_assert(slant::psd_operator<general, vec<>>);
+  static_assert(!slant::spd_operator<general, vec<>>);
+  static_assert(slant::declares_firmly_nonexpansive<general>);
+  static_assert(slant::has_accumulate<general, vec<>>);
+  static_assert(slant::has_diagonal<general, vec<>>);
+  static_assert(slant::has_adjoint<general, vec<>>);
+  static_assert(slant::applies_to_many<general, Eigen::MatrixXd>);
+}
+
+TEST_CASE("block_diagonal_slant: blocks without constraint store nothing") {
+  using identity = block_diagonal_slant<double, 2, slant::consecutive, true>;
+  static_assert(slant::spd_operator<identity, vec<>>);
+  static_assert(slant::declares_projector<identity>);
+  slant::testing::allocation_guard const guard;
+  identity const g(1000);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(g.rows() == 2000);
+  vec<> const x = numbers(2000, 2);
+  vec<> y = vec<>::Constant(2000, quiet_nan);
+  g.apply(x, y);
+  CHECK(y == x);
+  g.apply_add(3.0, x, y);
+  CHECK(y == vec<>(x + 3 * x));
+  g.diagonal(y);
+  CHECK(y == vec<>::Ones(2000));
+  CHECK(g.block(7) == Eigen::Matrix2d::Identity());
+}
+
+bounds zero_one() {
+  bounds g(2);
+  g.assign(0, Eigen::Matrix<double, 1, 1>(0.0));
+  g.assign(1, Eigen::Matrix<double, 1, 1>(1.0));
+  return g;
+}
+
+TEST_CASE("direct_sum_slant: each part works on its own components") {
+  slant::direct_sum_slant<bounds, whole> g(zero_one(), whole(1));
+  CHECK(g.rows() == 3);
+  CHECK(g.cols() == 3);
+  vec<> const x = Eigen::Vector3d(5, 6, 7);
+  vec<> y = vec<>::Constant(3, std::numeric_limits<double>::quiet_NaN());
+  g.apply(x, y);
+  CHECK(y == Eigen::Vector3d(0, 6, 7));
+  g.apply_add(-1.0, x, y);
+  CHECK(y == Eigen::Vector3d(0, 0, 0));
+  g.diagonal(y);
+  CHECK(y == Eigen::Vector3d(0, 1, 1));
+  g.part<0>().assign(0, Eigen::Matrix<double, 1, 1>(1.0));
+  g.apply(x, y);
+  CHECK(y == x);
+  Eigen::MatrixXd const many = Eigen::MatrixXd::Constant(3, 2, 2.0);
+  Eigen::MatrixXd product(3, 2);
+  g.apply(many, product);
+  CHECK(product == many);
+}
+
+TEST_CASE("direct_sum_slant: keeps the laws that all parts have") {
+  using mixed = slant::direct_sum_slant<bounds, whole>;
+  static_assert(slant::psd_operator<mixed, vec<>>);
+  static_assert(slant::declares_firmly_nonexpansive<mixed>);
+  static_assert(!slant::spd_operator<mixed, vec<>>);
+  static_assert(!slant::declares_projector<mixed>);
+  using free = slant::direct_sum_slant<whole, whole>;
+  static_assert(slant::spd_operator<free, vec<>>);
+  static_assert(slant::declares_projector<free>);
+}
+
+/// y = x on three components and nothing else: no apply_add, no diagonal.
+struct bare_slant {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
+  [[nodiscard]] slant::index rows() const { return 3; }
+  [[nodiscard]] slant::index cols() const { return 3; }
+  void apply(auto const& x, auto& y) const { y = x; }
+};
+
+TEST_CASE("direct_sum_slant: can do what all parts can, and claims no more") {
+  using full = slant::direct_sum_slant<bounds, whole>;
+  static_assert(slant::has_accumulate<full, vec<>> && slant::has_diagonal<full, vec<>>);
+  using partial = slant::direct_sum_slant<bare_slant, bounds>;
+  static_assert(slant::linear_operator<partial, vec<>>);
+  static_assert(!slant::has_accumulate<partial, vec<>>);
+  static_assert(!slant::has_diagonal<partial, vec<>>);
+  struct whole_vectors_only : bare_slant {
+    void apply(vec<> const& x, vec<>& y) const { y = x; }
+  };
+  static_assert(slant::linear_operator<whole_vectors_only, vec<>>);
+  static_assert(
+      !slant::linear_operator<slant::direct_sum_slant<whole_vectors_only, bounds>, vec<>>);
+
+  // So compositions take the way that works.
+  auto const twice =
+      slant::sum(partial(bare_slant{}, zero_one()), partial(bare_slant{}, zero_one()));
+  vec<> const x = numbers(5, 1);
+  vec<> y(5);
+  slant::apply(twice, x, y);
+  vec<> expected = 2 * x;
+  expected[3] = 0;
+  CHECK(y == expected);
+}
+
+TEST_CASE("projection_slant: a block gives an operator with one block") {
+  slant::ball<2> const disc{1.0};
+  vec<> const x = Eigen::Vector2d(3, 4);
+  vec<> const h = Eigen::Vector2d(1, 2);
+  auto g = slant::projection_slant(disc, x);
+  static_assert(slant::psd_operator<decltype(g), vec<>>);
+  vec<> y(2);
+  g.apply(h, y);
+  CHECK((y - disc.slant(x) * h).norm() <= 1e-16);
+  slant::testing::allocation_guard const guard;
+  slant::projection_slant(disc, vec<>::Zero(2), g);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  g.apply(h, y);
+  CHECK(y == h);
+}
+
+TEST_CASE("projection_slant: a product gives its own operator") {
+  auto const set = slant::power(slant::ball<2>{}, 2);
+  vec<> const x = numbers(4, 1);
+  auto g = slant::projection_slant(set, vec<>(vec<>::Zero(4)));
+  slant::projection_slant(set, x, g);
+  vec<> y(4);
+  vec<> expected(4);
+  g.apply(x, y);
+  set.slant(x).apply(x, expected);
+  CHECK(y == expected);
+}
+
+TEST_CASE("projection_slant: the whole space gives the identity without storage") {
+  auto const g = slant::projection_slant(slant::free_space<2>{}, vec<>(vec<>::Zero(2)));
+  static_assert(slant::spd_operator<decltype(g), vec<>>);
+  vec<> const x = Eigen::Vector2d(1, 2);
+  vec<> y(2);
+  g.apply(x, y);
+  CHECK(y == x);
+}
+
+}  // namespace slants_test
