@@ -2,6 +2,7 @@
 #include <slant/operators/product.hpp>
 
 #include <slant/factorizations/ldlt.hpp>
+#include <slant/operators/declare.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/testing/archetypes.hpp>
