@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <limits>
 
 #include "krylov/spd_matrices.hpp"
 #include "operators/dense_oracle.hpp"
@@ -41,7 +42,12 @@ TEST_CASE("bad input") {
   CHECK(woodbury(u.topRows(3), MatrixXd::Identity(2, 2)) ==
         "U: got 3 x 2, expected 4 rows (the size of K)");
   CHECK(woodbury(u, MatrixXd::Identity(3, 3)) == "C: got 3 x 3, expected 2 x 2 (the columns of U)");
-  CHECK(woodbury(u, -MatrixXd::Identity(2, 2)).find("positive") != std::string::npos);
+  CHECK(woodbury(u, -MatrixXd::Identity(2, 2)) ==
+        "C: got a matrix with the complaint (K: got pivot 0 (row 0) = -1, expected a symmetric "
+        "positive definite matrix), expected a symmetric positive definite matrix");
+  MatrixXd broken = u;
+  broken(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(woodbury(broken, MatrixXd::Identity(2, 2)) == "U(3, 1): got nan, expected a finite number");
 }
 
 }  // namespace woodbury_test

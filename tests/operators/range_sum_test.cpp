@@ -34,6 +34,11 @@ TEST_CASE("a sum over a range is the sum of the matrices") {
   slant::testing::check_operator_laws(a);
   auto const owner = slant::sum(std::vector<MatrixXd>(matrices));
   CHECK(test::matches(owner, total));
+  // A view that dies takes nothing from what it shows, and leaves no reference to it.
+  auto const copies = slant::sum(std::views::all(matrices));
+  CHECK(test::matches(copies, total));
+  CHECK(matrices.front().size() == 12);
+  CHECK(&copies.term(2).get() != &matrices[2]);
 }
 
 TEST_CASE("subdomains: Σ BᵢKᵢ⁻¹Bᵢᵀ of a view is definite") {

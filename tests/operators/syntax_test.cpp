@@ -13,6 +13,35 @@
 
 #include <sstream>
 
+// Names of a client that it calls without a namespace: for formulas it gets its own functions, not
+// what the library is made of.
+namespace client {
+
+template <class A>
+slant::index negate(A const& a) {
+  return a.rows();
+}
+template <class A>
+slant::index view(A const& a) {
+  return a.rows();
+}
+template <class A, class B>
+slant::index multiply(A const& a, B const& b) {
+  return a.rows() + b.rows();
+}
+template <class A, class X, class Y, class W>
+slant::index run(A const& a, X const&, Y&, W&) {
+  return a.rows();
+}
+
+template <class A>
+slant::index all(A const& a) {
+  int y = 0, w = 0;
+  return negate(a) + view(a) + multiply(a, a) + run(a, 0, y, w);
+}
+
+}  // namespace client
+
 namespace syntax_test {
 
 using Eigen::MatrixXd;
@@ -28,6 +57,13 @@ struct foreign {
 
 template <class A, class B> concept multiplies = requires(A const& a, B const& b) { a* b; };
 template <class A, class B> concept adds = requires(A const& a, B const& b) { a + b; };
+
+TEST_CASE("functions of a client are not mixed up with those of the library") {
+  Eigen::MatrixXd const m = Eigen::MatrixXd::Identity(2, 2);
+  auto const A = slant::op<"A">(m);
+  CHECK(client::all(A) == 10);
+  CHECK(client::all(2 * A + A) == 10);
+}
 
 TEST_CASE("which operands find the operators, and which do not") {
   using L = decltype(slant::op<"L">(foreign{}));

@@ -9,7 +9,9 @@
 // there: K + U C Uᵀ itself should be factored then.
 #pragma once
 
-#include <slant/base/diagnosis.hpp>
+#include <slant/base/matrix_entries.hpp>
+#include <slant/base/sizes.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/inverse.hpp>
@@ -18,13 +20,15 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <utility>
 
 namespace slant {
 
 /// (K + U C Uᵀ)⁻¹ from K⁻¹, an spd_operator, which is referenced if it is an lvalue; U is n × p and C
 /// p × p, dense. The result is an spd_operator.
-/// @throws bad_input if sizes do not fit, or C or S is not symmetric positive definite.
+/// @throws bad_input if sizes do not fit, an entry is not finite, or C or S is not symmetric positive
+/// definite.
 template <operand K, class U, class C>
   requires declares_self_adjoint<K> && declares_positive_definite<K>
 [[nodiscard]] auto woodbury(K&& k_inverse, Eigen::MatrixBase<U> const& u,
@@ -32,6 +36,8 @@ template <operand K, class U, class C>
   using dense = Eigen::Matrix<typename U::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   detail::require_rows("U", u, k_inverse.rows(), "the size of K");
   detail::require_size("C", c, u.cols(), u.cols(), "the columns of U");
+  detail::require_finite_entries("U", u.derived());
+  detail::require_finite_entries("C", c.derived());
   dense const columns = u;
   dense v(columns.rows(), columns.cols());
   for (index j = 0; j < columns.cols(); ++j) {
@@ -41,7 +47,12 @@ template <operand K, class U, class C>
     v.col(j) = image;
   }
   dense s(c.rows(), c.cols());
-  dense_ldlt(c).solve(dense(dense::Identity(c.rows(), c.cols())), s);
+  try {
+    dense_ldlt(c).solve(dense(dense::Identity(c.rows(), c.cols())), s);
+  } catch (bad_input const& complaint) {
+    throw bad_input("C", "a matrix with the complaint (" + std::string(complaint.what()) + ")",
+                    "a symmetric positive definite matrix");
+  }
   dense const projected = columns.transpose() * v;
   s += (projected + projected.transpose()) / 2;
   dense_ldlt factors(dense((s + s.transpose()) / 2));

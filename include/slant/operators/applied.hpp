@@ -51,7 +51,7 @@ void refuse_overlap(X const& x, Y const& y) {
 }
 
 template <class A, class X, class Y, class W>
-void assign(A const& a, X const& x, Y& y, W& w) {
+void assign_application(A const& a, X const& x, Y& y, W& w) {
   expr::refuse_overlap(x, y);
   if constexpr (slant::detail::applies<A, X, Y>) {
     slant::apply(a, x, y, w);
@@ -73,7 +73,7 @@ class applied_in : public Eigen::ReturnByValue<applied_in<A, X, W>> {
   [[nodiscard]] index cols() const { return 1; }
   template <class Y>
   void evalTo(Y& y) const {
-    expr::assign(a_.get(), x_.get(), y, *w_);
+    expr::assign_application(a_.get(), x_.get(), y, *w_);
   }
 
  private:
@@ -97,7 +97,7 @@ class applied : public Eigen::ReturnByValue<applied<A, X>> {
   template <class Y>
   void evalTo(Y& y) const {
     auto w = slant::workspace(a_.get(), x_.get());
-    expr::assign(a_.get(), x_.get(), y, w);
+    expr::assign_application(a_.get(), x_.get(), y, w);
   }
   /// y ← y + A x.
   template <class Y>

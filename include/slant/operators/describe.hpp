@@ -63,7 +63,7 @@ template <class W>
 
 /// What the object behind a letter can tell of itself.
 template <class A>
-[[nodiscard]] std::string details(A const& object) {
+[[nodiscard]] std::string letter_details(A const& object) {
   std::string out = ", " + std::string(type_name<A>());
   if constexpr (requires { object.applications(); }) {
     out += ", " + std::to_string(object.applications()) + " applications";
@@ -79,12 +79,12 @@ template <class A>
 
 /// Appends the tree of A; head stands before its own line, indent before those below.
 template <class V, class A>
-void draw(A const& a, std::string const& head, std::string const& indent, std::string& out) {
+void draw_tree(A const& a, std::string const& head, std::string const& indent, std::string& out) {
   static constexpr law_set wanted = slant::laws<law::self_adjoint, law::positive_definite>;
   static constexpr ascii why = missing_law<A>(wanted);
 
   out += head;
-  expr::print(a, out);
+  expr::print_part(a, out);
   out += "   " + std::to_string(a.rows()) + " × " + std::to_string(a.cols()) + ", ";
   out += laws_text(laws_of<A>);
   if constexpr (linear_operator<A, V>) {
@@ -93,7 +93,7 @@ void draw(A const& a, std::string const& head, std::string const& indent, std::s
   } else {
     out += ", cannot be applied to these vectors";
   }
-  if constexpr (is_letter<A>) out += expr::details(*a.object());
+  if constexpr (is_letter<A>) out += expr::letter_details(*a.object());
   out += "\n";
   if (!is_letter<A> && why.size > 0 && a.rows() == a.cols()) {
     out.append(indent).append("│  ").append(why.view()).append("\n");
@@ -103,7 +103,7 @@ void draw(A const& a, std::string const& head, std::string const& indent, std::s
     std::size_t left = hana::unpack(parts, [](auto const&... p) { return sizeof...(p); });
     hana::for_each(parts, [&](auto const& part) {
       bool const end = --left == 0;
-      expr::draw<V>(part, indent + (end ? "└─ " : "├─ "), indent + (end ? "   " : "│  "), out);
+      expr::draw_tree<V>(part, indent + (end ? "└─ " : "├─ "), indent + (end ? "   " : "│  "), out);
     });
   };
   if constexpr (requires { a.factors(); }) {
@@ -111,7 +111,7 @@ void draw(A const& a, std::string const& head, std::string const& indent, std::s
   } else if constexpr (requires { a.terms(); }) {
     draw_parts(a.terms());
   } else if constexpr (expression<decltype(a.get())>) {
-    expr::draw<V>(a.get(), indent + "└─ ", indent + "   ", out);
+    expr::draw_tree<V>(a.get(), indent + "└─ ", indent + "   ", out);
   }
 }
 
@@ -121,7 +121,7 @@ void draw(A const& a, std::string const& head, std::string const& indent, std::s
 template <class V = Eigen::VectorXd, expression A>
 [[nodiscard]] std::string describe(A const& a) {
   std::string out;
-  expr::draw<V>(a, "", "", out);
+  expr::draw_tree<V>(a, "", "", out);
   return out;
 }
 

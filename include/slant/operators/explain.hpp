@@ -19,7 +19,7 @@ template <class A>
 struct reason {
   /// Of a letter.
   static constexpr void add(ascii& out, law l) {
-    expr::spell<A>(out);
+    expr::spell_part<A>(out);
     out.add(" does not declare ").add(law_name(l));
   }
 };
@@ -38,7 +38,7 @@ struct reason<product<C, F...>> {
     if (product<C, F...>::core_laws.contains(l)) {
       out.add(sign_of<C> == sign::minus ? "a minus" : "a number of any sign");
       out.add(" stands before ");
-      expr::spell<product<one, F...>>(out);
+      expr::spell_part<product<one, F...>>(out);
     } else if constexpr (n == 1) {
       reason<nth<0, F...>>::add(out, l);
     } else if constexpr (n > 2 * k + 1) {
@@ -61,9 +61,9 @@ struct reason<product<C, F...>> {
   static constexpr void unlike(ascii& out) {
     using left = nth<k, F...>;
     using right = nth<n - 1 - k, F...>;
-    expr::spell<right>(out);
+    expr::spell_part<right>(out);
     out.add(" at the end is not adjoint(");
-    expr::spell<left>(out);
+    expr::spell_part<left>(out);
     out.add(")");
     if (is_anonymous<left> || is_anonymous<right>) {
       out.add(" as far as types tell: name both by op<\"...\">");
@@ -73,9 +73,9 @@ struct reason<product<C, F...>> {
   static constexpr bool dependent(ascii& out) {
     if (declares_full_row_rank<G>) return false;
     out.add("the rows of ");
-    expr::spell<G>(out);
+    expr::spell_part<G>(out);
     out.add(" may be dependent: assert full_row_rank(");
-    expr::spell<G>(out);
+    expr::spell_part<G>(out);
     out.add(")");
     return true;
   }
@@ -93,7 +93,7 @@ struct reason<sum<T...>> {
       if (found || laws_of<U>.contains(needed)) return;
       found = true;
       out.add("in the term ");
-      expr::spell<U>(out);
+      expr::spell_part<U>(out);
       out.add(", ");
       reason<U>::add(out, needed);
     };
@@ -122,7 +122,7 @@ template <class A>
 template <class A>
 [[nodiscard]] consteval ascii formula_of() {
   ascii out;
-  expr::spell<A>(out);
+  expr::spell_part<A>(out);
   return out;
 }
 

@@ -53,7 +53,7 @@ using base_of_node = std::conditional_t<(expression<A> && ...), expression_base,
 
 /// y = A x and y ← y + α A x, of sizes that were checked.
 template <class A, class X, class Y, class W>
-void run(A const& a, X const& x, Y& y, W& w) {
+void apply_unchecked(A const& a, X const& x, Y& y, W& w) {
   if constexpr (requires { a.apply(x, y, w); }) {
     a.apply(x, y, w);
   } else {
@@ -61,7 +61,7 @@ void run(A const& a, X const& x, Y& y, W& w) {
   }
 }
 template <class A, class S, class X, class Y, class W>
-void run_add(A const& a, S const& α, X const& x, Y& y, W& w) {
+void apply_add_unchecked(A const& a, S const& α, X const& x, Y& y, W& w) {
   if constexpr (requires { a.apply_add(α, x, y, w); }) {
     a.apply_add(α, x, y, w);
   } else {
@@ -70,11 +70,11 @@ void run_add(A const& a, S const& α, X const& x, Y& y, W& w) {
 }
 
 template <class A>
-void enter(A const& a, dictionary& names) {
+void enter_part(A const& a, dictionary& names) {
   if constexpr (requires { a.enter(names); }) a.enter(names);
 }
 template <class A>
-void print(A const& a, std::string& out) {
+void print_part(A const& a, std::string& out) {
   if constexpr (requires { a.print(out); }) {
     a.print(out);
   } else {
@@ -82,7 +82,7 @@ void print(A const& a, std::string& out) {
   }
 }
 template <class A>
-constexpr void spell(ascii& out) {
+constexpr void spell_part(ascii& out) {
   if constexpr (requires { A::spell(out); }) {
     A::spell(out);
   } else {
@@ -282,7 +282,7 @@ class letter : public expression_base {
   void run(X const& x, Y& y, W& w) const {
     auto const& a = get();
     if constexpr (!Adjoint) {
-      expr::run(a, x, y, w);
+      expr::apply_unchecked(a, x, y, w);
     } else if constexpr (requires { a.apply_adjoint(x, y, w); }) {
       a.apply_adjoint(x, y, w);
     } else if constexpr (requires { a.apply_adjoint(x, y); }) {
@@ -386,7 +386,7 @@ template <operand A>
 
 /// A and Aᵀ by reference, for as long as A lives.
 template <class A>
-[[nodiscard]] auto view(A const& a) {
+[[nodiscard]] auto reference_to(A const& a) {
   return letter<nameless{}, A, 0>(a);
 }
 template <class A>
@@ -394,11 +394,11 @@ using adjoint_view = letter<nameless{}, A, adjointed>;
 
 /// The operator that a letter stands for; anything else itself.
 template <class A>
-[[nodiscard]] A const& opened(A const& a) noexcept {
+[[nodiscard]] A const& operator_behind(A const& a) noexcept {
   return a;
 }
 template <auto Name, class A>
-[[nodiscard]] A const& opened(letter<Name, A, 0> const& a) noexcept {
+[[nodiscard]] A const& operator_behind(letter<Name, A, 0> const& a) noexcept {
   return a.get();
 }
 

@@ -116,7 +116,7 @@ using common_number = std::conditional_t<
     std::type_identity<std::conditional_t<std::is_same_v<S, double>, T, S>>>::type;
 
 template <class C>
-[[nodiscard]] auto negated(C const& c) {
+[[nodiscard]] auto negative_number(C const& c) {
   if constexpr (std::same_as<C, one>) {
     return minus_one{};
   } else if constexpr (std::same_as<C, minus_one>) {
@@ -135,9 +135,9 @@ template <class C, class D>
   } else if constexpr (std::same_as<D, one>) {
     return c;
   } else if constexpr (std::same_as<C, minus_one>) {
-    return negated(d);
+    return negative_number(d);
   } else if constexpr (std::same_as<D, minus_one>) {
-    return negated(c);
+    return negative_number(c);
   } else {
     using S = common_number<decltype(c.value), decltype(d.value)>;
     number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
@@ -154,7 +154,7 @@ template <class C, class D>
 
 /// 1/c. Throws bad_input if that is not finite.
 template <class C>
-[[nodiscard]] C reciprocal(C const& c) {
+[[nodiscard]] C reciprocal_number(C const& c) {
   if constexpr (std::is_empty_v<C>) {
     return c;
   } else {

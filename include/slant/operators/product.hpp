@@ -117,7 +117,8 @@ class product : public base_of_node<F...> {
   /// y = F₁ … F_n x, without the number.
   template <class X, class Y, class W>
   void apply_core(X const& x, Y& y, W& w) const {
-    from_the_right(x, w, [&](auto const& z, auto& inner) { expr::run(factor<0>(), z, y, inner); });
+    from_the_right(
+        x, w, [&](auto const& z, auto& inner) { expr::apply_unchecked(factor<0>(), z, y, inner); });
   }
   template <class X, class Y, class W>
     requires(linear_operator<F, plain_t<X>> && ...) &&
@@ -125,8 +126,9 @@ class product : public base_of_node<F...> {
             slant::detail::accumulates<first, plain_t<X>, Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     scalar_t<X> const c = times(α);
-    from_the_right(x, w,
-                   [&](auto const& z, auto& inner) { expr::run_add(factor<0>(), c, z, y, inner); });
+    from_the_right(x, w, [&](auto const& z, auto& inner) {
+      expr::apply_add_unchecked(factor<0>(), c, z, y, inner);
+    });
   }
 
   template <class X>
@@ -189,12 +191,12 @@ class product : public base_of_node<F...> {
     requires(slant::detail::knows_its_inverse<F> && ...)
   {
     return expr::make_product(
-        expr::reciprocal(c_),
+        expr::reciprocal_number(c_),
         hana::transform(hana::reverse(factors_), [](auto const& f) { return f.inverse(); }));
   }
 
   void enter(dictionary& names) const {
-    hana::unpack(factors_, [&](auto const&... f) { (expr::enter(f, names), ...); });
+    hana::unpack(factors_, [&](auto const&... f) { (expr::enter_part(f, names), ...); });
   }
   void print(std::string& out) const {
     out += expr::text_in_front(c_);
@@ -206,7 +208,7 @@ class product : public base_of_node<F...> {
     auto const print_factor = [&]<class G>(G const& g) {
       if (next) out += " ";
       if (is_sum<G>) out += "(";
-      expr::print(g, out);
+      expr::print_part(g, out);
       if (is_sum<G>) out += ")";
       next = true;
     };
@@ -223,7 +225,7 @@ class product : public base_of_node<F...> {
   template <class G>
   static constexpr void spell_factor(ascii& out) {
     if (is_sum<G>) out.add("(");
-    expr::spell<G>(out);
+    expr::spell_part<G>(out);
     if (is_sum<G>) out.add(")");
   }
 
@@ -297,7 +299,7 @@ class product : public base_of_node<F...> {
     if constexpr (K == 0) {
       finish(x, hana::at_c<0>(w.inner));
     } else {
-      expr::run(factor<K>(), x, w.between[K - 1], hana::at_c<K>(w.inner));
+      expr::apply_unchecked(factor<K>(), x, w.between[K - 1], hana::at_c<K>(w.inner));
       down_from<K - 1>(w.between[K - 1], w, finish);
     }
   }
@@ -359,7 +361,7 @@ template <auto Name, class D, law_set L, class E, law_set M>
 
 /// The factors F followed by G: identities vanish, neighbouring diagonals become one.
 template <class... F, class... G>
-[[nodiscard]] auto join(hana::tuple<F...> f, hana::tuple<G...> g) {
+[[nodiscard]] auto join_factors(hana::tuple<F...> f, hana::tuple<G...> g) {
   using left = nth<sizeof...(F) - 1, F...>;
   using right = nth<0, G...>;
   if constexpr (is_identity<left>) {
@@ -390,27 +392,27 @@ template <class A, class B>
 
 /// A B C ….
 template <class A, class B, class... C>
-[[nodiscard]] auto multiply(A const& a, B const& b, C const&... c) {
+[[nodiscard]] auto product_of(A const& a, B const& b, C const&... c) {
   if (b.rows() != a.cols()) expr::refuse_sizes(a, b, false);
   auto p =
       expr::make_product(expr::multiply_numbers(expr::coefficient_of(a), expr::coefficient_of(b)),
-                         expr::join(expr::factors_of(a), expr::factors_of(b)));
+                         expr::join_factors(expr::factors_of(a), expr::factors_of(b)));
   if constexpr (sizeof...(C) > 0) {
-    return expr::multiply(p, c...);
+    return expr::product_of(p, c...);
   } else {
     return p;
   }
 }
 /// c A.
 template <class C, class A>
-[[nodiscard]] auto multiply_by(C const& c, A const& a) {
+[[nodiscard]] auto multiple_of(C const& c, A const& a) {
   return expr::make_product(expr::multiply_numbers(c, expr::coefficient_of(a)),
                             expr::factors_of(a));
 }
 /// −A.
 template <class A>
-[[nodiscard]] auto negate(A const& a) {
-  return expr::make_product(expr::negated(expr::coefficient_of(a)), expr::factors_of(a));
+[[nodiscard]] auto negative_of(A const& a) {
+  return expr::make_product(expr::negative_number(expr::coefficient_of(a)), expr::factors_of(a));
 }
 
 // --- B A Bᵀ --------------------------------------------------------------------------------------
@@ -459,7 +461,7 @@ template <adjoint_operand B>
 /// B A Bᵀ.
 template <class A, class B>
 [[nodiscard]] auto multiply_around(A const& a, B const& b) {
-  auto p = expr::multiply(b, a, b.adjoint());
+  auto p = expr::product_of(b, a, b.adjoint());
   if constexpr (is_twin<B>) {
     return sealed<decltype(p)>(std::move(p));
   } else {
@@ -500,8 +502,8 @@ template <class A, class... B>
       cols = factor.cols();
     };
     (check(b), ...);
-    return expr::multiply(expr::as_expression(std::forward<A>(a)),
-                          expr::as_expression(std::forward<B>(b))...);
+    return expr::product_of(expr::as_expression(std::forward<A>(a)),
+                            expr::as_expression(std::forward<B>(b))...);
   }
 }
 
@@ -525,7 +527,7 @@ template <operand B, operand A>
 template <class C, operand A>
   requires expr::number_in_front<C>
 [[nodiscard]] auto scaled(C const& c, A&& a) {
-  return expr::multiply_by(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
+  return expr::multiple_of(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
 }
 
 }  // namespace slant

@@ -110,21 +110,25 @@ class range_sum_operator {
   std::vector<held<A>> terms_;
 };
 
-/// A₁ + … + A_p over a range of operators or Eigen matrices, which are referenced if the range gives
-/// references to what an lvalue keeps.
+/// A₁ + … + A_p over a range of operators or Eigen matrices: elements of an lvalue range are
+/// referenced, those of a container that dies here are moved, of a view that does copied.
 /// @throws bad_input if there is none, or sizes differ.
 template <std::ranges::input_range R>
   requires(!operand<R>) && operand<std::ranges::range_reference_t<R>>
 [[nodiscard]] auto sum(R&& range) {
-  using part =
-      part_t<std::conditional_t<std::is_lvalue_reference_v<R>, std::ranges::range_reference_t<R>,
-                                std::remove_cvref_t<std::ranges::range_reference_t<R>>>>;
+  using element = std::ranges::range_reference_t<R>;
+  constexpr bool lives_on = std::is_lvalue_reference_v<R>;
+  // What a view shows is another's.
+  constexpr bool dies = !lives_on && !std::ranges::view<std::remove_cvref_t<R>>;
+  using part = part_t<std::conditional_t<lives_on, element, std::remove_cvref_t<element>>>;
   std::vector<held<part>> terms;
   for (auto&& a : range) {
-    if constexpr (std::is_lvalue_reference_v<R>) {
+    if constexpr (lives_on) {
       terms.push_back(held<part>(slant::as_operator(std::forward<decltype(a)>(a))));
-    } else {
+    } else if constexpr (dies) {
       terms.push_back(held<part>(slant::as_operator(std::move(a))));
+    } else {
+      terms.push_back(held<part>(slant::as_operator(std::remove_cvref_t<element>(a))));
     }
   }
   if (terms.empty()) throw bad_input("range", "no operator", "at least one");

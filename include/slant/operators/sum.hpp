@@ -13,12 +13,12 @@ namespace slant::expr {
 template <class T, class S, class X, class Y, class W>
 void add_term(T const& t, S const& α, X const& x, Y& y, W& w) {
   if constexpr (has_accumulate<T, plain_t<X>>) {
-    expr::run_add(t, α, x, y, w);
+    expr::apply_add_unchecked(t, α, x, y, w);
   } else if constexpr (is_product<T>) {
     t.apply_core(x, w.product, w.inner);
     vectors::axpy(S(α * expr::value_as<S>(t.coefficient())), w.product, y);
   } else {
-    expr::run(t, x, w.product, w.inner);
+    expr::apply_unchecked(t, x, w.product, w.inner);
     vectors::axpy(α, w.product, y);
   }
 }
@@ -67,7 +67,7 @@ class sum : public base_of_node<T...> {
   template <class X, class Y, class W>
     requires slant::detail::applies<first, X, Y> && (slant::detail::adds<T, X, Y> && ...)
   void apply(X const& x, Y& y, W& w) const {
-    expr::run(term<0>(), x, y, hana::at_c<0>(w));
+    expr::apply_unchecked(term<0>(), x, y, hana::at_c<0>(w));
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (expr::add_term(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)), ...);
     }(rest);
@@ -76,7 +76,7 @@ class sum : public base_of_node<T...> {
     requires(slant::detail::accumulates<T, X, Y> && ...)
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (expr::run_add(term<I>(), α, x, y, hana::at_c<I>(w)), ...);
+      (expr::apply_add_unchecked(term<I>(), α, x, y, hana::at_c<I>(w)), ...);
     }(std::index_sequence_for<T...>{});
   }
 
@@ -128,7 +128,7 @@ class sum : public base_of_node<T...> {
   }
 
   void enter(dictionary& names) const {
-    hana::unpack(terms_, [&](auto const&... t) { (expr::enter(t, names), ...); });
+    hana::unpack(terms_, [&](auto const&... t) { (expr::enter_part(t, names), ...); });
   }
   void print(std::string& out) const {
     bool next = false;
@@ -141,10 +141,10 @@ class sum : public base_of_node<T...> {
           t.print_core(out);
         } else {
           out += " + ";
-          expr::print(t, out);
+          expr::print_part(t, out);
         }
       } else {
-        expr::print(t, out);
+        expr::print_part(t, out);
       }
       next = true;
     };
@@ -152,7 +152,7 @@ class sum : public base_of_node<T...> {
   }
   static constexpr void spell(ascii& out) {
     bool next = false;
-    (((next ? out.add(" + ") : out), next = true, expr::spell<T>(out)), ...);
+    (((next ? out.add(" + ") : out), next = true, expr::spell_part<T>(out)), ...);
   }
 
  private:
@@ -192,11 +192,11 @@ template <class A>
 
 /// A + B + C ….
 template <class A, class B, class... C>
-[[nodiscard]] auto add(A const& a, B const& b, C const&... c) {
+[[nodiscard]] auto sum_of(A const& a, B const& b, C const&... c) {
   if (a.rows() != b.rows() || a.cols() != b.cols()) expr::refuse_sizes(a, b, true);
   auto s = expr::make_sum(hana::concat(expr::terms_of(a), expr::terms_of(b)));
   if constexpr (sizeof...(C) > 0) {
-    return expr::add(s, c...);
+    return expr::sum_of(s, c...);
   } else {
     return s;
   }
@@ -222,8 +222,8 @@ template <class A, class... B>
       }
     };
     (check(b), ...);
-    return expr::add(expr::as_expression(std::forward<A>(a)),
-                     expr::as_expression(std::forward<B>(b))...);
+    return expr::sum_of(expr::as_expression(std::forward<A>(a)),
+                        expr::as_expression(std::forward<B>(b))...);
   }
 }
 
@@ -231,8 +231,8 @@ template <class A, class... B>
 template <operand A, operand B>
 [[nodiscard]] auto difference(A&& a, B&& b) {
   detail::require_size("B", b, a.rows(), a.cols(), "the size of A");
-  return expr::add(expr::as_expression(std::forward<A>(a)),
-                   expr::negate(expr::as_expression(std::forward<B>(b))));
+  return expr::sum_of(expr::as_expression(std::forward<A>(a)),
+                      expr::negative_of(expr::as_expression(std::forward<B>(b))));
 }
 
 }  // namespace slant

@@ -41,24 +41,24 @@ concept sides = (linear_term<A> && (linear_term<B> || matrix_factor<B>)) ||
 template <class A, class B>
   requires expr::sides<A, B>
 [[nodiscard]] auto operator*(A&& a, B&& b) {
-  return expr::multiply(expr::as_expression(std::forward<A>(a)),
-                        expr::as_expression(std::forward<B>(b)));
+  return expr::product_of(expr::as_expression(std::forward<A>(a)),
+                          expr::as_expression(std::forward<B>(b)));
 }
 template <class A, class B>
   requires expr::sides<A, B>
 [[nodiscard]] auto operator+(A&& a, B&& b) {
-  return expr::add(expr::as_expression(std::forward<A>(a)),
-                   expr::as_expression(std::forward<B>(b)));
+  return expr::sum_of(expr::as_expression(std::forward<A>(a)),
+                      expr::as_expression(std::forward<B>(b)));
 }
 template <class A, class B>
   requires expr::sides<A, B>
 [[nodiscard]] auto operator-(A&& a, B&& b) {
-  return expr::add(expr::as_expression(std::forward<A>(a)),
-                   expr::negate(expr::as_expression(std::forward<B>(b))));
+  return expr::sum_of(expr::as_expression(std::forward<A>(a)),
+                      expr::negative_of(expr::as_expression(std::forward<B>(b))));
 }
 template <linear_term A>
 [[nodiscard]] auto operator-(A&& a) {
-  return expr::negate(expr::as_expression(std::forward<A>(a)));
+  return expr::negative_of(expr::as_expression(std::forward<A>(a)));
 }
 template <linear_term A>
 [[nodiscard]] auto operator+(A&& a) {
@@ -67,15 +67,15 @@ template <linear_term A>
 template <class S, linear_term A>  // the operator is asked first: a number may not be complete yet
   requires expr::number_in_front<S>
 [[nodiscard]] auto operator*(S const& c, A&& a) {
-  return expr::multiply_by(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
+  return expr::multiple_of(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
 }
 template <linear_term A, expr::number_in_front S>
 [[nodiscard]] auto operator*(A&& a, S const& c) {
-  return expr::multiply_by(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
+  return expr::multiple_of(expr::as_number(c), expr::as_expression(std::forward<A>(a)));
 }
 template <linear_term A, expr::number_in_front S>
 [[nodiscard]] auto operator/(A&& a, S const& c) {
-  return expr::multiply_by(expr::reciprocal(expr::as_number(c)),
+  return expr::multiple_of(expr::reciprocal_number(expr::as_number(c)),
                            expr::as_expression(std::forward<A>(a)));
 }
 

@@ -52,7 +52,7 @@ class linear_map : public slanting_base {
 
   [[nodiscard]] detail::written write(detail::written const& y) const {
     std::string text;
-    expr::print(a_.get(), text);
+    expr::print_part(a_.get(), text);
     return {text + " " + y.as_factor(), false};
   }
 

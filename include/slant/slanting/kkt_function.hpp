@@ -94,7 +94,7 @@ class kkt_operator : public Composed {
   }
   /// A.
   [[nodiscard]] auto const& hessian() const noexcept {
-    return expr::opened(this->template part<0>().template term<0>().template factor<0>());
+    return expr::operator_behind(this->template part<0>().template term<0>().template factor<0>());
   }
   /// The composition itself.
   [[nodiscard]] Composed& composed() noexcept { return *this; }

@@ -92,7 +92,7 @@ template <symmetrizable M>
 template <symmetrizable M>
 [[nodiscard]] auto step_length(M const& m) {
   auto const& minus_ρ = detail::newton_parts<M>::scaled_part(m).coefficient();
-  return expr::value_as<decltype(minus_ρ.value)>(expr::negated(minus_ρ));
+  return expr::value_as<decltype(minus_ρ.value)>(expr::negative_number(minus_ρ));
 }
 
 /// A of I − G (I − ρ A).
