@@ -65,8 +65,8 @@ names=(empty Eigen/Core "${sets[@]}" Eigen/Sparse slant/slant.hpp slant/contact/
   examples/wire examples/first_steps examples/first_steps/compiled
   needed/first_steps needed/first_steps/compiled
   client/methods client/methods/compiled client/contact client/contact/compiled)
-needed=(problems/any_qp factorizations/dense_ldlt iteration/solve methods/symmetric_newton expressions/expressions
-  operators/restriction sets/cartesian sets/contact_sets)
+needed=(problems/any_qp factorizations/dense_ldlt iteration/solve methods/symmetric_newton operators/operators
+  operators/restriction sets/contact_sets sets/syntax)
 for name in "${names[@]}"; do
   file=$work/${name//\//_}.cpp
   case ${name%/compiled} in

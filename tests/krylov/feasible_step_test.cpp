@@ -57,7 +57,7 @@ TEST_CASE("no further than the boundary, in two moves") {
   std::vector<slant::index> blocking;
   slant::find_blocking(set, s.x, s.trial, found.length, blocking);
   CHECK(blocking == std::vector<slant::index>{1});
-  slant::half_step(set, s, found);
+  slant::half_step_within(set, s, found);
   CHECK(s.x(1) == 0.0);
   CHECK(s.x(0) == doctest::Approx(1 + 1.0 / 7));
   CHECK((2 * s.r - (s.x - b)).norm() <= 1e-15);
@@ -72,7 +72,7 @@ TEST_CASE("a half step from afar ends in the set, whatever it rounds") {
     auto const found = step(s, set);
     REQUIRE(found.end == end::boundary);
     outside += !set.contains(VectorXd(s.x + found.length * s.trial));
-    slant::half_step(set, s, found);
+    slant::half_step_within(set, s, found);
     CHECK(set.contains(s.x));
   }
   CHECK(outside > 5);
@@ -85,7 +85,7 @@ TEST_CASE("flat directions: to the boundary if there is one") {
   auto const found = step(bounded, box);
   CHECK(found.end == end::boundary);
   CHECK(found.flat);
-  slant::half_step(box, bounded, found);
+  slant::half_step_within(box, bounded, found);
   CHECK(bounded.x == VectorXd{{0.0, 3.0}});
   state endless(VectorXd{{1.0, 0.0}}, VectorXd::Zero(2), b);
   CHECK(step(endless, slant::half_lines(2)).end == end::endless);

@@ -243,7 +243,7 @@ class cg_feas<A, V, C, F> {
         return;
       case feasible_step_end::boundary:
         find_blocking(set_.get(), slant::local(s.x), slant::local(s.trial), step.length, s.blocked);
-        half_step(set_.get(), s, step);
+        half_step_within(set_.get(), s, step);
         s.updated = true;
         note(s);
         s.at_boundary = true;

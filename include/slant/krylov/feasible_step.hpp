@@ -73,18 +73,23 @@ template <class Set, class State, class S>
   return step;
 }
 
-/// The half step that step_within has found: x onto the boundary of Λ, and r with it. Where x was
-/// much larger than the boundary is, rounding errors of x + α_f d are not small beside that: such an
-/// x is projected. (No other one, which keeps its bits.)
-template <class Set, class State, class S>
-void half_step(Set const& set, State& s, feasible_step<S> const& step) {
+/// The half step that step_within has found: x onto the boundary of Λ, up to rounding, and r with it.
+template <class State, class S>
+void half_step(State& s, feasible_step<S> const& step) {
   vectors::axpy(step.length, s.trial, s.x);
+  vectors::axpy(-(step.length / s.unit), s.directions.Ap, s.r);
+  ++s.since_refresh;
+}
+
+/// The same with x in Λ. Where x was much larger than the boundary is, rounding errors of x + α_f d
+/// are not small beside that: such an x is projected. (No other one, which keeps its bits.)
+template <class Set, class State, class S>
+void half_step_within(Set const& set, State& s, feasible_step<S> const& step) {
+  half_step(s, step);
   if (!slant::everywhere(s.x, set.contains(slant::local(s.x)))) {
     slant::project(set, slant::local(s.x), slant::local(s.trial));
     std::swap(s.x, s.trial);
   }
-  vectors::axpy(-(step.length / s.unit), s.directions.Ap, s.r);
-  ++s.since_refresh;
 }
 
 /// The blocks, in the order of visit, whose own sets end where x + length · d does: those that

@@ -119,7 +119,7 @@ struct feasible_cg {
     if (step.end == feasible_step_end::endless) {
       return step.flat ? inner_end::endless : inner_end::broken;
     }
-    half_step(set, s, step);
+    half_step_within(set, s, step);
     return inner_end::boundary;
   }
 };

@@ -193,7 +193,7 @@ class proportioning_steps {
     auto const step = step_along(s);
     if (step.end == feasible_step_end::boundary) {
       if (options_.half_step || step.flat) {
-        half_step(qp_.get().set(), s, step);
+        half_step(s, step);  // what follows projects x
         split(s);
       }
       return false;
@@ -259,7 +259,7 @@ class proportioning_steps {
       s.directions.live = false;
       auto const step = step_along(s);
       if (s.status != status::running) return;
-      if (step.end == feasible_step_end::boundary) half_step(qp_.get().set(), s, step);
+      if (step.end == feasible_step_end::boundary) half_step_within(qp_.get().set(), s, step);
       renew(s);
       restart(s);
       s.last_step = kprgp_step::proportioning;
