@@ -13,6 +13,7 @@
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/member_names.hpp>
+#include <slant/concepts/proximable.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/concepts/slanting_function.hpp>
 #include <slant/concepts/vector.hpp>

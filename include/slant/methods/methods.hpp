@@ -9,6 +9,7 @@
 
 #include <slant/methods/anderson_mixing.hpp>
 #include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/forward_backward.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/interior_point_state.hpp>
 #include <slant/methods/kprgp.hpp>

@@ -4,12 +4,15 @@
 //
 //     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m                      [K (29)]
 //
+// and for any separable convex function φ in place of the indicator of Λ, prox_{ρφ} in place of P_Λ.
+//
 // It is Newton's method for the natural residual F(y) = y − P_Λ(z), z = y − ρ r(y), r(y) = A y − b.
 // With G = P_Λ°(z), x = P_Λ(z), dy = x + t − y the equation (I − G(I − ρA)) dy = −F becomes
 //
-//     (Π A Π + C/ρ) t = −Π r(x),     t ∈ range(G),  C = G⁺ − I on it ⪰ 0,  Π onto range(G),
+//     (Π A Π + C/ρ) t = −Π (r(x) + v),     t ∈ range(G),  C = G⁺ − I on it ⪰ 0,  Π onto range(G),
 //
-// self-adjoint and positive definite, so that conjugate gradients solve it where [K (54)] needs
+// v = (z − x)/ρ ∈ ∂φ(x). For a set v is normal to the face and Π v = 0; for a norm it is the force
+// that slides. The system is self-adjoint and positive definite, so that conjugate gradients solve it where [K (54)] needs
 // BiCGSTAB; and it keeps the term C that MSSN drops [K (55)], without which a sliding disc creeps.
 //
 //     project     x ← P_Λ(z), r ← A x − b                        one product
@@ -24,7 +27,8 @@
 // is accepted, KPRGP takes over at x until ‖F‖ is a tenth below its value when Newton failed; this
 // happens after finitely many of its steps, because they converge to the solution from every x ∈ Λ
 // [K Theorem 1]. So between two failures ‖F‖ falls, from failure to failure it falls by a factor,
-// and the values of ‖F‖ tend to zero whatever the start and ρ are.
+// and the values of ‖F‖ tend to zero whatever the start and ρ are. For a φ that is no indicator
+// forward_backward takes over instead.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -39,6 +43,7 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
+#include <slant/methods/forward_backward.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
@@ -63,10 +68,12 @@ namespace slant {
 
 // --- problem -------------------------------------------------------------------------------------
 
-/// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x).
+/// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x); or
+/// + φ(x) as forward_backward takes it, φ of blocks with slant(ρ, z).
 template <class QP>
 concept symmetric_newton_problem =
-    kprgp_problem<QP> && has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
+    (quadratic_program<QP> ? kprgp_problem<QP> : forward_backward_problem<QP>)&&has_block_slants<
+        typename QP::set_type, local_t<typename QP::vector_type>>;
 
 // --- options -------------------------------------------------------------------------------------
 
@@ -115,38 +122,71 @@ struct symmetric_newton_options {
 // A method that converges from everywhere takes over where a faster one fails: KPRGP, until its
 // iterate is better than the point of failure by a factor. Since KPRGP converges to the solution
 // from every x ∈ Λ [K Theorem 1] this happens after finitely many of its steps; so failures cannot
-// follow one another without the residual tending to zero.
+// follow one another without the residual tending to zero. So does forward_backward, for any φ.
 
-/// KPRGP at work on a point s that derives from gradient_point<QP>. Nothing is computed or
+namespace detail {
+
+/// The method that takes over. Refers to the problem; one that forgets its types is as good as a
+/// reference.
+template <class QP>
+struct descent_method {
+  using type = forward_backward<QP const&>;
+  using options = forward_backward_options<typename QP::scalar>;
+  /// For a step that is safe for KPRGP, half of it.
+  static options options_of(kprgp_options<typename QP::scalar> const& o) {
+    using S = typename QP::scalar;
+    options own{.patience = o.patience, .spectrum = o.spectrum};
+    if (o.step_length) own.step_length = *o.step_length / S(2);
+    return own;
+  }
+};
+template <kprgp_problem QP>
+struct descent_method<QP> {
+  using type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
+  using options = kprgp_options<typename QP::scalar>;
+  static options options_of(options const& o) { return o; }
+};
+
+}  // namespace detail
+
+/// That method at work on a point s that derives from gradient_point<QP>. Nothing is computed or
 /// allocated before the first failure, σ_max included.
 template <class QP>
 class descent_takeover {
+  using kind = detail::descent_method<QP>;
+
  public:
   using scalar = typename QP::scalar;
   using options = kprgp_options<scalar>;
-  /// Refers to the problem; one that forgets its types is as good as a reference.
-  using method_type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
+  using method_type = typename kind::type;
+  using other_state = typename method_type::state_type;
 
   [[nodiscard]] bool at_work() const { return at_work_; }
   /// No longer at work: the problem has changed.
   void leave() { at_work_ = false; }
   /// How often it had to take over.
   [[nodiscard]] index count() const { return count_; }
-  /// The state of KPRGP, once there was need for it.
-  [[nodiscard]] std::optional<kprgp_state<QP>> const& state() const { return state_; }
+  /// The state of the method, once there was need for it.
+  [[nodiscard]] std::optional<other_state> const& state() const { return state_; }
 
-  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if KPRGP
-  /// finds A or A x unusable, which it would refuse as input.
+  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if the
+  /// method finds A or A x unusable, which it would refuse as input.
   template <class State>
-  [[gnu::cold]] status begin(QP const& qp, options o, State& s, scalar const& goal) {
-    scalar const σ = state_ ? state_->σ : scalar(0);
-    if (state_) o.step_length = state_->step_length;  // σ_max is known by now
+  [[gnu::cold]] status begin(QP const& qp, options const& given, State& s, scalar const& goal) {
+    auto o = kind::options_of(given);
+    scalar σ(0);
+    if (state_) {  // σ_max is known by now
+      o.step_length = state_->step_length;
+      if constexpr (requires { state_->σ; }) σ = state_->σ;
+    }
     try {
       state_.emplace(method_type{qp, std::move(o)}.start(s.x));
     } catch (bad_input const&) {
       return status::breakdown;
     }
-    if (σ > scalar(0)) state_->σ = σ;
+    if constexpr (requires { state_->σ; }) {
+      if (σ > scalar(0)) state_->σ = σ;
+    }
     s.work.setup_applications += state_->work.setup_applications;
     s.work.operator_applications += state_->work.operator_applications;
     goal_ = goal;
@@ -155,20 +195,20 @@ class descent_takeover {
     return follow(qp, s);
   }
 
-  /// r from x, if KPRGP has been updating it; whether it has. One product.
+  /// r from x, if the method has been updating it; whether it has. One product.
   template <class State>
   [[gnu::cold]] bool refresh(QP const& qp, options const& o, State& s) {
-    if (!method_type{qp, o}.refresh(*state_)) return false;
+    if (!method_type{qp, kind::options_of(o)}.refresh(*state_)) return false;
     ++s.work.operator_applications;
     s.status = follow(qp, s);
     return true;
   }
 
-  /// One step of KPRGP.
+  /// One step of the method.
   template <class State>
   [[gnu::cold]] status step(QP const& qp, options const& o, State& s) {
     index const before = state_->work.operator_applications;
-    method_type const method{qp, o};
+    method_type const method{qp, kind::options_of(o)};
     method.step(*state_);
     copy(qp, s);
     // r̃ = 0 counts if r was computed from x.
@@ -178,8 +218,8 @@ class descent_takeover {
   }
 
  private:
-  /// s.x, s.r and s.reduced become those of KPRGP's iterate, which is no longer at work if that is
-  /// good enough.
+  /// s.x, s.r and s.reduced become those of the method's iterate, which is no longer at work if that
+  /// is good enough.
   template <class State>
   status follow(QP const& qp, State& s) {
     copy(qp, s);
@@ -204,7 +244,7 @@ class descent_takeover {
     return state_->status == status::converged ? status::stalled : state_->status;
   }
 
-  std::optional<kprgp_state<QP>> state_;
+  std::optional<other_state> state_;
   scalar goal_{0};
   bool at_work_ = false;
   index count_ = 0;
@@ -310,7 +350,7 @@ struct symmetric_newton_state : gradient_point<QP> {
   symmetric_newton_state(QP const& qp, M const& m, vector_type const& x0)
       : gradient_point<QP>(qp, x0),
         segment(x0, qp.size()),
-        face(qp.set()),
+        face(function_of(qp)),
         inner(x0, qp.size(), m),
         products(qp.a(), x0) {}
 
@@ -348,12 +388,14 @@ template <class QP, class M>
 struct symmetric_newton_demands {
   static constexpr bool told = true;
 };
-template <askable_program QP, class M>
+template <composite_problem QP, class M>
+  requires(!was_refused<QP>)
 struct symmetric_newton_demands<QP, M> {
   using set_type = typename QP::set_type;
   using points = local_t<typename QP::vector_type>;
-  static_assert(!active_set_domain<set_type, points> || has_block_slants<set_type, points>,
-                "the set must be made of blocks with slant(x)");
+  static_assert((quadratic_program<QP> && !active_set_domain<set_type, points>) ||
+                    has_block_slants<set_type, points>,
+                "the set must be made of blocks with slant(x), a function of blocks with slant(ρ, z)");
   static constexpr bool told =
       preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told;
 };
@@ -363,7 +405,7 @@ struct symmetric_newton_demands<QP, M> {
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
 class symmetric_newton : public detail::refused_program<QP, detail::symmetric_newton_types> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
@@ -486,7 +528,7 @@ class symmetric_newton_steps {
     scalar β(1);
     for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
       scalar const size =
-          s.segment.residual_at(qp_.get().set(), β, s.projected, s.trial) / s.step_length;
+          s.segment.residual_at(s.step_of(qp_.get()), β, s.projected, s.trial) / s.step_length;
       scalar const enough = (scalar(1) - options_.sufficient * β) * s.residual_norm;
       if (!(enough < s.residual_norm)) return false;  // β is below the precision
       if (size <= enough) {
@@ -501,13 +543,25 @@ class symmetric_newton_steps {
   /// ρ per unit of the gradient: z = y − ρ r.
   static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
 
+  /// r + v, or r where Π v = 0. v is formed in s.trial.
+  static vector_type const& force(state_type& s) {
+    if constexpr (quadratic_program<problem>) {
+      return s.r;
+    } else {
+      vectors::difference(s.segment.z, s.x, s.trial);
+      vectors::divide(ρ(s), s.trial);
+      vectors::add(s.r, s.trial);
+      return s.trial;
+    }
+  }
+
   void newton_step(state_type& s) const {
     auto const& qp = qp_.get();
-    s.face.assign(qp.set(), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
+    s.face.assign(s.step_of(qp), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
     auto const inner =
-        s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
-                            s.preconditioner_size, target, options_.inner_steps);
+        s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), force(s), s.face,
+                            s.step_length, s.preconditioner_size, target, options_.inner_steps);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;

@@ -31,6 +31,26 @@ template <class QP>
 concept quadratic_program =
     has_hessian<QP> && has_linear_term<QP> && has_feasible_set<QP> && has_size<QP>;
 
+template <class QP>
+concept has_separable_function = requires(QP const& qp) {
+  { qp.function() } -> std::same_as<typename QP::set_type const&>;
+};
+/// A quadratic function plus a separable convex one, which may be the indicator of a set.
+template <class QP>
+concept composite_problem =
+    quadratic_program<QP> || (has_hessian<QP> && has_linear_term<QP> &&
+                              has_separable_function<QP> && has_size<QP>);
+
+/// φ of a composite problem; of a quadratic program the set that it is the indicator of.
+template <composite_problem QP>
+[[nodiscard]] auto const& function_of(QP const& qp) {
+  if constexpr (quadratic_program<QP>) {
+    return qp.set();
+  } else {
+    return qp.function();
+  }
+}
+
 /// A convex set whose faces and boundary a method can follow.
 template <class C, class V>
 concept active_set_domain =
@@ -55,21 +75,30 @@ namespace slant::detail {
 /// A program of which nothing has been said yet.
 template <class QP> concept askable_program = quadratic_program<QP> && !was_refused<QP>;
 
-/// Of any program: A is semidefinite on vectors like b.
+/// Of any problem: A is semidefinite on vectors like b.
 template <class QP>
-struct program_demands {
-  static_assert(quadratic_program<QP>, "expected a separable_qp");
+struct composite_demands {
+  static_assert(composite_problem<QP>, "expected a separable_qp");
   static constexpr bool told = true;
 };
 template <was_refused QP>
-struct program_demands<QP> {
+struct composite_demands<QP> {
   static constexpr bool told = true;
 };
-template <askable_program QP>
-struct program_demands<QP> {
+template <composite_problem QP>
+  requires(!was_refused<QP>)
+struct composite_demands<QP> {
   static constexpr bool told =
       operator_demands<typename QP::operator_type, typename QP::vector_type,
                        law_demand::semidefinite>::told;
+};
+
+/// Where φ has to be a set as well.
+template <class QP>
+struct program_demands {
+  static_assert(quadratic_program<QP> || was_refused<QP> || !composite_problem<QP>,
+                "expected a separable_qp with a convex set, not with another function");
+  static constexpr bool told = composite_demands<QP>::told;
 };
 
 /// Of the set, where a method follows faces.
@@ -107,7 +136,7 @@ struct refusal {
   using type = refused_method<void, void>;
 };
 template <class QP, template <class> class Types>
-  requires quadratic_program<QP> || was_refused<QP>
+  requires composite_problem<QP> || was_refused<QP>
 struct refusal<QP, Types> {
   using type = refused_method<typename QP::vector_type, typename Types<QP>::state,
                               typename Types<QP>::options>;

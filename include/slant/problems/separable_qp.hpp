@@ -5,7 +5,11 @@
 //     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m,
 //
 // A symmetric positive semidefinite, often only an action; Λᵢ small closed convex sets.
-// Gradient r(x) = A x − b.
+// Gradient r(x) = A x − b. It is the case of an indicator of
+//
+//     minimise   q(x) + φ(x),      φ(x) = φ₁(x₁) + … + φ_m(x_m)
+//
+// with convex functions that have a proximal map (concepts/proximable.hpp): norms, friction.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -13,6 +17,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/proximable.hpp>
 
 #include <utility>
 
@@ -20,7 +25,7 @@ namespace slant {
 
 /// What separable_qp asks of A, b and the set.
 template <class A, class V, class C>
-concept separable_qp_parts = vector<V> && linear_operator<A, V> && convex_set<C, local_t<V>>;
+concept separable_qp_parts = vector<V> && linear_operator<A, V> && proximable<C, local_t<V>>;
 
 /// Arguments that lack something end here and are told so; see
 /// base/diagnosis.hpp.
@@ -34,9 +39,9 @@ class separable_qp : public detail::refused, public detail::scalar_of<std::remov
   static_assert(detail::vector_demands<vector_type>::told);
   static_assert(
       detail::operator_demands<operator_type, vector_type, detail::law_demand::none>::told);
-  static_assert(convex_set<detail::asked_t<vector<vector_type>, set_type>,
+  static_assert(proximable<detail::asked_t<vector<vector_type>, set_type>,
                            local_t<detail::asked_t<vector<vector_type>, vector_type>>>,
-                "the set must be a convex set of vectors like b");
+                "the set must be a convex set of vectors like b, or a function with prox");
 
   separable_qp(held<A>, held<V>, held<C>);
   operator_type const& a() const;
@@ -45,8 +50,8 @@ class separable_qp : public detail::refused, public detail::scalar_of<std::remov
   index size() const;
 };
 
-/// A quadratic program with separable convex constraints: separable_qp{A, b, set}.
-/// Lvalues are referenced, rvalues owned. A is n × n, b has n finite entries, set has dimension n;
+/// A quadratic program with separable convex constraints: separable_qp{A, b, set}; or with a
+/// separable convex function: separable_qp{A, b, φ}. Lvalues are referenced, rvalues owned. A is n × n, b has n finite entries, set has dimension n;
 /// otherwise bad_input.
 template <class A, class V, class C>
   requires separable_qp_parts<std::remove_cvref_t<A>, std::remove_cvref_t<V>,
@@ -57,14 +62,15 @@ class separable_qp<A, V, C> {
   using vector_type = std::remove_cvref_t<V>;
   using set_type = std::remove_cvref_t<C>;
   using scalar = scalar_t<vector_type>;
+  static constexpr bool is_set = convex_set<set_type, local_t<vector_type>>;
 
   separable_qp(held<A> a, held<V> b, held<C> set)
       : a_(std::move(a)), b_(std::move(b)), set_(std::move(set)) {
     auto const n = index(slant::local(this->b()).size());
     detail::check_size("A.rows()", index(this->a().rows()), n, "the size of b,");
     detail::check_size("A.cols()", index(this->a().cols()), n, "the size of b,");
-    detail::check_size("dimension of the set", slant::dimension_of(this->set()), n,
-                       "the size of b,");
+    detail::check_size(is_set ? "dimension of the set" : "dimension of the function",
+                       slant::dimension_of(this->function()), n, "the size of b,");
     detail::check_finite("b", this->b());
   }
 
@@ -72,8 +78,14 @@ class separable_qp<A, V, C> {
   [[nodiscard]] operator_type const& a() const { return a_.get(); }
   /// The linear term b.
   [[nodiscard]] vector_type const& b() const { return b_.get(); }
-  /// The feasible set Λ.
-  [[nodiscard]] set_type const& set() const { return set_.get(); }
+  /// The feasible set Λ, if it is one.
+  [[nodiscard]] set_type const& set() const
+    requires is_set
+  {
+    return set_.get();
+  }
+  /// φ; of a set, the set.
+  [[nodiscard]] set_type const& function() const { return set_.get(); }
   /// Number of unknowns n.
   [[nodiscard]] index size() const { return slant::local(b()).size(); }
 

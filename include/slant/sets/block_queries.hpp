@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/proximable.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/face.hpp>
 
@@ -88,12 +89,14 @@ struct ask_for_slants {
   static constexpr bool of_set = false;
   /// A block gives a small matrix; a set of any size with one block would have to give a large one.
   template <class B, class X>
-  static constexpr bool of_block = has_static_dimension<B> && has_slant<B, X>;
+  static constexpr bool of_block =
+      has_static_dimension<B> && (has_slant<B, X> || has_prox_slant<B, X>);
 };
 
 }  // namespace detail
 
-/// Every block of the set has slant(x), a matrix of its dimension, as far as its type tells.
+/// Every block of the set has slant(x), of a function slant(ρ, z), a matrix of its dimension, as far
+/// as its type tells.
 template <class C, class V>
 concept has_block_slants = detail::all_blocks<detail::ask_for_slants, C, V>();
 

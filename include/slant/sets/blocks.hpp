@@ -144,6 +144,14 @@ template <class C>
   }
 }
 
+/// Base class with the static dimension N, or with nothing.
+template <int N>
+struct static_size {
+  static constexpr int dimension = N;
+};
+template <>
+struct static_size<Eigen::Dynamic> {};
+
 }  // namespace detail
 
 /// The scalar a set names, double if it names none.

@@ -26,6 +26,11 @@
 #include <slant/sets/power.hpp>
 #include <slant/sets/syntax.hpp>  // Λ * Μ, c * Λ, Λ + c
 
+// Functions with a proximal map:
+#include <slant/sets/proximal_step.hpp>
+#include <slant/sets/separable_sum.hpp>
+#include <slant/sets/support.hpp>
+
 // Faces, and slanting operators of projections:
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/face.hpp>

@@ -7,6 +7,7 @@
 // What is sampled is described in set_breaches.hpp.
 #pragma once
 
+#include <slant/testing/function_breaches.hpp>
 #include <slant/testing/set_breaches.hpp>
 
 #include <doctest/doctest.h>
@@ -19,6 +20,18 @@ template <class C, class... Rest>
 void check_set_laws(C const& set, Rest const&... rest) {
   std::string text;
   for (auto const& broken : set_breaches(set, rest...)) {
+    text += broken.law + " (" + broken.evidence + ")\n";
+  }
+  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+}
+
+// --- function laws -------------------------------------------------------------------------------
+
+/// The same for a function with a proximal map; see function_breaches.hpp.
+template <class F>
+void check_function_laws(F const& φ, set_options const& options = {}) {
+  std::string text;
+  for (auto const& broken : function_breaches(φ, options)) {
     text += broken.law + " (" + broken.evidence + ")\n";
   }
   CHECK_MESSAGE(text.empty(), "broken laws:\n", text);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A point of Λ with its gradient and reduced gradient, and the units and scales that go with them:
-// what the states of projected gradient methods have in common.
+// what the states of projected gradient methods have in common. For another function φ than the
+// indicator of Λ the proximal map prox_{αφ} takes the place of P_Λ.
 #pragma once
 
 #include <slant/base/report.hpp>
@@ -11,6 +12,8 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/sets/proximal_step.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -64,7 +67,7 @@ void check_start_in_set(V const& x0, V const& b) {
 
 }  // namespace detail
 
-/// A point of the set of a quadratic program QP. Vectors have qp.size() entries.
+/// A point of the set of a quadratic program QP, or of the domain of φ. Vectors have qp.size() entries.
 template <class QP>
 struct gradient_point {
   using vector_type = typename QP::vector_type;
@@ -148,8 +151,13 @@ struct gradient_point {
 
   /// P_Λ(x − α̃ r) and r̃.
   void reduce(QP const& qp) {
-    reduced_gradient(qp.set(), x, r, step_length * unit, trial, projected, reduced);
+    reduced_gradient(step_of(qp), x, r, step_length * unit, trial, projected, reduced);
     reduced_gradient_norm = unit * norm(reduced);
+  }
+
+  /// P_Λ, or prox_{αφ} for the step length α of the state.
+  [[nodiscard]] decltype(auto) step_of(QP const& qp) const {
+    return slant::at_step(function_of(qp), step_length);
   }
 
   /// q(x) / unit = ½ xᵀ(r − b) / unit, and a bound of its rounding error. No product is spent.
@@ -182,13 +190,13 @@ struct gradient_point {
   }
   /// x = P_Λ(y) with its r and r̃.
   void place(QP const& qp, vector_type const& y) {
-    slant::project(qp.set(), slant::local(y), slant::local(x));
+    slant::project(step_of(qp), slant::local(y), slant::local(x));
     gradient(qp);
     reduce(qp);
   }
   /// Is x = P_Λ(y)?
   [[nodiscard]] bool at_projection(QP const& qp, vector_type const& y) {
-    slant::project(qp.set(), slant::local(y), slant::local(trial));
+    slant::project(step_of(qp), slant::local(y), slant::local(trial));
     vectors::subtract(x, trial);
     return norm(trial) == scalar(0);
   }
