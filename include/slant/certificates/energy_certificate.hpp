@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The error of a point as the solution of a quadratic program min ½ xᵀA x − bᵀx over x ∈ Λ, in the
-// energy norm, by the inequality of energy_error.hpp:
+// The error of a point as the solution of a quadratic program min ½ xᵀA x − bᵀx over x ∈ Λ, or with
+// a function φ(x) added, in the energy norm, by the inequality of energy_error.hpp:
 //
 //     energy_certificate{qp, dominates_inverse(M)}    a bound, up to the rounding of a few sums: δ
 //                                                     from an operator M ⪰ A⁻¹
@@ -20,6 +20,7 @@
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/block_queries.hpp>
 
 #include <concepts>
@@ -41,7 +42,7 @@ template <class M>
 template <class M>
 dominating_inverse<M> dominates_inverse(M const&&) = delete;
 
-/// certificate(x) → energy_error of P_Λ(x). Refers to the problem and to M. One application of A
+/// certificate(x) → energy_error of P_Λ(x), with a function of x as it is, where φ is finite. Refers to the problem and to M. One application of A
 /// and one of M with `dominates_inverse(M)`, which gives a bound up to rounding; else some 10 of
 /// each, for conjugate gradients preconditioned by M, and an estimate. Without M they are
 /// preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
@@ -62,14 +63,18 @@ class energy_certificate {
   energy_certificate(QP const&&, M const&) = delete;
 
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {
-    slant::project(qp_->set(), slant::local(x0), slant::local(x_));
+    if constexpr (quadratic_program<QP>) {
+      slant::project(qp_->set(), slant::local(x0), slant::local(x_));
+    } else {
+      vectors::copy(x0, x_);
+    }
     slant::apply(qp_->a(), x_, g_, a_workspace_);
     ++applications_;
     energy_error<scalar> e;
     e.size = detail::root_of_product(x_, g_);
     vectors::subtract(qp_->b(), g_);
     if (dominates_) {
-      auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
+      auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
       slant::apply(m_, g_, norm_.z, norm_.of_m);
       e.bound =
           error_bound_of_root<scalar>(detail::root_of_product(g_, norm_.z), balanced.root_of_gap);
@@ -82,7 +87,8 @@ class energy_certificate {
   [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }
 
  private:
-  static constexpr bool has_faces = has_block_slants<typename QP::set_type, local_t<vector_type>>;
+  static constexpr bool has_faces =
+      quadratic_program<QP> && has_block_slants<typename QP::set_type, local_t<vector_type>>;
 
   energy_certificate(QP const& qp, M const& m, bool dominates)
       : qp_(&qp),
@@ -143,7 +149,7 @@ class energy_certificate {
                                    a_workspace_, [&](vector_type const& d) { return norm_of(d); });
       if (detail::is_finite(bound)) return bound;
     }
-    auto const balanced = balance(qp_->set(), x_, g_, stiffness_, g_);
+    auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
     return error_bound_of_root<scalar>(norm_of(g_), balanced.root_of_gap);
   }
 

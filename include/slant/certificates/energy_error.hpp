@@ -17,6 +17,8 @@
 // block by block. If only an approximate gradient ĝ with ‖g − ĝ‖_{A⁻¹} ≤ ε is known, δ + ε stands
 // for δ.
 //
+// With a convex function φ in place of the indicator of Λ the same holds for γ = φ(x) + φ*(−s) + sᵀx.
+//
 // energy_certificate.hpp evaluates it for a quadratic program, contact/certificate.hpp for contact
 // with a stiffness matrix; both know when the result is a bound and when it is an estimate.
 //
@@ -32,6 +34,7 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
+#include <slant/sets/proximal_step.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -123,10 +126,13 @@ template <class C, class X, class G, class M, class D>
       S ρ(0);
       for (index j = 0; j < p.size(); ++j) ρ += slant::local(m).coeff(p.component(j));
       ρ /= S(2 * p.size());
+      // A function is in units of x and g; a set knows none of g.
+      S const u = function_part<block_type> ? S(1) : unit;
       auto own = p.value(d);
-      own /= unit;
-      auto part = split_gradient(block, p.value(x), own, S(ρ * unit));
-      part.rest *= unit;
+      own /= u;
+      auto part = split_gradient(block, p.value(x), own, S(ρ * u));
+      part.rest *= u;
+      part.gap *= u / unit;
       p.put(d, part.rest);
       gaps += part.gap;
       ++terms;

@@ -23,6 +23,10 @@
 // point of the boundary next to it where it lies there up to rounding: off by less than 9 ε‖x‖,
 // of which what no projection leaves, above 2 ε‖x‖, stays in d as the energy of the way there. Any
 // other set with a projection gets γ = sᵀ(x − p), where the rounding errors of P remain.
+//
+// For a function φ in place of the indicator γ = φ(x) + φ*(−s) + sᵀx. The least value belongs to the
+// subgradient −s = (z − p)/ρ, p = prox_{ρφ}(z); of a support function that is the point P_Λ(z/ρ), so
+// that φ* is 0 there and γ = σ(x) + sᵀx.
 #pragma once
 
 #include <slant/base/double_word.hpp>
@@ -32,6 +36,7 @@
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
+#include <slant/sets/support.hpp>
 
 #include <Eigen/Core>
 
@@ -155,6 +160,42 @@ template <class S>
 inline constexpr bool has_exact_normal_part<symmetric_interval<S>> = true;
 template <int N, class S>
 inline constexpr bool has_exact_normal_part<ball<N, S>> = true;
+
+namespace detail {
+
+/// σ(x) − vᵀx ≥ 0 for v ∈ Λ.
+template <class Block, class S, int N>
+[[nodiscard]] S support_gap(Block const& block, Eigen::Matrix<S, N, 1> const& x,
+                            Eigen::Matrix<S, N, 1> const& v) {
+  if ((x.array() == S(0)).all()) return S(0);
+  if constexpr (N > 1 && std::same_as<Block, ball<N, S>>) {
+    // ‖x‖ R (1 − eᵀn s) for x = ‖x‖ e, v = R s n, without cancellation: ½‖e − s n‖² + ½(1 − s²).
+    S const length = x.stableNorm(), R = block.radius();
+    if (R == S(0)) return S(0);
+    Eigen::Matrix<S, N, 1> const sn = v / R, off = x / length - sn;
+    S const s = sn.stableNorm(), missing = (S(1) - s) * (S(1) + s);
+    S const rounding = S(8) * std::numeric_limits<S>::epsilon();
+    return R * length * (off.squaredNorm() + (missing > rounding ? missing : S(0))) / S(2);
+  } else {
+    S const value = block.support(x);
+    S const noise = S(32) * std::numeric_limits<S>::epsilon() * x.stableNorm() * v.stableNorm();
+    S const gap = value - v.dot(x);
+    return gap > noise || !is_finite(gap) ? gap : S(0);
+  }
+}
+
+}  // namespace detail
+
+/// d and γ at x with the gradient g for a block of a support function; ρ = m/2 > 0, also ∞.
+template <class C, class S, int N>
+[[nodiscard]] normal_part<S, N> split_gradient(support_function<C> const& block,
+                                               Eigen::Matrix<S, N, 1> const& x,
+                                               Eigen::Matrix<S, N, 1> const& g, S const& ρ) {
+  Eigen::Matrix<S, N, 1> z = -g;
+  if (detail::is_finite(ρ)) z += x / ρ;
+  Eigen::Matrix<S, N, 1> const v = slant::project(block.part(), z);
+  return {g + v, detail::support_gap<std::remove_cvref_t<C>, S, N>(block.part(), x, v)};
+}
 
 /// d and γ at x ∈ block with the gradient g; ρ = m/2 > 0, also ∞.
 template <class Block, class S, int N>

@@ -9,6 +9,7 @@
 
 #include <slant/methods/anderson_mixing.hpp>
 #include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/envelope_newton.hpp>
 #include <slant/methods/forward_backward.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/interior_point_state.hpp>
@@ -23,6 +24,7 @@
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/successive_approximations.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/unconstrained_start.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/problems/problems.hpp>

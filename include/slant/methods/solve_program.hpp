@@ -202,7 +202,7 @@ template <class QP>
 
 }  // namespace detail
 
-/// Solves min ½xᵀA x − bᵀx over Λ; see the top of this file. Requires what symmetric_newton does.
+/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this file. Requires what symmetric_newton does.
 /// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a problem that the
 /// method refuses.
 template <class QP>
@@ -210,7 +210,8 @@ template <class QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {
   detail::checked_tolerance(tolerance);
   identity_operator const I(qp.size());
-  if constexpr (may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
+  if constexpr (quadratic_program<QP> &&
+                may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
     auto d = detail::block_factors_if_needed(qp);
     if (d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));

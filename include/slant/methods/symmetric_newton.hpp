@@ -4,15 +4,14 @@
 //
 //     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ = Λ₁ × … × Λ_m                      [K (29)]
 //
-// and for any separable convex function φ in place of the indicator of Λ, prox_{ρφ} in place of P_Λ.
+// With another separable convex function than the indicator of Λ it is envelope_newton.
 //
 // It is Newton's method for the natural residual F(y) = y − P_Λ(z), z = y − ρ r(y), r(y) = A y − b.
 // With G = P_Λ°(z), x = P_Λ(z), dy = x + t − y the equation (I − G(I − ρA)) dy = −F becomes
 //
-//     (Π A Π + C/ρ) t = −Π (r(x) + v),     t ∈ range(G),  C = G⁺ − I on it ⪰ 0,  Π onto range(G),
+//     (Π A Π + C/ρ) t = −Π r(x),     t ∈ range(G),  C = G⁺ − I on it ⪰ 0,  Π onto range(G),
 //
-// v = (z − x)/ρ ∈ ∂φ(x). For a set v is normal to the face and Π v = 0; for a norm it is the force
-// that slides. The system is self-adjoint and positive definite, so that conjugate gradients solve it where [K (54)] needs
+// self-adjoint and positive definite, so that conjugate gradients solve it where [K (54)] needs
 // BiCGSTAB; and it keeps the term C that MSSN drops [K (55)], without which a sliding disc creeps.
 //
 //     project     x ← P_Λ(z), r ← A x − b                        one product
@@ -27,8 +26,7 @@
 // is accepted, KPRGP takes over at x until ‖F‖ is a tenth below its value when Newton failed; this
 // happens after finitely many of its steps, because they converge to the solution from every x ∈ Λ
 // [K Theorem 1]. So between two failures ‖F‖ falls, from failure to failure it falls by a factor,
-// and the values of ‖F‖ tend to zero whatever the start and ρ are. For a φ that is no indicator
-// forward_backward takes over instead.
+// and the values of ‖F‖ tend to zero whatever the start and ρ are.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -43,11 +41,11 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
-#include <slant/methods/forward_backward.hpp>
+#include <slant/methods/envelope_newton.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
-#include <slant/methods/proportioning.hpp>
+#include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>
@@ -69,124 +67,48 @@ namespace slant {
 // --- problem -------------------------------------------------------------------------------------
 
 /// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x); or
-/// + φ(x) as forward_backward takes it, φ of blocks with slant(ρ, z).
+/// + φ(x) as envelope_newton takes it.
 template <class QP>
 concept symmetric_newton_problem =
-    (quadratic_program<QP> ? kprgp_problem<QP> : forward_backward_problem<QP>)&&has_block_slants<
-        typename QP::set_type, local_t<typename QP::vector_type>>;
-
-// --- options -------------------------------------------------------------------------------------
-
-/// Options of symmetric_newton; the defaults are those of README's tables.
-template <scalar S = double>
-struct symmetric_newton_options {
-  /// ρ in x − P_Λ(x − ρ r), in units of 1/A; none: step_factor / mean(diag A).
-  std::optional<S> step_length{};
-  /// > 0, of the order 1. An undamped step leaves r = 0 on blocks that were free and x on its bound
-  /// where it was fixed, so that signs decide what is free next and not ρ; damped steps mix the
-  /// two. Measured on bricks (k = 4 … 16): ¼ and ½ alike, 1 up to a quarter more products. On the
-  /// wire from zero, with A⁻¹ as preconditioner, 2 needs half of the steps that ½ needs.
-  S step_factor = S(0.5);
-  mean_diagonal_options mean_diagonal{};  ///< how mean(diag A) is estimated, if it is needed
-  /// Inner accuracy. The exponent 3/2 makes the steps superlinear of that order; η_max is what a
-  /// step deserves that will be shortened; with a goal the last step is not solved too well.
-  eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.5, .η_first = 0.3};
-  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  S sufficient = S(0.1);  ///< c in (0, 1): a step of length β lowers ‖F‖ by c β ‖F‖ at least
-  index halvings = 30;   ///< β = 1, ½, …: so often at most
-  index patience = 100;  ///< steps in which ‖F‖ does not fall that mean stalled
-  kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
-
-  /// Throws bad_input naming the option, its value and what was expected.
-  [[gnu::cold]] void validate() const {
-    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
-      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
-    }
-    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
-      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
-    }
-    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (!(sufficient > S(0) && sufficient < S(1))) {
-      throw bad_input("sufficient", detail::show(sufficient), "a number in (0, 1)");
-    }
-    if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    mean_diagonal.validate();
-    forcing.validate();
-    descent.validate();
-  }
-};
+    envelope_newton_problem<QP> && (kprgp_problem<QP> || !quadratic_program<QP>);
 
 // --- descent takeover ----------------------------------------------------------------------------
 //
 // A method that converges from everywhere takes over where a faster one fails: KPRGP, until its
 // iterate is better than the point of failure by a factor. Since KPRGP converges to the solution
 // from every x ∈ Λ [K Theorem 1] this happens after finitely many of its steps; so failures cannot
-// follow one another without the residual tending to zero. So does forward_backward, for any φ.
+// follow one another without the residual tending to zero.
 
-namespace detail {
-
-/// The method that takes over. Refers to the problem; one that forgets its types is as good as a
-/// reference.
-template <class QP>
-struct descent_method {
-  using type = forward_backward<QP const&>;
-  using options = forward_backward_options<typename QP::scalar>;
-  /// For a step that is safe for KPRGP, half of it.
-  static options options_of(kprgp_options<typename QP::scalar> const& o) {
-    using S = typename QP::scalar;
-    options own{.patience = o.patience, .spectrum = o.spectrum};
-    if (o.step_length) own.step_length = *o.step_length / S(2);
-    return own;
-  }
-};
-template <kprgp_problem QP>
-struct descent_method<QP> {
-  using type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
-  using options = kprgp_options<typename QP::scalar>;
-  static options options_of(options const& o) { return o; }
-};
-
-}  // namespace detail
-
-/// That method at work on a point s that derives from gradient_point<QP>. Nothing is computed or
+/// KPRGP at work on a point s that derives from gradient_point<QP>. Nothing is computed or
 /// allocated before the first failure, σ_max included.
 template <class QP>
 class descent_takeover {
-  using kind = detail::descent_method<QP>;
-
  public:
   using scalar = typename QP::scalar;
   using options = kprgp_options<scalar>;
-  using method_type = typename kind::type;
-  using other_state = typename method_type::state_type;
+  /// Refers to the problem; one that forgets its types is as good as a reference.
+  using method_type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
 
   [[nodiscard]] bool at_work() const { return at_work_; }
   /// No longer at work: the problem has changed.
   void leave() { at_work_ = false; }
   /// How often it had to take over.
   [[nodiscard]] index count() const { return count_; }
-  /// The state of the method, once there was need for it.
-  [[nodiscard]] std::optional<other_state> const& state() const { return state_; }
+  /// The state of KPRGP, once there was need for it.
+  [[nodiscard]] std::optional<kprgp_state<QP>> const& state() const { return state_; }
 
-  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if the
-  /// method finds A or A x unusable, which it would refuse as input.
+  /// Starts at s.x; will hand back a point with ‖r̃‖ ≤ goal. Allocates. Status breakdown if KPRGP
+  /// finds A or A x unusable, which it would refuse as input.
   template <class State>
-  [[gnu::cold]] status begin(QP const& qp, options const& given, State& s, scalar const& goal) {
-    auto o = kind::options_of(given);
-    scalar σ(0);
-    if (state_) {  // σ_max is known by now
-      o.step_length = state_->step_length;
-      if constexpr (requires { state_->σ; }) σ = state_->σ;
-    }
+  [[gnu::cold]] status begin(QP const& qp, options o, State& s, scalar const& goal) {
+    scalar const σ = state_ ? state_->σ : scalar(0);
+    if (state_) o.step_length = state_->step_length;  // σ_max is known by now
     try {
       state_.emplace(method_type{qp, std::move(o)}.start(s.x));
     } catch (bad_input const&) {
       return status::breakdown;
     }
-    if constexpr (requires { state_->σ; }) {
-      if (σ > scalar(0)) state_->σ = σ;
-    }
+    if (σ > scalar(0)) state_->σ = σ;
     s.work.setup_applications += state_->work.setup_applications;
     s.work.operator_applications += state_->work.operator_applications;
     goal_ = goal;
@@ -195,20 +117,20 @@ class descent_takeover {
     return follow(qp, s);
   }
 
-  /// r from x, if the method has been updating it; whether it has. One product.
+  /// r from x, if KPRGP has been updating it; whether it has. One product.
   template <class State>
   [[gnu::cold]] bool refresh(QP const& qp, options const& o, State& s) {
-    if (!method_type{qp, kind::options_of(o)}.refresh(*state_)) return false;
+    if (!method_type{qp, o}.refresh(*state_)) return false;
     ++s.work.operator_applications;
     s.status = follow(qp, s);
     return true;
   }
 
-  /// One step of the method.
+  /// One step of KPRGP.
   template <class State>
   [[gnu::cold]] status step(QP const& qp, options const& o, State& s) {
     index const before = state_->work.operator_applications;
-    method_type const method{qp, kind::options_of(o)};
+    method_type const method{qp, o};
     method.step(*state_);
     copy(qp, s);
     // r̃ = 0 counts if r was computed from x.
@@ -218,8 +140,8 @@ class descent_takeover {
   }
 
  private:
-  /// s.x, s.r and s.reduced become those of the method's iterate, which is no longer at work if that
-  /// is good enough.
+  /// s.x, s.r and s.reduced become those of KPRGP's iterate, which is no longer at work if that is
+  /// good enough.
   template <class State>
   status follow(QP const& qp, State& s) {
     copy(qp, s);
@@ -244,7 +166,7 @@ class descent_takeover {
     return state_->status == status::converged ? status::stalled : state_->status;
   }
 
-  std::optional<other_state> state_;
+  std::optional<kprgp_state<QP>> state_;
   scalar goal_{0};
   bool at_work_ = false;
   index count_ = 0;
@@ -350,7 +272,7 @@ struct symmetric_newton_state : gradient_point<QP> {
   symmetric_newton_state(QP const& qp, M const& m, vector_type const& x0)
       : gradient_point<QP>(qp, x0),
         segment(x0, qp.size()),
-        face(function_of(qp)),
+        face(qp.set()),
         inner(x0, qp.size(), m),
         products(qp.a(), x0) {}
 
@@ -393,9 +315,10 @@ template <composite_problem QP, class M>
 struct symmetric_newton_demands<QP, M> {
   using set_type = typename QP::set_type;
   using points = local_t<typename QP::vector_type>;
-  static_assert((quadratic_program<QP> && !active_set_domain<set_type, points>) ||
-                    has_block_slants<set_type, points>,
-                "the set must be made of blocks with slant(x), a function of blocks with slant(ρ, z)");
+  static_assert(
+      (quadratic_program<QP> && !active_set_domain<set_type, points>) ||
+          has_block_slants<set_type, points>,
+      "the set must be made of blocks with slant(x), a function of blocks with slant(ρ, z)");
   static constexpr bool told =
       preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told;
 };
@@ -528,7 +451,7 @@ class symmetric_newton_steps {
     scalar β(1);
     for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
       scalar const size =
-          s.segment.residual_at(s.step_of(qp_.get()), β, s.projected, s.trial) / s.step_length;
+          s.segment.residual_at(qp_.get().set(), β, s.projected, s.trial) / s.step_length;
       scalar const enough = (scalar(1) - options_.sufficient * β) * s.residual_norm;
       if (!(enough < s.residual_norm)) return false;  // β is below the precision
       if (size <= enough) {
@@ -543,25 +466,13 @@ class symmetric_newton_steps {
   /// ρ per unit of the gradient: z = y − ρ r.
   static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
 
-  /// r + v, or r where Π v = 0. v is formed in s.trial.
-  static vector_type const& force(state_type& s) {
-    if constexpr (quadratic_program<problem>) {
-      return s.r;
-    } else {
-      vectors::difference(s.segment.z, s.x, s.trial);
-      vectors::divide(ρ(s), s.trial);
-      vectors::add(s.r, s.trial);
-      return s.trial;
-    }
-  }
-
   void newton_step(state_type& s) const {
     auto const& qp = qp_.get();
-    s.face.assign(s.step_of(qp), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
+    s.face.assign(qp.set(), slant::local(s.segment.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
     auto const inner =
-        s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), force(s), s.face,
-                            s.step_length, s.preconditioner_size, target, options_.inner_steps);
+        s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
+                            s.preconditioner_size, target, options_.inner_steps);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;
@@ -704,11 +615,22 @@ bool symmetric_newton_steps<QP, M>::refresh(state_type& s) const {
 /// Statuses of its own: converged (r̃ = 0); stalled (the precision is exhausted); unbounded (only if
 /// A is not declared definite); breakdown.
 template <class QP, class M>
-  requires symmetric_newton_problem<std::remove_cvref_t<QP>> &&
+  requires quadratic_program<std::remove_cvref_t<QP>> &&
+           symmetric_newton_problem<std::remove_cvref_t<QP>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
 class symmetric_newton<QP, M> : public detail::symmetric_newton_steps<QP, M> {
  public:
   using symmetric_newton::symmetric_newton_steps::symmetric_newton_steps;
+};
+
+/// With a function that is no indicator: envelope_newton.
+template <class QP, class M>
+  requires(!quadratic_program<std::remove_cvref_t<QP>>) &&
+          symmetric_newton_problem<std::remove_cvref_t<QP>> &&
+          preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class symmetric_newton<QP, M> : public envelope_newton<QP, M> {
+ public:
+  using symmetric_newton::envelope_newton::envelope_newton;
 };
 
 #if SLANT_USES_COMPILED

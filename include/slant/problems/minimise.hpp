@@ -5,7 +5,11 @@
 //     auto const program = slant::minimise(slant::quadratic(A, b)).over(half_lines(n) * discs(g));
 //     auto const run = slant::solve(program, 1e-8);
 //
-// is separable_qp{A, b, Λ}, the problem min ½ xᵀA x − bᵀx over x ∈ Λ.
+// is separable_qp{A, b, Λ}, the problem min ½ xᵀA x − bᵀx over x ∈ Λ, and
+//
+//     auto const program = slant::minimise(slant::quadratic(A, b) + slant::support(discs(g)));
+//
+// is separable_qp{A, b, φ}, the problem min ½ xᵀA x − bᵀx + Σ gᵢ‖xᵢ‖.
 #pragma once
 
 #include <slant/problems/separable_qp.hpp>
@@ -50,6 +54,24 @@ class minimisation {
 template <class A, class V>
 [[nodiscard]] minimisation<A, V> minimise(quadratic_function<A, V> q) {
   return minimisation<A, V>(std::move(q));
+}
+
+/// q + φ. A function passed as an lvalue is referenced.
+template <class A, class V, class F>
+struct composite_function {
+  quadratic_function<A, V> q;
+  held<F> φ;
+};
+template <class A, class V, class F>
+  requires proximable<std::remove_cvref_t<F>, local_t<std::remove_cvref_t<V>>>
+[[nodiscard]] auto operator+(quadratic_function<A, V> q, F&& φ) {
+  return composite_function<A, V, kept_t<F>>{std::move(q), held<kept_t<F>>(std::forward<F>(φ))};
+}
+
+/// min q(x) + φ(x). @throws bad_input if sizes differ or b has an entry that is not finite.
+template <class A, class V, class F>
+[[nodiscard]] auto minimise(composite_function<A, V, F> f) {
+  return separable_qp<A, V, F>(std::move(f.q.a), std::move(f.q.b), std::move(f.φ));
 }
 
 }  // namespace slant

@@ -20,8 +20,7 @@
 namespace slant {
 
 /// A function that is no set, for points of its own kind.
-template <class F>
-concept function_part = has_prox<F, point_t<F>>;
+template <class F> concept function_part = has_prox<F, point_t<F>>;
 
 /// prox_{ρφ}. F is `Function const&` (referenced) or a function type (owned).
 template <class F, class S>
@@ -77,6 +76,12 @@ class proximal_step : public detail::static_size<static_dimension_of<F>> {
   held<F> φ_;
   S ρ_;
 };
+
+/// A proximal step that is no projection.
+template <class C>
+inline constexpr bool function_step = false;
+template <class F, class S>
+inline constexpr bool function_step<proximal_step<F, S>> = true;
 
 /// z ↦ prox_{ρφ}(z) of a function, which is kept like any part; a set comes back as it is.
 template <class F, class S>

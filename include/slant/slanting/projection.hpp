@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The projection onto a convex set as a slanting function: P(y) and P°(y) = set.slant(y), which is
-// symmetric with 0 ⪯ P° ⪯ I for every convex set, so the laws come with it.
+// symmetric with 0 ⪯ P° ⪯ I for every convex set, so the laws come with it. The proximal map of a
+// function is one too: projection(at_step(φ, ρ)).
 #pragma once
 
 #include <slant/concepts/convex_set.hpp>
+#include <slant/sets/proximal_step.hpp>
 #include <slant/sets/slants.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
@@ -63,7 +65,7 @@ class projection_map : public slanting_base {
   }
 
   [[nodiscard]] detail::written write(detail::written const& y) const {
-    return {"P(" + y.text + ")", false};
+    return {(function_step<set_type> ? "prox(" : "P(") + y.text + ")", false};
   }
 
  private:

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+//
+// Symmetric semismooth Newton method for a quadratic plus any separable convex function,
+//
+//     minimise   q(x) + φ(x),      q(x) = ½ xᵀA x − bᵀx,   r(x) = A x − b,
+//
+// globalised by the forward–backward envelope. It is Newton's method for
+//
+//     F(y) = y − prox_{ρφ}(z),     z = y − ρ r(y).
+//
+// With x = prox_{ρφ}(z), v = (z − x)/ρ ∈ ∂φ(x), G a slanting operator of the proximal map at z and
+// Π, C as in methods/symmetric_newton.hpp, the step from x is
+//
+//     (Π A Π + C/ρ) t = −Π (r(x) + v),     t ∈ range(G).
+//
+// For a set Π v = 0, and this is the system there. For φ = g‖·‖ a block that sticks is fixed, and one
+// that slides has C/ρ = (g/‖x‖)(I − n nᵀ), n = z/‖z‖.
+//
+//     x ← prox_{ρφ}(z), r ← A x − b                          one product
+//     ρ ← ρ/2 while (x − y)ᵀA (x − y) > α ‖x − y‖²/ρ         from the gradients: a product each time
+//     t and A t by conjugate gradients                       one product a step
+//     y ← x + β t, β = 1, ½, … until the envelope has fallen    no product; β = 0 always does
+//
+// The envelope [Patrinos, Bemporad 2013; Themelis, Stella, Patrinos 2018, ZeroFPR]
+//
+//     E(y) = q(y) + min_w  r(y)ᵀ(w − y) + ‖w − y‖²/(2ρ) + φ(w),      the minimum at w = prox_{ρφ}(z),
+//
+// has the minimum and the minimisers of q + φ if ρ < 1/σ_max, and E(x) ≤ E(y) − (1 − α)/(2ρ) ‖x − y‖².
+// So the iteration converges from everywhere, and steps are full and superlinear near a solution
+// with an invertible system.
+#pragma once
+
+#include <slant/base/diagnosis.hpp>
+#include <slant/base/held.hpp>
+#include <slant/base/progress_watch.hpp>
+#include <slant/base/report.hpp>
+#include <slant/base/vector_algebra.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/proximable.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/preconditioner.hpp>
+#include <slant/methods/parts/curved_minimum.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
+#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/newton/forcing.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/problems/quadratic_program.hpp>
+#include <slant/sets/block_queries.hpp>
+#include <slant/sets/curved_face.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant {
+
+// --- problem -------------------------------------------------------------------------------------
+
+/// min ½ xᵀA x − bᵀx + φ(x), A symmetric positive semidefinite, φ of blocks with slant(ρ, z); or over
+/// a set of blocks with slant(x).
+template <class QP>
+concept envelope_newton_problem =
+    composite_problem<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
+    has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
+
+// --- state ---------------------------------------------------------------------------------------
+
+/// State of envelope_newton: x = prox_{ρφ}(z) with its gradient r, computed from x, and its reduced
+/// gradient (x − prox_{ρφ}(x − ρ r))/ρ; ρ is step_length.
+template <class QP, class M>
+struct envelope_newton_state : gradient_point<QP> {
+  using typename gradient_point<QP>::vector_type;
+  using typename gradient_point<QP>::scalar;
+
+  vector_type y;                         ///< Newton's iterate
+  vector_type gradient;                  ///< r(y), in multiples of unit
+  vector_type z;                         ///< y − ρ r(y)
+  curved_face<scalar> face;              ///< range(G) and C at z
+  curved_minimum<vector_type, M> inner;  ///< the step t on it
+  forcing_history<scalar> forcing{};     ///< errors and inner tolerances so far
+  progress_watch<scalar> progress;       ///< looks for steps that get nowhere
+
+  scalar value{0};                ///< E(y) / unit
+  scalar value_noise{0};          ///< what of it rounding errors may be
+  scalar residual_norm{0};        ///< ‖F(y)‖/ρ, in units of the gradient
+  scalar preconditioner_size{1};  ///< s = mean(diag M)
+  scalar step_fraction{1};        ///< β of the last Newton step
+  bool at_projection = false;     ///< x = prox_{ρφ}(z)
+  index inner_iterations = 0;     ///< of the last Newton step
+  index shortened = 0;            ///< how often ρ was made smaller
+  index iteration = 0;
+  slant::status status = slant::status::running;
+
+  envelope_newton_state(QP const& qp, M const& m, vector_type const& x0)
+      : gradient_point<QP>(qp, x0),
+        y(x0),
+        gradient(x0),
+        z(x0),
+        face(function_of(qp)),
+        inner(x0, qp.size(), m) {}
+
+  /// What a status other than running means here.
+  [[nodiscard, gnu::cold]] std::string reason() const {
+    switch (status) {
+      case slant::status::converged:
+        return "the reduced gradient is zero: x is the solution";
+      case slant::status::stalled:
+        return "no step lowers the residual any further at this precision: " + this->accuracy();
+      case slant::status::breakdown:
+        return "a number left the range of the scalar, or A is not semidefinite";
+      default:
+        return std::string(to_string(status));
+    }
+  }
+};
+
+// --- method --------------------------------------------------------------------------------------
+
+/// The method at the top of this file: solve(envelope_newton{qp}, x0, reduced_gradient_below(1e-8) ||
+/// at_most(100)); envelope_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Begins at
+/// prox(x0). Statuses of its own: converged (r̃ = 0), stalled, breakdown. Of the options
+/// sufficient, descent and the exponents of sets have no part here.
+template <class QP, class M = identity_operator>
+  requires envelope_newton_problem<std::remove_cvref_t<QP>> &&
+           preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
+class envelope_newton {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = symmetric_newton_options<scalar>;
+  using state_type = envelope_newton_state<problem, preconditioner>;
+  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+
+  explicit envelope_newton(held<QP> qp)
+    requires(!preconditioned)
+      : envelope_newton(std::move(qp), options{}) {}
+  /// Throws bad_input for options out of range.
+  envelope_newton(held<QP> qp, options o)
+    requires(!preconditioned)
+      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
+    options_.validate();
+  }
+  envelope_newton(held<QP> qp, held<M> m)
+      : envelope_newton(std::move(qp), std::move(m), options{}) {}
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  envelope_newton(held<QP> qp, held<M> m, options o)
+      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
+    detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
+    detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
+    options_.validate();
+  }
+
+  /// The state of prox(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
+  /// ρ is not a finite number.
+  [[nodiscard]] state_type start(vector_type const& x0) const {
+    detail::check_start_in_set(x0, qp_.get().b());
+    state_type s(qp_.get(), m_.get(), x0);
+    set_sizes(s);
+    begin(s, s.begin(qp_.get(), x0));
+    return s;
+  }
+
+  /// One Newton step.
+  void step(state_type& s) const {
+    if (s.status != status::running) return;
+    if (!s.at_projection) advance(s);
+    if (s.status == status::running) newton_step(s);
+    ++s.iteration;
+    if (s.status == status::running &&
+        s.progress.stalled(s.iteration, s.residual_norm, options_.patience, s.rounding())) {
+      s.status = status::stalled;
+    }
+  }
+
+  /// Goes on from s.x after b of the problem has changed. One product; no allocation.
+  void resume(state_type& s) const {
+    s.status = status::running;
+    s.progress = {};
+    static_cast<void>(s.gradient_and_unit(qp_.get()));
+    s.reduce(qp_.get());
+    begin(s, false);
+  }
+  /// As start(x0), in a state that start has made, after b or φ of the problem have changed. x0 must
+  /// not be s.x. One product; no allocation.
+  void resume(state_type& s, vector_type const& x0) const {
+    detail::check_start_in_set(x0, qp_.get().b());
+    s.progress = {};
+    s.iteration = s.inner_iterations = s.shortened = 0;
+    s.status = status::running;
+    begin(s, s.begin_again(qp_.get(), x0));
+  }
+  /// r from x: it always is.
+  bool refresh(state_type&) const { return false; }
+
+ private:
+  static constexpr scalar share = scalar(0.95);  // α
+  static constexpr scalar decrease = scalar(0.01);  // of E, in units of ‖x − y‖²/ρ; < (1 − α)/2
+
+  /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
+  [[gnu::noinline]] void set_sizes(state_type& s) const {
+    if (options_.step_length) {
+      s.step_length = *options_.step_length;
+    } else {
+      auto const step = mean_step(qp_.get().a(), s.x, options_.step_factor, options_.mean_diagonal);
+      s.step_length = step.length;
+      s.work.setup_applications += step.applications;
+    }
+    if constexpr (!preconditioned ||
+                  preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
+      s.preconditioner_size = s.step_length / options_.step_factor;
+    } else {
+      s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
+    }
+  }
+
+  /// y = x; prox(z) is in s.projected, as s.reduce has left it.
+  void begin(state_type& s, bool solved) const {
+    stay(s);
+    s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
+    s.forcing.first_error = s.gradient_scale;
+    judge(s);
+    if (solved) s.status = status::converged;
+  }
+  void stay(state_type& s) const {
+    vectors::copy(s.x, s.y);
+    vectors::copy(s.r, s.gradient);
+    vectors::waxpy(-ρ(s), s.r, s.x, s.z);
+    s.at_projection = false;
+    measure(s);
+  }
+  static void judge(state_type& s) {
+    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
+    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+  }
+
+  /// ρ per unit of the gradient: z = y − ρ r.
+  static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
+
+  /// E(y) and ‖F(y)‖ from y, r(y) and w = prox(z) in s.projected.
+  void measure(state_type& s) const {
+    auto const& b = qp_.get().b();
+    vectors::difference(s.projected, s.y, s.trial);
+    scalar const way = norm(s.trial);
+    scalar const near = way * (way / ρ(s)) / scalar(2);
+    scalar const steep = inner_product(s.gradient, s.trial);
+    scalar const with_r = inner_product(s.y, s.gradient), with_b = inner_product(s.y, b) / s.unit;
+    scalar extra(0);
+    if constexpr (!quadratic_program<problem>) {
+      extra = function_value(function_of(qp_.get()), slant::local(s.projected)) / s.unit;
+    }
+    s.value = (with_r - with_b) / scalar(2) + steep + near + extra;
+    scalar const slope = norm(s.gradient), bent = extra < scalar(0) ? -extra : extra;
+    s.value_noise = scalar(16) * std::numeric_limits<scalar>::epsilon() *
+                    (norm(s.y) * (slope + s.size_of_b) + way * slope + near + bent);
+    s.residual_norm = way / s.step_length;
+  }
+
+  /// x = prox(z) with r and r̃, and a ρ that fits the curvature of q on the way there.
+  void advance(state_type& s) const {
+    auto const& qp = qp_.get();
+    constexpr index most = 100;  // halvings of ρ
+    for (index k = 0; k < most; ++k) {
+      std::swap(s.x, s.projected);
+      scalar const before = s.unit;
+      if (s.gradient_and_unit(qp)) {
+        vectors::scale(before / s.unit, s.gradient);
+        s.value *= before / s.unit;
+        s.value_noise *= before / s.unit;
+      }
+      vectors::difference(s.x, s.y, s.trial);
+      vectors::difference(s.r, s.gradient, s.reduced);
+      scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
+      scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
+                           (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / ρ(s));
+      scalar const allowed = share * way * (way / ρ(s));
+      if (!(bend > allowed + noise)) break;
+      scalar const fitting = s.step_length * (allowed / bend);
+      s.step_length = std::min<scalar>(s.step_length / scalar(2), fitting);
+      ++s.shortened;
+      vectors::waxpy(-ρ(s), s.gradient, s.y, s.z);
+      slant::project(s.step_of(qp), slant::local(s.z), slant::local(s.projected));
+      measure(s);
+    }
+    s.reduce(qp);
+    s.at_projection = true;
+    judge(s);
+  }
+
+  /// Π (r + v) is the gradient on the face; v = (z − x)/ρ, which a set has normal to its faces.
+  static vector_type const& force(state_type& s) {
+    if constexpr (quadratic_program<problem>) {
+      return s.r;
+    } else {
+      vectors::difference(s.z, s.x, s.trial);
+      vectors::divide(ρ(s), s.trial);
+      vectors::add(s.r, s.trial);
+      return s.trial;
+    }
+  }
+
+  void newton_step(state_type& s) const {
+    auto const& qp = qp_.get();
+    s.face.assign(s.step_of(qp), slant::local(s.z), s.preconditioner_size / s.step_length);
+    scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
+    auto const inner =
+        s.inner.minimise(qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length,
+                         s.preconditioner_size, target, options_.inner_steps);
+    s.inner_iterations = inner.iterations;
+    s.work.inner_iterations += inner.iterations;
+    s.work.operator_applications += inner.iterations;
+    if (!inner.finite) {
+      s.status = status::breakdown;
+      return;
+    }
+    if (shorten(s)) {
+      s.at_projection = false;
+      s.forcing.record(s.residual_norm);
+      advance(s);
+      return;
+    }
+    if (s.residual_norm <= s.rounding() && s.reduced_gradient_norm <= s.rounding()) {
+      s.status = status::stalled;
+      return;
+    }
+    s.step_fraction = scalar(0);
+    slant::project(s.step_of(qp), slant::local(s.z), slant::local(s.projected));
+    s.reduce(qp);  // leaves prox(x − ρ r) in s.projected
+    stay(s);
+    s.forcing.record(s.residual_norm);
+    advance(s);
+  }
+
+  /// The longest β = 2⁻ʲ for which E(x + β t) is low enough. Spends no product.
+  bool shorten(state_type& s) const {
+    constexpr scalar least = scalar(1) / scalar(1024);  // x itself is as good then
+    scalar const value = s.value, noise = s.value_noise, residual = s.residual_norm;
+    vectors::difference(s.x, s.y, s.trial);
+    scalar const way = norm(s.trial);
+    scalar const enough = value - decrease * way * (way / ρ(s));
+    scalar β(1);
+    for (index j = 0; j <= options_.halvings && β >= least; ++j, β /= scalar(2)) {
+      vectors::waxpy(β * s.unit, s.inner.t, s.x, s.y);
+      vectors::waxpy(β, s.inner.image, s.r, s.gradient);
+      vectors::waxpy(-ρ(s), s.gradient, s.y, s.z);
+      slant::project(s.step_of(qp_.get()), slant::local(s.z), slant::local(s.projected));
+      measure(s);
+      // Where the values differ by rounding only, ‖F‖ decides.
+      bool const level = s.value <= value + noise && s.residual_norm < residual / scalar(2);
+      if (s.value <= enough || (noise >= decrease * way * (way / ρ(s)) && level)) {
+        s.step_fraction = β;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
+};
+
+template <class QP>
+envelope_newton(QP&&) -> envelope_newton<kept_t<QP>>;
+template <class QP>
+envelope_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> envelope_newton<kept_t<QP>>;
+template <class QP, class M>
+envelope_newton(QP&&, M&&) -> envelope_newton<kept_t<QP>, kept_t<M>>;
+template <class QP, class M>
+envelope_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+    -> envelope_newton<kept_t<QP>, kept_t<M>>;
+
+}  // namespace slant

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+//
+// q + φ with functions that are no indicators. References: the dual problem min ½ (b − v)ᵀA⁻¹(b − v)
+// over v ∈ Λ by KPRGP, whose x = A⁻¹(b − v) minimises q + σ_Λ; and the optimality conditions,
+// written down by hand.
+#include <slant/iteration/solve.hpp>
+
+#include <slant/certificates/energy_certificate.hpp>
+#include <slant/methods/forward_backward.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/solve_program.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/newton/semismooth_newton.hpp>
+#include <slant/operators/counted.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/problems/minimise.hpp>
+#include <slant/sets/sets.hpp>
+#include <slant/slanting/natural_residual.hpp>
+
+#include <doctest/doctest.h>
+
+#include <krylov/spd_matrices.hpp>
+#include "support/allocation_guard.hpp"
+#include "support/message.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace composite_test {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using slant::support;
+
+/// 24 unknowns: a box, discs (one of radius 0), balls in space, a half line, which bounds from above.
+struct scene {
+  MatrixXd A;
+  VectorXd b = 3 * test::random_vector(24, 5);
+  VectorXd w{{0.5, 2.0, 0.1, 1.0}};
+  VectorXd g{{0.5, 0.0, 2.0, 1.0}};
+
+  explicit scene(double κ, unsigned seed = 1)
+      : A(test::with_spectrum(test::log_spaced(24, κ), seed)) {}
+
+  [[nodiscard]] auto set() const {
+    return slant::cartesian(slant::intervals(w), slant::discs(g),
+                            slant::power(slant::ball<3>(0.7), 2), slant::half_lines(2),
+                            slant::power(slant::ellipse(2.0, 0.25), 2));
+  }
+  /// From the dual problem.
+  [[nodiscard]] VectorXd solution() const {
+    MatrixXd const inverse = A.inverse();
+    auto const S = test::spd(MatrixXd((inverse + inverse.transpose()) / 2));
+    auto const Λ = set();
+    slant::separable_qp const dual{S, VectorXd(inverse * b), Λ};
+    auto const v = slant::solve(slant::kprgp{dual}, VectorXd(VectorXd::Zero(24)),
+                                slant::reduced_gradient_below(1e-14) || slant::at_most(200000));
+    return inverse * (b - v.x());
+  }
+};
+
+TEST_CASE("q + σ: the solution of the dual problem, in a few superlinear steps") {
+  for (double const κ : {30.0, 1e3, 1e5}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      CAPTURE(κ);
+      CAPTURE(seed);
+      scene const s(κ, seed);
+      VectorXd const exact = s.solution();
+      auto const A = test::spd(s.A);
+      auto const program = slant::minimise(slant::quadratic(A, s.b) + support(s.set()));
+      for (double const size : {0.0, 10.0, 1e8}) {
+        VectorXd const x0 = size * test::random_vector(24, seed + 90);
+        auto const r = slant::solve(
+            slant::symmetric_newton{program}, x0,
+            slant::reduced_gradient_below(κ > 1e4 ? 1e-10 : 1e-12) || slant::at_most(80));
+        CAPTURE(size);
+        CHECK(r.converged());
+        CHECK((r.x() - exact).norm() <= 1e-10 * κ * exact.norm());
+        CHECK(r.iterations() <= 40);
+      }
+      auto const slow = slant::solve(slant::forward_backward{program}, VectorXd(VectorXd::Zero(24)),
+                                     slant::reduced_gradient_below(1e-10) || slant::at_most(50000));
+      CHECK(slow.converged());
+      CHECK((slow.x() - exact).norm() <= 1e-9 * κ * exact.norm());
+    }
+  }
+}
+
+TEST_CASE("sets and functions side by side: normal gaps and friction") {
+  Index const m = 8;
+  MatrixXd const M = test::with_spectrum(test::log_spaced(3 * m, 200), 3);
+  auto const A = test::spd(M);
+  VectorXd const b = 2 * test::random_vector(3 * m, 8);
+  VectorXd const g = VectorXd::LinSpaced(m, 0, 4);
+  auto const φ = slant::separable_sum(slant::half_lines(m), support(slant::discs(g)));
+  slant::separable_qp const program{A, b, φ};
+  auto const r = slant::solve(slant::symmetric_newton{program}, VectorXd(VectorXd::Zero(3 * m)),
+                              slant::reduced_gradient_below(1e-13) || slant::at_most(60));
+  REQUIRE(r.converged());
+  VectorXd const force = b - M * r.x();  // ∈ ∂φ(x)
+  double const size = b.norm();
+  Index sticks = 0, slides = 0, touches = 0;
+  for (Index i = 0; i < m; ++i) {
+    double const x = r.x()[i], f = force[i];
+    CHECK(x >= 0);
+    CHECK(f <= 1e-11 * size);
+    CHECK(std::abs(x * f) <= 1e-11 * size);
+    touches += x == 0;
+    Eigen::Vector2d const u = r.x().segment<2>(m + 2 * i), t = force.segment<2>(m + 2 * i);
+    CHECK(t.norm() <= g[i] + 1e-11 * size);
+    CHECK(std::abs(t.dot(u) - g[i] * u.norm()) <= 1e-11 * size);
+    (u.norm() == 0 ? sticks : slides) += 1;
+  }
+  CHECK(sticks > 0);
+  CHECK(slides > 0);
+  CHECK(touches > 0);
+}
+
+TEST_CASE("the same steps as Newton's method for the natural residual") {
+  scene const p(100);
+  auto const A = test::spd(p.A);
+  auto const φ = support(p.set());
+  slant::separable_qp const program{A, p.b, φ};
+  VectorXd const x0 = VectorXd::Zero(24);
+  slant::symmetric_newton_options<double> exact;
+  exact.forcing = {.γ = 1e-14, .exponent = 2, .η_max = 1e-14, .η_first = 1e-14};
+  exact.step_length = 0.9 / p.A.operatorNorm();
+  slant::symmetric_newton const method{program, exact};
+  auto s = method.start(x0);
+  slant::semismooth_newton const generic{slant::natural_residual(A, p.b, φ, s.step_length),
+                                         slant::direct_solver{}};
+  auto g = generic.start(s.x);
+  int compared = 0;
+  for (int k = 0; k < 12 && s.status == slant::status::running; ++k) {
+    method.step(s);
+    if (s.step_fraction != 1.0) break;  // the two searches differ
+    generic.step(g);
+    if (g.length != 1.0) break;
+    CHECK((s.y - g.x).norm() <= 1e-10 * (1 + g.x.norm()));
+    ++compared;
+  }
+  CHECK(compared >= 3);
+}
+
+TEST_CASE("units do not matter, steps do not allocate, products are counted") {
+  scene const p(100);
+  VectorXd const exact = p.solution();
+  for (double const unit : {1e-120, 1.0, 1e120}) {
+    for (double const length : {1e-20, 1.0, 1e20}) {
+      CAPTURE(unit);
+      CAPTURE(length);
+      auto const A = slant::counted(test::spd(MatrixXd(p.A * (unit / length))));
+      VectorXd const b = p.b * unit, w = p.w * unit, g = p.g * unit;
+      auto const φ = slant::separable_sum(
+          support(slant::intervals(w)), support(slant::discs(g)),
+          support(slant::power(slant::ball<3>(0.7 * unit), 2)), support(slant::half_lines(2)),
+          support(slant::power(slant::ellipse(2.0 * unit, 0.25 * unit), 2)));
+      slant::separable_qp const program{A, b, φ};
+      slant::symmetric_newton const method{program};
+      auto s = method.start(VectorXd(VectorXd::Zero(24)));
+      slant::index shorter = 0;
+      for (int k = 0; k < 40 && s.status == slant::status::running; ++k) {
+        auto const before = A.applications();
+        std::size_t allocations = 0;
+        {
+          slant::testing::allocation_guard const guard;
+          method.step(s);
+          allocations = guard.count();
+        }
+        CHECK(allocations == 0);
+        CHECK(A.applications() - before ==
+              s.inner_iterations + (k == 0 ? 2 : 1) + s.shortened - shorter);
+        shorter = s.shortened;
+        if (s.reduced_gradient_norm <= 1e-12 * s.gradient_scale) break;
+      }
+      CHECK((s.x / length - exact).norm() <= 1e-9 * exact.norm());
+    }
+  }
+}
+
+TEST_CASE("the certificate: never below the error by more than it may be, and not far above it") {
+  double worst = 0, sharpest = 1e300;
+  for (double const κ : {30.0, 1e4, 1e7}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      scene const p(κ, seed);
+      auto const A = test::spd(p.A);
+      auto const φ = support(p.set());
+      slant::separable_qp const program{A, p.b, φ};
+      slant::symmetric_newton const method{program};
+      auto const end = slant::solve(method, VectorXd(VectorXd::Zero(24)),
+                                    slant::reduced_gradient_below(1e-14) || slant::at_most(200));
+      VectorXd const exact = end.x();
+      slant::energy_certificate certificate(program);
+      auto s = method.start(VectorXd(VectorXd::Zero(24)));
+      for (int k = 0; k < 40 && s.status == slant::status::running; ++k) {
+        method.step(s);
+        VectorXd const e = s.x - exact;
+        double const truth = std::sqrt(e.dot(p.A * e)) / std::sqrt(exact.dot(p.A * exact));
+        if (truth < 1e-10) break;
+        double const claimed = certificate(s.x).relative();
+        CAPTURE(κ);
+        CAPTURE(truth);
+        CAPTURE(claimed);
+        CHECK(claimed >= 0.7 * truth);
+        if (truth < 1e-3) {
+          worst = std::max(worst, claimed / truth);
+          sharpest = std::min(sharpest, claimed / truth);
+        }
+      }
+    }
+  }
+  MESSAGE("claimed over true: ", sharpest, " to ", worst);
+  CHECK(worst <= 100);
+  scene const p(1e4);
+  auto const A = test::spd(p.A);
+  auto const run = slant::solve(slant::minimise(slant::quadratic(A, p.b) + support(p.set())), 1e-9);
+  VectorXd const e = run.x() - p.solution();
+  CHECK(run.converged());
+  CHECK(std::sqrt(e.dot(p.A * e)) <= 1e-8 * std::sqrt(run.x().dot(p.A * run.x())));
+}
+
+TEST_CASE("forward–backward: the projected gradient method, options, and what it refuses") {
+  scene const p(100);
+  auto const A = test::spd(p.A);
+  auto const Λ = p.set();
+  slant::separable_qp const qp{A, p.b, Λ};
+  VectorXd const x0 = VectorXd::Zero(24);
+  auto const reference = slant::solve(slant::kprgp{qp}, x0,
+                                      slant::reduced_gradient_below(1e-13) || slant::at_most(5000));
+  auto const stop = slant::reduced_gradient_below(1e-11) || slant::at_most(20000);
+  auto const fast = slant::solve(slant::forward_backward{qp}, x0, stop);
+  slant::forward_backward_options<double> plain;
+  plain.extrapolate = false;
+  auto const slow = slant::solve(slant::forward_backward{qp, plain}, x0, stop);
+  for (auto const& r : {fast, slow}) {
+    CHECK(r.converged());
+    CHECK((r.x() - reference.x()).norm() <= 1e-8 * reference.x().norm());
+    CHECK(r.state.work.operator_applications <= r.iterations() + 2);
+  }
+  CHECK(fast.iterations() < slow.iterations());
+
+  slant::forward_backward_options<double> o;
+  o.step_length = -1.0;
+  CHECK(test::complaint([&] {
+          slant::forward_backward{qp, o};
+        }) == "step_length: got -1, expected a number > 0");
+  CHECK(test::complaint([&] {
+          static_cast<void>(slant::separable_qp{A, p.b, support(slant::intervals(p.w))});
+        }).find("dimension of the function: got 4") != std::string::npos);
+}
+
+}  // namespace composite_test
