@@ -69,9 +69,7 @@ class face_correction {
     face.keep(z_, r_);
     scalar const unit = unit_near(slant::norm(r_));
     vectors::divide(unit, r_);
-    if constexpr (preconditions_faces<M, V, Face>) {
-      if (face.curved_count() == 0) m.enter(face, m_workspace_);
-    }
+    enter_face(m, face, scalar(scalar(1) / ρ), m_workspace_);
     scalar gz(0), sum(0), recent(0), stiffest(0);
     auto const is_rounding = [&] {
       return sizes &&

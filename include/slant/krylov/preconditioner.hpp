@@ -31,6 +31,12 @@ concept preconditions_faces =
       { face.curved_count() } -> std::convertible_to<index>;
     };
 
+/// One that knows H = Π A Π + κ C with the curvature C of the face as well: enter(face, κ, w).
+template <class M, class V, class Face>
+concept preconditions_curved_faces =
+    preconditions_faces<M, V, Face> && requires(M const& m, Face const& face, scalar_t<V> const& κ,
+                                                workspace_t<M, V>& w) { m.enter(face, κ, w); };
+
 // --- face preconditioner -------------------------------------------------------------------------
 //
 // A preconditioner for H = Π A Π + C/ρ on a face (sets/curved_face.hpp), made of M ≈ A⁻¹.
@@ -42,7 +48,18 @@ concept preconditions_faces =
 //
 // is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
 // leaves z = s W g, and z = W g does as well. An M that knows the inverse on a face
-// (preconditions_faces) is asked for that where all is flat.
+// (preconditions_faces) is asked for that where all is flat, one that knows it with curvature
+// always.
+
+/// What m has to know of a face before precondition_on_face; κ = 1/ρ.
+template <class M, class Face, class S, class WM>
+void enter_face(M const& m, Face const& face, S const& κ, WM& of_m) {
+  if constexpr (requires { m.enter(face, κ, of_m); }) {
+    m.enter(face, κ, of_m);
+  } else if constexpr (requires { m.enter(face, of_m); }) {
+    if (face.curved_count() == 0) m.enter(face, of_m);
+  }
+}
 
 /// z for g ∈ range(G); `weighed` is scratch, of no size without an M.
 template <class M, class Face, class V, class WM>
@@ -52,7 +69,7 @@ void precondition_on_face(M const& m, Face const& face, scalar_t<V> const& s, V 
     face.weigh(g, z);
   } else {
     if constexpr (preconditions_faces<M, V, Face>) {
-      if (face.curved_count() == 0) {
+      if (preconditions_curved_faces<M, V, Face> || face.curved_count() == 0) {
         m.apply_on_face(g, z, of_m);
         return;
       }

@@ -89,9 +89,10 @@ struct envelope_newton_state : gradient_point<QP> {
   scalar residual_norm{0};        ///< ‖F(y)‖/ρ, in units of the gradient
   scalar preconditioner_size{1};  ///< s = mean(diag M)
   scalar step_fraction{1};        ///< β of the last Newton step
-  bool at_projection = false;     ///< x = prox_{ρφ}(z)
-  index inner_iterations = 0;     ///< of the last Newton step
-  index shortened = 0;            ///< how often ρ was made smaller
+  scalar energy_estimate{0};  ///< ‖Π(r + v)‖_M at x before the last step, about ‖x − x*‖_A
+  bool at_projection = false;  ///< x = prox_{ρφ}(z)
+  index inner_iterations = 0;  ///< of the last Newton step
+  index shortened = 0;         ///< how often ρ was made smaller
   index iteration = 0;
   slant::status status = slant::status::running;
 
@@ -107,7 +108,9 @@ struct envelope_newton_state : gradient_point<QP> {
   [[nodiscard, gnu::cold]] std::string reason() const {
     switch (status) {
       case slant::status::converged:
-        return "the reduced gradient is zero: x is the solution";
+        return this->reduced_gradient_norm == scalar(0)
+                   ? "the reduced gradient is zero: x is the solution"
+                   : "the energy error is estimated at " + detail::show(energy_estimate);
       case slant::status::stalled:
         return "no step lowers the residual any further at this precision: " + this->accuracy();
       case slant::status::breakdown:
@@ -199,6 +202,9 @@ class envelope_newton {
   bool refresh(state_type&) const { return false; }
 
  private:
+  /// ρ is this many times as long at first: blocks change their states further off, and where it is
+  /// too long it is made shorter. On bricks with friction a third of the steps.
+  static constexpr scalar first = scalar(4);
   static constexpr scalar share = scalar(0.95);  // α
   static constexpr scalar decrease = scalar(0.01);  // of E, in units of ‖x − y‖²/ρ; < (1 − α)/2
 
@@ -207,13 +213,14 @@ class envelope_newton {
     if (options_.step_length) {
       s.step_length = *options_.step_length;
     } else {
-      auto const step = mean_step(qp_.get().a(), s.x, options_.step_factor, options_.mean_diagonal);
+      auto const step =
+          mean_step(qp_.get().a(), s.x, first * options_.step_factor, options_.mean_diagonal);
       s.step_length = step.length;
       s.work.setup_applications += step.applications;
     }
     if constexpr (!preconditioned ||
                   preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
-      s.preconditioner_size = s.step_length / options_.step_factor;
+      s.preconditioner_size = s.step_length / (first * options_.step_factor);
     } else {
       s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
     }
@@ -308,14 +315,20 @@ class envelope_newton {
     auto const& qp = qp_.get();
     s.face.assign(s.step_of(qp), slant::local(s.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
-    auto const inner =
-        s.inner.minimise(qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length,
-                         s.preconditioner_size, target, options_.inner_steps);
+    auto const inner = s.inner.minimise(
+        qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length, s.preconditioner_size,
+        target, options_.inner_steps, scalar(0), options_.energy_goal / s.unit);
+    s.energy_estimate = inner.first_energy * s.unit;
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;
     if (!inner.finite) {
       s.status = status::breakdown;
+      return;
+    }
+    bool const asks = options_.energy_goal > scalar(0);
+    if (asks && inner.iterations == 0 && s.energy_estimate <= options_.energy_goal) {
+      s.status = status::converged;
       return;
     }
     if (shorten(s)) {

@@ -29,6 +29,9 @@ struct symmetric_newton_options {
   eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.5, .η_first = 0.3};
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
   S sufficient = S(0.1);  ///< c in (0, 1): a step of length β lowers ‖F‖ by c β ‖F‖ at least
+  /// Of envelope_newton with a preconditioner that knows faces: ‖x − x*‖_A, as ‖Π(r + v)‖_M
+  /// estimates it, at which x is good enough; 0: never.
+  S energy_goal = S(0);
   index halvings = 30;   ///< β = 1, ½, …: so often at most
   index patience = 100;  ///< steps in which ‖F‖ does not fall that mean stalled
   kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails

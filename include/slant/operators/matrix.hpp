@@ -79,7 +79,11 @@ class matrix_operator {
   template <class D>
     requires std::same_as<scalar_t<D>, scalar>
   void diagonal(D& d) const {
-    slant::local(d) = m_.get().diagonal();
+    if constexpr (requires { m_.get().diagonal(); }) {
+      slant::local(d) = m_.get().diagonal();
+    } else {  // a map of a sparse matrix
+      for (index i = 0; i < rows(); ++i) slant::local(d).coeffRef(i) = m_.get().coeff(i, i);
+    }
   }
   template <class Y>
     requires std::same_as<scalar_t<Y>, scalar>

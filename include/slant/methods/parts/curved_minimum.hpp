@@ -22,6 +22,7 @@
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/operators/identity.hpp>
 
+#include <cmath>
 #include <type_traits>
 
 namespace slant {
@@ -33,6 +34,7 @@ struct inner_result {
   S residual;           ///< ‖Π r + H t‖, in units of r
   bool finite;          ///< no number left the range of the scalar
   S first_residual{0};  ///< ‖Π r‖, where it is of interest
+  S first_energy{0};    ///< ‖Π r‖_M, about ‖t‖_H
 };
 
 /// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
@@ -56,30 +58,35 @@ class curved_minimum {
         m_workspace_(workspace(m, prototype)) {}
 
   /// t with ‖Π r + H t‖ ≤ max(target, floor ‖Π r‖), or the last one after at most `most` steps. t
-  /// has the units of r over those of A. r is the gradient at t = 0, s = mean(diag M).
+  /// has the units of r over those of A. r is the gradient at t = 0, s = mean(diag M). With an
+  /// energy, in the units of ‖r‖_M: t stays 0 if ‖Π r‖_M is no more, and the iteration ends where
+  /// ‖Π r + H t‖_M is an eighth of it.
   template <class A, class WA, class Face>
   inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
                                 Face const& face, scalar const& ρ, scalar const& s, scalar target,
-                                index most, scalar const& floor = scalar(0)) {
+                                index most, scalar const& floor = scalar(0),
+                                scalar const& energy = scalar(0)) {
+    using std::sqrt;
     vectors::set_zero(t);
     vectors::set_zero(image);
     // Twice: r may be nearly normal to the face, and what rounding leaves of that is no residual.
     face.keep(r, z_);
     face.keep(z_, g_);
     scalar size = norm(g_);
-    scalar gz(0);
+    scalar gz(0), first_energy(0);
     scalar const first = size;
     if (target < floor * size) target = floor * size;
-    if constexpr (preconditions_faces<M, V, Face>) {
-      if (face.curved_count() == 0) m.enter(face, m_workspace_);
-    }
+    enter_face(m, face, scalar(scalar(1) / ρ), m_workspace_);
     bool finite = detail::is_finite(size);
     index k = 0;
-    while (k < most && size > target) {
+    bool const asks = energy > scalar(0) && size > scalar(0);
+    while (k < most && (size > target || (asks && k == 0))) {
       precondition_on_face(m, face, s, g_, z_, weighed_, m_workspace_);
       scalar const next = inner_product(g_, z_);
       finite = finite && detail::is_finite(next);
       if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
+      if (k == 0) first_energy = sqrt(next);
+      if (energy > scalar(0) && sqrt(next) <= (k == 0 ? energy : energy / scalar(8))) break;
       if (k == 0) {
         vectors::negate(z_, p_);
       } else {
@@ -99,7 +106,7 @@ class curved_minimum {
       vectors::axpy(α, z_, g_);
       size = norm(g_);
     }
-    return {k, size, finite && detail::is_finite(size), first};
+    return {k, size, finite && detail::is_finite(size), first, first_energy};
   }
 
   /// ‖Π r + H t‖ from t and its image.

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact with Tresca friction as a problem for the displacements:
+//
+//     minimise  ½ uᵀKu − fᵀu + Σ gᵢ‖(T u)ᵢ‖   over   N u ≤ d         becomes
+//     minimise  ½ vᵀ(HKHᵀ)v − (Hf)ᵀv + φ(v),      v = H u,
+//
+// H orthogonal, φ of blocks of a component each for the gaps and of one or two for friction: the
+// normal displacement of a contact between two bounds, g‖·‖ of its tangential one. Where the rows of
+// N and T have one entry each (an obstacle parallel to a coordinate plane) H is the identity. K is
+// never factored: the problem is for envelope_newton{problem.qp(), M} with the multigrid M of the
+// same matrix.
+#pragma once
+
+#include <slant/base/matrix_entries.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/vector.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
+#include <slant/sets/ball.hpp>
+#include <slant/sets/blocks.hpp>
+#include <slant/sets/interval.hpp>
+#include <slant/sets/proximal_step.hpp>
+#include <slant/sets/support.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::contact {
+
+// --- surface -------------------------------------------------------------------------------------
+
+/// What contacts add to the energy of a vector of displacements: bounds of single components, and
+/// g‖·‖ of one or two others. Components of no contact are free, and nothing is done for them.
+template <class S = double>
+class surface_function {
+ public:
+  using scalar = S;
+
+  /// A contact in local coordinates: l ≤ v_p ≤ h, and g‖(v_q, v_{q+stride})‖.
+  struct contact {
+    interval<S> gap;
+    index p;
+    S g{0};
+    index q = 0;
+    index stride = 1;
+  };
+
+  /// Contacts of vectors of n components with 0, 1 or 2 tangents each; no component of two of them.
+  surface_function(index n, index tangents, std::vector<contact> contacts)
+      : n_(n), tangents_(tangents), contacts_(std::move(contacts)) {}
+
+  [[nodiscard]] index size() const { return n_; }
+  [[nodiscard]] index block_count() const {
+    return static_cast<index>(contacts_.size()) * (tangents_ > 0 ? 2 : 1);
+  }
+  [[nodiscard]] std::vector<contact> const& contacts() const { return contacts_; }
+
+  /// x = prox_{ρφ}(z); x may be z.
+  template <class Z, class X>
+  void prox(S const& ρ, Z const& z, X& x) const {
+    if (!slant::detail::same_memory(slant::local(z), slant::local(x))) {
+      slant::local(x) = slant::local(z);
+    }
+    visit([&](auto const& block, auto const& p) {
+      auto const from = p.value(x);
+      p.put(x, slant::prox(block, ρ, from));
+    });
+  }
+  /// φ(x), ∞ where a bound is violated.
+  template <class X>
+  [[nodiscard]] S value(X const& x) const {
+    S sum(0);
+    visit(
+        [&](auto const& block, auto const& p) { sum += slant::function_value(block, p.value(x)); });
+    return sum;
+  }
+
+  /// f(block, place): bounds are sets, friction is a support function.
+  template <class F>
+  void visit(F&& f) const {
+    index number = 0;
+    for (contact const& c : contacts_) {
+      f(c.gap, place<1>(number++, c.p, 1));
+      if (tangents_ == 1) {
+        f(slant::support(symmetric_interval<S>(c.g)), place<1>(number++, c.q, 1));
+      } else if (tangents_ == 2) {
+        f(slant::support(ball<2, S>(c.g)), place<2, planar>(number++, c.q, 2, c.stride));
+      }
+    }
+  }
+
+ private:
+  index n_;
+  index tangents_;
+  std::vector<contact> contacts_;
+};
+
+}  // namespace slant::contact
+
+namespace slant::contact::detail {
+
+// --- local coordinates ---------------------------------------------------------------------------
+//
+// v = H u in which the rows of N and T of a contact are multiples of unit vectors. Rows of one entry
+// are that already. Otherwise H is, on the unknowns of these rows, the product of the Householder
+// reflections that bring one row after the other onto an axis [Golub, Van Loan, 5.2.1]: if the rows
+// of a contact are orthogonal, tangents of one length, and no other contact has one of the unknowns.
+
+/// The rows of one contact: entries (column, value) of N_i, then of T_i.
+template <class S>
+using contact_rows = std::vector<std::vector<std::pair<index, S>>>;
+
+/// Where a row acts: as `size` times component `component`, with the sign of `size`.
+template <class S>
+struct local_row {
+  index component = -1;  ///< −1 for an empty row
+  S size{0};
+};
+
+template <class S>
+struct local_coordinates {
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  std::vector<local_row<S>> normal;    ///< of each contact
+  std::vector<local_row<S>> tangents;  ///< as the rows of T
+  sparse_type H;                       ///< n × n, empty if it is the identity
+  std::string refusal;                 ///< why there are none, or empty
+
+  explicit local_coordinates(data<S> const& c) {
+    Eigen::SparseMatrix<S, Eigen::RowMajor> const N = c.N, T = c.T;
+    index const n = c.f.size(), per = c.tangents();
+    std::vector<index> owner(static_cast<std::size_t>(n), -1);
+    std::vector<Eigen::Triplet<S>> entries;
+    for (index i = 0; i < c.nodes() && refusal.empty(); ++i) {
+      contact_rows<S> rows(static_cast<std::size_t>(1 + per));
+      read(N, i, rows[0]);
+      for (index k = 0; k < per; ++k) read(T, i * per + k, rows[static_cast<std::size_t>(1 + k)]);
+      claim(rows, i, owner);
+      if (refusal.empty()) place_rows(rows, i, entries);
+    }
+    if (!refusal.empty() || entries.empty()) return;
+    std::vector<bool> turned(static_cast<std::size_t>(n), false);
+    for (auto const& e : entries) turned[static_cast<std::size_t>(e.row())] = true;
+    for (index j = 0; j < n; ++j) {
+      if (!turned[static_cast<std::size_t>(j)]) entries.emplace_back(int(j), int(j), S(1));
+    }
+    H.resize(n, n);
+    H.setFromTriplets(entries.begin(), entries.end());
+  }
+
+ private:
+  template <class M>
+  static void read(M const& m, index i, std::vector<std::pair<index, S>>& row) {
+    for (typename M::InnerIterator e(m, i); e; ++e) {
+      if (e.value() != S(0)) row.emplace_back(e.col(), e.value());
+    }
+  }
+
+  void claim(contact_rows<S> const& rows, index i, std::vector<index>& owner) {
+    for (auto const& row : rows) {
+      for (auto const& [j, value] : row) {
+        index& other = owner[static_cast<std::size_t>(j)];
+        if (other >= 0 && other != i) {
+          refusal = "contacts " + slant::detail::show(other) + " and " + slant::detail::show(i) +
+                    " share unknown " + slant::detail::show(j);
+          return;
+        }
+        other = i;
+      }
+    }
+  }
+
+  void place_rows(contact_rows<S> const& rows, index i, std::vector<Eigen::Triplet<S>>& entries) {
+    using std::abs;
+    using std::sqrt;
+    // The rows as dense vectors of their common support.
+    std::vector<index> support;
+    for (auto const& row : rows) {
+      for (auto const& [j, value] : row) support.push_back(j);
+    }
+    std::sort(support.begin(), support.end());
+    support.erase(std::unique(support.begin(), support.end()), support.end());
+    std::size_t const k = support.size();
+    std::vector<std::vector<S>> a;
+    bool single = true;
+    for (auto const& row : rows) {
+      std::vector<S> dense(k, S(0));
+      for (auto const& [j, value] : row) {
+        auto const at = std::lower_bound(support.begin(), support.end(), j) - support.begin();
+        dense[static_cast<std::size_t>(at)] = value;
+      }
+      single = single && row.size() <= 1;
+      a.push_back(std::move(dense));
+    }
+    if (!orthogonal(a, i)) return;
+    std::vector<local_row<S>> where(rows.size());
+    if (single) {
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        if (!rows[r].empty()) where[r] = {rows[r][0].first, rows[r][0].second};
+      }
+    } else {
+      reflect(a, support, where, entries);
+    }
+    normal.push_back(where[0]);
+    tangents.insert(tangents.end(), where.begin() + 1, where.end());
+  }
+
+  /// Whether rows are orthogonal and those of T of one length, up to rounding of what they are given
+  /// with.
+  bool orthogonal(std::vector<std::vector<S>> const& a, index i) {
+    using std::abs;
+    using std::sqrt;
+    S const tolerance = S(1e5) * std::numeric_limits<S>::epsilon();
+    std::vector<S> length;
+    for (auto const& row : a) {
+      S sum(0);
+      for (S const& entry : row) sum += entry * entry;
+      length.push_back(sqrt(sum));
+    }
+    for (std::size_t r = 0; r < a.size(); ++r) {
+      for (std::size_t s = 0; s < r; ++s) {
+        S product(0);
+        for (std::size_t j = 0; j < a[r].size(); ++j) product += a[r][j] * a[s][j];
+        bool const differ = s > 0 && abs(S(length[r] - length[s])) > tolerance * length[s];
+        if (abs(product) > tolerance * length[r] * length[s] || differ) {
+          refusal = "the rows of N and T of contact " + slant::detail::show(i) +
+                    (differ ? " have tangents of different lengths" : " are not orthogonal");
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// H on the support, rows at its first components.
+  static void reflect(std::vector<std::vector<S>> a, std::vector<index> const& support,
+                      std::vector<local_row<S>>& where, std::vector<Eigen::Triplet<S>>& entries) {
+    using std::abs;
+    using std::sqrt;
+    std::size_t const k = support.size();
+    std::vector<S> h(k * k, S(0));  // by rows
+    for (std::size_t j = 0; j < k; ++j) h[j * k + j] = S(1);
+    std::size_t next = 0;
+    for (std::size_t r = 0; r < a.size(); ++r) {
+      S square(0);
+      for (std::size_t j = next; j < k; ++j) square += a[r][j] * a[r][j];
+      S const length = sqrt(square);
+      if (!(length > S(0))) continue;  // an empty row
+      // w = a + sign ‖a‖ e: I − 2 w wᵀ/‖w‖² maps a onto −sign ‖a‖ e.
+      std::vector<S> w(k, S(0));
+      for (std::size_t j = next; j < k; ++j) w[j] = a[r][j] / length;
+      S const sign = w[next] < S(0) ? S(-1) : S(1);
+      S const β = S(1) / (S(1) + abs(w[next]));
+      w[next] += sign;
+      auto const apply = [&](S* x, std::size_t stride) {
+        S sum(0);
+        for (std::size_t j = next; j < k; ++j) sum += w[j] * x[j * stride];
+        for (std::size_t j = next; j < k; ++j) x[j * stride] -= β * sum * w[j];
+      };
+      for (std::size_t s = r; s < a.size(); ++s) apply(a[s].data(), 1);
+      for (std::size_t c = 0; c < k; ++c) apply(h.data() + c, k);
+      where[r] = {support[next], S(-sign * length)};
+      ++next;
+    }
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t j = 0; j < k; ++j) {
+        entries.emplace_back(int(support[i]), int(support[j]), h[i * k + j]);
+      }
+    }
+  }
+};
+
+}  // namespace slant::contact::detail
+
+namespace slant::contact {
+
+// --- primal --------------------------------------------------------------------------------------
+
+/// Why the displacements of a scene cannot be solved for directly, or nothing: contacts that share an
+/// unknown, rows of N and T that are not orthogonal.
+template <class S>
+[[nodiscard]] std::optional<std::string> primal_refusal(data<S> const& c) {
+  detail::local_coordinates<S> const local(c);
+  if (local.refusal.empty()) return std::nullopt;
+  return local.refusal;
+}
+
+/// The problem at the top of this file. Refers to K if H is the identity; not movable, and qp() not
+/// to be had from a temporary.
+template <class S = double>
+class primal {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+  /// A symmetric matrix by columns read by rows, which needs no second pass for a product.
+  using rows_type = Eigen::Map<Eigen::SparseMatrix<S, Eigen::RowMajor> const>;
+
+  /// K: n × n, both triangles, definite (which is asserted, not checked). Throws bad_input naming
+  /// what does not fit: sizes, numbers that are not finite, and what primal_refusal says.
+  primal(sparse_type const& K, data<S> const& c) : primal(K, c, checked(K, c)) {}
+  primal(primal const&) = delete;
+  primal& operator=(primal const&) = delete;
+
+  /// HKHᵀ.
+  [[nodiscard]] sparse_type const& matrix() const& { return own_.rows() > 0 ? own_ : *K_; }
+  sparse_type const& matrix() const&& = delete;
+  /// The problem; refers to this object.
+  [[nodiscard]] auto qp() const& {
+    return separable_qp{slant::matrix<self_adjoint, positive_definite>(rows_), f_, φ_};
+  }
+  auto qp() const&& = delete;
+  /// φ.
+  [[nodiscard]] surface_function<S> const& surface() const& { return φ_; }
+  surface_function<S> const& surface() const&& = delete;
+  [[nodiscard]] vector_type zero() const { return vector_type::Zero(f_.size()); }
+  /// Whether H is not the identity.
+  [[nodiscard]] bool turns() const { return local_.H.rows() > 0; }
+
+  /// v = H u; of a matrix, that of each column.
+  template <class V>
+  [[nodiscard]] V coordinates(V const& u) const {
+    slant::detail::check_size("rows of u", u.rows(), f_.size(), "the size of f,");
+    if (!turns()) return u;
+    return V(local_.H * u);
+  }
+  /// u = Hᵀv.
+  [[nodiscard]] vector_type displacement(vector_type const& v) const {
+    slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
+    if (!turns()) return v;
+    return vector_type(local_.H.transpose() * v);
+  }
+  /// The forces (λ_ν, λ_t) of the contacts, f − K u = Nᵀλ_ν + Tᵀλ_t at a solution v. One product.
+  [[nodiscard]] vector_type multipliers(vector_type const& v) const {
+    slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
+    vector_type const r = f_ - rows_ * v;
+    auto const m = static_cast<index>(local_.normal.size());
+    vector_type λ = vector_type::Zero(m + static_cast<index>(local_.tangents.size()));
+    auto const force = [&](detail::local_row<S> const& row) {
+      return row.component < 0 ? S(0) : S(r[row.component] / row.size);
+    };
+    for (index i = 0; i < m; ++i) {
+      auto const& row = local_.normal[static_cast<std::size_t>(i)];
+      bool const closes = row.component >= 0 && slant::detail::is_finite(d_[i]);
+      S const λ_i = closes ? force(row) : S(0);
+      if (λ_i > S(0)) λ[i] = λ_i;
+    }
+    for (index i = m; i < λ.size(); ++i) {
+      λ[i] = force(local_.tangents[static_cast<std::size_t>(i - m)]);
+    }
+    return λ;
+  }
+
+ private:
+  static detail::local_coordinates<S> checked(sparse_type const& K, data<S> const& c) {
+    c.validate();
+    slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
+    slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+    detail::local_coordinates<S> local(c);
+    if (!local.refusal.empty()) {
+      throw bad_input("N and T", local.refusal,
+                      "contacts of unknowns of their own and with orthogonal rows");
+    }
+    return local;
+  }
+  primal(sparse_type const& K, data<S> const& c, detail::local_coordinates<S> local)
+      : local_(std::move(local)),
+        K_(&K),
+        own_(turned(K)),
+        rows_(matrix().rows(), matrix().cols(), matrix().nonZeros(), matrix().outerIndexPtr(),
+              matrix().innerIndexPtr(), matrix().valuePtr()),
+        f_(coordinates(c.f, local_)),
+        d_(c.d),
+        φ_(c.f.size(), c.tangents(), contacts(c)) {}
+
+  [[nodiscard]] sparse_type turned(sparse_type const& K) const {
+    if (turns()) return sparse_type(local_.H * K) * sparse_type(local_.H.transpose());
+    if (K.isCompressed()) return {};
+    sparse_type copy = K;
+    copy.makeCompressed();
+    return copy;
+  }
+  static vector_type coordinates(vector_type const& f, detail::local_coordinates<S> const& local) {
+    if (local.H.rows() == 0) return f;
+    return vector_type(local.H * f);
+  }
+
+  [[nodiscard]] std::vector<typename surface_function<S>::contact> contacts(
+      data<S> const& c) const {
+    using std::abs;
+    constexpr S infinity = std::numeric_limits<S>::infinity();
+    index const per = c.tangents();
+    std::vector<typename surface_function<S>::contact> list;
+    list.reserve(local_.normal.size());
+    for (index i = 0; i < c.nodes(); ++i) {
+      auto const& normal = local_.normal[static_cast<std::size_t>(i)];
+      typename surface_function<S>::contact here{interval<S>(-infinity, infinity), 0};
+      bool acts = normal.component >= 0;
+      if (acts) {
+        here.p = normal.component;
+        S const bound = c.d[i] / normal.size;
+        if (c.d[i] < infinity) {
+          here.gap =
+              normal.size > S(0) ? interval<S>(-infinity, bound) : interval<S>(bound, infinity);
+        }
+      }
+      if (per > 0) {
+        auto const* const t = local_.tangents.data() + static_cast<std::size_t>(i * per);
+        if (t[0].component >= 0 && (per == 1 || t[1].component >= 0)) {
+          here.g = c.g[i] < infinity ? S(c.g[i] * abs(t[0].size)) : infinity;
+          here.q = t[0].component;
+          if (per == 2) here.stride = t[1].component - t[0].component;
+        } else {
+          acts = false;
+        }
+      }
+      if (acts) list.push_back(here);
+    }
+    return list;
+  }
+
+  detail::local_coordinates<S> local_;
+  sparse_type const* K_;
+  sparse_type own_;  // HKHᵀ, or a compressed copy, or nothing
+  rows_type rows_;
+  vector_type f_, d_;
+  surface_function<S> φ_;
+};
+
+template <class S>
+primal(Eigen::SparseMatrix<S> const&, data<S> const&) -> primal<S>;
+
+}  // namespace slant::contact
