@@ -26,7 +26,8 @@
 #include <slant/sets/power.hpp>
 #include <slant/sets/syntax.hpp>  // Λ * Μ, c * Λ, Λ + c
 
-// Faces, and slanting operators of projections:
+// Blocks of a point, faces, and slanting operators of projections:
+#include <slant/sets/block_range.hpp>
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/slants.hpp>
