@@ -58,6 +58,9 @@ TEST_CASE("a program with equations is solved, by solve and by the methods for s
     CHECK(run.reason.find("relative reduced gradient") != std::string::npos);
     CHECK(run.reason.find("distance from the equality constraints") != std::string::npos);
     CHECK((run.x() - p.x).norm() <= 10 * tolerance);
+    std::ostringstream out;
+    out << run;
+    CHECK(out.str().starts_with("converged: " + run.reason + "\n  unknowns               3\n"));
   }
   slant::constrained_newton const newton{program.qp(), program.constraints()};
   CHECK(newton.multipliers(slant::solve(program, 1e-12).state)(0) == doctest::Approx(1.0));
