@@ -140,6 +140,7 @@ TEST_CASE(
   static_assert(has_blocks<set&, VectorXd const&>);
   static_assert(!has_blocks<set, VectorXd const&>);
   static_assert(!has_blocks<set&, VectorXd>);
+  static_assert(!has_blocks<set&, decltype(2 * x) const&>);
   static_assert(!has_blocks<reticent const&, VectorXd const&>);
 }
 

@@ -6,10 +6,9 @@
 //     std::ranges::count_if(slant::blocks(Λ, x), sliding)
 //
 // for std::ranges and for range-v3. All blocks of Λ stand in one range, in the order of visit, as
-// elements of one type, which knows its block by its number: what it is asked for is looked up in
-// Λ, a comparison for each part of a product. Nothing is stored, so nothing is allocated. (Rejected:
-// a range for each part of a product, which any_set could not have, for one type it has at run time
-// only; the blocks of one part are blocks(Λ, x) | drop(first) | take(count).)
+// elements of one type, which find their block in Λ by its number, a comparison for each part of a
+// product. Nothing is allocated. (Rejected: a range for each part, which any_set could not have; the
+// blocks of one part are blocks(Λ, x) | drop(first) | take(count).)
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
@@ -36,41 +35,33 @@ class block_of_point {
   using segment_type = Eigen::Matrix<typename entries_type::Scalar, Eigen::Dynamic, 1>;
 
  public:
-  block_of_point(C const& set, X const& x, slant::index k) : set_(&set), x_(&x), k_(k) {}
+  block_of_point(C const& set, X const& x, slant::index k) : set_(&set), x_(&x), number_(k) {
+    slant::visit_block(set, k, [this](auto const&, auto const& p) {
+      size_ = p.size();
+      if (size_ > 0) first_ = p.component(0);
+      if (size_ > 1) stride_ = p.component(1) - first_;
+    });
+  }
 
   /// Number of the block in Λ, that of face::state(i).
-  [[nodiscard]] slant::index index() const { return k_; }
+  [[nodiscard]] slant::index index() const { return number_; }
   /// Number of its components.
-  [[nodiscard]] slant::index size() const {
-    slant::index n = 0;
-    slant::visit_block(*set_, k_, [&](auto const&, auto const& p) { n = p.size(); });
-    return n;
-  }
+  [[nodiscard]] slant::index size() const { return size_; }
   /// Position of component j in the vector.
-  [[nodiscard]] slant::index component(slant::index j) const {
-    slant::index i = 0;
-    slant::visit_block(*set_, k_, [&](auto const&, auto const& p) { i = p.component(j); });
-    return i;
-  }
+  [[nodiscard]] slant::index component(slant::index j) const { return first_ + j * stride_; }
   /// Its components, as a small vector that shows those of x.
   [[nodiscard]] auto value() const {
     using view = Eigen::Map<segment_type const, Eigen::Unaligned, Eigen::InnerStride<>>;
     auto const& entries = slant::local(*x_);
-    slant::index first = 0, n = 0, stride = 1;
-    slant::visit_block(*set_, k_, [&](auto const&, auto const& p) {
-      n = p.size();
-      if (n > 0) first = p.component(0);
-      if (n > 1) stride = p.component(1) - first;
-    });
     auto const inner = entries.innerStride();
-    return view(entries.data() + first * inner, n, Eigen::InnerStride<>(stride * inner));
+    return view(entries.data() + first_ * inner, size_, Eigen::InnerStride<>(stride_ * inner));
   }
   /// Whether it is free, sliding or fixed.
   [[nodiscard]] block_state state() const
     requires has_block_states<C, entries_type>
   {
     auto s = block_state::free;
-    slant::visit_block(*set_, k_, [&](auto const& block, auto const& p) {
+    slant::visit_block(*set_, number_, [&](auto const& block, auto const& p) {
       s = detail::state_of_block<C>(block, p, *x_);
     });
     return s;
@@ -79,7 +70,8 @@ class block_of_point {
  private:
   C const* set_;
   X const* x_;
-  slant::index k_;
+  slant::index number_;
+  slant::index first_ = 0, size_ = 0, stride_ = 1;
 };
 
 /// The blocks of a point, a random access view. Made by `blocks`.
@@ -134,10 +126,10 @@ class block_range : public std::ranges::view_interface<block_range<C, X>> {
   index count_ = 0;
 };
 
-/// The blocks of the point x of a set, see the top of this file. Refers to both, which must outlive
-/// what is made of it. @throws bad_input unless x has the size of the set.
+/// The blocks of the point x of a set, see the top of this file; x has entries in memory. Refers to
+/// both, which must outlive what is made of it. @throws bad_input unless x has the size of the set.
 template <class C, class X>
-  requires(has_visit_block<C> || !has_visit<C>)
+  requires(has_visit_block<C> || !has_visit<C>) && detail::has_memory<local_t<X>>
 [[nodiscard]] block_range<C, X> blocks(C const& set, X const& x) {
   detail::check_size("x", index(slant::local(x).size()), slant::dimension_of(set),
                      "the dimension of the set,");
