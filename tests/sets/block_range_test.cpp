@@ -173,6 +173,11 @@ TEST_CASE("values are those of x as it is; segments may be points; another size 
   CHECK(all[1].value()(0) == 7);
   auto const part = x.head(5);
   CHECK(slant::blocks(Λ.part<0>(), part)[3].value()(0) == 3);
+  VectorXd twice(30);
+  twice << x, VectorXd::Zero(15);
+  twice = Eigen::VectorXd(twice.reshaped(15, 2).transpose().reshaped());
+  Eigen::Map<VectorXd const, 0, Eigen::InnerStride<2>> const spread(twice.data(), 15);
+  CHECK(slant::blocks(Λ, spread)[8].value() == slant::blocks(Λ, x)[8].value());
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::blocks(Λ, part)),
                        "x: got 5, expected the dimension of the set, 15", slant::bad_input);
 }
