@@ -3,11 +3,12 @@
 // Example 1 of the lecture [K]: twelve unknowns, six discs, and how the proportioning constant Γ
 // changes the work of KPRGP.
 #include <cstdio>
-#include <fem/active_counts.hpp>
+#include <range/v3/view/filter.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/separable_qp.hpp>
+#include <slant/sets/block_range.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <support/command_line.hpp>
 
@@ -42,20 +43,19 @@ int solve_example(double tolerance, double step) {
   }
 
   auto const report = run(1, 1e-14);
-  auto const& x = report.x();
-  auto const active = fem::active_blocks(set, A, b, x);
+  auto const discs = slant::blocks(set, report.x());
+  auto const is_active = [](auto const& disc) { return disc.state() != slant::block_state::free; };
   std::printf("\nsolution (%s)\n", report.reason.c_str());
   std::printf(" disc    radius                    x_i                x_{i+6}  state\n");
-  for (int i = 0; i < 6; ++i)
-    std::printf("%5d  %8g  %21.14g  %21.14g  %s\n", i + 1, g[i], x[i], x[i + 6],
-                active[static_cast<std::size_t>(i)] ? "active" : "free");
+  for (auto const& disc : discs)
+    std::printf("%5td  %8g  %21.14g  %21.14g  %s\n", disc.index() + 1, g[disc.index()],
+                disc.value()[0], disc.value()[1], is_active(disc) ? "active" : "free");
   std::printf("\nactive set: {");
   char const* separator = "";
-  for (int i = 0; i < 6; ++i)
-    if (active[static_cast<std::size_t>(i)]) {
-      std::printf("%s%d", separator, i + 1);
-      separator = ", ";
-    }
+  for (auto const& disc : discs | ranges::views::filter(is_active)) {
+    std::printf("%s%td", separator, disc.index() + 1);
+    separator = ", ";
+  }
   std::printf("}\n");
   return all_converged && report.converged() ? examples::succeeded : examples::not_converged;
 }

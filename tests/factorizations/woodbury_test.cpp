@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/factorizations/woodbury.hpp>
+#include <slant/operators/syntax.hpp>
 #include <slant/testing/operator_laws.hpp>
 
 #include <doctest/doctest.h>
@@ -31,6 +32,28 @@ TEST_CASE("the inverse of K + U C Uᵀ, at any scale") {
     CHECK((y - expected * x).norm() <= 1e-12 * (expected * x).norm());
     if (unit == 1) slant::testing::check_operator_laws(a, x, {.roundings = 1000});
   }
+}
+
+template <class A> concept has_inverse = requires(A const& a) { inverse(a); };
+
+TEST_CASE("a formula is recognised where its letters know what is needed") {
+  using slant::op;
+  VectorXd const d{{1.0, 2.0, 4.0, 3.0}};
+  MatrixXd const u = test::random_dense(4, 2, 2), c = test::random_spd(2, 3);
+  auto const D = op<"D">(slant::diagonal<slant::positive_definite>(d));
+  auto const U = op<"U">(u);
+  auto const C = op<"C", slant::self_adjoint, slant::positive_definite>(c);
+  auto const A = D + U * C * adjoint(U);
+  auto const inverse_of_A = inverse(A);
+  static_assert(slant::spd_operator<decltype(inverse_of_A), VectorXd>);
+  VectorXd const x = test::random_column(4, 4);
+  VectorXd y(4), z(4);
+  slant::apply(A, x, y);
+  slant::apply(inverse_of_A, y, z);
+  CHECK((z - x).norm() <= 1e-13 * x.norm());
+  static_assert(!has_inverse<decltype(op<"K">(MatrixXd(4, 4)) + U * C * adjoint(U))>);
+  static_assert(!has_inverse<decltype(D + U * C * U)>);
+  static_assert(!has_inverse<decltype(D + 2 * U * C * adjoint(U))>);
 }
 
 TEST_CASE("bad input") {

@@ -140,6 +140,27 @@ TEST_CASE("printing") {
   CHECK(text(T + o.H) == "T + matrix   (7 × 7, no laws)");
 }
 
+TEST_CASE("what declares, asserts or counts is printed as the operator behind it") {
+  SLANT_TEST_LETTERS;
+  auto const symmetric = slant::declare<self_adjoint>(G);
+  auto const formula = slant::declare<self_adjoint>(G * H);
+  auto const transposed = slant::declare<slant::positive_semidefinite>(adjoint(G));
+  CHECK(to_string(B * symmetric * adjoint(B)) == "B G Bᵀ");
+  CHECK(to_string(B * formula * adjoint(B)) == "B (G H) Bᵀ");
+  CHECK(to_string(S + slant::counted(formula)) == "S + (G H)");
+  CHECK(to_string(G * transposed) == "G Gᵀ");
+  CHECK(to_string(adjoint(transposed) * G) == "(Gᵀ)ᵀ G");
+  CHECK(to_string(slant::full_row_rank(slant::matrix(o.B)) * S) == "matrix S");
+  CHECK(to_string(slant::verbatim(S + P) * G) == "(S + P) G");
+  using slant::expr::formula_of;
+  CHECK(formula_of<decltype(adjoint(transposed) * formula)>().view() ==
+        "adjoint(adjoint(G)) * (G * H)");
+  // So a name inside must stand for one object, too.
+  CHECK(test::message<bad_input>([&] {
+          (void)(op<"A">(o.S) + slant::declare<self_adjoint>(op<"A">(o.P)));
+        }) == "A: got two different objects, expected one object: a name stands for one operator");
+}
+
 TEST_CASE("describe") {
   SLANT_TEST_LETTERS;
   auto const Kc = op<"K">(slant::counted(Kinv));

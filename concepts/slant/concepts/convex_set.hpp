@@ -20,6 +20,7 @@
 //                               smooth f with Λ = {f ≤ 0}; {f < 0} is the interior, if there is one
 //     whole_space = true (static)   a block without any constraint, which products pass over
 //     visit(f)                  products: f(block, place) for each block, place.in(x) is its part
+//     visit_block(k, f)         products: f(block, place) for block k of these
 //     with(parameters…)         a block: the same shape with other parameters, for power(block, …)
 //     scalar (a type)           a block: that of its points, for products; without it double
 //
@@ -205,6 +206,9 @@ struct visit_probe {
 }  // namespace detail
 
 template <class C> concept has_visit = requires(C const& c) { c.visit(detail::visit_probe{}); };
+template <class C>
+concept has_visit_block =
+    requires(C const& c, index k) { c.visit_block(k, detail::visit_probe{}); };
 
 /// A closed convex set of points of type V; see the top of this file.
 template <class C, class V>

@@ -67,7 +67,8 @@ struct scalar_of<V> {
 template <class X, class S>
 struct common_state {
   X x;
-  S residual_norm, residual_scale, reduced_gradient_norm, gradient_scale;
+  S residual_norm, residual_scale, reduced_gradient_norm, gradient_scale, feasibility_norm,
+      feasibility_scale;
   index iteration;
   slant::status status;
   slant::work work;

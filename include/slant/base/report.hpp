@@ -4,7 +4,9 @@
 #pragma once
 
 #include <slant/concepts/iterative_method.hpp>
+#include <slant/concepts/vector.hpp>
 
+#include <ostream>
 #include <string>
 
 namespace slant {
@@ -40,5 +42,49 @@ struct report {
   /// True only if the accuracy asked for was reached.
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
 };
+
+namespace detail {
+
+/// The lines of a run; those of numbers that are 0 are left out.
+[[gnu::cold]] inline void print_run(std::ostream& out, status how, std::string const& why,
+                                    index unknowns, std::string const& steps, work const& spent) {
+  out << to_string(how) << ": " << why;
+  if (unknowns > 0) out << "\n  unknowns               " << unknowns;
+  out << "\n  steps                  " << steps;
+  if (spent.inner_iterations > 0) out << "\n  inner steps            " << spent.inner_iterations;
+  index const products = spent.operator_applications, before = spent.setup_applications;
+  if (products + before > 0) out << "\n  applications of A      " << products;
+  if (before > 0) out << ", and " << before << " before the first step";
+  if (spent.factorizations > 0) out << "\n  factorizations         " << spent.factorizations;
+  out << "\n";
+}
+
+/// Number of entries of a vector, of all its parts; 0 of what is none, such as a number.
+template <class X>
+[[nodiscard]] index unknowns_of(X const& x) {
+  if constexpr (vector<X>) {
+    return slant::global_size(x);
+  } else {
+    return 0;
+  }
+}
+
+}  // namespace detail
+
+/// How it ended, and at what cost:
+///
+///     converged: relative reduced gradient 1.2e-09 / 3.5 is at most 1e-08
+///       unknowns               12
+///       steps                  9
+///       inner steps            40
+///       applications of A      51, and 20 before the first step
+template <class State>
+std::ostream& operator<<(std::ostream& out, report<State> const& run) {
+  work spent{};
+  if constexpr (requires { spent = run.state.work; }) spent = run.state.work;
+  detail::print_run(out, run.status, run.reason, detail::unknowns_of(run.x()),
+                    std::to_string(run.iterations()), spent);
+  return out;
+}
 
 }  // namespace slant

@@ -21,6 +21,7 @@
 #include <Eigen/Core>
 
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -59,6 +60,29 @@ template <operand K, class U, class C>
   return declare<self_adjoint, positive_definite>(
       difference(std::forward<K>(k_inverse),
                  congruence(matrix(std::move(v)), slant::inverse(std::move(factors)))));
+}
+
+namespace expr {
+
+template <class A>
+inline constexpr bool is_dense_letter = false;
+template <auto Name, class M, law_set L, unsigned Flags>
+inline constexpr bool is_dense_letter<letter<Name, matrix_operator<M, L>, Flags>> =
+    (Flags & adjointed) == 0 &&
+    std::is_base_of_v<Eigen::MatrixBase<std::remove_cvref_t<M>>, std::remove_cvref_t<M>>;
+
+}  // namespace expr
+
+/// (K + U C Uᵀ)⁻¹ as woodbury(K⁻¹, U, C), where K is a letter that knows its inverse, such as a
+/// diagonal, and U and C are letters of dense matrices, U with a name.
+/// @throws bad_input as woodbury does.
+template <class K, class U, class C, class Adjoint>
+  requires detail::knows_its_inverse<K> && expr::is_letter<K> && expr::is_dense_letter<U> &&
+           expr::is_dense_letter<C> && (expr::mirrored_pairs<U, C, Adjoint>() == 1)
+[[nodiscard]] auto inverse(expr::sum<K, expr::product<expr::one, U, C, Adjoint>> const& a) {
+  auto const& change = a.template term<1>();
+  return slant::woodbury(a.template term<0>().inverse(), change.template factor<0>().get().get(),
+                         change.template factor<1>().get().get());
 }
 
 }  // namespace slant

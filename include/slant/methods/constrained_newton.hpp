@@ -34,6 +34,7 @@
 #include <slant/base/report.hpp>
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
+#include <slant/iteration/solve.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
@@ -48,6 +49,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
@@ -549,5 +551,28 @@ class constrained_newton<QP, C, M> {
   held<M> m_;
   options options_;
 };
+
+// --- whole program -------------------------------------------------------------------------------
+
+/// A quadratic program with its equality constraints: what minimise(q).over(Λ).subject_to(G, e) is.
+template <class P>
+concept equality_constrained_program = requires(P const& p) {
+  { p.qp() } -> std::same_as<typename P::program_type const&>;
+  { p.constraints() } -> std::same_as<typename P::constraints_type const&>;
+};
+
+/// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e by constrained_newton from 0. x is in Λ; `converged`
+/// means ‖r̃‖ and ‖Q x − x̄‖ of at most `tolerance` times their scales, both computed from x. It is
+/// not the energy error that solve(qp, tolerance) estimates for programs without equations.
+/// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a program that the method
+/// refuses.
+template <equality_constrained_program P>
+[[nodiscard]] auto solve(P const& p, scalar_t<typename P::vector_type> tolerance,
+                         index max_steps = 1000) {
+  using V = typename P::vector_type;
+  return slant::solve(
+      constrained_newton{p.qp(), p.constraints()}, V(V::Zero(p.qp().size())),
+      (reduced_gradient_below(tolerance) && feasibility_below(tolerance)) || at_most(max_steps));
+}
 
 }  // namespace slant

@@ -29,6 +29,7 @@ class decorator {
 
  public:
   static constexpr law_set laws = laws_of<A>;
+  static constexpr bool is_decorator = true;
 
   explicit decorator(held<A> a) : a_(std::move(a)) {}
   /// With the probe of another one.

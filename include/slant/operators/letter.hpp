@@ -69,16 +69,55 @@ void apply_add_unchecked(A const& a, S const& α, X const& x, Y& y, W& w) {
   }
 }
 
+/// An operator that adds something to one that it holds, which is what is printed.
+template <class A> concept decorates = requires { requires A::is_decorator; };
+
+template <class A>
+inline constexpr bool is_letter = false;
+
 template <class A>
 void enter_part(A const& a, dictionary& names) {
-  if constexpr (requires { a.enter(names); }) a.enter(names);
+  if constexpr (requires { a.enter(names); }) {
+    a.enter(names);
+  } else if constexpr (decorates<A>) {
+    expr::enter_part(a.get(), names);
+  }
+}
+/// An operator without a name: a formula in parentheses, else its symbol. `marked`: ᵀ or ⁻¹ follows.
+template <class A>
+void print_nameless(A const& a, bool marked, std::string& out) {
+  if constexpr (decorates<A>) {
+    expr::print_nameless(a.get(), marked, out);
+  } else if constexpr (requires { a.print(out); }) {
+    bool is_bare = false;
+    if constexpr (is_letter<A>) is_bare = !(marked && A::is_marked);
+    if (!is_bare) out += "(";
+    a.print(out);
+    if (!is_bare) out += ")";
+  } else {
+    out += symbol_of(&a);
+  }
+}
+template <class A>
+constexpr void spell_nameless(bool in_call, ascii& out) {
+  if constexpr (decorates<A>) {
+    expr::spell_nameless<std::remove_cvref_t<decltype(std::declval<A const&>().get())>>(in_call,
+                                                                                        out);
+  } else if constexpr (requires { A::spell(out); }) {
+    bool const is_bare = in_call || is_letter<A>;
+    if (!is_bare) out.add("(");
+    A::spell(out);
+    if (!is_bare) out.add(")");
+  } else {
+    out.add(symbol_of(static_cast<A const*>(nullptr)));
+  }
 }
 template <class A>
 void print_part(A const& a, std::string& out) {
   if constexpr (requires { a.print(out); }) {
     a.print(out);
   } else {
-    out += symbol_of(&a);
+    expr::print_nameless(a, false, out);
   }
 }
 template <class A>
@@ -86,7 +125,7 @@ constexpr void spell_part(ascii& out) {
   if constexpr (requires { A::spell(out); }) {
     A::spell(out);
   } else {
-    out.add(symbol_of(static_cast<A const*>(nullptr)));
+    expr::spell_nameless<A>(false, out);
   }
 }
 
@@ -156,8 +195,8 @@ class letter : public expression_base {
       (is_inverse ? !slant::detail::factorization_like<A>
                   : !is_adjoint && declares_full_row_rank<A>) ||
       (Flags & (is_adjoint ? independent_columns : independent_rows)) != 0;
-  static constexpr std::string_view symbol =
-      text_of(Name).empty() ? symbol_of(static_cast<A const*>(nullptr)) : text_of(Name);
+  /// It is printed with ᵀ or ⁻¹.
+  static constexpr bool is_marked = is_adjoint || is_inverse;
 
   explicit letter(std::shared_ptr<A const> object) : letter(object, part(*object)) {}
   /// Of an operator that is referenced.
@@ -254,16 +293,28 @@ class letter : public expression_base {
   }
 
   void enter(dictionary& names) const {
-    if constexpr (!text_of(Name).empty()) names.enter(text_of(Name), origin());
+    if constexpr (text_of(Name).empty()) {
+      expr::enter_part(*object_, names);
+    } else {
+      names.enter(text_of(Name), origin());
+    }
   }
   void print(std::string& out) const {
-    out += symbol;
+    if constexpr (text_of(Name).empty()) {
+      expr::print_nameless(*object_, is_marked, out);
+    } else {
+      out += text_of(Name);
+    }
     out += is_inverse ? (is_adjoint ? "⁻ᵀ" : "⁻¹") : (is_adjoint ? "ᵀ" : "");
   }
   static constexpr void spell(ascii& out) {
     if (is_adjoint) out.add("adjoint(");
     if (is_inverse) out.add("inverse(");
-    out.add(symbol);
+    if constexpr (text_of(Name).empty()) {
+      expr::spell_nameless<A>(is_marked, out);
+    } else {
+      out.add(text_of(Name));
+    }
     if (is_inverse) out.add(")");
     if (is_adjoint) out.add(")");
   }
@@ -328,8 +379,6 @@ class letter<Name, F, Flags> : public factored<Name, F> {
   using factored<Name, F>::factored;
 };
 
-template <class A>
-inline constexpr bool is_letter = false;
 template <auto Name, class A, unsigned Flags>
 inline constexpr bool is_letter<letter<Name, A, Flags>> = true;
 

@@ -5,15 +5,25 @@
 //     auto const program = slant::minimise(slant::quadratic(A, b)).over(half_lines(n) * discs(g));
 //     auto const run = slant::solve(program, 1e-8);
 //
-// is separable_qp{A, b, Λ}, the problem min ½ xᵀA x − bᵀx over x ∈ Λ, and
+// is separable_qp{A, b, Λ}, the problem min ½ xᵀA x − bᵀx over x ∈ Λ. With a function added, and with
+// equations, it is
 //
 //     auto const program = slant::minimise(slant::quadratic(A, b) + slant::support(discs(g)));
+//     auto const program = slant::minimise(slant::quadratic(A, b)).over(Λ).subject_to(G, e);
 //
-// is separable_qp{A, b, φ}, the problem min ½ xᵀA x − bᵀx + Σ gᵢ‖xᵢ‖.
+// separable_qp{A, b, φ}, the problem min ½ xᵀA x − bᵀx + Σ gᵢ‖xᵢ‖; and what smalse{program.qp(),
+// program.constraints()} and the like are made of. Both are solved by solve(program, 1e-8), the
+// latter with methods/constrained_newton.hpp.
 #pragma once
 
+#include <slant/problems/equality_constraints.hpp>
 #include <slant/problems/separable_qp.hpp>
 
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <concepts>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -32,6 +42,51 @@ template <class A, class V>
                                                   held<kept_t<V>>(std::forward<V>(b))};
 }
 
+/// min q(x) over x ∈ Λ, G x = e. Not movable, as its constraints are not.
+template <class A, class V, class C>
+class constrained_qp {
+ public:
+  using program_type = separable_qp<A, V, C>;
+  using vector_type = typename program_type::vector_type;
+  using scalar = typename program_type::scalar;
+  using constraints_type = equality_constraints<scalar>;
+
+  /// Throws bad_input if G has another number of columns than there are unknowns, and as
+  /// equality_constraints{G, e} does.
+  constrained_qp(program_type qp, Eigen::SparseMatrix<scalar> const& G, vector_type const& e)
+      : qp_(std::move(qp)), constraints_(G, e) {
+    detail::check_size("columns of G", index(G.cols()), qp_.size(), "the size of b,");
+  }
+
+  /// min q(x) over x ∈ Λ.
+  [[nodiscard]] program_type const& qp() const { return qp_; }
+  /// G x = e.
+  [[nodiscard]] constraints_type const& constraints() const { return constraints_; }
+
+ private:
+  program_type qp_;
+  constraints_type constraints_;
+};
+
+/// min q(x) over x ∈ Λ: a separable_qp to which equations can be added.
+template <class A, class V, class C>
+class minimisation_over : public separable_qp<A, V, C> {
+ public:
+  using base = separable_qp<A, V, C>;
+  using base::base;
+  using typename base::scalar;
+  using typename base::vector_type;
+
+  /// min q(x) over x ∈ Λ, G x = e; G has n columns, and is not kept.
+  /// @throws bad_input as constrained_qp does.
+  [[nodiscard]] constrained_qp<A, V, C> subject_to(Eigen::SparseMatrix<scalar> const& G,
+                                                   vector_type const& e) &&
+        requires std::same_as<vector_type, Eigen::Matrix<scalar, Eigen::Dynamic, 1>>
+  {
+    return {base(std::move(*this)), G, e};
+  }
+};
+
 /// What is to be minimised, before it is said where.
 template <class A, class V>
 class minimisation {
@@ -42,8 +97,12 @@ class minimisation {
   /// @throws bad_input if sizes differ or b has an entry that is not finite.
   template <class C>
   [[nodiscard]] auto over(C&& set) && {
-    return separable_qp<A, V, kept_t<C>>(std::move(q_.a), std::move(q_.b),
-                                         held<kept_t<C>>(std::forward<C>(set)));
+    // Arguments that lack something get the answer of separable_qp.
+    constexpr bool good =
+        separable_qp_parts<std::remove_cvref_t<A>, std::remove_cvref_t<V>, std::remove_cvref_t<C>>;
+    using program =
+        std::conditional_t<good, minimisation_over<A, V, kept_t<C>>, separable_qp<A, V, kept_t<C>>>;
+    return program(std::move(q_.a), std::move(q_.b), held<kept_t<C>>(std::forward<C>(set)));
   }
 
  private:

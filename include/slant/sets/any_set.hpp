@@ -345,6 +345,15 @@ class any_set {
       run.visit([&](auto const& block, auto const& inner) { f(block, outer.then(inner)); });
     });
   }
+  /// f(block, place) for block k.
+  template <class F>
+  void visit_block(index k, F&& f) const {
+    each_run([&](auto const& run, auto const& outer) {
+      index const l = k - outer.index();
+      if (l < 0 || l >= run.block_count()) return;
+      run.visit_block(l, [&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+    });
+  }
   /// f(first component, size) for every run, as the parts of the set that it was made of.
   template <class F>
   void visit_parts(F const& f) const {

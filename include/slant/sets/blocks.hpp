@@ -204,6 +204,18 @@ struct visit_blocks_fn {
   }
 };
 
+struct visit_block_fn {
+  template <class C, class F>
+  constexpr void operator()(C const& c, [[maybe_unused]] index k, F&& f) const {
+    if constexpr (has_visit_block<C>) {
+      c.visit_block(k, f);
+    } else {
+      static_assert(!has_visit<C>, "this product of sets has no visit_block(k, f)");
+      f(c, place<static_dimension_of<C>>(0, 0, slant::dimension_of(c)));
+    }
+  }
+};
+
 /// The argument a part gets for its components of x: a copy for a block, a view for a product.
 template <class C, class P, class X>
 [[nodiscard]] auto argument_of(C const&, P const& p, X const& x) {
@@ -274,6 +286,9 @@ inline constexpr detail::block_count_fn block_count{};
 
 /// f(block, place) for each block of a set; a set that is not a product is its own only block.
 inline constexpr detail::visit_blocks_fn visit_blocks{};
+
+/// f(block, place) for block k alone, 0 <= k < block_count; a step for each part of a product.
+inline constexpr detail::visit_block_fn visit_block{};
 
 }  // namespace slant
 

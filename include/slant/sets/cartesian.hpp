@@ -117,6 +117,16 @@ class cartesian_base {
       slant::visit_blocks(part, [&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
     });
   }
+  /// f(block, place) for innermost block k.
+  template <class F>
+  void visit_block(index k, F&& f) const {
+    for_each_part([&](auto const& part, auto const& outer) {
+      index const l = k - outer.index();
+      if (l < 0 || l >= slant::block_count(part)) return;
+      slant::visit_block(part, l,
+                         [&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+    });
+  }
 
  protected:
   template <std::size_t I>

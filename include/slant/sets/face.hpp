@@ -18,6 +18,27 @@
 
 namespace slant {
 
+namespace detail {
+
+/// The state of a block at p of a set C in its part of the point x.
+template <class C, class Block, class P, class X>
+[[nodiscard]] block_state state_of_block(Block const& block, P const& p, X const& x) {
+  if constexpr (whole_space<Block>) {
+    return block_state::free;
+  } else if constexpr (has_state<Block, point_t<Block>> &&
+                       (has_visit<C> || has_static_dimension<C>)) {
+    return block.state(argument_of(block, p, slant::local(x)));
+  } else if constexpr (has_state<C, X> && !has_visit<C>) {
+    return block.state(x);  // a set with one block and vectors of its own kind
+  } else {
+    static_assert(has_state<Block, point_t<Block>>,
+                  "a block of this set has no state(x), so its points have no face");
+    return block_state::free;
+  }
+}
+
+}  // namespace detail
+
 /// The partition of the blocks of a set at a point. Free components are those of the free blocks.
 /// S is the scalar of the vectors that keep() works on. Reassigning for the same set does not
 /// allocate.
@@ -37,19 +58,7 @@ class face {
   template <class C, class X>
   bool assign(C const& set, X const& x) {
     return assign_by(set, [&](auto const& block, auto const& p) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      if constexpr (whole_space<block_type>) {
-        return block_state::free;
-      } else if constexpr (has_state<block_type, point_t<block_type>> &&
-                           (has_visit<C> || has_static_dimension<C>)) {
-        return block.state(detail::argument_of(block, p, slant::local(x)));
-      } else if constexpr (has_state<C, X> && !has_visit<C>) {
-        return block.state(x);  // a set with one block and vectors of its own kind
-      } else {
-        static_assert(has_state<block_type, point_t<block_type>>,
-                      "a block of this set has no state(x), so its points have no face");
-        return block_state::free;
-      }
+      return detail::state_of_block<C>(block, p, x);
     });
   }
 

@@ -140,6 +140,18 @@ class power_product {
       }
     }
   }
+  /// f(block, place) for innermost block k.
+  template <class F>
+  void visit_block(index k, F&& f) const {
+    if constexpr (has_visit<Block>) {
+      index const inner_count = slant::block_count(blocks_[0]);
+      auto const outer = at(k / inner_count);
+      slant::visit_block(blocks_[k / inner_count], k % inner_count,
+                         [&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+    } else {
+      f(blocks_[k], at(k));
+    }
+  }
 
  private:
   /// Where factor i is, numbered by innermost blocks.

@@ -31,7 +31,8 @@
 #include <slant/sets/separable_sum.hpp>
 #include <slant/sets/support.hpp>
 
-// Faces, and slanting operators of projections:
+// Blocks of a point, faces, and slanting operators of projections:
+#include <slant/sets/block_range.hpp>
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/slants.hpp>

@@ -82,6 +82,21 @@ template <class E>
 
 }  // namespace detail
 
+template <set_block Part, class Map>
+class image_block;
+
+namespace detail {
+
+/// Calls f for the images of blocks under the map T.
+template <class Map, class F>
+[[nodiscard]] auto of_image(Map const& map, F& f) {
+  return [&](auto const& b, auto const& p) {
+    f(image_block<std::remove_cvref_t<decltype(b)>, decltype(map.at(p))>(b, map.at(p)), p);
+  };
+}
+
+}  // namespace detail
+
 /// T(Part). Made by `shifted`, `scaled_set` and `rotated`. T has
 ///     pull(x) = T⁻¹x, pull_direction(d), push(z) = T z, push_direction(z),
 ///     offset(y) = yᵀT(0), push_adjoint(y): yᵀ(T z − T 0) = push_adjoint(y)ᵀz,
@@ -202,9 +217,14 @@ class image_block : public detail::inequality_count<Part> {
   void visit(F&& f) const
     requires in_blocks
   {
-    part_.visit([&](auto const& b, auto const& p) {
-      f(image_block<std::remove_cvref_t<decltype(b)>, decltype(map_.at(p))>(b, map_.at(p)), p);
-    });
+    part_.visit(detail::of_image(map_, f));
+  }
+  /// f(block, place) for innermost block k.
+  template <class F>
+  void visit_block(index k, F&& f) const
+    requires in_blocks && has_visit_block<Part>
+  {
+    part_.visit_block(k, detail::of_image(map_, f));
   }
 
  private:
@@ -289,9 +309,14 @@ class image_product {
   void visit(F&& f) const
     requires has_visit<part_type>
   {
-    part().visit([&](auto const& b, auto const& p) {
-      f(image_block<std::remove_cvref_t<decltype(b)>, decltype(map_.at(p))>(b, map_.at(p)), p);
-    });
+    part().visit(detail::of_image(map_, f));
+  }
+  /// f(block, place) for innermost block k.
+  template <class F>
+  void visit_block(index k, F&& f) const
+    requires has_visit_block<part_type>
+  {
+    part().visit_block(k, detail::of_image(map_, f));
   }
 
  private:
