@@ -50,10 +50,10 @@ Eigen::MatrixXd moving_nodes(fem::contact_scene<3> const& scene) {
   return nodes;
 }
 
-contact::obstacle_solution<double> run(fem::contact_scene<3> const& s, contact::obstacle_route r,
+contact::obstacle_solution<double> run(fem::contact_scene<3> const& s, contact::solution_route r,
                                        double tolerance) {
   contact::obstacle_options<double> o{.route = r, .tolerance = tolerance};
-  if (r == contact::obstacle_route::iterate) {
+  if (r == contact::solution_route::iterate) {
     o.near_kernel = contact::rigid_body_modes(moving_nodes(s));
   }
   return contact::solve_obstacle(s.K, s.f, s.N, s.d, o);
@@ -66,7 +66,7 @@ double energy(fem::contact_scene<3> const& s, vector const& u) {
 bool measure(fem::brick_load load, int k, bool direct) {
   auto const scene = fem::make_steel_brick({.k = k, .load = load});
   stopwatch const whole;
-  auto const r = run(scene, contact::obstacle_route::iterate, 1e-8);
+  auto const r = run(scene, contact::solution_route::iterate, 1e-8);
   double const seconds = whole.seconds();
 
   stopwatch const setup;
@@ -80,11 +80,11 @@ bool measure(fem::brick_load load, int k, bool direct) {
     slant::apply(slant::inverse(slant::factorize(scene.K)), scene.f, u);
     linear_seconds = linear.seconds();
   }
-  auto const reference = direct ? run(scene, contact::obstacle_route::factor, 1e-13)
-                                : run(scene, contact::obstacle_route::iterate, 1e-12);
+  auto const reference = direct ? run(scene, contact::solution_route::factor, 1e-13)
+                                : run(scene, contact::solution_route::iterate, 1e-12);
   double const error = energy(scene, r.u - reference.u) / energy(scene, reference.u);
   auto const choice = contact::choose_route(scene.K, scene.N);
-  bool const iterates = choice.route == contact::obstacle_route::iterate;
+  bool const iterates = choice.route == contact::solution_route::iterate;
   std::printf("%s,%d,%td,%td,%td,%.3f,%.3f,%.3f,%s,%.1e\n", std::string(name_of(load)).c_str(), k,
               scene.f.size(), r.steps, r.work.inner_iterations, setup_seconds, seconds,
               linear_seconds, iterates ? "iterate" : "factor", error);

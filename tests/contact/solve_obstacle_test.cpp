@@ -16,7 +16,7 @@
 namespace solve_obstacle_test {
 
 using Eigen::VectorXd;
-using slant::contact::obstacle_route;
+using slant::contact::solution_route;
 using slant::contact::solve_obstacle;
 using sparse = Eigen::SparseMatrix<double>;
 using options = slant::contact::obstacle_options<double>;
@@ -29,13 +29,13 @@ options iterate(fem::contact_scene<3> const& s, double tolerance = 1e-12) {
   for (Eigen::Index i = 0; i < s.mesh.node_count(); ++i) {
     if (!s.unknowns.is_fixed(i)) nodes.col(next++) = s.mesh.nodes.col(i);
   }
-  return {.route = obstacle_route::iterate,
+  return {.route = solution_route::iterate,
           .tolerance = tolerance,
           .near_kernel = slant::contact::rigid_body_modes(nodes),
           .multigrid = {.coarsest = 100}};
 }
 
-options const factor{.route = obstacle_route::factor, .tolerance = 1e-12};
+options const factor{.route = solution_route::factor, .tolerance = 1e-12};
 
 /// Both routes lead to the same displacements and forces.
 slant::contact::obstacle_solution<double> agree(fem::contact_scene<3> const& s, sparse const& N,
@@ -75,7 +75,7 @@ TEST_CASE("without a near kernel, at sizes of a single level of multigrid too") 
     for (int k = 1; k <= test::effort(6, 4); ++k) {
       CAPTURE(k);
       auto const s = fem::make_steel_brick({.k = k, .load = load});
-      auto const a = solve_obstacle(s.K, s.f, s.N, s.d, {.route = obstacle_route::iterate});
+      auto const a = solve_obstacle(s.K, s.f, s.N, s.d, {.route = solution_route::iterate});
       CHECK(a.converged());
       CHECK(a.steps <= 20);
       CHECK(a.work.inner_iterations <= 200);
@@ -87,7 +87,7 @@ TEST_CASE("without a near kernel, at sizes of a single level of multigrid too") 
   for (slant::index const coarsest : {600, 50}) {
     auto const a =
         solve_obstacle(plane.K, c.f, c.N, c.d,
-                       {.route = obstacle_route::iterate, .multigrid = {.coarsest = coarsest}});
+                       {.route = solution_route::iterate, .multigrid = {.coarsest = coarsest}});
     CHECK(a.converged());
     CHECK(a.steps <= 20);
     CHECK(kkt(plane.K, c.N, c.f, c.d, a) <= 1e-9);
@@ -102,12 +102,12 @@ TEST_CASE("a verdict that the check contradicts is none; the factors take over w
   auto const a = solve_obstacle(s.K, c.f, c.N, c.d, {.costs = costs});
   CHECK(a.converged());
   CHECK(kkt(s.K, c.N, c.f, c.d, a) <= 1e-8);
-  CHECK(a.choice.route == obstacle_route::factor);
+  CHECK(a.choice.route == solution_route::factor);
   CHECK(a.choice.reason.find("factored after all, because that ended stalled") !=
         std::string::npos);
   // Loads along a foundation without friction: u is 1e10 times the deformation, and K u − f is
   // rounding of that.
-  for (auto const route : {obstacle_route::factor, obstacle_route::iterate}) {
+  for (auto const route : {solution_route::factor, solution_route::iterate}) {
     auto const loose = test::spring_block<2>(3, 1e-10);
     auto const& l = loose.contact;
     auto const b = solve_obstacle(loose.K, l.f, l.N, l.d, {.route = route});
@@ -174,10 +174,10 @@ TEST_CASE("the route is reported; without one it is chosen") {
   auto const s = fem::make_steel_brick({.k = 2});
   auto const r = solve_obstacle(s.K, s.f, s.N, s.d);
   CHECK(r.converged());
-  CHECK(r.choice.route == obstacle_route::factor);
+  CHECK(r.choice.route == solution_route::factor);
   CHECK(r.work.factorizations == 1);
   auto const limited =
-      solve_obstacle(s.K, s.f, s.N, s.d, {.route = obstacle_route::iterate, .steps = 1});
+      solve_obstacle(s.K, s.f, s.N, s.d, {.route = solution_route::iterate, .steps = 1});
   CHECK(limited.status == slant::status::iteration_limit);
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("what cannot be used is named; an indefinite K is told on either route
   auto const s = fem::make_steel_brick({.k = 2});
   VectorXd bad = s.f;
   bad[5] = std::nan("");
-  for (auto const route : {obstacle_route::factor, obstacle_route::iterate}) {
+  for (auto const route : {solution_route::factor, solution_route::iterate}) {
     options const o{.route = route};
     CHECK_THROWS_AS((void)solve_obstacle(s.K, bad, s.N, s.d, o), slant::bad_input);
     CHECK_THROWS_AS((void)solve_obstacle(s.K, s.f, s.N, VectorXd(s.d.head(3)), o),
@@ -208,38 +208,38 @@ TEST_CASE("what cannot be used is named; an indefinite K is told on either route
 TEST_CASE("small problems are factored, large ones iterated, and both ways the reason is told") {
   auto const s = fem::make_steel_brick({.k = 2});
   auto const small = choose_route(s.K, s.N);
-  CHECK(small.route == obstacle_route::factor);
+  CHECK(small.route == solution_route::factor);
   CHECK(small.factor_seconds < small.iterate_seconds);
   CHECK(small.reason.starts_with("factored: factors are estimated at "));
   slant::contact::route_costs slow;
   slow.operation = 1;  // seconds
-  auto const large = choose_route(s.K, s.N, obstacle_route::automatic, slow);
-  CHECK(large.route == obstacle_route::iterate);
+  auto const large = choose_route(s.K, s.N, solution_route::automatic, slow);
+  CHECK(large.route == solution_route::iterate);
   CHECK(large.reason.starts_with("iterated: factors are estimated at more than "));
 }
 
 TEST_CASE("without supernodes iterating pays earlier") {
   auto const s = fem::make_steel_brick({.k = 5});
   auto const costs = slant::contact::route_costs::without_cholmod();
-  auto const plain = choose_route(s.K, s.N, obstacle_route::automatic, costs);
+  auto const plain = choose_route(s.K, s.N, solution_route::automatic, costs);
   auto const blocked =
-      choose_route(s.K, s.N, obstacle_route::automatic, slant::contact::route_costs{});
+      choose_route(s.K, s.N, solution_route::automatic, slant::contact::route_costs{});
   CHECK(plain.factor_seconds > blocked.factor_seconds);
   CHECK(plain.iterate_seconds == blocked.iterate_seconds);
 }
 
 TEST_CASE("the choice can be forced, but not to what is impossible") {
   auto const s = fem::make_steel_brick({.k = 2});
-  for (auto const route : {obstacle_route::factor, obstacle_route::iterate}) {
+  for (auto const route : {solution_route::factor, solution_route::iterate}) {
     auto const c = choose_route(s.K, s.N, route);
     CHECK(c.route == route);
     CHECK(c.reason.ends_with("as asked for"));
   }
   sparse const shared = Eigen::MatrixXd::Ones(2, s.K.cols()).sparseView();
   auto const c = choose_route(s.K, shared);
-  CHECK(c.route == obstacle_route::factor);
+  CHECK(c.route == solution_route::factor);
   CHECK(c.reason == "factored: rows 0 and 1 of N share unknown 0");
-  CHECK_THROWS_AS((void)choose_route(s.K, shared, obstacle_route::iterate), slant::bad_input);
+  CHECK_THROWS_AS((void)choose_route(s.K, shared, solution_route::iterate), slant::bad_input);
 }
 
 }  // namespace solve_obstacle_test

@@ -22,6 +22,7 @@
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/dual.hpp>
 #include <slant/contact/obstacle.hpp>
+#include <slant/contact/primal.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/total_feti.hpp>
 
@@ -33,6 +34,7 @@
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/route.hpp>
 
 // Coulomb friction of elastic bodies:
 #include <slant/contact/coulomb/coulomb.hpp>

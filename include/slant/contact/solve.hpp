@@ -16,6 +16,10 @@
 //
 // One certificate is all that a well-conditioned scene costs: one solve with K beyond that for u.
 //
+// Where the layout of the unknowns is known and K is large, K is not factored: the displacements are
+// solved for with multigrid (contact/parts/iterated_run.hpp). Which is faster is estimated
+// (contact/route.hpp), and what has not converged that way is factored after all.
+//
 // Bodies that supports do not hold, so that K is singular: their free motions are computed and
 // named (contact/free_motions), and where contact or friction holds them the same method solves a
 // few problems with springs that give way (contact/parts/spring_supports), from where the load
@@ -29,6 +33,7 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dual.hpp>
 #include <slant/contact/newton_certificate.hpp>
+#include <slant/contact/parts/iterated_run.hpp>
 #include <slant/contact/parts/spring_supports.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve_options.hpp>
@@ -297,9 +302,29 @@ template <class Friction, class S, class... Observers>
   using run = detail::certified_run<Friction, S>;
   o.validate();
   detail::validated(friction, c, K.rows());
+  route_choice choice;
+  if constexpr (sizeof...(Observers) == 0) {
+    choice = choose_route(K, detail::iteration_refusal(K, c, o), o.route, o.costs);
+    if (choice.route == solution_route::iterate) {
+      try {
+        auto found = detail::iterated_run(friction, K, c, o);
+        found.choice = choice;
+        if (found.converged() || o.route == solution_route::iterate) return found;
+        choice.reason += "; factored after all: " + found.reason;
+      } catch (bad_input const& refusal) {
+        if (o.route == solution_route::iterate) throw;
+        choice.reason += "; factored after all: " + std::string(refusal.what());
+      }
+      choice.route = solution_route::factor;
+    }
+  } else if (o.route == solution_route::iterate) {
+    throw bad_input("route", "iterate", "another one, as observers see states of symmetric_newton");
+  }
   free_motions<S> motions;
   try {
-    return run(friction, K, c, o).run(observers...);
+    auto found = run(friction, K, c, o).run(observers...);
+    found.choice = std::move(choice);
+    return found;
   } catch (bad_input const& refusal) {
     motions = motions_behind(refusal, K, o.layout);
     if (motions.free.empty()) throw;

@@ -20,8 +20,8 @@
 #include <slant/contact/obstacle.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
+#include <slant/contact/route.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/factorizations/fill_estimate.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/multilevel/multigrid.hpp>
@@ -36,91 +36,16 @@
 
 namespace slant::contact {
 
-// --- obstacle route ------------------------------------------------------------------------------
-//
-// Two routes to contact without friction: factor K and solve the dual problem, an application of
-// K⁻¹ a product; or never factor K and iterate on u with a multigrid preconditioner. In space the
-// operations of a factorisation grow like n², its entries like n^(4/3), the work of a cycle like n:
-// there is a size from which on iterating is faster. Which side of it a problem is on is judged by
-//
-//     factor:   α nnz(K) + β operations(L) + products · γ entries(L)
-//     iterate:  (δ + cycles · ε) nnz(K)
-//
-// with L estimated by estimate_fill and constants measured on the steel brick without friction
-// (k = 4 … 16, all loads, relative accuracy 1e-8), where the two are equal near k = 8.
+// --- route ---------------------------------------------------------------------------------------
 
-/// How to solve a contact problem without friction.
-enum class obstacle_route : unsigned char {
-  automatic,  ///< what the cost model takes to be faster
-  factor,     ///< factors of K, dual problem
-  iterate     ///< multigrid, bounds on u
-};
-
-/// Processor seconds per unit of work on an AMD EPYC; machines differ, but less in what decides,
-/// the ratios.
-struct route_costs {
-  double ordering = 1.2e-7;    ///< α, per entry of K
-  double operation = 2.3e-11;  ///< β, per operation of the factorisation as estimated
-  double sweep = 1.3e-9;       ///< γ, per entry of L and application of K⁻¹
-  double products = 60;        ///< applications of K⁻¹ of the dual method
-  double hierarchy = 2e-7;     ///< δ, per entry of K
-  double cycle = 6e-9;         ///< ε, per entry of K and cycle, a product by K included
-  double cycles = 80;          ///< of the primal method
-
-  /// For factors by Eigen, without supernodes.
-  [[nodiscard]] static constexpr route_costs without_cholmod() {
-    return {.operation = 1.2e-9, .sweep = 2e-9};
-  }
-};
-
-/// The outcome of the cost model.
-struct route_choice {
-  obstacle_route route = obstacle_route::factor;  ///< factor or iterate
-  double factor_seconds = 0;                      ///< estimated; at least, if counting was stopped
-  double iterate_seconds = 0;                     ///< estimated
-  std::string reason;                             ///< a sentence
-};
-
-/// The costs of the factorisation that slant::factorize has for scalars S.
-template <class S>
-[[nodiscard]] constexpr route_costs default_route_costs() {
-  using factor_type = decltype(slant::factorize(std::declval<Eigen::SparseMatrix<S> const&>()));
-  return std::is_same_v<factor_type, ldlt<S>> ? route_costs::without_cholmod() : route_costs{};
-}
-
-/// Which route to take for K (n × n, both triangles) and N (m × n). Counts the fill no further than
-/// is needed to decide. Rows of N that are no bounds in any coordinates leave only `factor`: throws
-/// bad_input if `iterate` is asked for then.
+/// Which route to take for K (n × n, both triangles) and N (m × n), as choose_route of route.hpp.
+/// Rows of N that are no bounds in any coordinates leave only `factor`.
 template <class S>
 [[nodiscard]] route_choice choose_route(Eigen::SparseMatrix<S> const& K,
                                         Eigen::SparseMatrix<S> const& N,
-                                        obstacle_route wanted = obstacle_route::automatic,
+                                        solution_route wanted = solution_route::automatic,
                                         route_costs const& cost = default_route_costs<S>()) {
-  route_choice c;
-  if (auto const why = detail::shared_unknown(N)) {
-    if (wanted == obstacle_route::iterate) {
-      throw bad_input("N", *why, "rows of one entry, or of disjoint supports, to iterate");
-    }
-    c.reason = "factored: " + *why;
-    return c;
-  }
-  if (wanted != obstacle_route::automatic) {
-    c.route = wanted;
-    c.reason =
-        wanted == obstacle_route::factor ? "factored, as asked for" : "iterated, as asked for";
-    return c;
-  }
-  auto const entries = static_cast<double>(K.nonZeros());
-  c.iterate_seconds = (cost.hierarchy + cost.cycles * cost.cycle) * entries;
-  auto const fill = estimate_fill(K, c.iterate_seconds / cost.operation);
-  c.factor_seconds = cost.ordering * entries + cost.operation * fill.operations +
-                     cost.products * cost.sweep * fill.entries;
-  bool const iterate = !fill.complete || c.factor_seconds > c.iterate_seconds;
-  c.route = iterate ? obstacle_route::iterate : obstacle_route::factor;
-  c.reason = std::string(iterate ? "iterated" : "factored") + ": factors are estimated at " +
-             (fill.complete ? "" : "more than ") + slant::detail::show(c.factor_seconds) +
-             " s, multigrid at " + slant::detail::show(c.iterate_seconds) + " s";
-  return c;
+  return choose_route(K, detail::shared_unknown(N), wanted, cost);
 }
 
 // --- solve obstacle ------------------------------------------------------------------------------
@@ -128,7 +53,7 @@ template <class S>
 /// Options of solve_obstacle.
 template <class S = double>
 struct obstacle_options {
-  obstacle_route route = obstacle_route::automatic;
+  solution_route route = solution_route::automatic;
   /// Of the reduced gradient, relative to that of P(0), of u or of λ; and a hundredth of what
   /// check_optimality may find at the end.
   S tolerance = S(1e-10);
@@ -257,10 +182,10 @@ template <class S>
   }
   obstacle_solution<S> s;
   s.choice = choose_route(K, N, o.route, o.costs);
-  if (s.choice.route == obstacle_route::iterate) {
+  if (s.choice.route == solution_route::iterate) {
     detail::iterate(K, c, o, s);
-    if (s.converged() || o.route == obstacle_route::iterate) return s;
-    s.choice.route = obstacle_route::factor;
+    if (s.converged() || o.route == solution_route::iterate) return s;
+    s.choice.route = solution_route::factor;
     s.choice.reason += "; factored after all, because that ended " +
                        std::string(to_string(s.status)) + ": " + s.reason;
     s.steps = 0;

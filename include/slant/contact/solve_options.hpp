@@ -7,9 +7,11 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/node_layout.hpp>
+#include <slant/contact/route.hpp>
 #include <slant/factorizations/condensation_options.hpp>
 #include <slant/iteration/iteration.hpp>
 #include <slant/iteration/stopping.hpp>
+#include <slant/multilevel/multigrid.hpp>
 
 #include <Eigen/Core>
 
@@ -36,7 +38,13 @@ struct solve_options {
   condensation_options condensation{};
   /// λ to start from; none: conjugate gradients without the constraints.
   std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
-  node_layout<S> layout{};  ///< gives motions of bodies without supports their names
+  /// Where the unknowns are. Gives motions of bodies without supports their names, and multigrid the
+  /// rigid-body modes: without it K is factored, unless `route` says otherwise.
+  node_layout<S> layout{};
+  /// Factors of K, or multigrid and no factors.
+  solution_route route = solution_route::automatic;
+  multigrid_options multigrid{};
+  route_costs costs = default_route_costs<S>();
   /// Called with every iterate, the start included; twice with one from which a correction goes on.
   /// Empty: nothing is called. Unlike observers it is no part of the type of the call.
   std::function<void(solve_step<S> const&)> progress{};
@@ -45,6 +53,7 @@ struct solve_options {
   [[gnu::cold]] void validate() const {
     slant::detail::checked_tolerance(tolerance);
     if (max_steps < 0) throw bad_input("max_steps", slant::detail::show(max_steps), "at least 0");
+    multigrid.validate();
     condensation.validate();
   }
 };
@@ -59,14 +68,15 @@ struct solution {
   slant::status status = slant::status::running;
   std::string reason;       ///< the status as a sentence
   energy_error<S> error{};  ///< what is known of ‖u − u*‖_K
-  S condition{0};           ///< estimate of the condition number of K
+  S condition{0};           ///< estimate of the condition number of K; 0: none, K was not factored
   index iterations = 0;     ///< steps of the method
   slant::work work{};       ///< applications of A, factorisations
   index solves = 0;         ///< solves with K
   index springs = 0;        ///< problems with springs that were solved for bodies without supports
   index corrections = 0;    ///< how often b was corrected
   bool scaled = false;      ///< whether rows of B were scaled
-  std::string factorization;  ///< what factored K, and how
+  std::string factorization;  ///< what factored K, and how; or the levels of multigrid
+  route_choice choice{};      ///< which route was taken, and why
   free_motions<S> motions{};  ///< what K leaves free; empty if supports hold all bodies
   vector_type descent{};      ///< where unbounded by a free motion: that motion
 

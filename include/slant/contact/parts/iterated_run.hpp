@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact with Tresca friction without factors of K: Newton's method for the displacements
+// (contact/primal.hpp, methods/envelope_newton.hpp), its systems by conjugate gradients with
+// multigrid on the face, to a relative error in the energy norm that a certificate confirms.
+//
+//     step       until ‖Π(r + v)‖_M, which costs one cycle, is half of the tolerance times ‖u‖_K
+//     certify    certificates/energy_certificate.hpp, ‖·‖_{K⁻¹} by conjugate gradients with M
+//     go on      where that asks for more, with a goal that is smaller by as much
+#pragma once
+
+#include <slant/certificates/energy_certificate.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/friction_law.hpp>
+#include <slant/contact/node_layout.hpp>
+#include <slant/contact/primal.hpp>
+#include <slant/contact/route.hpp>
+#include <slant/contact/solve_options.hpp>
+#include <slant/methods/envelope_newton.hpp>
+#include <slant/multilevel/multigrid.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slant::contact::detail {
+
+/// The rigid-body motions of a layout: n × 3 in the plane, n × 6 in space, about the centre of the
+/// nodes and in units of their extent.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> rigid_motions(
+    node_layout<S> const& layout) {
+  index const D = layout.dimension(), n = static_cast<index>(layout.node.size());
+  Eigen::Matrix<S, Eigen::Dynamic, 1> const most = layout.x.rowwise().maxCoeff();
+  Eigen::Matrix<S, Eigen::Dynamic, 1> const least = layout.x.rowwise().minCoeff();
+  S const extent = unit_near(S((most / 2 - least / 2).maxCoeff()));
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> R;
+  R.setZero(n, D == 2 ? 3 : 6);
+  for (index j = 0; j < n; ++j) {
+    index const node = layout.node[static_cast<std::size_t>(j)];
+    index const axis = layout.axis[static_cast<std::size_t>(j)];
+    R(j, axis) = S(1);
+    index mode = D;
+    for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
+      for (index b = a + 1; b < D; ++b, ++mode) {
+        auto const x = [&](index c) {
+          return S((layout.x(c, node) - least[c] / 2 - most[c] / 2) / extent);
+        };
+        if (axis == a) R(j, mode) = -x(b);
+        if (axis == b) R(j, mode) = x(a);
+      }
+    }
+  }
+  return R;
+}
+
+/// Is there a motion of a whole body, of those in R, that K resists by less than `share` of what the
+/// diagonal of K would? Then the error in the energy norm says little of it.
+template <class S>
+[[nodiscard]] bool nearly_floats(Eigen::SparseMatrix<S> const& K,
+                                 Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R,
+                                 S const& share) {
+  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  matrix const image = K * R;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> const d = K.diagonal();
+  for (auto const& body : bodies_of(K)) {
+    matrix G = matrix::Zero(R.cols(), R.cols()), H = G;
+    for (index const j : body) {
+      G += R.row(j).transpose() * image.row(j);
+      H += d[j] * R.row(j).transpose() * R.row(j);
+    }
+    // In motions of which H is the identity; what H does not see moves nothing.
+    Eigen::SelfAdjointEigenSolver<matrix> const scale(H);
+    S const least = S(1e-10) * scale.eigenvalues().maxCoeff();
+    matrix W(R.cols(), 0);
+    for (index k = 0; k < R.cols(); ++k) {
+      if (!(scale.eigenvalues()[k] > least)) continue;
+      W.conservativeResize(Eigen::NoChange, W.cols() + 1);
+      using std::sqrt;
+      W.col(W.cols() - 1) = scale.eigenvectors().col(k) / sqrt(scale.eigenvalues()[k]);
+    }
+    if (W.cols() == 0) continue;
+    matrix const small = W.transpose() * G * W;
+    Eigen::SelfAdjointEigenSolver<matrix> const resistance(
+        matrix(small / 2 + small.transpose() / 2), Eigen::EigenvaluesOnly);
+    if (!(resistance.eigenvalues().minCoeff() > share)) return true;
+  }
+  return false;
+}
+
+/// Why this scene is not iterated, or nothing.
+template <class S>
+[[nodiscard]] std::optional<std::string> iteration_refusal(Eigen::SparseMatrix<S> const& K,
+                                                           data<S> const& c,
+                                                           solve_options<S> const& o) {
+  if (o.prove) return "the proof of a bound takes factors";
+  bool const asked = o.route == solution_route::iterate;
+  if (!asked && !o.layout.is_known()) return "no coordinates of nodes are given";
+  if (!asked && o.start) return "forces to start from are given";
+  if (auto const why = primal_refusal(c)) return why;
+  if (o.layout.is_known()) {
+    o.layout.validate(K.rows());
+    if (nearly_floats<S>(K, rigid_motions(o.layout), S(1e-9))) {
+      return "a body is held by contact or friction only, or hardly by anything else";
+    }
+  }
+  return std::nullopt;
+}
+
+/// The run. Throws bad_input where K is found not to be definite or does not fit the nodes.
+template <class Friction, class S>
+[[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
+                                       data<S> const& c, solve_options<S> const& o) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using slant::detail::show;
+  using std::sqrt;
+  solution<S> result;
+  primal<S> const problem(K, c);
+  auto const hierarchy = [&] {
+    if (!o.layout.is_known()) return slant::multigrid<S>(problem.matrix(), o.multigrid);
+    return slant::multigrid<S>(problem.matrix(), problem.coordinates(rigid_motions(o.layout)),
+                               o.multigrid);
+  };
+  slant::multigrid<S> const M = hierarchy();
+  result.factorization = M.description();
+  auto const qp = problem.qp();
+  symmetric_newton_options<S> newton;
+  newton.energy_goal = std::numeric_limits<S>::min();  // asks for the estimate
+  auto state = envelope_newton{qp, M, newton}.start(problem.zero());
+  energy_certificate certificate(qp, M);
+  // ‖x‖_K from x and r.
+  auto const size = [&] {
+    S const square =
+        state.unit * slant::inner_product(state.x, state.r) + slant::inner_product(state.x, qp.b());
+    return square > S(0) ? S(sqrt(square)) : S(0);
+  };
+  auto const tell = [&] {
+    if (!o.progress) return;
+    bool const is_measured = state.gradient_scale > S(0);
+    o.progress({state.iteration,
+                is_measured ? S(state.reduced_gradient_norm / state.gradient_scale) : S(0)});
+  };
+  S share = o.tolerance / S(2), best = std::numeric_limits<S>::infinity();
+  constexpr index rounds = 12;
+  for (index round = 0;; ++round) {
+    tell();
+    while (state.status == status::running && state.iteration < o.max_steps) {
+      newton.energy_goal = std::max<S>(share * size(), std::numeric_limits<S>::min());
+      envelope_newton{qp, M, newton}.step(state);
+      tell();
+    }
+    bool const ends = state.status == status::converged || state.status == status::stalled;
+    result.error = certificate(state.x);
+    S const error = result.error.relative();
+    bool const is_enough = error <= o.tolerance;
+    bool const goes_on = state.status == status::converged && error < best / S(2) &&
+                         state.reduced_gradient_norm > S(0) && round < rounds;
+    if (is_enough || !goes_on) {
+      result.status = is_enough                           ? status::converged
+                      : state.status == status::converged ? status::stalled
+                      : ends                              ? state.status
+                      : state.status == status::running   ? status::iteration_limit
+                                                          : state.status;
+      result.reason = result.error.sentence() +
+                      (is_enough ? ", at most " + show(o.tolerance)
+                                 : "; asked was " + show(o.tolerance) + "; " + state.reason());
+      break;
+    }
+    best = error;
+    share *= std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
+    state.status = status::running;
+  }
+  result.u = problem.displacement(state.x);
+  vector_type λ = problem.multipliers(state.x);
+  slant::project(detail::feasible_set(law, c), λ, λ);
+  result.multipliers = std::move(λ);
+  result.iterations = state.iteration;
+  result.work = state.work;
+  result.work.operator_applications += certificate.applications();
+  return result;
+}
+
+}  // namespace slant::contact::detail

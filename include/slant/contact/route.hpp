@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+//
+// Two routes to a contact problem: factor K and solve the dual problem, an application of K⁻¹ a
+// product; or never factor K and iterate on u with a multigrid preconditioner. In space the
+// operations of a factorisation grow like n², its entries like n^(4/3), the work of a cycle like n:
+// there is a size from which on iterating is faster. Which side of it a problem is on is judged by
+//
+//     factor:   α nnz(K) + β operations(L) + products · γ entries(L)
+//     iterate:  (δ + cycles · ε) nnz(K)
+//
+// with L estimated by estimate_fill and constants measured on the steel brick with and without
+// friction (k = 8 … 32, all loads, relative accuracy 1e-8).
+#pragma once
+
+#include <slant/concepts/bad_input.hpp>
+#include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/fill_estimate.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace slant::contact {
+
+/// How to solve a contact problem.
+enum class solution_route : unsigned char {
+  automatic,  ///< what the cost model takes to be faster
+  factor,     ///< factors of K, dual problem
+  iterate     ///< multigrid, K never factored
+};
+
+/// Processor seconds per unit of work on an AMD EPYC; machines differ, but less in what decides,
+/// the ratios.
+struct route_costs {
+  double ordering = 1.2e-7;    ///< α, per entry of K
+  double operation = 2.3e-11;  ///< β, per operation of the factorisation as estimated
+  double sweep = 1.3e-9;       ///< γ, per entry of L and application of K⁻¹
+  double products = 60;        ///< applications of K⁻¹ of the dual method
+  double hierarchy = 2e-8;     ///< δ, per entry of K
+  double cycle = 3.3e-9;       ///< ε, per entry of K and cycle, a product by K included
+  double cycles = 50;          ///< of the primal method
+
+  /// For factors by Eigen, without supernodes.
+  [[nodiscard]] static constexpr route_costs without_cholmod() {
+    return {.operation = 1.2e-9, .sweep = 2e-9};
+  }
+};
+
+/// The outcome of the cost model.
+struct route_choice {
+  solution_route route = solution_route::factor;  ///< factor or iterate
+  double factor_seconds = 0;                      ///< estimated; at least, if counting was stopped
+  double iterate_seconds = 0;                     ///< estimated
+  std::string reason;                             ///< a sentence
+};
+
+/// The costs of the factorisation that slant::factorize has for scalars S.
+template <class S>
+[[nodiscard]] constexpr route_costs default_route_costs() {
+  using factor_type = decltype(slant::factorize(std::declval<Eigen::SparseMatrix<S> const&>()));
+  return std::is_same_v<factor_type, ldlt<S>> ? route_costs::without_cholmod() : route_costs{};
+}
+
+/// Which route to take for K (n × n, both triangles). Counts the fill no further than is needed to
+/// decide. A refusal, why iterating is impossible, leaves only `factor`: throws bad_input if
+/// `iterate` is asked for then.
+template <class S>
+[[nodiscard]] route_choice choose_route(Eigen::SparseMatrix<S> const& K,
+                                        std::optional<std::string> const& refusal,
+                                        solution_route wanted = solution_route::automatic,
+                                        route_costs const& cost = default_route_costs<S>()) {
+  route_choice c;
+  if (refusal) {
+    if (wanted == solution_route::iterate) {
+      throw bad_input("route", "iterate", "factor or automatic, because " + *refusal);
+    }
+    c.reason = "factored: " + *refusal;
+    return c;
+  }
+  if (wanted != solution_route::automatic) {
+    c.route = wanted;
+    c.reason =
+        wanted == solution_route::factor ? "factored, as asked for" : "iterated, as asked for";
+    return c;
+  }
+  auto const entries = static_cast<double>(K.nonZeros());
+  c.iterate_seconds = (cost.hierarchy + cost.cycles * cost.cycle) * entries;
+  auto const fill = estimate_fill(K, c.iterate_seconds / cost.operation);
+  c.factor_seconds = cost.ordering * entries + cost.operation * fill.operations +
+                     cost.products * cost.sweep * fill.entries;
+  bool const iterate = !fill.complete || c.factor_seconds > c.iterate_seconds;
+  c.route = iterate ? solution_route::iterate : solution_route::factor;
+  c.reason = std::string(iterate ? "iterated" : "factored") + ": factors are estimated at " +
+             (fill.complete ? "" : "more than ") + slant::detail::show(c.factor_seconds) +
+             " s, multigrid at " + slant::detail::show(c.iterate_seconds) + " s";
+  return c;
+}
+
+}  // namespace slant::contact
