@@ -119,7 +119,7 @@ namespace slant::contact::detail {
 
 /// The rows of one contact: entries (column, value) of N_i, then of T_i.
 template <class S>
-using contact_rows = std::vector<std::vector<std::pair<index, S>>>;
+using local_rows = std::vector<std::vector<std::pair<index, S>>>;
 
 /// Where a row acts: as `size` times component `component`, with the sign of `size`.
 template <class S>
@@ -143,7 +143,7 @@ struct local_coordinates {
     std::vector<index> owner(static_cast<std::size_t>(n), -1);
     std::vector<Eigen::Triplet<S>> entries;
     for (index i = 0; i < c.nodes() && refusal.empty(); ++i) {
-      contact_rows<S> rows(static_cast<std::size_t>(1 + per));
+      local_rows<S> rows(static_cast<std::size_t>(1 + per));
       read(N, i, rows[0]);
       for (index k = 0; k < per; ++k) read(T, i * per + k, rows[static_cast<std::size_t>(1 + k)]);
       claim(rows, i, owner);
@@ -167,7 +167,7 @@ struct local_coordinates {
     }
   }
 
-  void claim(contact_rows<S> const& rows, index i, std::vector<index>& owner) {
+  void claim(local_rows<S> const& rows, index i, std::vector<index>& owner) {
     for (auto const& row : rows) {
       for (auto const& [j, value] : row) {
         index& other = owner[static_cast<std::size_t>(j)];
@@ -181,7 +181,7 @@ struct local_coordinates {
     }
   }
 
-  void place_rows(contact_rows<S> const& rows, index i, std::vector<Eigen::Triplet<S>>& entries) {
+  void place_rows(local_rows<S> const& rows, index i, std::vector<Eigen::Triplet<S>>& entries) {
     using std::abs;
     using std::sqrt;
     // The rows as dense vectors of their common support.
