@@ -17,17 +17,20 @@
 // that slides has C/ρ = (g/‖x‖)(I − n nᵀ), n = z/‖z‖.
 //
 //     x ← prox_{ρφ}(z), r ← A x − b                          one product
-//     ρ ← ρ/2 while (x − y)ᵀA (x − y) > α ‖x − y‖²/ρ         from the gradients: a product each time
 //     t and A t by conjugate gradients                       one product a step
-//     y ← x + β t, β = 1, ½, … until the envelope has fallen    no product; β = 0 always does
+//     y ← x + β t, β = 1, ½, … until E_γ has fallen          no product
+//     y ← prox_{γφ}(y − γ r(y)) where no β is good enough    one product
 //
 // The envelope [Patrinos, Bemporad 2013; Themelis, Stella, Patrinos 2018, ZeroFPR]
 //
-//     E(y) = q(y) + min_w  r(y)ᵀ(w − y) + ‖w − y‖²/(2ρ) + φ(w),      the minimum at w = prox_{ρφ}(z),
+//     E_γ(y) = q(y) + min_w  r(y)ᵀ(w − y) + ‖w − y‖²/(2γ) + φ(w)
 //
-// has the minimum and the minimisers of q + φ if ρ < 1/σ_max, and E(x) ≤ E(y) − (1 − α)/(2ρ) ‖x − y‖².
-// So the iteration converges from everywhere, and steps are full and superlinear near a solution
-// with an invertible system.
+// has the minimum and the minimisers of q + φ if γ ≤ α/σ_max, α < 1, and for w = prox_{γφ}(y − γ r(y))
+// E_γ(w) ≤ E_γ(y) − (1 − α)/(2γ) ‖w − y‖². So the iteration converges from everywhere, and steps are
+// full and superlinear near a solution with an invertible system. σ_max is not known: γ is made
+// smaller where the gradients show more curvature. ρ is another one and may be longer: it says how
+// far off blocks change their states, and with a ρ of 1/σ_max the front of what slides and opens
+// moves a node or two a step.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -51,6 +54,7 @@
 #include <slant/sets/curved_face.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -83,8 +87,13 @@ struct envelope_newton_state : gradient_point<QP> {
   curved_minimum<vector_type, M> inner;  ///< the step t on it
   forcing_history<scalar> forcing{};     ///< errors and inner tolerances so far
   progress_watch<scalar> progress;       ///< looks for steps that get nowhere
+  vector_type lowered;                   ///< w = prox_{γφ}(y − γ r(y))
+  vector_type base;                      ///< y before the step
+  vector_type base_gradient;             ///< r(y) before the step
 
-  scalar value{0};                ///< E(y) / unit
+  scalar γ{0};                    ///< of the envelope, in units of 1/A
+  scalar way{0};                  ///< ‖w − y‖
+  scalar value{0};                ///< E_γ(y) / unit
   scalar value_noise{0};          ///< what of it rounding errors may be
   scalar residual_norm{0};        ///< ‖F(y)‖/ρ, in units of the gradient
   scalar preconditioner_size{1};  ///< s = mean(diag M)
@@ -92,7 +101,7 @@ struct envelope_newton_state : gradient_point<QP> {
   scalar energy_estimate{0};  ///< ‖Π(r + v)‖_M at x before the last step, about ‖x − x*‖_A
   bool at_projection = false;  ///< x = prox_{ρφ}(z)
   index inner_iterations = 0;  ///< of the last Newton step
-  index shortened = 0;         ///< how often ρ was made smaller
+  index descents = 0;          ///< steps to w, where no Newton step was good enough
   index iteration = 0;
   slant::status status = slant::status::running;
 
@@ -102,7 +111,10 @@ struct envelope_newton_state : gradient_point<QP> {
         gradient(x0),
         z(x0),
         face(function_of(qp)),
-        inner(x0, qp.size(), m) {}
+        inner(x0, qp.size(), m),
+        lowered(x0),
+        base(x0),
+        base_gradient(x0) {}
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
@@ -169,6 +181,23 @@ class envelope_newton {
     return s;
   }
 
+  /// The state of prox_{ρφ}(z), z = z_of(ρ), of which the first step takes the face as it is and
+  /// accepts what it finds: where a coarser problem has shown which blocks are held. Throws as
+  /// start.
+  template <class F>
+    requires std::convertible_to<std::invoke_result_t<F const&, scalar const&>, vector_type>
+  [[nodiscard]] state_type start_on_face(F const& z_of) const {
+    state_type s(qp_.get(), m_.get(), qp_.get().b());
+    set_sizes(s);
+    vector_type const z = z_of(s.step_length);
+    detail::check_start_in_set(z, qp_.get().b());
+    begin(s, s.begin(qp_.get(), z));
+    vectors::copy(z, s.z);
+    s.value = std::numeric_limits<scalar>::infinity();
+    s.at_projection = true;
+    return s;
+  }
+
   /// One Newton step.
   void step(state_type& s) const {
     if (s.status != status::running) return;
@@ -194,7 +223,7 @@ class envelope_newton {
   void resume(state_type& s, vector_type const& x0) const {
     detail::check_start_in_set(x0, qp_.get().b());
     s.progress = {};
-    s.iteration = s.inner_iterations = s.shortened = 0;
+    s.iteration = s.inner_iterations = s.descents = 0;
     s.status = status::running;
     begin(s, s.begin_again(qp_.get(), x0));
   }
@@ -202,31 +231,31 @@ class envelope_newton {
   bool refresh(state_type&) const { return false; }
 
  private:
-  /// ρ is this many times as long at first: blocks change their states further off, and where it is
-  /// too long it is made shorter. On bricks with friction a third of the steps.
-  static constexpr scalar first = scalar(4);
+  /// ρ and γ in units of step_factor/mean(diag A). On bricks with friction a third of the steps that
+  /// a ρ of one unit takes.
+  static constexpr scalar long_step = scalar(4), short_step = scalar(0.5);
   static constexpr scalar share = scalar(0.95);  // α
-  static constexpr scalar decrease = scalar(0.01);  // of E, in units of ‖x − y‖²/ρ; < (1 − α)/2
+  static constexpr scalar decrease = scalar(0.01);  // of E, in units of ‖w − y‖²/γ; < (1 − α)/2
 
-  /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
+  /// ρ, γ and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
   [[gnu::noinline]] void set_sizes(state_type& s) const {
     if (options_.step_length) {
       s.step_length = *options_.step_length;
     } else {
       auto const step =
-          mean_step(qp_.get().a(), s.x, first * options_.step_factor, options_.mean_diagonal);
+          mean_step(qp_.get().a(), s.x, long_step * options_.step_factor, options_.mean_diagonal);
       s.step_length = step.length;
       s.work.setup_applications += step.applications;
     }
+    s.γ = s.step_length * (short_step / long_step);
     if constexpr (!preconditioned ||
                   preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
-      s.preconditioner_size = s.step_length / (first * options_.step_factor);
+      s.preconditioner_size = s.step_length / (long_step * options_.step_factor);
     } else {
       s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
     }
   }
 
-  /// y = x; prox(z) is in s.projected, as s.reduce has left it.
   void begin(state_type& s, bool solved) const {
     stay(s);
     s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
@@ -234,12 +263,13 @@ class envelope_newton {
     judge(s);
     if (solved) s.status = status::converged;
   }
+  /// y = x, with its z, E and ‖F‖.
   void stay(state_type& s) const {
     vectors::copy(s.x, s.y);
     vectors::copy(s.r, s.gradient);
-    vectors::waxpy(-ρ(s), s.r, s.x, s.z);
+    project(s);
+    evaluate(s);
     s.at_projection = false;
-    measure(s);
   }
   static void judge(state_type& s) {
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
@@ -249,52 +279,59 @@ class envelope_newton {
   /// ρ per unit of the gradient: z = y − ρ r.
   static scalar ρ(state_type const& s) { return s.step_length * s.unit; }
 
-  /// E(y) and ‖F(y)‖ from y, r(y) and w = prox(z) in s.projected.
-  void measure(state_type& s) const {
-    auto const& b = qp_.get().b();
+  /// z, prox_{ρφ}(z) in s.projected, and ‖F(y)‖.
+  void project(state_type& s) const {
+    vectors::waxpy(-ρ(s), s.gradient, s.y, s.z);
+    slant::project(s.step_of(qp_.get()), slant::local(s.z), slant::local(s.projected));
     vectors::difference(s.projected, s.y, s.trial);
-    scalar const way = norm(s.trial);
-    scalar const near = way * (way / ρ(s)) / scalar(2);
+    s.residual_norm = norm(s.trial) / s.step_length;
+  }
+  /// w and E_γ(y).
+  void evaluate(state_type& s) const {
+    auto const& b = qp_.get().b();
+    vectors::waxpy(-(s.γ * s.unit), s.gradient, s.y, s.trial);
+    slant::project(slant::at_step(function_of(qp_.get()), s.γ), slant::local(s.trial),
+                   slant::local(s.lowered));
+    vectors::difference(s.lowered, s.y, s.trial);
+    s.way = norm(s.trial);
+    scalar const near = s.way * (s.way / (s.γ * s.unit)) / scalar(2);
     scalar const steep = inner_product(s.gradient, s.trial);
     scalar const with_r = inner_product(s.y, s.gradient), with_b = inner_product(s.y, b) / s.unit;
     scalar extra(0);
     if constexpr (!quadratic_program<problem>) {
-      extra = function_value(function_of(qp_.get()), slant::local(s.projected)) / s.unit;
+      extra = function_value(function_of(qp_.get()), slant::local(s.lowered)) / s.unit;
     }
     s.value = (with_r - with_b) / scalar(2) + steep + near + extra;
     scalar const slope = norm(s.gradient), bent = extra < scalar(0) ? -extra : extra;
     s.value_noise = scalar(16) * std::numeric_limits<scalar>::epsilon() *
-                    (norm(s.y) * (slope + s.size_of_b) + way * slope + near + bent);
-    s.residual_norm = way / s.step_length;
+                    (norm(s.y) * (slope + s.size_of_b) + s.way * slope + near + bent);
   }
 
-  /// x = prox(z) with r and r̃, and a ρ that fits the curvature of q on the way there.
-  void advance(state_type& s) const {
-    auto const& qp = qp_.get();
-    constexpr index most = 100;  // halvings of ρ
-    for (index k = 0; k < most; ++k) {
-      std::swap(s.x, s.projected);
-      scalar const before = s.unit;
-      if (s.gradient_and_unit(qp)) {
-        vectors::scale(before / s.unit, s.gradient);
-        s.value *= before / s.unit;
-        s.value_noise *= before / s.unit;
-      }
-      vectors::difference(s.x, s.y, s.trial);
-      vectors::difference(s.r, s.gradient, s.reduced);
-      scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
-      scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
-                           (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / ρ(s));
-      scalar const allowed = share * way * (way / ρ(s));
-      if (!(bend > allowed + noise)) break;
-      scalar const fitting = s.step_length * (allowed / bend);
-      s.step_length = std::min<scalar>(s.step_length / scalar(2), fitting);
-      ++s.shortened;
-      vectors::waxpy(-ρ(s), s.gradient, s.y, s.z);
-      slant::project(s.step_of(qp), slant::local(s.z), slant::local(s.projected));
-      measure(s);
+  /// r of x, whose predecessor y has the gradient s.gradient; whether γ had to become smaller for
+  /// the curvature of q on the way.
+  bool measure(state_type& s) const {
+    scalar const before = s.unit;
+    if (s.gradient_and_unit(qp_.get())) {
+      vectors::scale(before / s.unit, s.gradient);
+      s.value *= before / s.unit;
+      s.value_noise *= before / s.unit;
     }
-    s.reduce(qp);
+    vectors::difference(s.x, s.y, s.trial);
+    vectors::difference(s.r, s.gradient, s.reduced);
+    scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
+    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
+                         (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit));
+    scalar const allowed = share * way * (way / (s.γ * s.unit));
+    if (!(bend > allowed + noise)) return false;
+    s.γ *= allowed / bend;
+    return true;
+  }
+
+  /// x = prox_{ρφ}(z) with r and r̃.
+  void advance(state_type& s) const {
+    std::swap(s.x, s.projected);
+    if (measure(s) && detail::is_finite(s.value)) evaluate(s);
+    s.reduce(qp_.get());
     s.at_projection = true;
     judge(s);
   }
@@ -331,46 +368,53 @@ class envelope_newton {
       s.status = status::converged;
       return;
     }
-    if (shorten(s)) {
-      s.at_projection = false;
-      s.forcing.record(s.residual_norm);
-      advance(s);
-      return;
+    if (!shorten(s)) {
+      if (s.residual_norm <= s.rounding() && s.reduced_gradient_norm <= s.rounding()) {
+        s.status = status::stalled;
+        return;
+      }
+      descend(s);
     }
-    if (s.residual_norm <= s.rounding() && s.reduced_gradient_norm <= s.rounding()) {
-      s.status = status::stalled;
-      return;
-    }
-    s.step_fraction = scalar(0);
-    slant::project(s.step_of(qp), slant::local(s.z), slant::local(s.projected));
-    s.reduce(qp);  // leaves prox(x − ρ r) in s.projected
-    stay(s);
     s.forcing.record(s.residual_norm);
-    advance(s);
+    if (s.status == status::running) advance(s);
   }
 
-  /// The longest β = 2⁻ʲ for which E(x + β t) is low enough. Spends no product.
+  /// The longest β = 2⁻ʲ for which E_γ(x + β t) is low enough. Spends no product.
   bool shorten(state_type& s) const {
-    constexpr scalar least = scalar(1) / scalar(1024);  // x itself is as good then
+    constexpr scalar least = scalar(1) / scalar(1024);  // w is as good then
     scalar const value = s.value, noise = s.value_noise, residual = s.residual_norm;
-    vectors::difference(s.x, s.y, s.trial);
-    scalar const way = norm(s.trial);
-    scalar const enough = value - decrease * way * (way / ρ(s));
+    scalar const enough = decrease * s.way * (s.way / (s.γ * s.unit));
+    std::swap(s.y, s.base);
+    std::swap(s.gradient, s.base_gradient);
     scalar β(1);
     for (index j = 0; j <= options_.halvings && β >= least; ++j, β /= scalar(2)) {
       vectors::waxpy(β * s.unit, s.inner.t, s.x, s.y);
       vectors::waxpy(β, s.inner.image, s.r, s.gradient);
-      vectors::waxpy(-ρ(s), s.gradient, s.y, s.z);
-      slant::project(s.step_of(qp_.get()), slant::local(s.z), slant::local(s.projected));
-      measure(s);
+      project(s);
+      evaluate(s);
       // Where the values differ by rounding only, ‖F‖ decides.
       bool const level = s.value <= value + noise && s.residual_norm < residual / scalar(2);
-      if (s.value <= enough || (noise >= decrease * way * (way / ρ(s)) && level)) {
+      if (s.value <= value - enough || (noise >= enough && level)) {
         s.step_fraction = β;
         return true;
       }
     }
     return false;
+  }
+
+  /// y ← w of the y before the step, for a γ that fits the curvature of q on the way.
+  void descend(state_type& s) const {
+    constexpr index most = 100;  // of values of γ
+    std::swap(s.y, s.base);
+    std::swap(s.gradient, s.base_gradient);
+    s.step_fraction = scalar(0);
+    ++s.descents;
+    for (index k = 0; k < most; ++k) {
+      evaluate(s);
+      std::swap(s.x, s.lowered);
+      if (!measure(s)) break;
+    }
+    stay(s);
   }
 
   held<QP> qp_;

@@ -154,6 +154,8 @@ class hierarchy {
   dense_factor<M, T> last;           // of the last level
   bool factored = false;             // whether there is such a factor
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
+  aggregation aggregates{};          // of the nodes of level 0, if level 1 is made of them
+  near_kernel<M, M> kernel{};        // of level 1, in that case
 
   [[nodiscard]] std::vector<index> sizes() const {
     std::vector<index> list{fine.A.rows()};
@@ -231,6 +233,7 @@ class hierarchy {
     near_kernel<M, M> next;
     if (!done(fine.A, o)) {
       if (!aggregate_below(fine, B, next, o)) return;
+      kernel = next;
       aggregate_rest(std::move(next), o);
     }
   }
@@ -282,7 +285,7 @@ class hierarchy {
     double θ = o.strength;
     bool smooth = λ > T(0);
     while (true) {
-      aggregation const a = aggregate(above.A, θ);
+      aggregation a = aggregate(above.A, θ);
       if (a.count == 0 || 10 * a.count > 9 * index(above.A.nodes())) {
         if (θ == 0) return false;
         θ = weaker(θ);
@@ -299,6 +302,7 @@ class hierarchy {
       }
       smoothed = smoothed && smooth;
       append(above, std::move(P), std::move(C));
+      if (F == N && coarse.size() == 1) aggregates = std::move(a);
       return true;
     }
   }
@@ -553,6 +557,105 @@ class multigrid {
   }
   /// A sentence: which levels, and what would make better ones.
   [[nodiscard]] std::string const& description() const { return description_; }
+
+  // --- the next coarser level, for problems that are solved there first ---------------------------
+
+  /// Which node of level 1 each node of K belongs to; empty if there is no such level or its nodes
+  /// are not aggregates.
+  [[nodiscard]] aggregation const& aggregates() const {
+    return std::visit([](auto const& h) -> aggregation const& { return h.aggregates; }, *levels_);
+  }
+  /// Unknowns of a node of K.
+  [[nodiscard]] index node_size() const {
+    return std::visit([]<int N, int M>(levels<N, M> const&) { return index(N); }, *levels_);
+  }
+  /// The near kernel of level 1, n₁ × r for nodes of r unknowns, upper triangular blocks R: on an
+  /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing.
+  [[nodiscard]] matrix_type coarse_kernel() const {
+    return std::visit(
+        []<int N, int M>(levels<N, M> const& h) {
+          auto const n = static_cast<index>(h.kernel.blocks.size()) / M;
+          matrix_type R(n, M);
+          for (index i = 0; i < n; ++i) {
+            for (index c = 0; c < M; ++c) {
+              R(i, c) = S(h.kernel.blocks[static_cast<std::size_t>(i * M + c)]);
+            }
+          }
+          return R;
+        },
+        *levels_);
+  }
+  /// PᵀK P, of full blocks.
+  [[nodiscard]] Eigen::SparseMatrix<S> coarse_matrix() const {
+    return std::visit(
+        [&]<int N, int M>(levels<N, M> const& h) {
+          auto const& A = h.coarse.front().A;
+          Eigen::SparseMatrix<S> C(A.rows(), A.rows());
+          C.resizeNonZeros(A.blocks() * M * M);
+          index at = 0;
+          for (int j = 0; j < A.nodes(); ++j) {  // columns are rows
+            for (int c = 0; c < M; ++c) {
+              C.outerIndexPtr()[index(j) * M + c] = static_cast<int>(at);
+              A.for_each_in_row(j, [&](int i, T const* block) {
+                for (int q = 0; q < M; ++q, ++at) {
+                  C.innerIndexPtr()[at] = i * M + q;
+                  C.valuePtr()[at] = S(block[M * q + c]) / factor_;
+                }
+              });
+            }
+          }
+          C.outerIndexPtr()[A.rows()] = static_cast<int>(at);
+          return C;
+        },
+        *levels_);
+  }
+  /// Pᵀx.
+  [[nodiscard]] vector_type restricted(vector_type const& x) const {
+    return std::visit(
+        [&]<int N, int M>(levels<N, M> const& h) {
+          constexpr std::size_t stride = block_matrix<N, T>::stride;
+          constexpr std::size_t coarse_stride = block_matrix<M, T>::stride;
+          auto const& A = h.coarse.front().A;
+          S const unit = unit_near(x.size() > 0 ? S(x.cwiseAbs().maxCoeff()) : S(1));
+          std::vector<T> from(h.fine.A.padded_size(), T(0)), to(A.padded_size(), T(0));
+          for (index i = 0; i < x.size(); ++i) {
+            from[static_cast<std::size_t>(i / N) * stride + static_cast<std::size_t>(i % N)] =
+                T(S(x[i] / unit));
+          }
+          h.fine.P.restrict_to(from.data(), to.data());
+          vector_type y(A.rows());
+          for (index i = 0; i < y.size(); ++i) {
+            y[i] = unit * S(to[static_cast<std::size_t>(i / M) * coarse_stride +
+                               static_cast<std::size_t>(i % M)]);
+          }
+          return y;
+        },
+        *levels_);
+  }
+  /// P x.
+  [[nodiscard]] vector_type prolonged(vector_type const& x) const {
+    return std::visit(
+        [&]<int N, int M>(levels<N, M> const& h) {
+          constexpr std::size_t stride = block_matrix<N, T>::stride;
+          constexpr std::size_t coarse_stride = block_matrix<M, T>::stride;
+          S const unit = unit_near(x.size() > 0 ? S(x.cwiseAbs().maxCoeff()) : S(1));
+          std::vector<T> from(h.coarse.front().A.padded_size(), T(0));
+          std::vector<T> to(h.fine.A.padded_size(), T(0));
+          for (index i = 0; i < x.size(); ++i) {
+            from[static_cast<std::size_t>(i / M) * coarse_stride +
+                 static_cast<std::size_t>(i % M)] = T(S(x[i] / unit));
+          }
+          h.fine.P.add_to(from.data(), to.data());
+          vector_type y(rows_);
+          for (index i = 0; i < rows_; ++i) {
+            y[i] =
+                unit *
+                S(to[static_cast<std::size_t>(i / N) * stride + static_cast<std::size_t>(i % N)]);
+          }
+          return y;
+        },
+        *levels_);
+  }
 
   /// Vectors of all levels, and the face entered last with the coarse levels that follow it.
   struct workspace_type {

@@ -4,6 +4,7 @@
 // (contact/primal.hpp, methods/envelope_newton.hpp), its systems by conjugate gradients with
 // multigrid on the face, to a relative error in the energy norm that a certificate confirms.
 //
+//     start      from the same problem on a coarser level            contact/parts/nested_start.hpp
 //     step       until ‖Π(r + v)‖_M, which costs one cycle, is half of the tolerance times ‖u‖_K
 //     certify    certificates/energy_certificate.hpp, ‖·‖_{K⁻¹} by conjugate gradients with M
 //     go on      where that asks for more, with a goal that is smaller by as much
@@ -13,6 +14,7 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/node_layout.hpp>
+#include <slant/contact/parts/nested_start.hpp>
 #include <slant/contact/primal.hpp>
 #include <slant/contact/route.hpp>
 #include <slant/contact/solve_options.hpp>
@@ -124,17 +126,18 @@ template <class Friction, class S>
   using std::sqrt;
   solution<S> result;
   primal<S> const problem(K, c);
-  auto const hierarchy = [&] {
-    if (!o.layout.is_known()) return slant::multigrid<S>(problem.matrix(), o.multigrid);
-    return slant::multigrid<S>(problem.matrix(), problem.coordinates(rigid_motions(o.layout)),
-                               o.multigrid);
-  };
-  slant::multigrid<S> const M = hierarchy();
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  matrix_type const motions =
+      o.layout.is_known() ? problem.coordinates(rigid_motions(o.layout)) : matrix_type();
+  slant::multigrid<S> const M(problem.matrix(), motions, o.multigrid);
   result.factorization = M.description();
   auto const qp = problem.qp();
   symmetric_newton_options<S> newton;
   newton.energy_goal = std::numeric_limits<S>::min();  // asks for the estimate
-  auto state = envelope_newton{qp, M, newton}.start(problem.zero());
+  nested_start<S> const coarse(qp.b(), problem.surface(), c.tangents(), M, motions, o.multigrid);
+  envelope_newton const first{qp, M, newton};
+  auto state = coarse.found() ? first.start_on_face([&](S const& ρ) { return coarse.at(ρ); })
+                              : first.start(problem.zero());
   energy_certificate certificate(qp, M);
   // ‖x‖_K from x and r.
   auto const size = [&] {

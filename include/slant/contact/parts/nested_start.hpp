@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+//
+// A start for contact that is solved for the displacements: the same problem on the next coarser
+// level of multigrid, to a percent. From zero the front of what opens and slides moves some nodes a
+// Newton step, so that steps grow with the mesh; from there they do not.
+//
+// Level 1 knows aggregates of nodes. Where Q R are the near kernel on an aggregate, R of level 1, the
+// mean motion of its contact nodes is ū = T w, T = B̄ R⁻¹ with B̄ the mean of their rows of the near
+// kernel, normal and tangents. In unknowns w = E w' with E = [T⁺, Z], Z orthonormal onto the kernel
+// of T, the first components of w' are ū: bounds and friction are again blocks of single nodes,
+//
+//     minimise  ½ w'ᵀ(EᵀPᵀK P E)w' − (EᵀPᵀf)ᵀw' + φ'(w'),      gaps the least ones, slip bounds added up,
+//
+// and that problem starts from its own next level. What has come of it is prolonged; a node is held
+// as its aggregate is, and the first step does not ask whether that is right.
+#pragma once
+
+#include <slant/base/scaling.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/contact/primal.hpp>
+#include <slant/methods/envelope_newton.hpp>
+#include <slant/multilevel/multigrid.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace slant::contact::detail {
+
+/// A contact of the fine level as the coarse solution has it: what z to begin with.
+template <class S>
+class nested_start {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+  using contact = typename surface_function<S>::contact;
+
+  /// Solves the coarse problem of min ½ uᵀK u − fᵀu + φ(u), M of K with these candidates of the
+  /// near kernel; nothing if there is none worth it.
+  nested_start(vector_type const& f, surface_function<S> const& φ, index tangents,
+               slant::multigrid<S> const& M, matrix_type const& candidates,
+               multigrid_options const& o)
+      : φ_(&φ), tangents_(tangents) {
+    aggregation const& a = M.aggregates();
+    if (a.count == 0 || f.size() < smallest || candidates.cols() == 0) return;
+    matrix_type R = M.coarse_kernel();
+    width_ = R.cols();
+    if (R.rows() != a.count * width_ || width_ < 1 + tangents) return;
+    of_ = a.of;
+    node_size_ = M.node_size();
+    choose_frames(candidates, R, a.count);
+    if (list_.empty()) return;
+    sparse_type K = M.coarse_matrix();
+    turn(K);
+    vector_type g = M.restricted(f);
+    for (auto const& [node, frame] : frames_) {
+      auto part = g.segment(node * width_, width_);
+      part = vector_type(frame.E.transpose() * part);
+      auto rows = R.middleRows(node * width_, width_);
+      rows = matrix_type(frame.inverse * rows);
+    }
+    surface_function<S> const surface(K.rows(), tangents, list_);
+    try {
+      solve(K, g, surface, R, o);
+      displacement_ = M.prolonged(back(coarse_));
+      found_ = displacement_.allFinite();
+    } catch (bad_input const&) {
+      found_ = false;  // a start is a help, no condition
+    }
+  }
+
+  [[nodiscard]] bool found() const { return found_; }
+  /// Newton steps and cycles on all coarse levels.
+  [[nodiscard]] index steps() const { return steps_; }
+
+  /// z for the step length ρ.
+  [[nodiscard]] vector_type at(S const& ρ) const {
+    vector_type z = displacement_;
+    S const beyond = unit_near(S(displacement_.cwiseAbs().maxCoeff()));
+    for (contact const& c : φ_->contacts()) {
+      int const owner = of_[static_cast<std::size_t>(c.p / node_size_)];
+      int const k = owner < 0 ? -1 : number_[static_cast<std::size_t>(owner)];
+      hold_normal(c, k, beyond, z[c.p]);
+      if (tangents_ == 0) continue;
+      S square(0);
+      auto const at = [&](index j) -> S& { return z[c.q + j * c.stride]; };
+      for (index j = 0; j < tangents_; ++j) square += at(j) * at(j);
+      using std::sqrt;
+      S const length = sqrt(square);
+      bool const sticks = k >= 0 && sticks_[static_cast<std::size_t>(k)];
+      for (index j = 0; j < tangents_; ++j) {
+        at(j) = sticks || !(length > S(0)) || !slant::detail::is_finite(c.g)
+                    ? S(0)
+                    : S(at(j) * (S(1) + ρ * c.g / length));
+      }
+    }
+    return z;
+  }
+
+ private:
+  static constexpr index smallest = 2000;  // unknowns: fewer are solved as fast from zero
+
+  /// E of a node and its inverse.
+  struct frame {
+    matrix_type E, inverse;
+  };
+
+  void hold_normal(contact const& c, int k, S const& beyond, S& z) const {
+    bool const touches = k >= 0 && touches_[static_cast<std::size_t>(k)];
+    S const l = c.gap.lower(), h = c.gap.upper();
+    bool const below =
+        slant::detail::is_finite(l) && (!slant::detail::is_finite(h) || z - l < h - z);
+    bool const bounded = slant::detail::is_finite(l) || slant::detail::is_finite(h);
+    if (touches && bounded) {
+      z = below ? S(l - beyond) : S(h + beyond);
+    } else {
+      z = std::clamp<S>(z, l, h);
+    }
+  }
+
+  /// The frames of aggregates with contacts, and their contacts.
+  void choose_frames(matrix_type const& B, matrix_type const& R, index count) {
+    std::vector<matrix_type> mean(static_cast<std::size_t>(count));
+    std::vector<index> members(static_cast<std::size_t>(count), 0);
+    std::vector<contact> sums(static_cast<std::size_t>(count));
+    constexpr S infinity = std::numeric_limits<S>::infinity();
+    for (contact const& c : φ_->contacts()) {
+      int const owner = of_[static_cast<std::size_t>(c.p / node_size_)];
+      if (owner < 0) continue;
+      auto const g = static_cast<std::size_t>(owner);
+      if (members[g]++ == 0) {
+        mean[g] = matrix_type::Zero(1 + tangents_, width_);
+        sums[g].gap = interval<S>(-infinity, infinity);
+      }
+      mean[g].row(0) += B.row(c.p).head(width_);
+      for (index j = 0; j < tangents_; ++j) mean[g].row(1 + j) += B.row(c.q + j * c.stride);
+      S const l = std::max<S>(sums[g].gap.lower(), c.gap.lower());
+      S const h = std::min<S>(sums[g].gap.upper(), c.gap.upper());
+      if (l <= h) sums[g].gap = interval<S>(l, h);
+      sums[g].g += c.g;
+    }
+    number_.assign(static_cast<std::size_t>(count), -1);
+    for (index i = 0; i < count; ++i) {
+      auto const g = static_cast<std::size_t>(i);
+      if (members[g] == 0) continue;
+      matrix_type const T =
+          times_inverse(mean[g] / S(members[g]), R.middleRows(i * width_, width_));
+      auto E = frame_of(T);
+      if (!E) continue;
+      number_[g] = static_cast<int>(list_.size());
+      contact c = sums[g];
+      c.p = i * width_;
+      c.q = c.p + 1;
+      c.stride = 1;
+      list_.push_back(c);
+      frames_.emplace_back(i, std::move(*E));
+    }
+  }
+
+  /// T with T R = B for an upper triangular R; what R does not see is left out.
+  static matrix_type times_inverse(matrix_type const& B, matrix_type const& R) {
+    matrix_type T = B;
+    for (index c = 0; c < R.cols(); ++c) {
+      for (index k = 0; k < c; ++k) T.col(c) -= T.col(k) * R(k, c);
+      if (R(c, c) > S(0)) {
+        T.col(c) /= R(c, c);
+      } else {
+        T.col(c).setZero();
+      }
+    }
+    return T;
+  }
+
+  /// E = [T⁺, Z]; nothing if the rows of T are nearly dependent.
+  static std::optional<frame> frame_of(matrix_type const& T) {
+    index const m = T.rows(), w = T.cols();
+    matrix_type Q = matrix_type::Zero(w, w), L = matrix_type::Zero(m, m);  // T = L Qᵀ
+    index next = 0;
+    auto const add = [&](vector_type v, S const& size, index row) {
+      for (int pass = 0; pass < 2; ++pass) {
+        for (index k = 0; k < next; ++k) {
+          S const part = Q.col(k).dot(v);
+          if (row >= 0) L(row, k) += part;
+          v -= part * Q.col(k);
+        }
+      }
+      S const length = v.norm();
+      if (!(length > S(1e-3) * size)) return false;
+      if (row >= 0) L(row, next) = length;
+      Q.col(next++) = v / length;
+      return true;
+    };
+    S const size = T.cwiseAbs().maxCoeff();
+    for (index r = 0; r < m; ++r) {
+      if (!(size > S(0)) || !add(T.row(r).transpose(), size, r)) return std::nullopt;
+    }
+    for (index j = 0; j < w && next < w; ++j) add(vector_type::Unit(w, j), S(1), -1);
+    if (next < w) return std::nullopt;
+    frame f{Q, Q.transpose()};
+    f.inverse.topRows(m) = T;
+    // T⁺ = Q₁ L⁻¹
+    for (index c = m - 1; c >= 0; --c) {
+      f.E.col(c) /= L(c, c);
+      for (index k = 0; k < c; ++k) f.E.col(k) -= L(c, k) * f.E.col(c);
+    }
+    return f;
+  }
+
+  /// K ← EᵀK E, and 1 where an unknown stands for nothing.
+  void turn(sparse_type& K) const {
+    std::vector<matrix_type const*> E(static_cast<std::size_t>(K.cols() / width_), nullptr);
+    for (auto const& [node, f] : frames_) E[static_cast<std::size_t>(node)] = &f.E;
+    auto const* const first = K.outerIndexPtr();
+    auto const* const inner = K.innerIndexPtr();
+    S* const value = K.valuePtr();
+    matrix_type block(width_, width_);
+    S most(0);
+    for (index j = 0; j < K.cols(); ++j) most = std::max<S>(most, K.coeff(j, j));
+    for (index J = 0; J < K.cols() / width_; ++J) {
+      index const from = J * width_;
+      for (index e = 0; e < first[from + 1] - first[from]; e += width_) {
+        index const I = inner[first[from] + e] / width_;
+        auto const* const left = E[static_cast<std::size_t>(I)];
+        auto const* const right = E[static_cast<std::size_t>(J)];
+        auto const entry = [&](index q, index c) -> S& { return value[first[from + c] + e + q]; };
+        if (left || right) {
+          for (index c = 0; c < width_; ++c) {
+            for (index q = 0; q < width_; ++q) block(q, c) = entry(q, c);
+          }
+          if (left) block = matrix_type(left->transpose() * block);
+          if (right) block = matrix_type(block * *right);
+          for (index c = 0; c < width_; ++c) {
+            for (index q = 0; q < width_; ++q) entry(q, c) = block(q, c);
+          }
+        }
+        if (I != J) continue;
+        for (index c = 0; c < width_; ++c) {
+          if (!(entry(c, c) > S(0))) entry(c, c) = most;
+        }
+      }
+    }
+  }
+
+  void solve(sparse_type const& K, vector_type const& f, surface_function<S> const& surface,
+             matrix_type const& candidates, multigrid_options const& given) {
+    multigrid_options o = given;
+    o.coordinates.resize(0, 0);
+    o.block_size = width_ == 6 ? 3 : width_ == 3 ? 3 : index(width_);
+    slant::multigrid<S> const M(K, candidates, o);
+    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(K), f, surface};
+    symmetric_newton_options<S> newton;
+    newton.energy_goal = std::numeric_limits<S>::min();
+    nested_start const coarser(f, surface, tangents_, M, candidates, given);
+    auto const method = [&] { return envelope_newton{qp, M, newton}; };
+    auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
+                                 : method().start(vector_type::Zero(f.size()));
+    using std::sqrt;
+    for (index k = 0; k < 40 && state.status == status::running; ++k) {
+      S const square =
+          state.unit * slant::inner_product(state.x, state.r) + slant::inner_product(state.x, f);
+      newton.energy_goal = std::max<S>(square > S(0) ? S(S(0.01) * sqrt(square)) : S(0),
+                                       std::numeric_limits<S>::min());
+      method().step(state);
+    }
+    coarse_ = state.x;
+    steps_ = state.iteration + coarser.steps();
+    for (contact const& c : list_) {
+      S const& x = coarse_[c.p];
+      touches_.push_back(x <= c.gap.lower() || x >= c.gap.upper());
+      bool sticks = tangents_ > 0;
+      for (index j = 0; j < tangents_; ++j) sticks = sticks && coarse_[c.q + j * c.stride] == S(0);
+      sticks_.push_back(sticks);
+    }
+  }
+
+  /// w from w'.
+  [[nodiscard]] vector_type back(vector_type w) const {
+    for (auto const& [node, f] : frames_) {
+      auto part = w.segment(node * width_, width_);
+      part = vector_type(f.E * part);
+    }
+    return w;
+  }
+
+  surface_function<S> const* φ_;
+  index tangents_;
+  index width_ = 0, node_size_ = 1, steps_ = 0;
+  std::vector<int> of_, number_;  // the aggregate of a node, and the contact of an aggregate
+  std::vector<contact> list_;     // of level 1
+  std::vector<std::pair<index, frame>> frames_;
+  std::vector<bool> touches_, sticks_;
+  vector_type coarse_, displacement_;
+  bool found_ = false;
+};
+
+}  // namespace slant::contact::detail
