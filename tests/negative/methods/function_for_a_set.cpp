@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// case METHOD=kprgp A_FUNCTION: expected a separable_qp with a convex set, not with another function
+// case METHOD=interior_point A_FUNCTION: expected a separable_qp with a convex set, not with another function
+// case METHOD=mssn A_FUNCTION: expected a separable_qp with a convex set, not with another function
+// max-lines-gcc: 12
+// max-lines-clang: 20
+//
+// A norm where a method follows the faces of a set.
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/interior_point.hpp>
+#include <slant/methods/kprgp.hpp>
+#include <slant/methods/mssn.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/problems/minimise.hpp>
+#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/support.hpp>
+
+auto solution(Eigen::VectorXd const& b) {
+  auto const q = slant::quadratic(slant::identity_operator(b.size()), b);
+  auto const set = slant::intervals(b);
+#ifdef A_FUNCTION
+  auto const program = slant::minimise(q + slant::support(set));
+#else
+  auto const program = slant::minimise(q).over(set);
+#endif
+  return slant::solve(slant::METHOD{program}, b,
+                      slant::reduced_gradient_below(1e-8) || slant::at_most(500));
+}
