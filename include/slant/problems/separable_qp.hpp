@@ -27,6 +27,24 @@ namespace slant {
 template <class A, class V, class C>
 concept separable_qp_parts = vector<V> && linear_operator<A, V> && proximable<C, local_t<V>>;
 
+namespace detail {
+
+/// What has prox is meant as a function, all else as a set.
+template <class F, class V>
+struct term_demands {
+  static_assert(convex_set<F, V>,
+                "the set must be a convex set of vectors like b, or a function with prox");
+  static constexpr bool told = true;
+};
+template <class F, class V>
+  requires has_prox<F, V>
+struct term_demands<F, V> {
+  static_assert(proximable<F, V>, "the function must have dimension or size, prox and value");
+  static constexpr bool told = true;
+};
+
+}  // namespace detail
+
 /// Arguments that lack something end here and are told so; see
 /// base/diagnosis.hpp.
 template <class A, class V, class C>
@@ -39,9 +57,9 @@ class separable_qp : public detail::refused, public detail::scalar_of<std::remov
   static_assert(detail::vector_demands<vector_type>::told);
   static_assert(
       detail::operator_demands<operator_type, vector_type, detail::law_demand::none>::told);
-  static_assert(proximable<detail::asked_t<vector<vector_type>, set_type>,
-                           local_t<detail::asked_t<vector<vector_type>, vector_type>>>,
-                "the set must be a convex set of vectors like b, or a function with prox");
+  static_assert(
+      detail::term_demands<detail::asked_t<vector<vector_type>, set_type>,
+                           local_t<detail::asked_t<vector<vector_type>, vector_type>>>::told);
 
   separable_qp(held<A>, held<V>, held<C>);
   operator_type const& a() const;
@@ -51,8 +69,8 @@ class separable_qp : public detail::refused, public detail::scalar_of<std::remov
 };
 
 /// A quadratic program with separable convex constraints: separable_qp{A, b, set}; or with a
-/// separable convex function: separable_qp{A, b, φ}. Lvalues are referenced, rvalues owned. A is n × n, b has n finite entries, set has dimension n;
-/// otherwise bad_input.
+/// separable convex function: separable_qp{A, b, φ}. Lvalues are referenced, rvalues owned. A is
+/// n × n, b has n finite entries, set has dimension n; otherwise bad_input.
 template <class A, class V, class C>
   requires separable_qp_parts<std::remove_cvref_t<A>, std::remove_cvref_t<V>,
                               std::remove_cvref_t<C>>

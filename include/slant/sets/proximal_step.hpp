@@ -94,4 +94,9 @@ template <class F, class S>
   }
 }
 
+/// What at_step makes of F, references dropped.
+template <class F, class S>
+using step_t =
+    std::remove_cvref_t<decltype(slant::at_step(std::declval<F>(), std::declval<S const&>()))>;
+
 }  // namespace slant

@@ -28,8 +28,7 @@ namespace slant {
 /// ρ is in units of 1/A; 1/mean(diag A) is a good choice.
 /// @throws bad_input if sizes differ, b has entries that are not finite, or not 0 < ρ < ∞.
 template <operand A, class B, class Set, class S>
-  requires has_projection_slant<std::remove_cvref_t<Set>, plain_t<B>> ||
-           has_prox_slant<std::remove_cvref_t<Set>, plain_t<B>>
+  requires has_projection_slant<step_t<Set, S>, plain_t<B>>
 [[nodiscard]] auto natural_residual(A&& a, B const& b, Set&& set, S const& ρ) {
   index const n = slant::dimension_of(set);
   detail::require_size("A", a, n, n, "the dimension of the set");

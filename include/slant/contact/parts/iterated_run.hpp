@@ -71,14 +71,15 @@ template <class S>
                                  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R,
                                  S const& share) {
   using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  matrix const image = K * R;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const d = K.diagonal();
+  matrix const image = K * R, weighed = K.diagonal().asDiagonal() * R;
   for (auto const& body : bodies_of(K)) {
-    matrix G = matrix::Zero(R.cols(), R.cols()), H = G;
-    for (index const j : body) {
-      G += R.row(j).transpose() * image.row(j);
-      H += d[j] * R.row(j).transpose() * R.row(j);
-    }
+    auto const own = [&](matrix const& all) {
+      matrix rows(static_cast<index>(body.size()), all.cols());
+      for (index k = 0; k < rows.rows(); ++k) rows.row(k) = all.row(body[std::size_t(k)]);
+      return rows;
+    };
+    matrix const motions = own(R).transpose();
+    matrix const G = motions * own(image), H = motions * own(weighed);
     // In motions of which H is the identity; what H does not see moves nothing.
     Eigen::SelfAdjointEigenSolver<matrix> const scale(H);
     S const least = S(1e-10) * scale.eigenvalues().maxCoeff();

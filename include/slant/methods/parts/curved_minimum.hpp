@@ -60,12 +60,12 @@ class curved_minimum {
   /// t with ‖Π r + H t‖ ≤ max(target, floor ‖Π r‖), or the last one after at most `most` steps. t
   /// has the units of r over those of A. r is the gradient at t = 0, s = mean(diag M). With an
   /// energy, in the units of ‖r‖_M: t stays 0 if ‖Π r‖_M is no more, and the iteration ends where
-  /// ‖Π r + H t‖_M is an eighth of it.
+  /// ‖Π r + H t‖_M is an eighth of it. A shift stands for A + shift I.
   template <class A, class WA, class Face>
   inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
                                 Face const& face, scalar const& ρ, scalar const& s, scalar target,
                                 index most, scalar const& floor = scalar(0),
-                                scalar const& energy = scalar(0)) {
+                                scalar const& energy = scalar(0), scalar const& shift = scalar(0)) {
     using std::sqrt;
     vectors::set_zero(t);
     vectors::set_zero(image);
@@ -97,6 +97,7 @@ class curved_minimum {
       ++k;
       face.keep(Ap_, z_);
       face.add_curvature(scalar(1) / ρ, p_, z_);
+      if (shift > scalar(0)) vectors::axpy(shift, p_, z_);
       scalar const bend = inner_product(p_, z_);
       finite = finite && detail::is_finite(bend);
       if (!(bend > scalar(0))) break;  // a direction of the kernel of H: the step ends here
