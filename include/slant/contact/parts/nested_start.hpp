@@ -36,7 +36,7 @@
 
 namespace slant::contact::detail {
 
-/// A contact of the fine level as the coarse solution has it: what z to begin with.
+/// The solution of the coarse problem, and the z to begin with on the fine level.
 template <class S>
 class nested_start {
  public:
@@ -63,11 +63,11 @@ class nested_start {
     sparse_type K = M.coarse_matrix();
     turn(K);
     vector_type g = M.restricted(f);
-    for (auto const& [node, frame] : frames_) {
+    for (auto const& [node, own] : frames_) {
       auto part = g.segment(node * width_, width_);
-      part = vector_type(frame.E.transpose() * part);
+      part = vector_type(own.E.transpose() * part);
       auto rows = R.middleRows(node * width_, width_);
-      rows = matrix_type(frame.inverse * rows);
+      rows = matrix_type(own.inverse * rows);
     }
     surface_function<S> const surface(K.rows(), tangents, list_);
     try {
