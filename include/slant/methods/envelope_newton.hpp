@@ -352,8 +352,8 @@ class envelope_newton {
   /// with a shift that vanishes with ‖F‖ and leaves steps superlinear.
   static scalar shift(state_type const& s) {
     if constexpr (declares_positive_definite<typename problem::operator_type>) return scalar(0);
-    scalar const share = s.residual_norm / s.forcing.first_error;
-    return (share < scalar(1) ? share : scalar(1)) * scalar(0.01) / s.step_length;
+    scalar const left = s.residual_norm / s.forcing.first_error;
+    return (left < scalar(1) ? left : scalar(1)) * scalar(0.01) / s.step_length;
   }
 
   void newton_step(state_type& s) const {
