@@ -32,7 +32,7 @@
 #   load_steps          twenty load steps against the first one and against cold solves
 #   coulomb             Coulomb friction on the brick against Tresca's problem at its slip bounds
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
-#   multilevel          bricks without friction, iterated on u by multigrid, and one linear solve
+#   multilevel          bricks with and without friction by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
 #   stability           every method on every adversity, judged in quadruple precision
 #   random_programs     every method on 3300 random programs, judged in quadruple precision
@@ -357,7 +357,7 @@ write_summary() {
   section load_steps "Twenty load steps, relative energy error 1e-8"
   section coulomb "Coulomb friction 0.3: products until the relative energy error is at most 1e-8"
   section coulomb_models "The same on two bricks and two plates"
-  section multilevel "Multigrid: bricks without friction, processor seconds, tolerance 1e-8"
+  section multilevel "Multigrid: bricks with and without friction, processor seconds, tolerance 1e-8"
   section multilevel_large "Multigrid: the same, where K is not factored"
   section friction "Coulomb friction problems of other people's simulations, natural map over |q| at most 1e-8"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows

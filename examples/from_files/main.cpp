@@ -184,7 +184,8 @@ int main(int argc, char** argv) {
                "object, and on standard error)");
   app.add_option("--coordinates", a.coordinates,
                  "file with the coordinates of the nodes of a body, D x p (Matrix Market), each "
-                 "with D consecutive\nunknowns: messages name directions, and more can be checked")
+                 "with D consecutive\nunknowns: messages name directions, more can be checked, and large "
+                 "bodies are solved by multigrid")
       ->check(examples::expects_name());
   app.add_flag("--list-methods", a.list_methods, "print the methods and end");
   return examples::run_program(app, argc, argv, [&] { return solve_folder(a); });
