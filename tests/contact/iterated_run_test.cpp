@@ -13,6 +13,7 @@
 #include <fem/steel_brick.hpp>
 #include "loose_brick.hpp"
 #include "support/allocation_guard.hpp"
+#include "support/effort.hpp"
 #include "support/message.hpp"
 
 #include <cmath>
@@ -62,7 +63,7 @@ contact::solution<double> agree(scene const& s, double tolerance = 1e-9) {
   double const error = energy(s.K, VectorXd(iterated.u - factored.u)) / size;
   CHECK(error <= tolerance);
   CHECK(iterated.error.relative() <= tolerance);
-  CHECK(iterated.error.relative() >= 0.9 * error);  // honest, and not far above it
+  CHECK(iterated.error.relative() >= 0.9 * error - 1e-12);  // that of the reference
   CHECK((iterated.multipliers - factored.multipliers).norm() <=
         1e3 * tolerance * (s.data.f.norm() + factored.multipliers.norm()));
   return iterated;
@@ -70,7 +71,7 @@ contact::solution<double> agree(scene const& s, double tolerance = 1e-9) {
 
 TEST_CASE("bricks with friction: the solution of the dual problem, K never factored") {
   for (auto const load : fem::brick_loads) {
-    for (int const k : {2, 4, 6}) {
+    for (int const k : {2, 4, test::effort(6, 3)}) {
       auto const r = agree(brick(k, load));
       CHECK(r.iterations <= 25);
       CHECK(r.work.inner_iterations <= 80);
@@ -228,7 +229,7 @@ TEST_CASE("the surface is a function with a proximal map; a step on an old face 
                                           {.points = 12, .directions = 2, .size = 1e-3})
             .empty());
 
-  scene const large = brick(6, fem::brick_load::pull);
+  scene const large = brick(test::effort(6, 4), fem::brick_load::pull);
   contact::primal const p(large.K, large.data);
   slant::multigrid const M(p.matrix(), contact::detail::rigid_motions(large.layout));
   auto const qp = p.qp();
