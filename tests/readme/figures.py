@@ -55,7 +55,7 @@ def sentences(root):
 
     large = table(accuracy, "| k | unknowns | press: steps/cycles, seconds")[-1]
     seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
-    yield (f"| contact without friction, {large[1]} unknowns, multigrid | "
+    yield (f"| contact with friction, {large[1]} unknowns, multigrid | "
            f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve |")
 
     steps = re.search(r"Twenty load steps take ([\d.]+ to [\d.]+) times", accuracy)[1]
