@@ -205,6 +205,20 @@ TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at
   CHECK(floats.motions.free.size() == 1);
 }
 
+TEST_CASE("a K that is not square") {
+  scene const s = brick(2, fem::brick_load::press);
+  options o;
+  o.layout = s.layout;
+  for (Index const columns : {s.K.cols() - 3, s.K.cols() + 3}) {
+    sparse K = s.K;
+    K.conservativeResize(s.K.rows(), columns);
+    if (columns > s.K.cols()) K.insert(0, columns - 1) = 1;
+    CHECK(test::complaint([&] {
+            static_cast<void>(contact::solve(K, s.data, o));
+          }).starts_with("columns of K: got " + std::to_string(columns)));
+  }
+}
+
 TEST_CASE("what does not converge is factored, or says so where it may not be") {
   scene const s = brick(6, fem::brick_load::lift);
   options o{.max_steps = 1};

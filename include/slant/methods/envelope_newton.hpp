@@ -137,8 +137,8 @@ struct envelope_newton_state : gradient_point<QP> {
 
 /// The method at the top of this file: solve(envelope_newton{qp}, x0, reduced_gradient_below(1e-8) ||
 /// at_most(100)); envelope_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Begins at
-/// prox(x0). Statuses of its own: converged (r̃ = 0), stalled, breakdown. Of the options
-/// sufficient, descent and the exponents of sets have no part here.
+/// prox(x0). Statuses of its own: converged (r̃ = 0, or energy_goal reached), stalled, breakdown. The
+/// options `sufficient` and `descent` have no part here.
 template <class QP, class M = identity_operator>
   requires envelope_newton_problem<std::remove_cvref_t<QP>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>

@@ -99,7 +99,7 @@ template <class S>
   return false;
 }
 
-/// Why this scene is not iterated, or nothing.
+/// Why this scene is not iterated, or nothing. Throws bad_input for sizes that do not fit.
 template <class S>
 [[nodiscard]] std::optional<std::string> iteration_refusal(Eigen::SparseMatrix<S> const& K,
                                                            data<S> const& c,
@@ -110,6 +110,7 @@ template <class S>
   if (!asked && o.start) return "forces to start from are given";
   if (auto const why = primal_refusal(c)) return why;
   if (o.layout.is_known()) {
+    slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
     o.layout.validate(K.rows());
     if (nearly_floats<S>(K, rigid_motions(o.layout), S(1e-9))) {
       return "a body is held by contact or friction only, or hardly by anything else";
