@@ -178,6 +178,63 @@ TEST_CASE("units do not matter, steps do not allocate, products are counted") {
   }
 }
 
+/// M = A⁻¹ that knows A with an error of the size `roughness`.
+struct rough_inverse {
+  using scalar = double;
+  static constexpr slant::law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  static constexpr double roughness = 1e-4;
+
+  MatrixXd inverse, rough;
+
+  explicit rough_inverse(MatrixXd const& A)
+      : inverse(MatrixXd::Identity(A.rows(), A.rows())), rough(A) {
+    double const size = A.cwiseAbs().maxCoeff() * 1e-5;
+    rough = (A / size).array().round() * size;
+  }
+  [[nodiscard]] Index rows() const { return rough.rows(); }
+  [[nodiscard]] Index cols() const { return rough.rows(); }
+  template <class X, class Y>
+  void apply(X const& x, Y& y) const {
+    y = inverse * x;
+  }
+  struct workspace_type {};
+  template <class X>
+  [[nodiscard]] workspace_type workspace(X const&) const {
+    return {};
+  }
+  template <class X, class Y>
+  void apply(X const& x, Y& y, workspace_type&) const {
+    y = inverse * x;
+  }
+  template <class X, class Y>
+  void multiply_roughly(X const& x, Y& y, workspace_type&) const {
+    y = rough * x;
+  }
+};
+
+TEST_CASE("products that M knows roughly: used where they are good enough, and only there") {
+  for (double const κ : {10.0, 1e6}) {
+    CAPTURE(κ);
+    scene const p(κ);
+    auto const Λ = p.set();
+    auto const A = slant::counted(test::spd(p.A));
+    slant::separable_qp const program{A, p.b, support(Λ)};
+    rough_inverse const M(p.A);
+    static_assert(slant::multiplies_roughly<rough_inverse, VectorXd>);
+    slant::envelope_newton const method{program, M};
+    auto s = method.start(VectorXd(VectorXd::Zero(24)));
+    auto const before = A.applications();
+    for (int k = 0; k < 100 && s.status == slant::status::running; ++k) {
+      method.step(s);
+      if (s.reduced_gradient_norm <= 1e-11 * s.gradient_scale) break;
+    }
+    VectorXd const exact = p.solution();
+    CHECK((s.x - exact).norm() <= 1e-11 * κ * exact.norm());
+    CHECK(s.roughly == (κ < 1e3));
+    if (s.roughly) CHECK(A.applications() - before == s.iteration + 1 + s.descents);
+  }
+}
+
 TEST_CASE("the certificate: never below the error by more than it may be, and not far above it") {
   double worst = 0, sharpest = 1e300;
   for (double const κ : {30.0, 1e4, 1e7}) {

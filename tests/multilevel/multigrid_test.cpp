@@ -323,6 +323,18 @@ TEST_CASE("levels of floats under an iteration in double") {
   CHECK(r.state.iteration <= 30);
   VectorXd const exact = Eigen::LLT<MatrixXd>(MatrixXd(s.K)).solve(s.f);
   CHECK((r.state.x - exact).norm() <= 1e-9 * exact.norm());
+
+  // What they know of K itself.
+  auto w = m.workspace(zero);
+  for (double const size : {1e-200, 1.0, 1e200}) {
+    VectorXd const x = size * VectorXd::Random(zero.size());
+    VectorXd y(x.size());
+    m.multiply_roughly(x, y, w);
+    double const largest = MatrixXd(s.K).cwiseAbs().rowwise().sum().maxCoeff();
+    double const error = ((y - s.K * x) / size).norm();
+    CHECK(error <= m.roughness * largest * (x / size).norm());
+    CHECK(error > 0);
+  }
 }
 
 TEST_CASE("the bits of a cycle do not depend on units") {
@@ -418,6 +430,31 @@ TEST_CASE("no allocation in a cycle, nor where a face has only nodes that had be
   CHECK(allocations == 0);
   slant::apply(copy, x, z, w);
   CHECK(z == y);
+}
+
+TEST_CASE("a workspace forgets a face, whatever kind the next one is of") {
+  auto const s = fem::make_steel_brick({.k = 3});
+  multigrid const m(s.K, {.coordinates = test::moving_nodes(s), .coarsest = 60});
+  auto const n = s.f.size();
+  auto const lines = slant::intervals(VectorXd(VectorXd::Ones(n)));
+  VectorXd far = VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; i += 7) far[i] = 2;
+  slant::curved_face<> curved(lines);
+  curved.assign(lines, far, 1.0);
+  auto const half = touching(s, 0.5);
+  auto w = m.workspace(s.f);
+  auto const of = [&](auto const& face) {
+    VectorXd y(n);
+    m.enter(face, w);
+    m.apply_on_face(s.f, y, w);
+    return y;
+  };
+  VectorXd const first = of(half), second = of(curved);
+  // Coarse levels may lag behind.
+  double const lag = 0.02;
+  CHECK((first - second).norm() > 2 * lag * first.norm());
+  CHECK((of(half) - first).norm() <= lag * first.norm());
+  CHECK((of(curved) - second).norm() <= lag * second.norm());
 }
 
 TEST_CASE("everything held, nodes held, all but one node held") {

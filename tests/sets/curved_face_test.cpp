@@ -70,6 +70,13 @@ TEST_CASE("projector, curvature and weight are functions of the slanting operato
     CHECK((weigh - weight).norm() <= 1e-13);
     CHECK((bend - curvature).norm() <= 1e-12 * (1 + curvature.norm()));
     CHECK((keep * keep - keep).norm() <= 1e-14);
+    MatrixXd entries = MatrixXd::Identity(n, n), bent = MatrixXd::Zero(n, n);
+    face.block_entries([&](slant::index i, slant::index j, double π, double c) {
+      entries(i, j) = π;
+      bent(i, j) = c;
+    });
+    CHECK(entries == keep);
+    CHECK(bent == bend);
   }
 }
 

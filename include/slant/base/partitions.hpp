@@ -7,8 +7,10 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,25 +50,32 @@ struct node_blocks {
 /// doubt.
 template <class M>
 [[nodiscard]] index detected_block_size(Eigen::SparseCompressedBase<M> const& k) {
-  for (index const b : {3, 2}) {
-    if (k.rows() == 0 || k.rows() % b != 0) continue;
-    bool good = true;
-    std::vector<index> reference, pattern;
-    for (index j = 0; j < k.outerSize() && good; ++j) {
-      pattern.clear();
-      for (typename M::InnerIterator e(k.derived(), j); e; ++e) {
-        pattern.push_back(M::IsRowMajor ? e.col() : e.row());
-      }
-      for (std::size_t i = 0; i < pattern.size() && good; ++i) {
-        good = pattern.size() % static_cast<std::size_t>(b) == 0 &&
-               pattern[i] % b == static_cast<index>(i) % b;
-      }
-      if (j % b == 0) std::swap(reference, pattern);
-      good = good && (j % b == 0 || reference == pattern);
+  auto const* const inner = k.innerIndexPtr();
+  auto const* const first = k.outerIndexPtr();
+  auto const end = [&](index j) {
+    return k.isCompressed() ? first[j + 1] : first[j] + k.innerNonZeroPtr()[j];
+  };
+  // Column j: b consecutive rows after each multiple of b, and those of the columns of its node.
+  auto const fits = [&]<int b>(index j, std::integral_constant<int, b>) {
+    index const count = end(j) - first[j], node = j - j % b;
+    if (j > node) {
+      return count == end(node) - first[node] &&
+             std::equal(inner + first[j], inner + first[j] + count, inner + first[node]);
     }
-    if (good) return b;
-  }
-  return 1;
+    bool good = count % b == 0;
+    for (auto const* i = inner + first[j]; good && i != inner + first[j] + count; i += b) {
+      good = i[0] % b == 0;
+      for (index q = 1; q < b; ++q) good = good && i[q] == i[0] + q;
+    }
+    return good;
+  };
+  auto const all = [&](auto b) {
+    bool good = k.rows() > 0 && k.rows() % b == 0 && k.outerSize() % b == 0;
+    for (index j = 0; j < k.outerSize() && good; ++j) good = fits(j, b);
+    return good;
+  };
+  if (all(std::integral_constant<int, 3>{})) return 3;
+  return all(std::integral_constant<int, 2>{}) ? 2 : 1;
 }
 
 }  // namespace slant

@@ -106,7 +106,9 @@ template <class S>
 [[nodiscard]] std::vector<std::vector<index>> bodies_of(Eigen::SparseMatrix<S> const& k) {
   slant::detail::union_find sets(k.rows());
   for (index j = 0; j < k.outerSize(); ++j) {
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(k, j); e; ++e) sets.join(e.row(), j);
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(k, j); e && e.row() < j; ++e) {
+      sets.join(e.row(), j);
+    }
   }
   std::vector<index> number(static_cast<std::size_t>(k.rows()), -1);
   std::vector<std::vector<index>> bodies;

@@ -42,18 +42,19 @@ template <class M>
   index const b = detected_block_size(k), n = k.rows() / b;
 
   using pattern_type = Eigen::SparseMatrix<signed char>;
-  std::vector<Eigen::Triplet<signed char>> entries;
+  pattern_type pattern(n, n);
+  pattern.reserve(k.nonZeros() / (b * b));
   for (index j = 0; j < n; ++j) {
-    index last = -1;
-    for (typename M::InnerIterator e(k.derived(), j * b); e; ++e) {
-      index const i = (M::IsRowMajor ? e.col() : e.row()) / b;
-      if (std::exchange(last, i) != i) {
-        entries.emplace_back(static_cast<int>(i), static_cast<int>(j), static_cast<signed char>(1));
-      }
+    pattern.startVec(j);
+    // Blocks have no gaps, so that every b-th entry is the first one of a node.
+    auto const first = k.outerIndexPtr()[j * b];
+    auto const end =
+        k.isCompressed() ? k.outerIndexPtr()[j * b + 1] : first + k.innerNonZeroPtr()[j * b];
+    for (auto e = first; e < end; e += static_cast<int>(b)) {
+      pattern.insertBackByOuterInner(j, k.innerIndexPtr()[e] / b) = 1;
     }
   }
-  pattern_type pattern(n, n);
-  pattern.setFromTriplets(entries.begin(), entries.end());
+  pattern.finalize();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(pattern.template selfadjointView<Eigen::Lower>(), order);
   // order.indices()[new] = old

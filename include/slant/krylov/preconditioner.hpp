@@ -37,6 +37,16 @@ concept preconditions_curved_faces =
     preconditions_faces<M, V, Face> && requires(M const& m, Face const& face, scalar_t<V> const& κ,
                                                 workspace_t<M, V>& w) { m.enter(face, κ, w); };
 
+/// One that knows A itself as well, in short numbers: y ≈ A x by multiply_roughly(x, y, w), with
+/// an error of about roughness · ‖A‖ ‖x‖. Such as multigrid, whose finest level that is; where
+/// products wait for memory they cost a quarter.
+template <class M, class V>
+concept multiplies_roughly =
+    linear_operator<M, V> && requires(M const& m, V const& x, V& y, workspace_t<M, V>& w) {
+      m.multiply_roughly(x, y, w);
+      { M::roughness } -> std::convertible_to<scalar_t<V>>;
+    };
+
 // --- face preconditioner -------------------------------------------------------------------------
 //
 // A preconditioner for H = Π A Π + C/ρ on a face (sets/curved_face.hpp), made of M ≈ A⁻¹.

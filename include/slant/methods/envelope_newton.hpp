@@ -99,9 +99,10 @@ struct envelope_newton_state : gradient_point<QP> {
   scalar preconditioner_size{1};  ///< s = mean(diag M)
   scalar step_fraction{1};        ///< β of the last Newton step
   scalar energy_estimate{0};  ///< ‖Π(r + v)‖_M at x before the last step, about ‖x − x*‖_A
-  bool at_projection = false;  ///< x = prox_{ρφ}(z)
-  index inner_iterations = 0;  ///< of the last Newton step
-  index descents = 0;          ///< steps to w, where no Newton step was good enough
+  bool at_projection = false;                         ///< x = prox_{ρφ}(z)
+  bool roughly = multiplies_roughly<M, vector_type>;  ///< products of inner steps by M
+  index inner_iterations = 0;                         ///< of the last Newton step
+  index descents = 0;  ///< steps to w, where no Newton step was good enough
   index iteration = 0;
   slant::status status = slant::status::running;
 
@@ -360,13 +361,24 @@ class envelope_newton {
     auto const& qp = qp_.get();
     s.face.assign(s.step_of(qp), slant::local(s.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
-    auto const inner = s.inner.minimise(
-        qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length, s.preconditioner_size,
-        target, options_.inner_steps, scalar(0), options_.energy_goal / s.unit, shift(s));
+    auto const minimise = [&] {
+      auto const found =
+          s.inner.minimise(qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length,
+                           s.preconditioner_size, target, options_.inner_steps, scalar(0),
+                           options_.energy_goal / s.unit, shift(s), s.roughly);
+      s.inner_iterations = found.iterations;
+      s.work.inner_iterations += found.iterations;
+      s.work.operator_applications += found.iterations;
+      return found;
+    };
+    auto inner = minimise();
+    // What is not seen of A may cost a step a part of what it gains, but not more.
+    scalar const allowed = std::max<scalar>(target, s.residual_norm / s.unit / scalar(20));
+    if (s.roughly && (inner.flat || error_of_image(s) > allowed)) {
+      s.roughly = false;
+      inner = minimise();
+    }
     s.energy_estimate = inner.first_energy * s.unit;
-    s.inner_iterations = inner.iterations;
-    s.work.inner_iterations += inner.iterations;
-    s.work.operator_applications += inner.iterations;
     if (!inner.finite) {
       s.status = status::breakdown;
       return;
@@ -390,7 +402,8 @@ class envelope_newton {
   /// The longest β = 2⁻ʲ for which E_γ(x + β t) is low enough. Spends no product.
   bool shorten(state_type& s) const {
     constexpr scalar least = scalar(1) / scalar(1024);  // w is as good then
-    scalar const value = s.value, noise = s.value_noise, residual = s.residual_norm;
+    scalar const value = s.value, residual = s.residual_norm;
+    scalar const noise = s.value_noise + error_of_image(s) * norm(s.x);
     scalar const enough = decrease * s.way * (s.way / (s.γ * s.unit));
     std::swap(s.y, s.base);
     std::swap(s.gradient, s.base_gradient);
@@ -408,6 +421,14 @@ class envelope_newton {
       }
     }
     return false;
+  }
+
+  /// What A t may be off.
+  static scalar error_of_image(state_type const& s) {
+    if constexpr (multiplies_roughly<preconditioner, vector_type>) {
+      if (s.roughly) return preconditioner::roughness * norm(s.inner.t) / s.γ;
+    }
+    return scalar(0);
   }
 
   /// y ← w of the y before the step, for a γ that fits the curvature of q on the way.

@@ -324,6 +324,7 @@ struct levels_on_face {
   node_face<N, T> face;
   std::vector<block_matrix<M, T>> A;  // of coarse levels
   std::vector<std::vector<T>> inverses;
+  std::vector<std::vector<T>> formed;  // diagonal blocks of which the next level has been formed
   dense_factor<N, T> only;
   dense_factor<M, T> last;
   galerkin_scratch<N, M, T> first_scratch;
@@ -344,6 +345,10 @@ struct levels_on_face {
     for (std::size_t l = 0; l < h.coarse.size(); ++l) {
       A.push_back(h.coarse[l].A);
       inverses.push_back(h.coarse[l].inverses);
+      formed.emplace_back();
+      for (int i = 0; i < A[l].nodes(); ++i) {
+        formed[l].insert(formed[l].end(), A[l].diagonal(i), A[l].diagonal(i) + M * M);
+      }
       scratch.emplace_back();
       if (l + 1 < h.coarse.size()) scratch.back() = {h.coarse[l].P, h.coarse[l].longest};
     }
@@ -438,18 +443,32 @@ index enter_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, Fa
   }
   index rows = 0;
   auto const invert = [&](std::size_t l) {
-    for (int const i : f.parents) invert_diagonal(f.A[l], h.coarse[l].A, i, f.inverses[l].data());
     rows += static_cast<index>(f.parents.size());
-    std::swap(f.moved, f.parents);
+    f.moved.clear();
+    for (int const i : f.parents) {
+      invert_diagonal(f.A[l], h.coarse[l].A, i, f.inverses[l].data());
+      // The next level lags behind as this one does.
+      T const* const now = f.A[l].diagonal(i);
+      T* const before = f.formed[l].data() + static_cast<std::size_t>(i) * (M * M);
+      T change(0), size(0);
+      for (int k = 0; k < M * M; ++k) change = std::max<T>(change, std::abs(now[k] - before[k]));
+      for (int c = 0; c < M; ++c) size = std::max<T>(size, before[(M + 1) * c]);
+      if (!(change > T(node_face<N, T>::lag) * size)) continue;
+      std::copy_n(now, M * M, before);
+      f.moved.push_back(i);
+    }
   };
   galerkin_anew(h.fine.A, h.fine.P, f.A.front(), f.moved, f.parents, f.first_scratch, blocks);
   invert(0);
-  for (std::size_t l = 0; l + 1 < f.A.size(); ++l) {
+  std::size_t l = 0;
+  for (; l + 1 < f.A.size() && !f.moved.empty(); ++l) {
     galerkin_anew(f.A[l], h.coarse[l].P, f.A[l + 1], f.moved, f.parents, f.scratch[l],
                   whole_blocks{});
     invert(l + 1);
   }
-  if (h.factored) f.last.factor(f.A.back(), h.coarse.back().A, whole_blocks{});
+  if (h.factored && l + 1 == f.A.size()) {
+    f.last.factor(f.A.back(), h.coarse.back().A, whole_blocks{});
+  }
   return rows;
 }
 
@@ -680,6 +699,20 @@ class multigrid {
     run(x, y, w, false);
   }
 
+  /// y ≈ K x by the finest level, in numbers T.
+  static constexpr S roughness = S(std::numeric_limits<T>::epsilon());
+  template <class X, class Y>
+    requires column<X>
+  void multiply_roughly(X const& x, Y& y, workspace_type& w) const {
+    if (rows_ == 0) return;
+    with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
+                                        detail::cycle_workspace<N, M, T, vector_type>& v) {
+      S const unit = shorten<N>(x, v.fine.b);
+      h.fine.A.multiply(v.fine.b.data(), v.fine.r.data());
+      lengthen<N>(v.fine.r, unit / factor_, y);
+    });
+  }
+
   /// From now on apply_on_face is for H = Π K Π + weight · C, where face.keep(x, y) is y = Π x and
   /// face.add_curvature(α, x, y), if there is one, y += α C x; blocks of the face lie within nodes.
   /// Rows of coarse levels are formed where the face has changed. The first face of a workspace
@@ -867,30 +900,39 @@ class multigrid {
     if (rows_ == 0) return;
     with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
                                         detail::cycle_workspace<N, M, T, vector_type>& v) {
-      constexpr int stride = block_matrix<N, T>::stride;
-      S const* const from = slant::local(x).data();
-      S* const to = slant::local(y).data();
-      auto const nodes = static_cast<std::size_t>(h.fine.A.nodes());
-      S most(0);
-      for (index i = 0; i < rows_; ++i) {
-        S const size = from[i] < S(0) ? S(-from[i]) : from[i];
-        if (!(size <= most)) most = size;
-      }
-      S const unit = unit_near(most), inverse = S(1) / unit;
-      for (std::size_t i = 0; i < nodes; ++i) {
-        for (std::size_t c = 0; c < N; ++c) {
-          v.fine.b[i * stride + c] = T(S(from[i * N + c] * inverse));
-        }
-      }
+      S const unit = shorten<N>(x, v.fine.b);
       bool const faced = on_face && v.on_face.has_value();
       detail::cycle(h, v, faced, sweeps_);
-      for (std::size_t i = 0; i < nodes; ++i) {
-        for (std::size_t c = 0; c < N; ++c) {
-          to[i * N + c] = S(S(v.fine.x[i * stride + c]) * unit) * factor_;
-        }
+      lengthen<N>(v.fine.x, unit * factor_, y);
+      if (faced) {
+        v.on_face->face.complete(slant::local(x).data(), slant::local(y).data(), factor_);
       }
-      if (faced) v.on_face->face.complete(from, to, factor_);
     });
+  }
+  /// b ← x in units of which the power of two is returned.
+  template <int N, class X>
+  S shorten(X const& x, std::vector<T>& b) const {
+    constexpr std::size_t stride = block_matrix<N, T>::stride;
+    S const* const from = slant::local(x).data();
+    S most(0);
+    for (index i = 0; i < rows_; ++i) {
+      S const size = from[i] < S(0) ? S(-from[i]) : from[i];
+      if (!(size <= most)) most = size;
+    }
+    S const unit = unit_near(most), inverse = S(1) / unit;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rows_) / N; ++i) {
+      for (std::size_t c = 0; c < N; ++c) b[i * stride + c] = T(S(from[i * N + c] * inverse));
+    }
+    return unit;
+  }
+  /// y ← factor · x.
+  template <int N, class Y>
+  void lengthen(std::vector<T> const& x, S const& factor, Y& y) const {
+    constexpr std::size_t stride = block_matrix<N, T>::stride;
+    S* const to = slant::local(y).data();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rows_) / N; ++i) {
+      for (std::size_t c = 0; c < N; ++c) to[i * N + c] = S(x[i * stride + c]) * factor;
+    }
   }
 
   std::shared_ptr<all_levels const> levels_;

@@ -44,6 +44,7 @@ class curved_face {
     mask_.setOnes();
     blocks_.reserve(static_cast<std::size_t>(slant::block_count(set)));
     components_.reserve(static_cast<std::size_t>(mask_.size()));
+    held_.reserve(static_cast<std::size_t>(mask_.size()));
     matrices_.reserve(3 * entries);
   }
 
@@ -53,6 +54,7 @@ class curved_face {
     blocks_.clear();
     for (index const component : components_) curved_[static_cast<std::size_t>(component)] = false;
     components_.clear();
+    held_.clear();
     matrices_.clear();
     fixed_ = 0;
     slant::visit_blocks(set, [&](auto const& block, auto const& p) {
@@ -100,6 +102,20 @@ class curved_face {
     });
   }
 
+  /// f(row, column, Π_ij, C_ij) for the blocks that have not every motion: their entries, of fixed
+  /// blocks those of the diagonal. Elsewhere Π is the identity and C is 0.
+  template <class F>
+  void block_entries(F f) const {
+    for (index const i : held_) f(i, i, S(0), S(0));
+    for_each([&](auto entry, index const* component, index n) {
+      for (index j = 0; j < n; ++j) {
+        for (index l = 0; l < n; ++l) {
+          f(component[j], component[l], entry(range_projector, j, l), entry(range_curvature, j, l));
+        }
+      }
+    });
+  }
+
   /// y ← y + α C x.
   template <class X, class Y>
   void add_curvature(S const& α, X const& x, Y& y) const {
@@ -133,7 +149,10 @@ class curved_face {
     S const least = std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon();
     bool fixed = true;
     for (int j = 0; j < N; ++j) fixed = fixed && !(g.data()[j * (N + 1)] > least);
-    for (index j = 0; j < N; ++j) mask_.coeffRef(p.component(j)) = fixed ? S(0) : S(1);
+    for (index j = 0; j < N; ++j) {
+      mask_.coeffRef(p.component(j)) = fixed ? S(0) : S(1);
+      if (fixed) held_.push_back(p.component(j));
+    }
     if (fixed) ++fixed_;
     if (inside || fixed) return;
 
@@ -191,6 +210,7 @@ class curved_face {
   std::vector<bool> curved_;                  // components of curved blocks
   std::vector<curved_block> blocks_;
   std::vector<index> components_;
+  std::vector<index> held_;  // components of fixed blocks
   std::vector<S> matrices_;
   index fixed_ = 0;
 };

@@ -71,15 +71,23 @@ template <class S>
                                  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R,
                                  S const& share) {
   using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  matrix const image = K * R, weighed = K.diagonal().asDiagonal() * R;
+  using six = Eigen::Matrix<S, 6, 6>;
+  // By rows, so that one pass through K does; in the plane with zeros.
+  Eigen::Matrix<S, Eigen::Dynamic, 6, Eigen::RowMajor> rows;
+  rows.setZero(R.rows(), 6);
+  rows.leftCols(R.cols()) = R;
   for (auto const& body : bodies_of(K)) {
-    auto const own = [&](matrix const& all) {
-      matrix rows(static_cast<index>(body.size()), all.cols());
-      for (index k = 0; k < rows.rows(); ++k) rows.row(k) = all.row(body[std::size_t(k)]);
-      return rows;
-    };
-    matrix const motions = own(R).transpose();
-    matrix const G = motions * own(image), H = motions * own(weighed);
+    six all = six::Zero(), own = six::Zero();
+    for (index const j : body) {
+      Eigen::Matrix<S, 1, 6> image = Eigen::Matrix<S, 1, 6>::Zero();
+      for (typename Eigen::SparseMatrix<S>::InnerIterator e(K, j); e; ++e) {
+        image += e.value() * rows.row(e.row());
+        if (e.row() == j) own += rows.row(j).transpose() * (e.value() * rows.row(j));
+      }
+      all += rows.row(j).transpose() * image;
+    }
+    matrix const G = all.topLeftCorner(R.cols(), R.cols());
+    matrix const H = own.topLeftCorner(R.cols(), R.cols());
     // In motions of which H is the identity; what H does not see moves nothing.
     Eigen::SelfAdjointEigenSolver<matrix> const scale(H);
     S const least = S(1e-10) * scale.eigenvalues().maxCoeff();

@@ -35,6 +35,7 @@ struct inner_result {
   bool finite;          ///< no number left the range of the scalar
   S first_residual{0};  ///< ‖Π r‖, where it is of interest
   S first_energy{0};    ///< ‖Π r‖_M, about ‖t‖_H
+  bool flat = false;    ///< ended where H has no curvature
 };
 
 /// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
@@ -60,12 +61,14 @@ class curved_minimum {
   /// t with ‖Π r + H t‖ ≤ max(target, floor ‖Π r‖), or the last one after at most `most` steps. t
   /// has the units of r over those of A. r is the gradient at t = 0, s = mean(diag M). With an
   /// energy, in the units of ‖r‖_M: t stays 0 if ‖Π r‖_M is no more, and the iteration ends where
-  /// ‖Π r + H t‖_M is an eighth of it. A shift stands for A + shift I.
+  /// ‖Π r + H t‖_M is an eighth of it. A shift stands for A + shift I. `roughly`: with A as M knows
+  /// it, if it does (multiplies_roughly).
   template <class A, class WA, class Face>
   inner_result<scalar> minimise(A const& a, WA& a_workspace, M const& m, V const& r,
                                 Face const& face, scalar const& ρ, scalar const& s, scalar target,
                                 index most, scalar const& floor = scalar(0),
-                                scalar const& energy = scalar(0), scalar const& shift = scalar(0)) {
+                                scalar const& energy = scalar(0), scalar const& shift = scalar(0),
+                                bool roughly = false) {
     using std::sqrt;
     vectors::set_zero(t);
     vectors::set_zero(image);
@@ -79,6 +82,7 @@ class curved_minimum {
     enter_face(m, face, scalar(scalar(1) / ρ), m_workspace_);
     bool finite = detail::is_finite(size);
     index k = 0;
+    bool flat = false;
     bool const asks = energy > scalar(0) && size > scalar(0);
     while (k < most && (size > target || (asks && k == 0))) {
       precondition_on_face(m, face, s, g_, z_, weighed_, m_workspace_);
@@ -93,21 +97,24 @@ class curved_minimum {
         vectors::waxpby(next / gz, p_, scalar(-1), z_, p_);
       }
       gz = next;
-      slant::apply(a, p_, Ap_, a_workspace);
+      multiply(a, a_workspace, m, roughly);
       ++k;
       face.keep(Ap_, z_);
       face.add_curvature(scalar(1) / ρ, p_, z_);
       if (shift > scalar(0)) vectors::axpy(shift, p_, z_);
       scalar const bend = inner_product(p_, z_);
       finite = finite && detail::is_finite(bend);
-      if (!(bend > scalar(0))) break;  // a direction of the kernel of H: the step ends here
+      if (!(bend > scalar(0))) {  // a direction of the kernel of H: the step ends here
+        flat = true;
+        break;
+      }
       scalar const α = gz / bend;
       vectors::axpy(α, p_, t);
       vectors::axpy(α, Ap_, image);
       vectors::axpy(α, z_, g_);
       size = norm(g_);
     }
-    return {k, size, finite && detail::is_finite(size), first, first_energy};
+    return {k, size, finite && detail::is_finite(size), first, first_energy, flat};
   }
 
   /// ‖Π r + H t‖ from t and its image.
@@ -121,6 +128,17 @@ class curved_minimum {
 
  private:
   static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
+
+  template <class A, class WA>
+  void multiply(A const& a, WA& a_workspace, M const& m, bool roughly) {
+    if constexpr (multiplies_roughly<M, V>) {
+      if (roughly) {
+        m.multiply_roughly(p_, Ap_, m_workspace_);
+        return;
+      }
+    }
+    slant::apply(a, p_, Ap_, a_workspace);
+  }
 
   V g_;        // Π r + H t
   V p_;        // direction

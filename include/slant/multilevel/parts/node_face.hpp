@@ -6,9 +6,10 @@
 //     H = Π A Π + C,      Π = diag(Π_i),   C = diag(C_i).
 //
 // Nodes with Π_i = I and C_i = 0 are all but those of the surface and are not stored. From a face of
-// any set (sets/face.hpp, sets/curved_face.hpp) Π and C are read by applying them to N vectors, the
-// c-th of which is 1 in component c of every node; where their image of one vector of pseudo-random
-// numbers is what it was, nothing has changed and nothing is read.
+// any set (sets/face.hpp, or the user's) Π and C are read by applying them to N vectors, the c-th of
+// which is 1 in component c of every node; where their image of one vector of pseudo-random numbers
+// is what it was, nothing has changed and nothing is read. sets/curved_face.hpp knows its entries,
+// and only the surface is read.
 //
 // Great curvature. A direction v in which C_i is λ, more than 1/√ε of A_ii, hardly moves, and in
 // short scalars A_ii + C_i would forget A_ii. The levels hold such directions: they work with
@@ -71,21 +72,9 @@ class node_face {
   template <class Face, class V>
   bool assign(Face const& face, double weight, std::vector<double> const& diagonal, V& probe,
               V& image, std::vector<int>& moved) {
-    using S = scalar_t<V>;
     moved.clear();
     std::fill(changed_.begin(), changed_.end(), static_cast<unsigned char>(0));
-    auto const project = [&] { face.keep(probe, image); };
-    bool changed = read(project, &node::projector, projected_, probe, image);
-    auto const bend = [&] {
-      slant::local(image).setZero();
-      if constexpr (requires { face.add_curvature(S(1), probe, image); }) {
-        if (weight > 0) face.add_curvature(S(weight), probe, image);
-      }
-    };
-    if (weight > 0 || !bent_.empty()) {
-      changed = read(bend, &node::curvature, bent_, probe, image) || changed;
-    }
-    if (!changed) return false;
+    if (!read(face, weight, probe, image)) return false;
     for (std::size_t k = 0; k < surface_.size(); ++k) {
       if (changed_[k] == 0) continue;
       node& here = surface_[k];
@@ -186,8 +175,13 @@ class node_face {
     }
   }
 
- private:
+  /// By how much of what it was a diagonal block has to change until the next level follows.
   static constexpr double lag = 0.05;
+
+ private:
+  struct read_node {
+    small projector, curvature;
+  };
 
   [[nodiscard]] static std::size_t offset(int i) { return static_cast<std::size_t>(i) * stride; }
   [[gnu::always_inline]] static void project_at(node const& here, T* x) {
@@ -225,6 +219,50 @@ class node_face {
       kept_.resize(surface_.size() * stride);
     }
     return static_cast<std::size_t>(place);
+  }
+  /// Π and C from the entries that the face knows. Returns whether anything has changed.
+  template <class Face, class V>
+  bool read(Face const& face, double weight, V& probe, V& image) {
+    if constexpr (requires { face.block_entries([](index, index, double, double) {}); }) {
+      projected_.clear();
+      bent_.clear();
+      now_.assign(surface_.size(), {small::Identity(), small::Zero()});
+      face.block_entries([&](index row, index column, auto const& π, auto const& c) {
+        index const i = row / N;
+        if (column / N != i) {
+          if (π == 0 && c == 0) return;
+          refuse(static_cast<std::size_t>(i));
+        }
+        std::size_t const k = at(static_cast<int>(i));
+        if (k == now_.size()) now_.push_back({small::Identity(), small::Zero()});
+        now_[k].projector(row % N, column % N) = static_cast<double>(π);
+        now_[k].curvature(row % N, column % N) = weight * static_cast<double>(c);
+      });
+      bool changed = false;
+      for (std::size_t k = 0; k < surface_.size(); ++k) {
+        bool const same = now_[k].projector == surface_[k].projector &&
+                          now_[k].curvature == surface_[k].curvature;
+        changed_[k] = same ? 0 : 1;
+        changed = changed || !same;
+        surface_[k].projector = now_[k].projector;
+        surface_[k].curvature = now_[k].curvature;
+      }
+      return changed;
+    } else {
+      using S = scalar_t<V>;
+      auto const project = [&] { face.keep(probe, image); };
+      bool changed = read(project, &node::projector, projected_, probe, image);
+      auto const bend = [&] {
+        slant::local(image).setZero();
+        if constexpr (requires { face.add_curvature(S(1), probe, image); }) {
+          if (weight > 0) face.add_curvature(S(weight), probe, image);
+        }
+      };
+      if (weight > 0 || !bent_.empty()) {
+        changed = read(bend, &node::curvature, bent_, probe, image) || changed;
+      }
+      return changed;
+    }
   }
   /// Reads the blocks of Π or C by `act`, which makes image of probe. `before` is the image of a
   /// vector of pseudo-random numbers: where it is the same, nothing has changed. Returns whether
@@ -300,9 +338,12 @@ class node_face {
         error += std::abs(expected - image[i * N + std::size_t(q)]);
       }
       if (error <= tolerance() * (projects ? std::max(size, 1.0) : size)) continue;
-      throw bad_input("face", "node " + show(static_cast<index>(i)) + " that moves with others",
-                      "blocks of the set within the nodes of " + show(index(N)) + " unknowns");
+      refuse(i);
     }
+  }
+  [[noreturn, gnu::cold]] static void refuse(std::size_t i) {
+    throw bad_input("face", "node " + show(static_cast<index>(i)) + " that moves with others",
+                    "blocks of the set within the nodes of " + show(index(N)) + " unknowns");
   }
   [[nodiscard]] static double tolerance() {
     return std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()));
@@ -406,6 +447,7 @@ class node_face {
   std::vector<node> surface_;
   std::vector<unsigned char> changed_;
   std::vector<T> kept_;
+  std::vector<read_node> now_;            // what read finds
   std::vector<double> projected_, bent_;  // images of Π and C, see read
 };
 
