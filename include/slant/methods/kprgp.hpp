@@ -75,9 +75,8 @@ struct qpc_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(face_accuracy >= S(0) && face_accuracy < S(1))) {
-      throw bad_input("face_accuracy", detail::show(face_accuracy), "a number in [0, 1)");
-    }
+    detail::check_option("face_accuracy", face_accuracy,
+                         face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
     kprgp_options<S>{.step_length = step_length,
                      .step_factor = step_factor,
                      .refresh = refresh,
