@@ -438,8 +438,7 @@ class schur_contact<P> {
  private:
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
 
-  /// release, halved with each release after the first eight; what is below the least value is
-  /// rounding error of φ.
+  /// See the top of this file; what is below the least value is rounding error of φ.
   scalar Γ(state_type const& s) const {
     using std::ldexp;
     scalar const least = scalar(4096) * std::numeric_limits<scalar>::epsilon();

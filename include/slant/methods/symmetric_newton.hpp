@@ -74,9 +74,7 @@ concept symmetric_newton_problem =
 // --- descent takeover ----------------------------------------------------------------------------
 //
 // A method that converges from everywhere takes over where a faster one fails: KPRGP, until its
-// iterate is better than the point of failure by a factor. Since KPRGP converges to the solution
-// from every x ∈ Λ [K Theorem 1] this happens after finitely many of its steps; so failures cannot
-// follow one another without the residual tending to zero.
+// iterate is better than the point of failure by a factor.
 
 /// KPRGP at work on a point s that derives from gradient_point<QP>. Nothing is computed or
 /// allocated before the first failure, σ_max included.

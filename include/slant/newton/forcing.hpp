@@ -97,7 +97,6 @@ struct adaptive_precision {
   double r_tol = 0.1;   ///< in (0, 1): [K] proposes 0.1, [T] 0.01
   double c_fact = 0.9;  ///< in (0, 1)
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_fraction("r_tol", r_tol);
     detail::check_fraction("c_fact", c_fact);
@@ -119,7 +118,6 @@ struct eisenstat_walker {
   double η_first = 0.5;  ///< in (0, η_max]: that of the first step
   double goal = 0;  ///< in [0, 1): no step is solved beyond half of goal · err⁽⁰⁾; 0: no limit
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_option("γ", γ, γ > 0 && γ <= 1, "a number in (0, 1]");
     detail::check_option("exponent", exponent, exponent > 1 && exponent <= 2, "a number in (1, 2]");

@@ -87,7 +87,6 @@ struct halving_line_search {
   index max_halvings = 30;   ///< ≥ 0
   bool accept_best = false;  ///< if none is accepted, take the one with the smallest residual
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_fraction("sufficient", sufficient);
     detail::check_option("max_halvings", max_halvings, max_halvings >= 0, "a number >= 0");

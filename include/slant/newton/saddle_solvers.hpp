@@ -98,20 +98,15 @@ struct schur_cg : detail::schur_solver<schur_cg, cg_solver> {
 
 // --- schur bicgstab ------------------------------------------------------------------------------
 //
-// Variant A of [T §3.1, §3.3.1]: the generalised saddle-point system
-//
-//     [ K   Jᵀ ; −ρD(𝒜)J   D(ℐ) ] (dx, dz) = −(F₁, F₂),      K = A + H,
-//
-// reduced to its nonsymmetric Schur complement, with K = LDLᵀ factored in each Newton step and
-// BiCGSTAB on
+// Variant A of [T §3.1, §3.3.1]: the same system reduced to its nonsymmetric Schur complement, with
+// K = LDLᵀ factored in each Newton step and BiCGSTAB on
 //
 //     S dz = −F₂ − ρD(𝒜) J K⁻¹F₁,     S = D(ℐ) + ρD(𝒜) J K⁻¹Jᵀ;     dx = −K⁻¹(F₁ + Jᵀdz).
 //
 // Each product by S is one by K⁻¹, a "Hessian multiplication" of [T]; two more frame them.
 // Breakdown if K is singular. It may be indefinite.
 
-/// BiCGSTAB on the Schur complement; for F°(y) of a kkt_function whose A is a matrix, sparse or
-/// dense. operator_applications are those of K⁻¹. Factorisations allocate.
+/// BiCGSTAB on the Schur complement; for the same F°(y), counted alike.
 struct schur_bicgstab : detail::schur_solver<schur_bicgstab, bicgstab_solver> {
   template <class G, class V, class P>
     requires detail::factorable_saddle<G, V>
