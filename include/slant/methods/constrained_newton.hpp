@@ -457,13 +457,7 @@ class constrained_newton<QP, C, M> {
     scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,
                                         s.preconditioner_size, target, options_.inner_steps);
-    s.inner_iterations = inner.iterations;
-    s.work.inner_iterations += inner.iterations;
-    s.work.operator_applications += inner.iterations;
-    if (!inner.finite) {
-      s.status = status::breakdown;
-      return;
-    }
+    if (!note_inner(inner, s)) return;
     s.gradient_at_end += s.inner.image;
     s.face.whole().add_curvature(scalar(1) / α, s.inner.t, s.gradient_at_end);
     s.face.balance(s.gradient_at_end, s.dν);

@@ -344,13 +344,7 @@ class envelope_newton {
         qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length, s.preconditioner_size,
         target, options_.inner_steps, scalar(0), options_.energy_goal / s.unit, shift(s));
     s.energy_estimate = inner.first_energy * s.unit;
-    s.inner_iterations = inner.iterations;
-    s.work.inner_iterations += inner.iterations;
-    s.work.operator_applications += inner.iterations;
-    if (!inner.finite) {
-      s.status = status::breakdown;
-      return;
-    }
+    if (!note_inner(inner, s)) return;
     bool const asks = options_.energy_goal > scalar(0);
     if (asks && inner.iterations == 0 && s.energy_estimate <= options_.energy_goal) {
       s.status = status::converged;

@@ -447,13 +447,7 @@ class symmetric_newton_steps {
     auto const inner =
         s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
                             s.preconditioner_size, target, options_.inner_steps);
-    s.inner_iterations = inner.iterations;
-    s.work.inner_iterations += inner.iterations;
-    s.work.operator_applications += inner.iterations;
-    if (!inner.finite) {
-      s.status = status::breakdown;
-      return;
-    }
+    if (!note_inner(inner, s)) return;
     vectors::waxpy(s.unit, s.inner.t, s.x, s.segment.target_y);
     vectors::add(s.r, s.inner.image);
     vectors::waxpy(-ρ(s), s.inner.image, s.segment.target_y, s.segment.target_z);
