@@ -82,8 +82,8 @@ namespace slant::detail {
   }
 }
 
-/// Throws bad_input unless the option `holds` what is expected; then a finite number > 0, and one in
-/// (0, 1).
+/// Throws bad_input unless the option `holds` what is expected; check_positive: a finite number
+/// > 0; check_fraction: one in (0, 1).
 template <class T>
 [[gnu::cold]] void check_option(std::string_view name, T const& value, bool holds,
                                 std::string_view expectation) {

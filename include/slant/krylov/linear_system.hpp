@@ -36,8 +36,8 @@ void check_start(V const& x0, V const& b) {
   check_finite("x0", x0);
 }
 
-/// What the states of these solvers have in common. The residual is what the method makes zero: r, or
-/// what a face or a projection leaves of it.
+/// What the states of these solvers have in common. The residual is what the method makes zero: r,
+/// or what a face or a projection leaves of it.
 template <class V>
 struct residual_state {
   V x;                            ///< iterate

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Options of symmetric_newton, with a set or with another convex function, and the step lengths that
-// they mean.
+// Options of symmetric_newton, with a set or with another convex function, and the step lengths
+// that they mean.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
@@ -57,9 +57,9 @@ struct symmetric_newton_options {
 
 namespace detail {
 
-/// ρ of a state, `factor`/mean(diag A) if the options name none, and s = mean(diag M). What knows the
-/// inverse on each face is not weighed against the curvature of its boundary. Not inlined: g++ 12
-/// would see *step_length read where there is none.
+/// ρ of a state, `factor`/mean(diag A) if the options name none, and s = mean(diag M). What knows
+/// the inverse on each face is not weighed against the curvature of its boundary. Not inlined:
+/// g++ 12 would see *step_length read where there is none.
 template <class QP, class M, class S, class State>
 [[gnu::noinline]] void set_sizes(QP const& qp, M const& m, symmetric_newton_options<S> const& o,
                                  S const& factor, State& s) {

@@ -110,8 +110,8 @@ template <slanting_part F, slanting_part G>
 // Componentwise minimum min(F(y), G(y)), the classical complementarity function: min(x, r) = 0
 // means x >= 0, r >= 0, xᵀr = 0.
 //
-// Kinks. min(F, G) = F − max(0, F − G): where F(y)_i = G(y)_i the row is that of G°. So min(x, ρ r(x)) has the same slanting operator as the
-// natural residual x − P₊(x − ρ r(x)).
+// Kinks. min(F, G) = F − max(0, F − G): where F(y)_i = G(y)_i the row is that of G°. So
+// min(x, ρ r(x)) has the same slanting operator as the natural residual x − P₊(x − ρ r(x)).
 
 /// min(F(y), G(y)) componentwise. F and G are `Function const&` or function types (owned).
 template <class F, class G>
