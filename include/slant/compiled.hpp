@@ -10,7 +10,6 @@
 //     contact::solve                Tresca friction, each law and the choice by the data
 //     contact::certified_coulomb    Coulomb friction
 //     contact::solve_friction       Coulomb friction from W, q, μ
-//     contact::solve_obstacle       contact without friction, on u or on λ
 //     contact::find_free_motions    and name_motion; computed_kernel, fixing_rows
 //     contact::check_optimality     and verify, check_plausibility
 //

@@ -27,13 +27,13 @@ TEST_CASE("relative errors: of a solution that is zero, of one about which nothi
   CHECK(std::isinf(slant::energy_error<double>{.bound = 1 - 1e-6, .size = 1}.relative()));
   CHECK(std::isinf(slant::energy_error<double>{}.relative()));
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(std::isnan(slant::error_bound(nan, 0.0)));
-  CHECK(std::isnan(slant::error_bound(0.0, nan)));
-  CHECK(slant::error_bound(0.0, 0.0) == 0);
-  CHECK(slant::error_bound(2.0, 0.0) == doctest::Approx(2));
-  CHECK(slant::error_bound(0.0, 4.0) == doctest::Approx(2));
-  CHECK(slant::error_bound(1e-200, 1e-300) >= 1e-150);
-  CHECK(slant::error_bound(1e200, 1e300) >= 1e200);
+  CHECK(std::isnan(slant::error_bound_of_root(nan, 0.0)));
+  CHECK(std::isnan(slant::error_bound_of_root(0.0, nan)));
+  CHECK(slant::error_bound_of_root(0.0, 0.0) == 0);
+  CHECK(slant::error_bound_of_root(2.0, 0.0) == doctest::Approx(2));
+  CHECK(slant::error_bound_of_root(0.0, 2.0) == doctest::Approx(2));
+  CHECK(slant::error_bound_of_root(1e-200, 1e-150) >= 1e-150);
+  CHECK(slant::error_bound_of_root(1e200, 1e150) >= 1e200);
 }
 
 TEST_CASE("energy_error_below: kprgp stops by the error, asked only where it may say yes") {

@@ -12,6 +12,7 @@
 
 #include <fem/steel_brick.hpp>
 #include "loose_brick.hpp"
+#include "spring_scenes.hpp"
 #include "support/allocation_guard.hpp"
 #include "support/effort.hpp"
 #include "support/message.hpp"
@@ -37,6 +38,18 @@ struct scene {
   contact::data<double> data;
   contact::node_layout<double> layout;
 };
+
+/// Without friction, and without coordinates.
+scene bare(sparse K, sparse N, VectorXd f, VectorXd d) {
+  auto const n = f.size();
+  return {std::move(K), {std::move(N), sparse(0, n), std::move(f), std::move(d), VectorXd(0)}, {}};
+}
+
+scene frictionless(scene const& s) {
+  auto r = bare(s.K, s.data.N, s.data.f, s.data.d);
+  r.layout = s.layout;
+  return r;
+}
 
 scene brick(int k, fem::brick_load load) {
   auto const s = fem::make_steel_brick({.k = k, .load = load});
@@ -80,7 +93,7 @@ TEST_CASE("bricks with friction: the solution of the dual problem, K never facto
   }
 }
 
-TEST_CASE("no friction, no slip, infinite gaps, other units, no coordinates") {
+TEST_CASE("no slip, infinite gaps, other units, no coordinates") {
   scene s = brick(3, fem::brick_load::lift);
   scene other = s;
   other.data.g.setZero();
@@ -92,10 +105,6 @@ TEST_CASE("no friction, no slip, infinite gaps, other units, no coordinates") {
   agree(other);
   other = s;
   for (Index i = 0; i < s.data.d.size(); i += 2) other.data.d[i] = infinity;
-  agree(other);
-  other = s;
-  other.data.T.resize(0, s.K.rows());
-  other.data.g.resize(0);
   agree(other);
   other = s;
   other.layout = {};
@@ -118,6 +127,129 @@ TEST_CASE("no friction, no slip, infinite gaps, other units, no coordinates") {
       CHECK(r.converged());
       CHECK(energy(s.K, VectorXd(r.u * (stiffness / force) - u)) <= 2e-8 * energy(s.K, u));
     }
+  }
+}
+
+TEST_CASE("no friction: all loads, sizes of a single level, no coordinates") {
+  for (auto const load : fem::brick_loads) {
+    for (int k = 1; k <= test::effort(6, 3); ++k) {
+      CAPTURE(k);
+      scene s = frictionless(brick(k, load));
+      CHECK(agree(s).work.inner_iterations <= 160);
+      s.layout = {};
+      CHECK(agree(s).work.inner_iterations <= 200);
+    }
+  }
+}
+
+TEST_CASE("no friction: no contact, contact everywhere, contact of some nodes, an inclined floor") {
+  scene const s = frictionless(brick(3, fem::brick_load::lift));
+  Index const m = s.data.d.size();
+  scene other = s;
+  other.data.d.setConstant(infinity);
+  CHECK(agree(other).multipliers == VectorXd::Zero(m));
+  other = s;
+  other.data.f.setZero();
+  for (Index i = 2; i < s.data.f.size(); i += 3) other.data.f[i] = -1;
+  CHECK(agree(other).multipliers.minCoeff() > 0);
+  other = s;
+  other.data.d.head(m / 2).setConstant(infinity);
+  CHECK(agree(other).multipliers.head(m / 2) == VectorXd::Zero(m / 2));
+  other = frictionless(brick(3, fem::brick_load::pull));
+  for (int j = 0; j < s.data.N.outerSize(); ++j) {
+    for (sparse::InnerIterator e(s.data.N, j); e; ++e) {
+      other.data.N.coeffRef(e.row(), j - 1) = 0.2;
+      other.data.N.coeffRef(e.row(), j - 2) = -0.1;
+    }
+  }
+  CHECK(contact::primal(other.K, other.data).turns());
+  agree(other);
+}
+
+TEST_CASE(
+    "no friction: rows of either sign, any size, several entries; a K that is nearly singular") {
+  Index const n = 7;
+  MatrixXd K = 2 * MatrixXd::Identity(n, n);
+  K.diagonal(1).setConstant(-1);
+  K.diagonal(-1).setConstant(-1);
+  VectorXd const f{{1, 2, -1, 3, 1, 1, 2}};
+  MatrixXd single = MatrixXd::Zero(4, n);
+  single(0, 1) = 1;
+  single(1, 2) = 4;
+  single(2, 4) = -1;
+  single(3, 5) = 1;
+  VectorXd const gaps{{1.5, 5.0, -9.0, infinity}};
+  auto const chain = agree(bare(K.sparseView(), single.sparseView(), f, gaps), 1e-12);
+  CHECK(chain.u[1] == 1.5);
+  CHECK(chain.u[2] == 1.25);
+  CHECK(chain.u[4] == 9);  // pulled up to it
+  CHECK(chain.multipliers[3] == 0);
+  MatrixXd several = MatrixXd::Zero(3, n);
+  several.row(0).head(3) << 1, 1, -0.5;
+  several.row(1).segment(3, 2) << -2, 0.25;
+  several(2, 6) = 1;
+  VectorXd const d{{0.5, 1, 0.1}};
+  VectorXd const u = agree(bare(K.sparseView(), several.sparseView(), f, d), 1e-12).u;
+  for (double const unit : {0x1p-300, 0x1p300}) {
+    CAPTURE(unit);
+    auto const s = bare(K.sparseView(), (unit * several).sparseView(0, 0), f, unit * d);
+    CHECK((agree(s, 1e-12).u - u).norm() <= 1e-11 * u.norm());
+  }
+  auto const plane = test::spring_block<2>(8, 1e-2);
+  scene const loose = bare(plane.K, plane.contact.N, plane.contact.f, plane.contact.d);
+  for (slant::index const coarsest : {600, 50}) {
+    options const o{.route = solution_route::iterate, .multigrid = {.coarsest = coarsest}};
+    auto const r = contact::solve(loose.K, loose.data, o);
+    CHECK(r.converged());
+    CHECK(contact::check_optimality(loose.K, loose.data, r.u, r.multipliers).residual() <= 1e-6);
+  }
+}
+
+TEST_CASE("no friction: rows of one unknown are factored; those that exclude each other") {
+  sparse K(3, 3);
+  K.setIdentity();
+  MatrixXd N = MatrixXd::Zero(5, 3);
+  N.col(0).head(3) << 1, 2, 1;
+  N.col(2).tail(2) << -1, 1;
+  VectorXd const f{{5, 0, -5}}, d{{3, 2, 4, 0.5, 0.5}};
+  scene const s = bare(K, N.sparseView(), f, d);
+  auto const r = contact::solve(s.K, s.data);
+  CHECK(r.converged());
+  CHECK((r.u - VectorXd{{1, 0, -0.5}}).norm() <= 1e-8);
+  CHECK((r.multipliers - VectorXd{{0, 2, 0, 4.5, 0}}).norm() <= 1e-7);
+  scene const none = bare(K, N.sparseView(), f, VectorXd{{3, 2, 4, 0.5, -2}});
+  auto const grows = contact::solve(none.K, none.data);
+  CHECK(grows.status == slant::status::unbounded);
+  CHECK(grows.reason.starts_with("no u satisfies the constraints"));
+}
+
+TEST_CASE("what cannot be used is named, an indefinite K is told, on either route") {
+  scene const s = frictionless(brick(2, fem::brick_load::press));
+  for (auto const route : {solution_route::factor, solution_route::iterate}) {
+    options const o{.route = route};
+    auto const complaint = [&](auto change) {
+      scene other = s;
+      change(other);
+      return test::complaint([&] { static_cast<void>(contact::solve(other.K, other.data, o)); });
+    };
+    double const nan = std::nan("");
+    CHECK(complaint([&](scene& x) { x.data.f[5] = nan; }).starts_with("f[5]: got nan"));
+    CHECK(complaint([&](scene& x) { x.data.d[1] = nan; }).starts_with("d[1]: got nan"));
+    CHECK(complaint([&](scene& x) { x.data.d.conservativeResize(3); }).starts_with("d: got 3"));
+    CHECK(complaint([&](scene& x) {
+            x.K = sparse(s.K.topLeftCorner(6, 6));
+          }).starts_with("rows of K: got 6"));
+    CHECK(complaint([&](scene& x) { x.K.coeffRef(0, 1) += 7; }).starts_with("K"));
+    sparse indefinite = s.K;
+    double const shift = 0.2 * s.K.diagonal().mean();
+    for (Index i = 0; i < indefinite.rows(); ++i) indefinite.coeffRef(i, i) -= shift;
+    bool told = false;
+    try {
+      told = !contact::solve(indefinite, s.data, o).converged();
+    } catch (slant::bad_input const&) {
+      told = true;
+    }
+    CHECK(told);
   }
 }
 
@@ -228,6 +360,19 @@ TEST_CASE("what does not converge is factored, or says so where it may not be") 
   CHECK(cut.status == slant::status::iteration_limit);
   CHECK(cut.error.relative() > o.tolerance);
   CHECK(cut.reason.find("asked was 1e-08") != std::string::npos);
+  o.route = solution_route::automatic;
+  o.costs.operation = 1;  // factors seem dear
+  auto const after_all = contact::solve(s.K, s.data, o).choice;
+  CHECK(after_all.route == solution_route::factor);
+  CHECK(after_all.reason.find("factored after all: relative energy error") != std::string::npos);
+  o.route = solution_route::iterate;
+  // Loads along a foundation without friction: u is 1e10 times the deformation.
+  auto const block = test::spring_block<2>(3, 1e-10);
+  auto const& l = block.contact;
+  scene const loose = bare(block.K, l.N, l.f, l.d);
+  auto const floor = contact::solve(loose.K, loose.data, options{.route = solution_route::iterate});
+  CHECK(floor.status == slant::status::stalled);
+  CHECK(floor.error.relative() > 1e-8);
   Index steps = 0;
   o.max_steps = 5000;
   o.progress = [&](auto const& step) { steps = step.iteration; };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "grids.hpp"
 
-#include <slant/contact/obstacle.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
@@ -9,6 +8,8 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/multilevel/multigrid.hpp>
 #include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
+#include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>
 #include <slant/testing/operator_laws.hpp>
 
@@ -484,9 +485,17 @@ TEST_CASE("everything held, nodes held, all but one node held") {
 
 TEST_CASE("contact of the brick by symmetric Newton, K never factored") {
   auto const s = fem::make_steel_brick({.k = 4, .load = fem::brick_load::lift});
-  slant::contact::obstacle const problem(s.K, s.f, s.N, s.d);
-  multigrid const m(problem.matrix(), {.coordinates = test::moving_nodes(s), .coarsest = 100});
-  auto const r = slant::solve(slant::symmetric_newton{problem.qp(), m}, problem.zero(),
+  auto const n = s.f.size();
+  double const infinity = std::numeric_limits<double>::infinity();
+  VectorXd lower = VectorXd::Constant(n, -infinity);  // N u ≤ d, N of −1 at normal displacements
+  for (int j = 0; j < n; ++j) {
+    for (sparse::InnerIterator e(s.N, j); e; ++e) lower[j] = s.d[e.row()] / e.value();
+  }
+  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(s.K),
+                               s.f,
+                               slant::intervals(lower, VectorXd(VectorXd::Constant(n, infinity)))};
+  multigrid const m(s.K, {.coordinates = test::moving_nodes(s), .coarsest = 100});
+  auto const r = slant::solve(slant::symmetric_newton{qp, m}, VectorXd(VectorXd::Zero(n)),
                               slant::reduced_gradient_below(1e-10) || slant::at_most(60));
   CHECK(r.status == slant::status::converged);
   CHECK(r.state.work.inner_iterations <= 120);

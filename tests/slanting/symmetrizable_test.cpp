@@ -33,7 +33,8 @@ auto const step = id - slant::positive(0.5) * slant::affine(spd, b);
 
 template <class F>
 constexpr bool known(F const&) {
-  return slant::symmetrizable_function<F, VectorXd>;
+  return slant::slanting_function<F, VectorXd> &&
+         slant::symmetrizable<slant::slant_operator_t<F, VectorXd>>;
 }
 
 TEST_CASE("the natural residual with a definite A is symmetrizable") {
@@ -61,7 +62,8 @@ TEST_CASE("one thing missing") {
   CHECK_FALSE(known(slant::natural_residual(m, b, discs, 0.5)));             // no law of A
   CHECK_FALSE(known(slant::natural_residual(symmetric, b, discs, 0.5)));     // not definite
   CHECK_FALSE(known(slant::natural_residual(semidefinite, b, discs, 0.5)));  // not definite
-  CHECK_FALSE(known(id - p * (id - slant::any_sign(0.5) * slant::affine(spd, b))));           // sign of ρ unknown
+  CHECK_FALSE(
+      known(id - p * (id - slant::any_sign(0.5) * slant::affine(spd, b))));  // sign of ρ unknown
   CHECK_FALSE(known(id + p * step));                                         // + for −
   CHECK_FALSE(known(id - p * (id + slant::positive(0.5) * slant::affine(spd, b))));
   CHECK_FALSE(known(id - p * slant::affine(spd, b)));      // no I − ρA

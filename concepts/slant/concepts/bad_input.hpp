@@ -82,6 +82,22 @@ namespace slant::detail {
   }
 }
 
+/// Throws bad_input unless the option `holds` what is expected; check_positive: a finite number
+/// > 0; check_fraction: one in (0, 1).
+template <class T>
+[[gnu::cold]] void check_option(std::string_view name, T const& value, bool holds,
+                                std::string_view expectation) {
+  if (!holds) throw bad_input(name, show(value), expectation);
+}
+template <class T>
+[[gnu::cold]] void check_positive(std::string_view name, T const& value) {
+  check_option(name, value, value > T(0) && is_finite(value), "a number > 0");
+}
+template <class T>
+[[gnu::cold]] void check_fraction(std::string_view name, T const& value) {
+  check_option(name, value, value > T(0) && value < T(1), "a number in (0, 1)");
+}
+
 /// The complaint of check_extent, kept out of the loops that make the check.
 [[noreturn, gnu::cold, gnu::noinline]] inline void refuse_extent(char const* name, index got,
                                                                  char const* what, index expected,

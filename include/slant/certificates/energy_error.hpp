@@ -89,12 +89,6 @@ template <class S>
   return (δ + detail::root_of_squares<S>(δ, S(2) * root_of_gap)) / S(2) *
          (S(1) + S(8) * std::numeric_limits<S>::epsilon());
 }
-/// The same from δ and γ.
-template <class S>
-[[nodiscard]] S error_bound(S const& δ, S const& γ) {
-  using std::sqrt;
-  return error_bound_of_root<S>(δ, sqrt(γ));
-}
 
 /// d = g − s for all blocks of Λ at x, with the root of the sum of the gaps; m holds the stiffness
 /// of each component, of the size of diag(A⁻¹), ∞ where nothing resists. d may be g. Whether every

@@ -62,12 +62,8 @@ struct certified_coulomb_options {
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     slant::detail::checked_tolerance(tolerance);
-    if (newton_steps < 1) {
-      throw bad_input("newton_steps", slant::detail::show(newton_steps), "at least 1");
-    }
-    if (outer_steps < 1) {
-      throw bad_input("outer_steps", slant::detail::show(outer_steps), "at least 1");
-    }
+    slant::detail::check_option("newton_steps", newton_steps, newton_steps >= 1, "at least 1");
+    slant::detail::check_option("outer_steps", outer_steps, outer_steps >= 1, "at least 1");
   }
 };
 

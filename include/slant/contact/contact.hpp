@@ -8,7 +8,6 @@
 #include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/solve.hpp>
 #include <slant/contact/solve_friction.hpp>
-#include <slant/contact/solve_obstacle.hpp>
 #include <slant/contact/solve_options.hpp>
 
 // Data:
@@ -21,7 +20,6 @@
 // Problems in λ or u:
 #include <slant/contact/bodies.hpp>
 #include <slant/contact/dual.hpp>
-#include <slant/contact/obstacle.hpp>
 #include <slant/contact/primal.hpp>
 #include <slant/contact/primal_dual.hpp>
 #include <slant/contact/total_feti.hpp>

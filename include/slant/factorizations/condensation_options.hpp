@@ -54,9 +54,7 @@ struct condensation_options {
       }
     };
     if (levels && *levels < 0) throw bad_input("levels", detail::show(*levels), "a number >= 0");
-    if (applications < 0) {
-      throw bad_input("applications", detail::show(applications), "a number >= 0");
-    }
+    detail::check_option("applications", applications, applications >= 0, "a number >= 0");
     positive("flops_per_second", flops_per_second);
     positive("forming_per_second", forming_per_second);
     positive("bytes_per_second", bytes_per_second);

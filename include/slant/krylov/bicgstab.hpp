@@ -29,25 +29,14 @@ namespace slant {
 
 /// State of bicgstab.
 template <class V, class WA, class WM>
-struct bicgstab_state {
-  V x;                            ///< iterate
-  V r;                            ///< residual A x − b, in multiples of unit
-  V shadow;                       ///< r̂
-  V p, v, t;                      ///< direction, A M p, A M s
-  V preconditioned;               ///< M p or M s
-  WA a_workspace;                 ///< temporaries of A
-  WM m_workspace;                 ///< temporaries of M
-  scalar_t<V> unit{1};            ///< a power of two, see base/scaling.hpp
-  scalar_t<V> ρ{1}, α{1}, ω{1};   ///< the recurrence's coefficients
-  bool restarted = true;          ///< p starts anew from r
-  scalar_t<V> residual_norm{0};   ///< ‖r‖
-  scalar_t<V> residual_scale{0};  ///< ‖b‖, or ‖A x₀‖ if b = 0
-  scalar_t<V> computed_norm =
-      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
-  bool updated = false;                              ///< r was updated since it was computed from x
-  index iteration = 0;
-  slant::status status = slant::status::running;
-  slant::work work{};
+struct bicgstab_state : detail::residual_state<V> {
+  V shadow;                      ///< r̂
+  V p, v, t;                     ///< direction, A M p, A M s
+  V preconditioned;              ///< M p or M s
+  WA a_workspace;                ///< temporaries of A
+  WM m_workspace;                ///< temporaries of M
+  scalar_t<V> ρ{1}, α{1}, ω{1};  ///< the recurrence's coefficients
+  bool restarted = true;         ///< p starts anew from r
 };
 
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
@@ -86,8 +75,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, this->b());
     auto blank = [&] { return like(x0, this->a().rows()); };
-    state_type s{x0,
-                 blank(),
+    state_type s{{x0},
                  blank(),
                  blank(),
                  blank(),

@@ -20,29 +20,17 @@
 #include <slant/operators/identity.hpp>
 
 #include <concepts>
-#include <limits>
 #include <type_traits>
 
 namespace slant {
 
 /// State of cg.
 template <class V, class WA, class WM>
-struct cg_state {
-  V x;                                 ///< iterate
-  V r;                                 ///< residual A x − b, in multiples of unit
+struct cg_state : detail::residual_state<V> {
   V z;                                 ///< preconditioned residual M r
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
   WM m_workspace;                      ///< temporaries of M
-  scalar_t<V> unit{1};                 ///< a power of two, see base/scaling.hpp
-  scalar_t<V> residual_norm{0};        ///< ‖r‖
-  scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
-  scalar_t<V> computed_norm =
-      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
-  bool updated = false;                              ///< r was updated since it was computed from x
-  index iteration = 0;
-  slant::status status = slant::status::running;
-  slant::work work{};
 };
 
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
@@ -80,8 +68,7 @@ class cg<A, V, M> : public detail::preconditioned_system<A, V, M> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, this->b());
     auto const n = this->a().rows();
-    state_type s{x0,
-                 like(x0, n),
+    state_type s{{x0},
                  like(x0, n),
                  conjugate_directions<vector_type>(x0),
                  workspace(this->a(), x0),

@@ -20,31 +20,30 @@
 #include <slant/krylov/feasible_step.hpp>
 #include <slant/krylov/linear_system.hpp>
 
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace slant {
 
-/// State of face_cg.
+/// State of face_cg: x, equal to x₀ off the face, with the full gradient r; the residual is φ.
 template <class V, class WA>
-struct face_cg_state {
-  V x;                                 ///< iterate; equal to x₀ off the face
-  V r;                                 ///< full gradient A x − b, in multiples of unit
+struct face_cg_state : detail::residual_state<V> {
   V φ;                                 ///< free gradient: r on the face, 0 elsewhere
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
-  scalar_t<V> unit{1};                 ///< a power of two, see base/scaling.hpp
-  scalar_t<V> residual_norm{0};        ///< ‖φ‖
-  scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
-  scalar_t<V> computed_norm =
-      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
-  bool updated = false;                              ///< r was updated since it was computed from x
-  index iteration = 0;
-  slant::status status = slant::status::running;
-  slant::work work{};
 };
+
+namespace detail {
+
+/// φ from r, and its norm.
+template <class Face, class State>
+void note_free_gradient(Face const& face, State& s) {
+  face.keep(s.r, s.φ);
+  note_norm(s, norm(s.φ));
+}
+
+}  // namespace detail
 
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class A, class V, class F>
@@ -85,8 +84,7 @@ class face_cg<A, V, F> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, b_.get());
     auto const n = index(slant::local(x0).size());
-    state_type s{x0, like(x0, n), like(x0, n), conjugate_directions<vector_type>(x0),
-                 workspace(a_.get(), x0)};
+    state_type s{{x0}, like(x0, n), conjugate_directions<vector_type>(x0), workspace(a_.get(), x0)};
     detail::start_residual(a_.get(), b_.get(), s);
     s.status = status::running;
     note(s);
@@ -118,12 +116,7 @@ class face_cg<A, V, F> {
   }
 
  private:
-  void note(state_type& s) const {
-    face_.get().keep(s.r, s.φ);
-    s.residual_norm = s.unit * norm(s.φ);
-    if (s.residual_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
-  }
+  void note(state_type& s) const { detail::note_free_gradient(face_.get(), s); }
 
   held<A> a_;
   held<V> b_;
@@ -140,32 +133,21 @@ face_cg(A&&, V&&, F&&) -> face_cg<kept_t<A>, kept_t<V>, kept_t<F>>;
 //
 //     minimise   q(x) = ½ xᵀA x − bᵀx   over the free components of a face, as long as x ∈ Λ
 
-/// State of cg_feas.
+/// State of cg_feas: x ∈ Λ, equal to x₀ off the face, with the full gradient r; the residual is φ.
 template <class V, class WA>
-struct cg_feas_state {
-  V x;                                 ///< iterate in Λ; equal to x₀ off the face
-  V r;                                 ///< full gradient A x − b, in multiples of unit
+struct cg_feas_state : detail::residual_state<V> {
   V φ;                                 ///< free gradient: r on the face, 0 elsewhere
   V trial;                             ///< scratch
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
-  scalar_t<V> unit{1};                 ///< a power of two, see base/scaling.hpp
-  scalar_t<V> residual_norm{0};        ///< ‖φ‖
-  scalar_t<V> residual_scale{0};       ///< ‖b‖, or ‖A x₀‖ if b = 0
-  scalar_t<V> computed_norm =
-      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
-  bool updated = false;                              ///< r was updated since it was computed from x
-  index since_refresh = 0;                           ///< steps since then
-  bool at_boundary = false;                          ///< the last step was a half step
-  std::vector<index> blocked{};                      ///< the blocks that made it one
-  index iteration = 0;
-  slant::status status = slant::status::running;
-  slant::work work{};
+  index since_refresh = 0;             ///< steps since r was computed from x
+  bool at_boundary = false;            ///< the last step was a half step
+  std::vector<index> blocked{};        ///< the blocks that made it one
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return at_boundary ? "the boundary of the set is reached before the minimum on the face"
-                       : "the method reports: " + std::string(to_string(status));
+                       : "the method reports: " + std::string(to_string(this->status));
   }
 };
 
@@ -218,8 +200,7 @@ class cg_feas<A, V, C, F> {
       throw bad_input("x0", "a point outside", "a point of the set");
     }
     auto const n = index(slant::local(x0).size());
-    state_type s{x0,
-                 like(x0, n),
+    state_type s{{x0},
                  like(x0, n),
                  like(x0, n),
                  conjugate_directions<vector_type>(x0),
@@ -265,12 +246,7 @@ class cg_feas<A, V, C, F> {
   }
 
  private:
-  void note(state_type& s) const {
-    face_.get().keep(s.r, s.φ);
-    s.residual_norm = s.unit * norm(s.φ);
-    if (s.residual_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
-  }
+  void note(state_type& s) const { detail::note_free_gradient(face_.get(), s); }
 
   held<A> a_;
   held<V> b_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <slant/base/held.hpp>
+#include <slant/base/report.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
@@ -35,13 +36,35 @@ void check_start(V const& x0, V const& b) {
   check_finite("x0", x0);
 }
 
-/// Norm of the residual in s.r and what follows from it for the status.
-template <class State>
-void note_residual(State& s) {
-  using S = scalar_t<decltype(s.r)>;
-  s.residual_norm = s.unit * norm(s.r);
+/// What the states of these solvers have in common. The residual is what the method makes zero: r,
+/// or what a face or a projection leaves of it.
+template <class V>
+struct residual_state {
+  V x;                            ///< iterate
+  V r;                            ///< A x − b, in multiples of unit
+  scalar_t<V> unit{1};            ///< a power of two, see base/scaling.hpp
+  scalar_t<V> residual_norm{0};   ///< of the residual
+  scalar_t<V> residual_scale{0};  ///< ‖b‖, or ‖A x₀‖ if b = 0
+  scalar_t<V> computed_norm =
+      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
+  bool updated = false;                              ///< r was updated since it was computed from x
+  index iteration = 0;
+  slant::status status = slant::status::running;
+  slant::work work{};
+
+  residual_state(V const& x0) : x(x0), r(like(x0, slant::local(x0).size())) {}
+};
+
+/// The norm of the residual, ‖·‖ / unit, and what follows from it for the status.
+template <class State, class S>
+void note_norm(State& s, S const& size) {
+  s.residual_norm = s.unit * size;
   if (s.residual_norm == S(0)) s.status = status::converged;
   if (!is_finite(s.residual_norm)) s.status = status::breakdown;
+}
+template <class State>
+void note_residual(State& s) {
+  note_norm(s, norm(s.r));
 }
 
 /// s.r = (A s.x − b) / s.unit, the unit, and the scale ‖b‖ (or ‖A x₀‖ if b = 0); one application,

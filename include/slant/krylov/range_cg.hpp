@@ -37,36 +37,25 @@ namespace slant {
 
 // --- state ---------------------------------------------------------------------------------------
 
-/// State of range_cg.
+/// State of range_cg. The residual is C r; its scale is ‖C b‖, or ‖C r₀‖ if that is 0.
 template <class V, class WK, class WC, class WQ, bool Definite>
-struct range_cg_state {
+struct range_cg_state : detail::residual_state<V> {
   using flat_type = flat_direction<V, Definite>;
 
-  V x;                                 ///< iterate
-  V r;                                 ///< gradient K x − b, in multiples of unit
   V z;                                 ///< C r
   projected_directions<V> directions;  ///< p, q = Q p, K q, qᵀKq
   V descent;                           ///< where j falls for ever, if the status is unbounded
   WK a_workspace;                      ///< temporaries of K
   WC c_workspace;                      ///< temporaries of C
   WQ q_workspace;                      ///< temporaries of Q
-  slant::work work{};
-  flat_type flat;                 ///< tells directions of the kernel of K
-  scalar_t<V> unit{1};            ///< a power of two, see base/scaling.hpp
-  scalar_t<V> residual_norm{0};   ///< ‖C r‖
-  scalar_t<V> residual_scale{0};  ///< ‖C b‖, or ‖C r₀‖ if that is 0
-  scalar_t<V> computed_norm =
-      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
-  bool updated = false;                              ///< r was updated since it was computed from x
-  bool regular = false;              ///< a kernel was looked for, and j does not fall in it
-  bool flat_ended = false;           ///< it stalled on a direction without curvature
-  index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
-  index iteration = 0;
-  slant::status status = slant::status::running;
+  flat_type flat;                      ///< tells directions of the kernel of K
+  bool regular = false;                ///< a kernel was looked for, and j does not fall in it
+  bool flat_ended = false;             ///< it stalled on a direction without curvature
+  index projector_applications = 0;    ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
+    switch (this->status) {
       case slant::status::converged:
         return "the gradient vanishes on the range";
       case slant::status::unbounded:
@@ -80,7 +69,7 @@ struct range_cg_state {
       case slant::status::breakdown:
         return "a number left the range of the scalar, or an operator is not semidefinite";
       default:
-        return std::string(to_string(status));
+        return std::string(to_string(this->status));
     }
   }
 };
@@ -158,16 +147,15 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
     slant::work spent{};
     flat_direction<vector_type, declares_positive_definite<operator_type>> flat(
         this->a(), x0, spent.setup_applications);
-    state_type s{x0,
-                 like(x0, n),
+    state_type s{{x0},
                  like(x0, n),
                  projected_directions<vector_type>(x0),
                  like(x0, n),
                  workspace(this->a(), x0),
                  workspace(this->m(), x0),
                  workspace(q_.get(), x0),
-                 spent,
                  std::move(flat)};
+    s.work = spent;
     vectors::set_zero(s.descent);
     detail::start_residual(this->a(), this->b(), s);
     s.status = status::running;
@@ -239,9 +227,7 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
 
   void note(state_type& s) const {
     slant::apply(this->m(), s.r, s.z, s.c_workspace);
-    s.residual_norm = s.unit * norm(s.z);
-    if (s.residual_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+    detail::note_norm(s, norm(s.z));
   }
 
   /// Unbounded if the direction is near one of the kernel in which j falls.

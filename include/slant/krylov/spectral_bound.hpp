@@ -101,9 +101,7 @@ struct spectral_bound_options {
 
   [[gnu::cold]] void validate() const {
     if (steps < 2) throw bad_input("steps", detail::show(steps), "at least 2 Lanczos steps");
-    if (!(failure > 0 && failure < 1)) {
-      throw bad_input("failure", detail::show(failure), "a probability in (0, 1)");
-    }
+    detail::check_option("failure", failure, failure > 0 && failure < 1, "a probability in (0, 1)");
   }
 };
 

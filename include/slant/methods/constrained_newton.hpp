@@ -83,13 +83,9 @@ struct constrained_newton_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
-      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
-    }
+    detail::check_positive("step_factor", step_factor);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (!(sufficient > S(0) && sufficient < S(1))) {
-      throw bad_input("sufficient", detail::show(sufficient), "a number in (0, 1)");
-    }
+    detail::check_fraction("sufficient", sufficient);
     if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     mean_diagonal.validate();
@@ -237,11 +233,8 @@ class constrained_newton<QP, C, M> {
   using state_type = constrained_newton_state<problem, constraints, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  constrained_newton(held<QP> qp, held<C> c)
-    requires(!preconditioned)
-      : constrained_newton(std::move(qp), std::move(c), options{}) {}
   /// Throws bad_input if sizes do not match, or for options out of range.
-  constrained_newton(held<QP> qp, held<C> c, options o)
+  constrained_newton(held<QP> qp, held<C> c, options o = {})
     requires(!preconditioned)
       : qp_(std::move(qp)),
         constraints_(std::move(c)),
@@ -249,10 +242,7 @@ class constrained_newton<QP, C, M> {
         options_(std::move(o)) {
     check();
   }
-  constrained_newton(held<QP> qp, held<C> c, held<M> m)
-      : constrained_newton(std::move(qp), std::move(c), std::move(m), options{}) {}
-  /// Throws bad_input if sizes do not match, or for options out of range.
-  constrained_newton(held<QP> qp, held<C> c, held<M> m, options o)
+  constrained_newton(held<QP> qp, held<C> c, held<M> m, options o = {})
       : qp_(std::move(qp)), constraints_(std::move(c)), m_(std::move(m)), options_(std::move(o)) {
     check();
   }
@@ -467,13 +457,7 @@ class constrained_newton<QP, C, M> {
     scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,
                                         s.preconditioner_size, target, options_.inner_steps);
-    s.inner_iterations = inner.iterations;
-    s.work.inner_iterations += inner.iterations;
-    s.work.operator_applications += inner.iterations;
-    if (!inner.finite) {
-      s.status = status::breakdown;
-      return;
-    }
+    if (!note_inner(inner, s)) return;
     s.gradient_at_end += s.inner.image;
     s.face.whole().add_curvature(scalar(1) / α, s.inner.t, s.gradient_at_end);
     s.face.balance(s.gradient_at_end, s.dν);

@@ -42,7 +42,6 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/proximable.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
@@ -153,19 +152,14 @@ class envelope_newton {
   using state_type = envelope_newton_state<problem, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  explicit envelope_newton(held<QP> qp)
-    requires(!preconditioned)
-      : envelope_newton(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  envelope_newton(held<QP> qp, options o)
+  explicit envelope_newton(held<QP> qp, options o = {})
     requires(!preconditioned)
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
-  envelope_newton(held<QP> qp, held<M> m)
-      : envelope_newton(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  envelope_newton(held<QP> qp, held<M> m, options o)
+  envelope_newton(held<QP> qp, held<M> m, options o = {})
       : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
     detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
     detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
@@ -238,23 +232,9 @@ class envelope_newton {
   static constexpr scalar share = scalar(0.95);  // α
   static constexpr scalar decrease = scalar(0.01);  // of E, in units of ‖w − y‖²/γ; < (1 − α)/2
 
-  /// ρ, γ and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_sizes(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-    } else {
-      auto const step =
-          mean_step(qp_.get().a(), s.x, long_step * options_.step_factor, options_.mean_diagonal);
-      s.step_length = step.length;
-      s.work.setup_applications += step.applications;
-    }
+  void set_sizes(state_type& s) const {
+    detail::set_sizes(qp_.get(), m_.get(), options_, long_step * options_.step_factor, s);
     s.γ = s.step_length * (short_step / long_step);
-    if constexpr (!preconditioned ||
-                  preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
-      s.preconditioner_size = s.step_length / (long_step * options_.step_factor);
-    } else {
-      s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
-    }
   }
 
   void begin(state_type& s, bool solved) const {
@@ -362,27 +342,21 @@ class envelope_newton {
     s.face.assign(s.step_of(qp), slant::local(s.z), s.preconditioner_size / s.step_length);
     scalar const target = s.forcing.next(options_.forcing) * s.residual_norm / s.unit;
     auto const minimise = [&] {
-      auto const found =
-          s.inner.minimise(qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length,
-                           s.preconditioner_size, target, options_.inner_steps, scalar(0),
-                           options_.energy_goal / s.unit, shift(s), s.roughly);
-      s.inner_iterations = found.iterations;
-      s.work.inner_iterations += found.iterations;
-      s.work.operator_applications += found.iterations;
-      return found;
+      return s.inner.minimise(qp.a(), s.a_workspace, m_.get(), force(s), s.face, s.step_length,
+                              s.preconditioner_size, target, options_.inner_steps, scalar(0),
+                              options_.energy_goal / s.unit, shift(s), s.roughly);
     };
     auto inner = minimise();
     // What is not seen of A may cost a step a part of what it gains, but not more.
     scalar const allowed = std::max<scalar>(target, s.residual_norm / s.unit / scalar(20));
-    if (s.roughly && (inner.flat || error_of_image(s) > allowed)) {
+    if (s.roughly && (!inner.finite || inner.flat || error_of_image(s) > allowed)) {
       s.roughly = false;
+      s.work.inner_iterations += inner.iterations;
+      s.work.operator_applications += inner.iterations;
       inner = minimise();
     }
     s.energy_estimate = inner.first_energy * s.unit;
-    if (!inner.finite) {
-      s.status = status::breakdown;
-      return;
-    }
+    if (!note_inner(inner, s)) return;
     bool const asks = options_.energy_goal > scalar(0);
     if (asks && inner.iterations == 0 && s.energy_estimate <= options_.energy_goal) {
       s.status = status::converged;

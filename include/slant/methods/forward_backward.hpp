@@ -48,14 +48,12 @@ template <class S>
 struct forward_backward_options {
   std::optional<S> step_length{};  ///< α in (0, 1/σ_max]; not given: see krylov/spectral_bound.hpp
   bool extrapolate = true;         ///< θ as above; false: θ = 0
-  index patience = 1000;           ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
+  index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
-      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
-    }
+    if (step_length) detail::check_positive("step_length", *step_length);
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     spectrum.validate();
   }
@@ -136,9 +134,9 @@ class forward_backward<QP> {
   using options = forward_backward_options<scalar>;
   using state_type = forward_backward_state<problem>;
 
-  explicit forward_backward(held<QP> qp) : forward_backward(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  forward_backward(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
+  explicit forward_backward(held<QP> qp, options o = {})
+      : qp_(std::move(qp)), options_(std::move(o)) {
     options_.validate();
   }
 
@@ -172,9 +170,10 @@ class forward_backward<QP> {
     s.reduce(qp);
     ++s.iteration;
     judge(s);
+    auto const energy = [&] { return s.energy(qp); };
     if (s.status == status::running &&
-        s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience,
-                           [&] { return s.energy(qp); }, s.rounding())) {
+        s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy,
+                           s.rounding())) {
       s.status = status::stalled;
     }
   }

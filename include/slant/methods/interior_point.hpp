@@ -140,19 +140,14 @@ class interior_point_steps {
   using state_type = interior_point_state<problem, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  explicit interior_point_steps(held<QP> qp)
-    requires(!preconditioned)
-      : interior_point_steps(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  interior_point_steps(held<QP> qp, options o)
+  explicit interior_point_steps(held<QP> qp, options o = {})
     requires(!preconditioned)
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
-  interior_point_steps(held<QP> qp, held<M> m)
-      : interior_point_steps(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  interior_point_steps(held<QP> qp, held<M> m, options o)
+  interior_point_steps(held<QP> qp, held<M> m, options o = {})
       : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
     check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
     check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());

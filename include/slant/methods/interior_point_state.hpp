@@ -181,60 +181,42 @@ struct interior_point_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (step_length) positive("step_length", *step_length);
-    positive("start_length", start_length);
-    if (start_force) positive("start_force", *start_force);
-    if (!(start_depth > S(0) && start_depth <= S(1))) {
-      throw bad_input("start_depth", detail::show(start_depth), "a number in (0, 1]");
-    }
-    if (!(raise_above > S(1))) {
-      throw bad_input("raise_above", detail::show(raise_above), "a number > 1");
-    }
+    if (step_length) detail::check_positive("step_length", *step_length);
+    detail::check_positive("start_length", start_length);
+    if (start_force) detail::check_positive("start_force", *start_force);
+    detail::check_option("start_depth", start_depth, start_depth > S(0) && start_depth <= S(1),
+                         "a number in (0, 1]");
+    detail::check_option("raise_above", raise_above, raise_above > S(1), "a number > 1");
     if (raises < 0) throw bad_input("raises", detail::show(raises), "a number >= 0");
-    fraction("centring_most", centring_most);
-    if (centring_least && !(*centring_least >= S(0) && *centring_least <= centring_most)) {
-      throw bad_input("centring_least", detail::show(*centring_least),
-                      "a number in [0, centring_most]");
+    detail::check_fraction("centring_most", centring_most);
+    if (centring_least) {
+      detail::check_option("centring_least", *centring_least,
+                           *centring_least >= S(0) && *centring_least <= centring_most,
+                           "a number in [0, centring_most]");
     }
-    positive("centring_scale", centring_scale);
-    fraction("closeness", closeness);
-    if (!(residual_factor >= S(1)) || !detail::is_finite(residual_factor)) {
-      throw bad_input("residual_factor", detail::show(residual_factor), "a number >= 1");
+    detail::check_positive("centring_scale", centring_scale);
+    detail::check_fraction("closeness", closeness);
+    detail::check_option("residual_factor", residual_factor,
+                         residual_factor >= S(1) && detail::is_finite(residual_factor),
+                         "a number >= 1");
+    detail::check_fraction("sufficient", sufficient);
+    if (correct_below) {
+      detail::check_option("correct_below", *correct_below,
+                           *correct_below >= S(0) && *correct_below <= S(1), "a number in [0, 1]");
     }
-    fraction("sufficient", sufficient);
-    if (correct_below && !(*correct_below >= S(0) && *correct_below <= S(1))) {
-      throw bad_input("correct_below", detail::show(*correct_below), "a number in [0, 1]");
-    }
-    if (!(ahead >= S(0) && ahead < S(1))) {
-      throw bad_input("ahead", detail::show(ahead), "a number in [0, 1)");
-    }
-    if (!(grow >= S(0)) || !detail::is_finite(grow)) {
-      throw bad_input("grow", detail::show(grow), "a number >= 0");
-    }
-    fraction("to_boundary", to_boundary);
-    fraction("shorten_centred", shorten_centred);
-    fraction("shorten_measure", shorten_measure);
-    fraction("shorten_residual", shorten_residual);
+    detail::check_option("ahead", ahead, ahead >= S(0) && ahead < S(1), "a number in [0, 1)");
+    detail::check_option("grow", grow, grow >= S(0) && detail::is_finite(grow), "a number >= 0");
+    detail::check_fraction("to_boundary", to_boundary);
+    detail::check_fraction("shorten_centred", shorten_centred);
+    detail::check_fraction("shorten_measure", shorten_measure);
+    detail::check_fraction("shorten_residual", shorten_residual);
     if (shortenings < 1) throw bad_input("shortenings", detail::show(shortenings), "at least 1");
-    if (!(inner_share >= S(0) && inner_share < S(1))) {
-      throw bad_input("inner_share", detail::show(inner_share), "a number in [0, 1)");
-    }
+    detail::check_option("inner_share", inner_share, inner_share >= S(0) && inner_share < S(1),
+                         "a number in [0, 1)");
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     mean_diagonal.validate();
     forcing.validate();
-  }
-
- private:
-  static void positive(char const* name, S const& value) {
-    if (!(value > S(0)) || !detail::is_finite(value)) {
-      throw bad_input(name, detail::show(value), "a number > 0");
-    }
-  }
-  static void fraction(char const* name, S const& value) {
-    if (!(value > S(0) && value < S(1))) {
-      throw bad_input(name, detail::show(value), "a number in (0, 1)");
-    }
   }
 };
 

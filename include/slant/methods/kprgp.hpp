@@ -75,9 +75,8 @@ struct qpc_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(face_accuracy >= S(0) && face_accuracy < S(1))) {
-      throw bad_input("face_accuracy", detail::show(face_accuracy), "a number in [0, 1)");
-    }
+    detail::check_option("face_accuracy", face_accuracy,
+                         face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
     kprgp_options<S>{.step_length = step_length,
                      .step_factor = step_factor,
                      .refresh = refresh,
@@ -278,11 +277,8 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 
 // --- qpq -----------------------------------------------------------------------------------------
 //
-// QPQ [K §3.1.1 Lemma 1, §3.1.4 Table 1], the predecessor of KPRGP: the discontinuous conditions
-//
-//     φ_i = r_i = 0  where f_i < 0,     β_i = r_i + (‖r_i‖/‖∇f_i‖) ∇f_i = 0  where f_i = 0
-//
-// decide when a block is released, and −β is the direction:
+// QPQ [K §3.1.1 Lemma 1, §3.1.4 Table 1], the predecessor of KPRGP: the discontinuous conditions of
+// the KKT vector above, φ = 0 and β = 0, decide when a block is released, and −β is the direction:
 //
 //     ‖β‖ < Γ ‖φ‖:    conjugate gradient step over F; if it leaves Λ, a half step to the boundary
 //                     and the expansion  x ← x − α̃ φ̃
@@ -317,15 +313,11 @@ qpq(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> qpq<kept_t
 //
 // QPC, an active set method of Polyak's type: conjugate gradients minimise q on the face, exactly
 // or nearly, before blocks are released from the active set. [T Remark 4.2, Table 4.3] starts
-// Newton's method from such a first-order phase, whose algorithm is not printed; this is QPQ with
-// another rule:
-//
-//     ‖φ‖ > δ max(‖φ‖ at the first point of the face, ‖β‖):   conjugate gradient step over F; if it
-//                     leaves Λ, a half step to the boundary and the expansion  x ← x − α̃ φ̃
-//     otherwise:      x ← x − α β,  α = rᵀβ / βᵀA β or what Λ allows of it
+// Newton's method from such a first-order phase, whose algorithm is not printed; this is QPQ that
+// releases where ‖φ‖ ≤ δ max(‖φ‖ at the first point of the face, ‖β‖).
 
 /// QPC for a separable_qp: solve(qpc{qp}, x0, reduced_gradient_below(1e-1) || at_most(500)).
-/// Requirements and statuses are those of kprgp. One application of A a step, two for an expansion.
+/// Requirements, statuses and cost are those of qpq.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);

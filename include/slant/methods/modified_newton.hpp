@@ -161,12 +161,8 @@ struct modified_newton_options {
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     forcing.validate();
-    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
-      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
-    }
-    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
-      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
-    }
+    if (step_length) detail::check_positive("step_length", *step_length);
+    detail::check_positive("step_factor", step_factor);
     if (max_inner < 1) throw bad_input("max_inner", detail::show(max_inner), "a number >= 1");
     if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
@@ -291,9 +287,9 @@ class modified_newton<QP, Start, Inner, Forcing> {
   using options = modified_newton_options<scalar, Forcing>;
   using state_type = modified_newton_state<problem, Inner>;
 
-  explicit modified_newton(held<QP> qp) : modified_newton(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  modified_newton(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
+  explicit modified_newton(held<QP> qp, options o = {})
+      : qp_(std::move(qp)), options_(std::move(o)) {
     options_.validate();
     if (Inner::stays_inside && !options_.step_length && !(options_.step_factor < scalar(2))) {
       throw bad_input("step_factor", detail::show(options_.step_factor), "a number in (0, 2)");

@@ -81,7 +81,7 @@ imssn(QP&&, imssn_options<typename std::remove_cvref_t<QP>::scalar>) -> imssn<ke
 // GIMSSN, "globally convergent IMSSN" [K §3.3.4]: every step begins with a projected gradient step
 // on all blocks and ends in Λ,
 //
-//     tol^(k+1)   = min(r_tol err^(k)/err^(0), c_fact tol^(k)),   tol^(0) = r_tol/c_fact    (3.1°)
+//     tol^(k+1)   as IMSSN has it                                                           (3.1°)
 //     λ^(k+1,0)   = P_Λ(λ^(k) − ρ r^(k)),   ρ ∈ (0, 2/σ_max)                                (3.2°)
 //     λ^(k+1)     = CG_feas(A, b, 𝒜, λ^(k+1,0), tol^(k+1))                                  (3.3°)
 //
@@ -96,9 +96,8 @@ using gimssn_options = modified_newton_options<S, adaptive_precision>;
 
 /// GIMSSN for a separable_qp: solve(gimssn{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// All iterates are in Λ. Requires what kprgp does. ρ < 2/σ_max is insisted on, unless step_length
-/// is given. Statuses of its own: converged (r̃ = 0); unbounded (q decreases for ever along
-/// −state.directions.p); stalled (neither ‖r̃‖ nor q has fallen for `patience` steps); breakdown (a
-/// number left the range of the scalar, or A was seen not to be semidefinite).
+/// is given. Statuses of its own: those of imssn, and unbounded (q decreases for ever along
+/// −state.directions.p); breakdown where A was seen not to be semidefinite.
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);

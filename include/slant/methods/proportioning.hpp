@@ -53,15 +53,10 @@ struct kprgp_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(proportioning > S(0)) || !detail::is_finite(proportioning)) {
-      throw bad_input("proportioning", detail::show(proportioning), "a number > 0");
-    }
-    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
-      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
-    }
-    if (!(step_factor > S(0) && step_factor < S(2))) {
-      throw bad_input("step_factor", detail::show(step_factor), "a number in (0, 2)");
-    }
+    detail::check_positive("proportioning", proportioning);
+    if (step_length) detail::check_positive("step_length", *step_length);
+    detail::check_option("step_factor", step_factor, step_factor > S(0) && step_factor < S(2),
+                         "a number in (0, 2)");
     if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     spectrum.validate();
@@ -158,9 +153,9 @@ class proportioning_steps {
   using options = typename Rule::template options<scalar>;
   using state_type = kprgp_state<problem>;
 
-  explicit proportioning_steps(held<QP> qp) : proportioning_steps(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  proportioning_steps(held<QP> qp, options o) : qp_(std::move(qp)), options_(std::move(o)) {
+  explicit proportioning_steps(held<QP> qp, options o = {})
+      : qp_(std::move(qp)), options_(std::move(o)) {
     options_.validate();
   }
 

@@ -81,12 +81,10 @@ struct schur_contact_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(release >= S(0)) || !detail::is_finite(release)) {
-      throw bad_input("release", detail::show(release), "a number >= 0");
-    }
-    if (projected_trials < 0) {
-      throw bad_input("projected_trials", detail::show(projected_trials), "a number >= 0");
-    }
+    detail::check_option("release", release, release >= S(0) && detail::is_finite(release),
+                         "a number >= 0");
+    detail::check_option("projected_trials", projected_trials, projected_trials >= 0,
+                         "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
   }
 };
@@ -381,9 +379,10 @@ class schur_contact<P> {
   using options = schur_contact_options<scalar>;
   using state_type = schur_contact_state<problem>;
 
-  explicit schur_contact(held<P> p) : schur_contact(std::move(p), options{}) {}
   /// Throws bad_input for options out of range.
-  schur_contact(held<P> p, options o) : p_(std::move(p)), options_(o) { options_.validate(); }
+  explicit schur_contact(held<P> p, options o = {}) : p_(std::move(p)), options_(o) {
+    options_.validate();
+  }
 
   /// A, B, C. Throws bad_input if u0 or K u0 is not finite or of the wrong size, if no u satisfies
   /// B u ≤ c, or if the projector moves a row of B.
@@ -439,8 +438,7 @@ class schur_contact<P> {
  private:
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
 
-  /// release, halved with each release after the first eight; what is below the least value is
-  /// rounding error of φ.
+  /// See the top of this file; what is below the least value is rounding error of φ.
   scalar Γ(state_type const& s) const {
     using std::ldexp;
     scalar const least = scalar(4096) * std::numeric_limits<scalar>::epsilon();

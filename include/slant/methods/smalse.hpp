@@ -78,9 +78,7 @@ struct smalse_options {
     require_positive("penalty", penalty);
     require_positive("balance", balance);
     require_positive("precision", precision);
-    if (!(shrink > S(0) && shrink < S(1))) {
-      throw bad_input("shrink", detail::show(shrink), "a number in (0, 1)");
-    }
+    detail::check_fraction("shrink", shrink);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
     if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
     spectrum.validate();
@@ -297,10 +295,9 @@ class smalse<QP, C> {
   using options = smalse_options<scalar>;
   using state_type = smalse_state<problem, constraints>;
 
-  smalse(held<QP> qp, held<C> c) : smalse(std::move(qp), std::move(c), options{}) {}
   /// Throws bad_input if the constraints are for another number of unknowns, or for options out of
   /// range.
-  smalse(held<QP> qp, held<C> c, options o)
+  smalse(held<QP> qp, held<C> c, options o = {})
       : qp_(std::move(qp)), constraints_(std::move(c)), options_(std::move(o)) {
     detail::check_size("columns of G", index(constraints_.get().size()), qp_.get().size(),
                        "the size of b,");

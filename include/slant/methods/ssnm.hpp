@@ -81,13 +81,10 @@ struct ssnm_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(rho > S(0)) || !detail::is_finite(rho)) {
-      throw bad_input("rho", detail::show(rho), "a number > 0");
-    }
+    detail::check_positive("rho", rho);
     precision.validate();
-    if (!(inner_tolerance >= S(0) && inner_tolerance < S(1))) {
-      throw bad_input("inner_tolerance", detail::show(inner_tolerance), "a number in [0, 1)");
-    }
+    detail::check_option("inner_tolerance", inner_tolerance,
+                         inner_tolerance >= S(0) && inner_tolerance < S(1), "a number in [0, 1)");
   }
 };
 

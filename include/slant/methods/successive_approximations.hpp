@@ -65,12 +65,10 @@ struct successive_options {
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (window < 0) throw bad_input("window", detail::show(window), "a number >= 0");
-    if (!(growth >= S(1)) || !detail::is_finite(growth)) {
-      throw bad_input("growth", detail::show(growth), "a finite number >= 1");
-    }
-    if (!(relaxation > S(0) && relaxation <= S(1))) {
-      throw bad_input("relaxation", detail::show(relaxation), "a number in (0, 1]");
-    }
+    detail::check_option("growth", growth, growth >= S(1) && detail::is_finite(growth),
+                         "a finite number >= 1");
+    detail::check_option("relaxation", relaxation, relaxation > S(0) && relaxation <= S(1),
+                         "a number in (0, 1]");
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
     if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
     forcing.validate();

@@ -39,7 +39,6 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/envelope_newton.hpp>
 #include <slant/methods/kprgp.hpp>
@@ -75,9 +74,7 @@ concept symmetric_newton_problem =
 // --- descent takeover ----------------------------------------------------------------------------
 //
 // A method that converges from everywhere takes over where a faster one fails: KPRGP, until its
-// iterate is better than the point of failure by a factor. Since KPRGP converges to the solution
-// from every x ∈ Λ [K Theorem 1] this happens after finitely many of its steps; so failures cannot
-// follow one another without the residual tending to zero.
+// iterate is better than the point of failure by a factor.
 
 /// KPRGP at work on a point s that derives from gradient_point<QP>. Nothing is computed or
 /// allocated before the first failure, σ_max included.
@@ -364,19 +361,14 @@ class symmetric_newton_steps {
   using state_type = symmetric_newton_state<problem, preconditioner>;
   static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
 
-  explicit symmetric_newton_steps(held<QP> qp)
-    requires(!preconditioned)
-      : symmetric_newton_steps(std::move(qp), options{}) {}
   /// Throws bad_input for options out of range.
-  symmetric_newton_steps(held<QP> qp, options o)
+  explicit symmetric_newton_steps(held<QP> qp, options o = {})
     requires(!preconditioned)
       : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
     options_.validate();
   }
-  symmetric_newton_steps(held<QP> qp, held<M> m)
-      : symmetric_newton_steps(std::move(qp), std::move(m), options{}) {}
   /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  symmetric_newton_steps(held<QP> qp, held<M> m, options o)
+  symmetric_newton_steps(held<QP> qp, held<M> m, options o = {})
       : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
     check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
     check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
@@ -404,24 +396,6 @@ class symmetric_newton_steps {
   bool refresh(state_type& s) const;
 
  private:
-  /// ρ, and s = mean(diag M). Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_sizes(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-    } else {
-      auto const step = mean_step(qp_.get().a(), s.x, options_.step_factor, options_.mean_diagonal);
-      s.step_length = step.length;
-      s.work.setup_applications += step.applications;
-    }
-    // What knows the inverse on each face is not weighed against the curvature of its boundary.
-    if constexpr (!preconditioned ||
-                  preconditions_faces<preconditioner, vector_type, curved_face<scalar>>) {
-      s.preconditioner_size = s.step_length / options_.step_factor;
-    } else {
-      s.preconditioner_size = mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
-    }
-  }
-
   /// r and r̃ of x; one product.
   void measure(state_type& s) const {
     static_cast<void>(s.gradient_and_unit(qp_.get()));
@@ -473,13 +447,7 @@ class symmetric_newton_steps {
     auto const inner =
         s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
                             s.preconditioner_size, target, options_.inner_steps);
-    s.inner_iterations = inner.iterations;
-    s.work.inner_iterations += inner.iterations;
-    s.work.operator_applications += inner.iterations;
-    if (!inner.finite) {
-      s.status = status::breakdown;
-      return;
-    }
+    if (!note_inner(inner, s)) return;
     vectors::waxpy(s.unit, s.inner.t, s.x, s.segment.target_y);
     vectors::add(s.r, s.inner.image);
     vectors::waxpy(-ρ(s), s.inner.image, s.segment.target_y, s.segment.target_z);
@@ -559,7 +527,7 @@ auto symmetric_newton_steps<QP, M>::start(vector_type const& x0) const -> state_
   auto const& qp = qp_.get();
   detail::check_start_in_set(x0, qp_.get().b());
   state_type s(qp, m_.get(), x0);
-  set_sizes(s);
+  set_sizes(qp, m_.get(), options_, options_.step_factor, s);
   begin_newton(s, s.begin(qp, x0));
   return s;
 }

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Options of symmetric_newton, with a set or with another convex function.
+// Options of symmetric_newton, with a set or with another convex function, and the step lengths
+// that they mean.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/newton/forcing.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/sets/curved_face.hpp>
 
 #include <optional>
+#include <type_traits>
 
 namespace slant {
 
@@ -38,16 +43,10 @@ struct symmetric_newton_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (step_length && (!(*step_length > S(0)) || !detail::is_finite(*step_length))) {
-      throw bad_input("step_length", detail::show(*step_length), "a number > 0");
-    }
-    if (!(step_factor > S(0)) || !detail::is_finite(step_factor)) {
-      throw bad_input("step_factor", detail::show(step_factor), "a number > 0");
-    }
+    if (step_length) detail::check_positive("step_length", *step_length);
+    detail::check_positive("step_factor", step_factor);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (!(sufficient > S(0) && sufficient < S(1))) {
-      throw bad_input("sufficient", detail::show(sufficient), "a number in (0, 1)");
-    }
+    detail::check_fraction("sufficient", sufficient);
     if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     mean_diagonal.validate();
@@ -55,5 +54,31 @@ struct symmetric_newton_options {
     descent.validate();
   }
 };
+
+namespace detail {
+
+/// ρ of a state, `factor`/mean(diag A) if the options name none, and s = mean(diag M). What knows
+/// the inverse on each face is not weighed against the curvature of its boundary. Not inlined:
+/// g++ 12 would see *step_length read where there is none.
+template <class QP, class M, class S, class State>
+[[gnu::noinline]] void set_sizes(QP const& qp, M const& m, symmetric_newton_options<S> const& o,
+                                 S const& factor, State& s) {
+  using face = curved_face<S>;
+  if (o.step_length) {
+    s.step_length = *o.step_length;
+  } else {
+    auto const step = mean_step(qp.a(), s.x, factor, o.mean_diagonal);
+    s.step_length = step.length;
+    s.work.setup_applications += step.applications;
+  }
+  if constexpr (std::is_same_v<M, identity_operator> ||
+                preconditions_faces<M, typename QP::vector_type, face>) {
+    s.preconditioner_size = s.step_length / factor;
+  } else {
+    s.preconditioner_size = mean_diagonal(m, s.x, o.mean_diagonal).value;
+  }
+}
+
+}  // namespace detail
 
 }  // namespace slant

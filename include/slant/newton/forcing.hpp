@@ -54,12 +54,6 @@ concept forcing_rule = requires(R const& rule, forcing_history<S> const& h) {
 
 namespace detail {
 
-/// Throws bad_input unless lower < value < upper, or value is an end that belongs to the range.
-[[gnu::cold]] inline void check_between(std::string_view name, double value, bool inside,
-                                        std::string_view range) {
-  if (!inside) throw bad_input(name, show(value), std::string("a number in ").append(range));
-}
-
 /// t^e for t ≥ 0 and e ≥ 0, by products and square roots: a scalar need not know pow. The exponent
 /// is rounded to 2⁻²⁰.
 template <class S>
@@ -88,7 +82,8 @@ struct fixed_forcing {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    detail::check_between("tolerance", tolerance, tolerance >= 0 && tolerance < 1, "[0, 1)");
+    detail::check_option("tolerance", tolerance, tolerance >= 0 && tolerance < 1,
+                         "a number in [0, 1)");
   }
   template <class S>
   [[nodiscard]] S operator()(forcing_history<S> const&) const {
@@ -102,10 +97,9 @@ struct adaptive_precision {
   double r_tol = 0.1;   ///< in (0, 1): [K] proposes 0.1, [T] 0.01
   double c_fact = 0.9;  ///< in (0, 1)
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    detail::check_between("r_tol", r_tol, r_tol > 0 && r_tol < 1, "(0, 1)");
-    detail::check_between("c_fact", c_fact, c_fact > 0 && c_fact < 1, "(0, 1)");
+    detail::check_fraction("r_tol", r_tol);
+    detail::check_fraction("c_fact", c_fact);
   }
   template <class S>
   [[nodiscard]] S operator()(forcing_history<S> const& h) const {
@@ -124,13 +118,13 @@ struct eisenstat_walker {
   double η_first = 0.5;  ///< in (0, η_max]: that of the first step
   double goal = 0;  ///< in [0, 1): no step is solved beyond half of goal · err⁽⁰⁾; 0: no limit
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    detail::check_between("γ", γ, γ > 0 && γ <= 1, "(0, 1]");
-    detail::check_between("exponent", exponent, exponent > 1 && exponent <= 2, "(1, 2]");
-    detail::check_between("η_max", η_max, η_max > 0 && η_max < 1, "(0, 1)");
-    detail::check_between("η_first", η_first, η_first > 0 && η_first <= η_max, "(0, η_max]");
-    detail::check_between("goal", goal, goal >= 0 && goal < 1, "[0, 1)");
+    detail::check_option("γ", γ, γ > 0 && γ <= 1, "a number in (0, 1]");
+    detail::check_option("exponent", exponent, exponent > 1 && exponent <= 2, "a number in (1, 2]");
+    detail::check_fraction("η_max", η_max);
+    detail::check_option("η_first", η_first, η_first > 0 && η_first <= η_max,
+                         "a number in (0, η_max]");
+    detail::check_option("goal", goal, goal >= 0 && goal < 1, "a number in [0, 1)");
   }
   template <class S>
   [[nodiscard]] S operator()(forcing_history<S> const& h) const {

@@ -61,8 +61,9 @@ struct multiple_root {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    detail::check_between("multiplicity", multiplicity,
-                          multiplicity >= 1 && detail::is_finite(multiplicity), "[1, ∞)");
+    detail::check_option("multiplicity", multiplicity,
+                         multiplicity >= 1 && detail::is_finite(multiplicity),
+                         "a number in [1, ∞)");
   }
   [[nodiscard]] double first_length() const { return multiplicity; }
   template <class S>
@@ -86,12 +87,9 @@ struct halving_line_search {
   index max_halvings = 30;   ///< ≥ 0
   bool accept_best = false;  ///< if none is accepted, take the one with the smallest residual
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    detail::check_between("sufficient", sufficient, sufficient > 0 && sufficient < 1, "(0, 1)");
-    if (max_halvings < 0) {
-      throw bad_input("max_halvings", detail::show(max_halvings), "a number >= 0");
-    }
+    detail::check_fraction("sufficient", sufficient);
+    detail::check_option("max_halvings", max_halvings, max_halvings >= 0, "a number >= 0");
   }
   [[nodiscard]] static constexpr int first_length() { return 1; }
   template <class S>

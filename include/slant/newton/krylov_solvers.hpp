@@ -79,7 +79,6 @@ struct bicgstab_solver {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
   bool warm_start = false;   ///< begin with what a shortened step left over: one product more
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
   template <class G, class V>
@@ -170,7 +169,6 @@ struct gmres_solver {
   index restart = 60;        ///< vectors that are kept, >= 1; that of an unknown each is enough
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (restart < 1) throw bad_input("restart", detail::show(restart), "at least 1");
     detail::check_iteration_limit(max_iterations);

@@ -37,21 +37,7 @@ namespace slant {
 
 /// CG on the symmetrised Schur complement; for F°(y) of a kkt_function whose A is a matrix, sparse
 /// or dense. operator_applications are those of K⁻¹. Factorisations allocate.
-struct schur_cg {
-  cg_solver inner{};
-
-  /// Throws bad_input naming the option, its value and what was expected.
-  [[gnu::cold]] void validate() const { inner.validate(); }
-
-  template <class G, class V>
-    requires detail::factorable_saddle<G, V>
-  [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto common = detail::make_schur_workspace(g, f);
-    auto krylov = inner.prepare(schur(g, common), common.reduced);
-    return detail::schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                              std::move(krylov)};
-  }
-
+struct schur_cg : detail::schur_solver<schur_cg, cg_solver> {
   template <class G, class V, class P>
     requires detail::factorable_saddle<G, V>
   direction_report<scalar_t<V>> solve(G const& g, V const& f,
@@ -99,7 +85,6 @@ struct schur_cg {
                   "schur_cg: F°(y) must be that of slant::kkt with an Eigen matrix A");
   }
 
- private:
   /// D(ℐ) + D(𝒜) J K⁻¹Jᵀ D(𝒜), which refers to g and p.
   template <class G, class P>
   [[nodiscard]] static auto schur(G const& g, P const& p) {
@@ -113,35 +98,16 @@ struct schur_cg {
 
 // --- schur bicgstab ------------------------------------------------------------------------------
 //
-// Variant A of [T §3.1, §3.3.1]: the generalised saddle-point system
-//
-//     [ K   Jᵀ ; −ρD(𝒜)J   D(ℐ) ] (dx, dz) = −(F₁, F₂),      K = A + H,
-//
-// reduced to its nonsymmetric Schur complement, with K = LDLᵀ factored in each Newton step and
-// BiCGSTAB on
+// Variant A of [T §3.1, §3.3.1]: the same system reduced to its nonsymmetric Schur complement, with
+// K = LDLᵀ factored in each Newton step and BiCGSTAB on
 //
 //     S dz = −F₂ − ρD(𝒜) J K⁻¹F₁,     S = D(ℐ) + ρD(𝒜) J K⁻¹Jᵀ;     dx = −K⁻¹(F₁ + Jᵀdz).
 //
 // Each product by S is one by K⁻¹, a "Hessian multiplication" of [T]; two more frame them.
 // Breakdown if K is singular. It may be indefinite.
 
-/// BiCGSTAB on the Schur complement; for F°(y) of a kkt_function whose A is a matrix, sparse or
-/// dense. operator_applications are those of K⁻¹. Factorisations allocate.
-struct schur_bicgstab {
-  bicgstab_solver inner{};
-
-  /// Throws bad_input naming the option, its value and what was expected.
-  [[gnu::cold]] void validate() const { inner.validate(); }
-
-  template <class G, class V>
-    requires detail::factorable_saddle<G, V>
-  [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto common = detail::make_schur_workspace(g, f);
-    auto krylov = inner.prepare(schur(g, common), common.reduced);
-    return detail::schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                              std::move(krylov)};
-  }
-
+/// BiCGSTAB on the Schur complement; for the same F°(y), counted alike.
+struct schur_bicgstab : detail::schur_solver<schur_bicgstab, bicgstab_solver> {
   template <class G, class V, class P>
     requires detail::factorable_saddle<G, V>
   direction_report<scalar_t<V>> solve(G const& g, V const& f,
@@ -181,7 +147,6 @@ struct schur_bicgstab {
                   "schur_bicgstab: F°(y) must be that of slant::kkt with an Eigen matrix A");
   }
 
- private:
   /// S, which refers to g and p.
   template <class G, class P>
   [[nodiscard]] static auto schur(G const& g, P const& p) {

@@ -62,9 +62,8 @@ struct newton_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    if (!(step_offset >= 0) || !detail::is_finite(step_offset)) {
-      throw bad_input("step_offset", detail::show(step_offset), "a number >= 0");
-    }
+    detail::check_option("step_offset", step_offset,
+                         step_offset >= 0 && detail::is_finite(step_offset), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
   }
 };

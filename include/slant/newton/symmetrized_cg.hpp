@@ -144,8 +144,6 @@ class slant_preconditioner {
 
 namespace slant::detail {
 
-// --- symmetrized cg ------------------------------------------------------------------------------
-
 // --- definite on range ---------------------------------------------------------------------------
 //
 // H = G (I − G) + ρ G A G is semidefinite. Its kernel is that of G, and right-hand sides lie in

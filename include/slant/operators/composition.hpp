@@ -153,11 +153,6 @@ void accumulate_adjoint(A const& a, S const& α, X const& x, Y& y, W& w) {
   return common | slant::laws<law::positive_definite>.when(definite);
 }
 
-/// A − B: self-adjoint if both are.
-[[nodiscard]] constexpr law_set difference_laws(law_set a, law_set b) {
-  return a & b & slant::laws<law::self_adjoint>;
-}
-
 /// c A: self-adjoint if A is; (semi)definite if A is and c > 0.
 [[nodiscard]] constexpr law_set scaled_laws(law_set a, bool positive_factor) {
   return (a & slant::laws<law::self_adjoint>) |

@@ -127,8 +127,7 @@ template <class S, int N>
 //
 // Derivative of the projection onto { ‖t‖ <= μ n } where it lands on the mantle.
 
-/// w wᵀ + θ (0 ⊕ (I − e eᵀ)) with e = x_t/‖x_t‖, w = (1, μe)/√(1 + μ²) the generator through the
-/// foot p and θ = ‖p_t‖/‖x_t‖ ∈ [0, 1]: differentiate p = w wᵀx with de = (I − eeᵀ) dx_t/‖x_t‖.
+/// w wᵀ + θ (0 ⊕ (I − e eᵀ)) as second_order_cone::slant has it, θ = ‖p_t‖/‖x_t‖ of the foot p.
 template <class S, int N>
 [[nodiscard]] Eigen::Matrix<S, N, N> mantle_slant(S const& μ, cone_foot<S> const& foot,
                                                   Eigen::Matrix<S, N, 1> const& x) {

@@ -17,21 +17,25 @@ namespace slant {
 
 namespace detail {
 
-struct max_kernel {
+/// The larger of two numbers, or the smaller one; NaN if either is.
+template <bool Larger>
+struct extremum_kernel {
   static constexpr bool chooses = true;
 
-  /// The larger one; NaN if either is.
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {
-    if (a >= b) return a;
-    return a < b ? b : S(a + b);
+    if (a >= b) return Larger ? a : b;
+    return a < b ? (Larger ? b : a) : S(a + b);
   }
   template <class S>
   [[nodiscard]] static std::pair<S, S> slopes(S const& a, S const& b) {
-    if (a >= b) return {S(1), S(0)};
-    return a < b ? std::pair<S, S>(S(0), S(1)) : std::pair<S, S>(S(a + b), S(a + b));
+    S const here(Larger ? 1 : 0), there(Larger ? 0 : 1);
+    if (a >= b) return {here, there};
+    return a < b ? std::pair<S, S>(there, here) : std::pair<S, S>(S(a + b), S(a + b));
   }
 };
+using max_kernel = extremum_kernel<true>;
+using min_kernel = extremum_kernel<false>;
 
 /// diag(p), p a vector of zeros and ones.
 template <class V>
@@ -106,29 +110,8 @@ template <slanting_part F, slanting_part G>
 // Componentwise minimum min(F(y), G(y)), the classical complementarity function: min(x, r) = 0
 // means x >= 0, r >= 0, xᵀr = 0.
 //
-// Kinks. min(F, G) = F − max(0, F − G) with max(0,·)° = 1 for arguments >= 0 [K (49)]: where
-// F(y)_i = G(y)_i the row is that of G°. So min(x, ρ r(x)) has the same slanting operator as the
-// natural residual x − P₊(x − ρ r(x)).
-
-namespace detail {
-
-struct min_kernel {
-  static constexpr bool chooses = true;
-
-  /// The smaller one; NaN if either is.
-  template <class S>
-  [[nodiscard]] static S value(S const& a, S const& b) {
-    if (a >= b) return b;
-    return a < b ? a : S(a + b);
-  }
-  template <class S>
-  [[nodiscard]] static std::pair<S, S> slopes(S const& a, S const& b) {
-    if (a >= b) return {S(0), S(1)};
-    return a < b ? std::pair<S, S>(S(1), S(0)) : std::pair<S, S>(S(a + b), S(a + b));
-  }
-};
-
-}  // namespace detail
+// Kinks. min(F, G) = F − max(0, F − G): where F(y)_i = G(y)_i the row is that of G°. So
+// min(x, ρ r(x)) has the same slanting operator as the natural residual x − P₊(x − ρ r(x)).
 
 /// min(F(y), G(y)) componentwise. F and G are `Function const&` or function types (owned).
 template <class F, class G>

@@ -78,10 +78,6 @@ concept symmetrizable =
     declares_self_adjoint<detail::matrix_part_t<std::remove_cvref_t<M>>> &&
     declares_positive_definite<detail::matrix_part_t<std::remove_cvref_t<M>>>;
 
-/// A slanting function whose F°(y) is symmetrizable, as that of a natural residual with definite A.
-template <class F, class V>
-concept symmetrizable_function = slanting_function<F, V> && symmetrizable<slant_operator_t<F, V>>;
-
 /// G of I − G (I − ρ A).
 template <symmetrizable M>
 [[nodiscard]] auto const& slant_of_projection(M const& m) {

@@ -16,6 +16,13 @@ struct breach {
   std::string evidence;
 };
 
+/// A line for each.
+[[nodiscard]] inline std::string listed(std::vector<breach> const& breaches) {
+  std::string text;
+  for (auto const& broken : breaches) text += broken.law + " (" + broken.evidence + ")\n";
+  return text;
+}
+
 /// The first breach of each law; one is enough to find the mistake.
 class breach_log {
  public:

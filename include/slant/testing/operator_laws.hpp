@@ -13,8 +13,6 @@
 
 #include <doctest/doctest.h>
 
-#include <string>
-
 namespace slant::testing {
 
 /// One doctest CHECK, with each broken law and the numbers that show it. `prototype` is any vector
@@ -23,10 +21,7 @@ template <class A, slant::vector V = Eigen::VectorXd>
   requires linear_operator<A, V>
 void check_operator_laws(A const& a, V const& prototype = V(),
                          operator_law_options const& options = {}) {
-  std::string text;
-  for (auto const& broken : operator_breaches(a, prototype, options)) {
-    text += broken.law + " (" + broken.evidence + ")\n";
-  }
+  auto const text = listed(operator_breaches(a, prototype, options));
   CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
 }
 
@@ -39,22 +34,15 @@ void check_operator_laws(A const& a, operator_law_options const& options) {
 
 // --- conjugacy laws ------------------------------------------------------------------------------
 //
-// The laws of a conjugate projector as a check for doctest suites:
-//
-//     TEST_CASE("my projector keeps its word") {
-//       slant::testing::check_operator_laws(Q);      // Q² = Q, the adjoint
-//       slant::testing::check_conjugacy_laws(Q, K);  // K Q = QᵀK Q = QᵀK
-//     }
+//     slant::testing::check_operator_laws(Q);      // Q² = Q, the adjoint
+//     slant::testing::check_conjugacy_laws(Q, K);  // K Q = QᵀK Q = QᵀK
 
-/// One doctest CHECK, with each broken law and the numbers that show it.
+/// The same for a conjugate projector.
 template <class Q, class K, slant::vector V = Eigen::VectorXd>
   requires has_adjoint<Q, V> && linear_operator<Q, V> && linear_operator<K, V>
 void check_conjugacy_laws(Q const& q, K const& k, V const& prototype = V(),
                           operator_law_options const& options = {}) {
-  std::string text;
-  for (auto const& broken : conjugacy_breaches(q, k, prototype, options)) {
-    text += broken.law + " (" + broken.evidence + ")\n";
-  }
+  auto const text = listed(conjugacy_breaches(q, k, prototype, options));
   CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
 }
 

@@ -20,10 +20,7 @@ template <class F, vector... V>
   requires(slanting_function<F, V> && ...)
 void check_slanting_laws(slanting_options const& options, F const& f, V const&... points) {
   auto const check = [&](auto const& y) {
-    std::string text;
-    for (auto const& broken : slanting_breaches(f, y, options)) {
-      text += broken.law + " (" + broken.evidence + ")\n";
-    }
+    auto const text = listed(slanting_breaches(f, y, options));
     CHECK_MESSAGE(text.empty(), "broken at ", slant::local(y).transpose(), ":\n", text);
   };
   (check(points), ...);

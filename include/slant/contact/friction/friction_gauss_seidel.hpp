@@ -261,9 +261,7 @@ struct gauss_seidel_options {
     if (!(growth >= S(1)) || !slant::detail::is_finite(growth)) {
       throw bad_input("growth", show(growth), "a finite number >= 1");
     }
-    if (!(shrink > S(0) && shrink < S(1))) {
-      throw bad_input("shrink", show(shrink), "a number in (0, 1)");
-    }
+    slant::detail::check_fraction("shrink", shrink);
     if (!(slack >= S(1)) || !slant::detail::is_finite(slack)) {
       throw bad_input("slack", show(slack), "a finite number >= 1");
     }

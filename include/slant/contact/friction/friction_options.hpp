@@ -66,9 +66,7 @@ struct friction_options {
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using slant::detail::show;
-    if (!(tolerance > S(0) && tolerance < S(1))) {
-      throw bad_input("tolerance", show(tolerance), "a number in (0, 1)");
-    }
+    slant::detail::check_fraction("tolerance", tolerance);
     if (!(damping > S(0)) || !slant::detail::is_finite(damping)) {
       throw bad_input("damping", show(damping), "a finite number > 0");
     }

@@ -17,6 +17,7 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
@@ -37,6 +38,16 @@ struct inner_result {
   S first_energy{0};    ///< ‖Π r‖_M, about ‖t‖_H
   bool flat = false;    ///< ended where H has no curvature
 };
+
+/// Counts it in the state of a method; false, with the status breakdown, if it is not finite.
+template <class S, class State>
+bool note_inner(inner_result<S> const& inner, State& s) {
+  s.inner_iterations = inner.iterations;
+  s.work.inner_iterations += inner.iterations;
+  s.work.operator_applications += inner.iterations;
+  if (!inner.finite) s.status = status::breakdown;
+  return inner.finite;
+}
 
 /// The minimiser t, its image, and what the iteration works in. V: vectors, WA and WM: workspaces
 /// of A and M.

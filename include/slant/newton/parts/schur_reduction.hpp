@@ -221,6 +221,24 @@ struct schur_krylov_workspace {
   Krylov krylov;
 };
 
+/// The inner iteration of a Schur complement solver, on the operator Self::schur(g, workspace).
+template <class Self, class Krylov>
+struct schur_solver {
+  Krylov inner{};
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const { inner.validate(); }
+
+  template <class G, class V>
+    requires factorable_saddle<G, V>
+  [[nodiscard]] auto prepare(G const& g, V const& f) const {
+    auto common = make_schur_workspace(g, f);
+    auto krylov = inner.prepare(Self::schur(g, common), common.reduced);
+    return schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
+                                                                      std::move(krylov)};
+  }
+};
+
 /// diag(v), referring to v.
 template <class V>
 [[nodiscard]] auto diagonal_view(V const& v) {
