@@ -25,7 +25,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace primitives_test {
 
@@ -88,23 +87,6 @@ TEST_CASE("a power of two in the units changes nothing but the units") {
     check_units([=](double s) { return slant::ellipse<>(s * a, s * b); },
                 Vector2d(numbers.of_size(-2, 2), numbers.of_size(-2, 2)), true);
     check_units([=](double) { return cone(a); }, x, true);
-  }
-}
-
-TEST_CASE("no smaller distance on the curve of a disc or an ellipse, the variational inequality") {
-  source numbers(9);
-  auto const check = [](auto const& set, double a, double b, Vector2d const& x) {
-    auto const on_curve = [&](double θ) { return Vector2d(a * std::cos(θ), b * std::sin(θ)); };
-    std::vector<Vector2d> points{Vector2d(0, 0)};
-    for (double θ = 0; θ < 6.3; θ += 0.3) points.push_back(on_curve(θ));
-    oracle::check_variational_inequality(set, x, points);
-    double const distance = (x - set.project(x)).norm();
-    CHECK(distance <= naive::sampled_distance(x, on_curve, 400) * (1 + 8 * ε));
-  };
-  for (int i = 0; i < 60; ++i) {
-    double const a = numbers.positive_of_size(-2, 2), b = numbers.positive_of_size(-2, 2);
-    check(slant::disc<>(a), a, a, numbers.of_size(-2, 3) * numbers.direction<2>());
-    check(slant::ellipse<>(a, b), a, b, Vector2d(numbers.of_size(-2, 3), numbers.of_size(-2, 3)));
   }
 }
 
