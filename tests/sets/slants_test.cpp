@@ -6,7 +6,6 @@
 #include <slant/sets/ball.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/free_space.hpp>
-#include <slant/sets/power.hpp>
 #include <slant/sets/slants.hpp>
 #include <slant/testing/archetypes.hpp>
 
@@ -198,18 +197,6 @@ TEST_CASE("projection_slant: a block gives an operator with one block") {
   CHECK(allocations == 0);
   g.apply(h, y);
   CHECK(y == h);
-}
-
-TEST_CASE("projection_slant: a product gives its own operator") {
-  auto const set = slant::power(slant::ball<2>{}, 2);
-  vec<> const x = numbers(4, 1);
-  auto g = slant::projection_slant(set, vec<>(vec<>::Zero(4)));
-  slant::projection_slant(set, x, g);
-  vec<> y(4);
-  vec<> expected(4);
-  g.apply(x, y);
-  set.slant(x).apply(x, expected);
-  CHECK(y == expected);
 }
 
 TEST_CASE("projection_slant: the whole space gives the identity without storage") {
