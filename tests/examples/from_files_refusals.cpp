@@ -179,14 +179,6 @@ TEST_CASE("from_files on a full disk leaves the earlier results as they were") {
   CHECK(io_test::get(files.output() / "u.txt") == "earlier\n");
 }
 
-TEST_CASE("from_files notices that its result did not arrive") {
-  auto const files = examples_test::small_brick();
-  auto const ran =
-      examples_test::run_command(examples_test::program("from_files") + " " +
-                                 examples_test::word(files.input().string()) + " >/dev/full");
-  check_refusal(ran, "standard output: got an error");
-}
-
 TEST_CASE("from_files: refused is refused, no file or folder comes of it") {
   auto const files = examples_test::small_brick();
   auto const with_output = [&](fs::path const& output, std::string const& rest) {

@@ -72,18 +72,6 @@ TEST_CASE("brick: problem, result, proof and files") {
   CHECK(io_test::get(output / "contact.png").starts_with("\x89PNG") == drawn);
 }
 
-TEST_CASE("brick: without gnuplot it says so and goes on") {
-  io_test::temporary_folder const folder;
-  auto const ran = examples_test::run_command(
-      "PATH=/no/such/folder " + examples_test::program("brick") +
-      " --cells 1 --load press --output " + word(folder.path().string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  CHECK(contains(ran.out, "no picture: gnuplot was not found"));
-  CHECK(std::filesystem::exists(folder / "brick.vtu"));
-  CHECK_FALSE(std::filesystem::exists(folder / "contact.png"));
-}
-
 TEST_CASE("brick: not converged is not success") {
   auto const ran = run("brick", "--cells 1 --max-iterations 2");
   CHECK(ran.status == 1);
