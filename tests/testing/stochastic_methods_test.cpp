@@ -6,7 +6,6 @@
 
 #include <doctest/doctest.h>
 
-
 namespace stochastic_methods_test {
 
 using S = slant::testing::stochastic<double>;
