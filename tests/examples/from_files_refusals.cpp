@@ -49,15 +49,10 @@ std::string diagonal() {
 TEST_CASE("from_files refuses files that are damaged or do not fit together") {
   check_file("N.mtx", coordinate + "6 35 1\n1 1 1\n",
              "columns of N: got 35, expected the size of f, 36");
-  check_file("K.mtx", coordinate + "36 35 1\n1 1 1\n",
-             "columns of K: got 35, expected as many as rows, 36");
   check_file("f.txt", numbers(35, "1"), "f.txt:36: got the end of the file after 35 numbers");
   check_file("f.txt", numbers(35, "1") + "nan\n", "f.txt:36: got 'nan', expected a finite number");
-  check_file("d.txt", numbers(5, "0") + "-inf\n", "d[5]: got -inf, expected a number or +inf");
   check_file("g.txt", numbers(3, "1") + "-0.25\n1\n1\n",
              "g[3]: got -0.25, expected a number >= 0 or +inf");
-  check_file("T.mtx", coordinate + "12 36 1\n1 1 1e999\n",
-             "got '1e999', expected a number within the range of the scalar type");
   check_file("g.txt", numbers(5, "1") + "1", "truncated file?");
   // Sizes that would need terabytes, and letters for a terminal.
   check_file("K.mtx", coordinate + "2000000000 2000000000 4000000000\n1 1 1\n", "K.mtx:2: got");
