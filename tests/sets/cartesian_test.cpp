@@ -38,10 +38,7 @@ TEST_CASE("cartesian: parts follow one another") {
   vec<> const x = (vec<>(9) << -1, 2, -3, 3, 4, 3, 4, 3, 4).finished();
   vec<> const expected = (vec<>(9) << 0, 2, 0, 0.6, 0.8, 1.2, 1.6, 0, 0).finished();
   vec<> y = vec<>::Constant(9, std::numeric_limits<double>::quiet_NaN());
-  slant::testing::allocation_guard const guard;
-  set.project(x, y);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] { set.project(x, y); }) == 0);
   CHECK((y - expected).norm() <= 1e-15);
   vec<> z = x;
   set.project(z, z);
@@ -105,11 +102,10 @@ TEST_CASE("cartesian: capabilities are those of the parts") {
 
   auto operator_g = set.slant(x);
   vec<> gd = vec<>::Constant(9, std::numeric_limits<double>::quiet_NaN());
-  slant::testing::allocation_guard const guard;
-  set.slant(z, operator_g);
-  operator_g.apply(d, gd);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] {
+          set.slant(z, operator_g);
+          operator_g.apply(d, gd);
+        }) == 0);
   vec<> expected_n(3);
   vec<> expected_t(6);
   normal.slant(vec<>(z.head(3))).apply(dn, expected_n);

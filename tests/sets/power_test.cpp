@@ -181,10 +181,7 @@ TEST_CASE("power: update changes the parameters without allocation") {
   vec<> g = vec<>::Ones(50);
   auto set = power(slant::ball<2>{}, g);
   g.setConstant(2.0);
-  slant::testing::allocation_guard const guard;
-  set.update(g);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] { set.update(g); }) == 0);
   CHECK(set.block(49).radius() == 2.0);
 }
 
