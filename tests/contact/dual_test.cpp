@@ -13,7 +13,6 @@
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
 #include <oracle/dense_contact_reference.hpp>
-#include <support/allocation_guard.hpp>
 #include <support/effort.hpp>
 #include "counting_factor.hpp"
 #include "scenes.hpp"

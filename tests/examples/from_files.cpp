@@ -3,7 +3,6 @@
 // from_files on problems that can be solved, or at least attempted: statuses, JSON, files.
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <oracle/dense_contact_reference.hpp>
 #include <slant/io/text_vector.hpp>

@@ -9,7 +9,6 @@
 #include <sstream>
 #include <support/folders.hpp>
 #include <support/friction_cases.hpp>
-#include <vector>
 
 #include "problem_files.hpp"
 
@@ -17,7 +16,6 @@ namespace from_files_friction {
 namespace {
 
 using examples_test::check_refusal;
-using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
 using examples_test::run;

@@ -13,11 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using examples_test::check_refusal;
-using examples_test::contains;
 using examples_test::coordinate;
-using examples_test::is_one_line;
 using examples_test::problem_files;
-using examples_test::program_result;
 
 /// The small brick with one file replaced.
 void check_file(std::string const& name, std::string const& text, std::string const& expected) {

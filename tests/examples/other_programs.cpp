@@ -3,7 +3,6 @@
 // brick, tridiagonal and wire: do they run, end with the right status, and say the right thing?
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -14,7 +13,6 @@ namespace {
 
 using examples_test::contains;
 using examples_test::has_gnuplot;
-using examples_test::is_one_line;
 using examples_test::run;
 using examples_test::word;
 

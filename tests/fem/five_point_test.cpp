@@ -9,7 +9,6 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/operator_laws.hpp>
-#include <string>
 
 #include "support/allocation_guard.hpp"
 

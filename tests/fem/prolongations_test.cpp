@@ -13,7 +13,6 @@
 #include <support/effort.hpp>
 
 #include <cmath>
-#include <string>
 
 namespace prolongations_test {
 

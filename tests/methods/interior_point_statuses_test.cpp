@@ -12,7 +12,6 @@
 #include <krylov/spd_matrices.hpp>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "scales.hpp"
 #include "support/message.hpp"

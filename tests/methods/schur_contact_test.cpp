@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace schur_contact_test {

@@ -26,10 +26,8 @@
 #include "mixture.hpp"
 #include "support/message.hpp"
 
-#include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 namespace symmetric_newton_test {
 

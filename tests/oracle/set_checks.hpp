@@ -9,9 +9,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
-#include <utility>
-
 namespace oracle {
 
 /// Jacobian of f: R^N → R^M at x by central differences with step h.
@@ -56,17 +53,6 @@ void check_slant(Set const& set, typename Set::vector_type const& x, Project con
     }
     CHECK(Gv.squaredNorm() - v.dot(Gv) <= float_50(accuracy) * v.squaredNorm());
   }
-}
-
-/// what() of the bad_input that `make` throws, empty if it throws nothing.
-template <class Error, class Make>
-std::string complaint(Make const& make) {
-  try {
-    static_cast<void>(make());
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace oracle

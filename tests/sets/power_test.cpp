@@ -22,7 +22,6 @@
 namespace power_test {
 
 using namespace products;
-using slant::consecutive;
 using slant::planar;
 using slant::power;
 constexpr double infinity = std::numeric_limits<double>::infinity();

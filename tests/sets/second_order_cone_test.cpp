@@ -10,7 +10,6 @@
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace second_order_cone_test {

@@ -12,7 +12,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
-#include <cmath>
 
 namespace composition_test {
 

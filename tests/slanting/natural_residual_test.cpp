@@ -15,7 +15,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 namespace natural_residual_test {

@@ -13,7 +13,6 @@
 
 #include <Eigen/Core>
 #include <type_traits>
-#include <utility>
 
 namespace projection_test {
 

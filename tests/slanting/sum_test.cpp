@@ -12,7 +12,6 @@
 
 #include <Eigen/Core>
 #include <type_traits>
-#include <utility>
 
 namespace sum_test {
 

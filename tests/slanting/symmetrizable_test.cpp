@@ -17,7 +17,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
-#include <type_traits>
 
 namespace symmetrizable_test {
 
@@ -61,7 +60,8 @@ TEST_CASE("one thing missing") {
   CHECK_FALSE(known(slant::natural_residual(m, b, discs, 0.5)));             // no law of A
   CHECK_FALSE(known(slant::natural_residual(symmetric, b, discs, 0.5)));     // not definite
   CHECK_FALSE(known(slant::natural_residual(semidefinite, b, discs, 0.5)));  // not definite
-  CHECK_FALSE(known(id - p * (id - slant::any_sign(0.5) * slant::affine(spd, b))));           // sign of ρ unknown
+  CHECK_FALSE(
+      known(id - p * (id - slant::any_sign(0.5) * slant::affine(spd, b))));  // sign of ρ unknown
   CHECK_FALSE(known(id + p * step));                                         // + for −
   CHECK_FALSE(known(id - p * (id + slant::positive(0.5) * slant::affine(spd, b))));
   CHECK_FALSE(known(id - p * slant::affine(spd, b)));      // no I − ρA
