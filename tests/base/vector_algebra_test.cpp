@@ -5,8 +5,6 @@
 
 #include "support/allocation_guard.hpp"
 
-#include <utility>
-
 namespace {
 
 using Eigen::VectorXd;

@@ -23,7 +23,6 @@
 #include "support/message.hpp"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>

@@ -21,7 +21,6 @@
 
 namespace contact_data_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 using slant::index;
 constexpr double inf = std::numeric_limits<double>::infinity();

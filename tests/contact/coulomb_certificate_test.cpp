@@ -10,7 +10,6 @@
 #include "scenes.hpp"
 #include "spring_scenes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -11,11 +11,9 @@
 #include <fem/two_plates.hpp>
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
-#include "support/message.hpp"
 
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace coulomb_families_test {
 

@@ -22,9 +22,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using slant::contact::check_plausibility;
-using slant::contact::suspicion;
 using sparse = Eigen::SparseMatrix<double>;
-using dense_rows = std::vector<VectorXd>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Contact data whose rows can be changed.

@@ -13,8 +13,6 @@
 #include <support/effort.hpp>
 #include "scenes.hpp"
 
-#include <limits>
-
 namespace preconditioners_test {
 
 using Eigen::MatrixXd;

@@ -12,7 +12,6 @@
 #include <Eigen/Cholesky>
 #include <fem/lecture_ssn.hpp>
 #include <slanting/slanting_support.hpp>
-#include <support/allocation_guard.hpp>
 #include "scenes.hpp"
 
 #include <cmath>
@@ -124,19 +123,7 @@ TEST_CASE("one product with K for a value and its slant; nothing allocates") {
   auto const K = slant::counted(scene.K);
   contact::primal_dual const problem(contact::friction_disc{}, K, c);
   auto const G = problem.function(1e4);
-  VectorXd const y = random_vector(G.cols(), 1);
-  VectorXd v(G.rows()), Gv(G.rows());
-  auto w = slant::workspace(G, y);
-  auto g = G.slant(problem.zero());
-  auto gw = slant::workspace(g, y);
-  K.reset_counts();
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(G, y, v, w);
-  slant::update_slant_after_value(G, y, g, w);
-  slant::apply(g, v, Gv, gw);
-  auto const allocations = guard.count();
-  CHECK(K.counts().applications == 2);  // one for the value, one for the product
-  CHECK(allocations == 0);
+  slanting_support::check_products(G, K, random_vector(G.cols(), 1));
 }
 
 TEST_CASE("bad input") {

@@ -10,7 +10,6 @@
 #include <io/io_support.hpp>
 #include <pugixml.hpp>
 #include <sstream>
-#include <string>
 
 namespace contact_vtu {
 namespace {

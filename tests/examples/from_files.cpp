@@ -3,8 +3,6 @@
 // from_files on problems that can be solved, or at least attempted: statuses, JSON, files.
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <oracle/dense_contact_reference.hpp>
 #include <slant/io/text_vector.hpp>
@@ -111,28 +109,6 @@ TEST_CASE("from_files: every method by its name, from zero and after a first pha
   CHECK(methods == 16);
 }
 
-TEST_CASE("from_files: no method says `converged` of a slender brick that it has not solved") {
-  auto const scene = fem::make_steel_brick(
-      {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(300, 1, 1)});
-  problem_files const files(scene);
-  oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};
-  auto const reference = oracle::solve_contact(data);
-  std::istringstream lines(run("from_files", "--list-methods").out);
-  int right = 0;
-  for (std::string line; std::getline(lines, line) && !line.empty();) {
-    std::string const name = line.substr(0, line.find(' '));
-    CAPTURE(name);
-    auto const ran = files.solve("--tolerance 1e-7 --max-iterations 2000 --method " + name);
-    json const result = json::parse(ran.out);
-    if (result["status"] != "converged") continue;
-    ++right;
-    CHECK(oracle::energy_error(scene.K, files.read("u.txt"), reference.u) < 1e-7);
-    CHECK(result["energy_error"].get<double>() <= 1e-7);
-    CHECK(result["kkt_residual"].get<double>() < 1e-6);
-  }
-  CHECK(right >= 8);
-}
-
 TEST_CASE("from_files: a bound that is proven") {
   auto const files = examples_test::small_brick();
   for (auto const* const method : {"symmetric_newton", "kprgp"}) {
@@ -174,25 +150,6 @@ TEST_CASE("from_files: a known answer, and none asked for in files") {
   CHECK(json::parse(silent.out)["output"] == nullptr);
 }
 
-TEST_CASE("from_files: nodes that never meet the obstacle, and nodes that stick") {
-  auto scene = plane_scene();
-  scene.d.setConstant(std::numeric_limits<double>::infinity());
-  problem_files const files(plane_scene());
-  std::string d, g;
-  for (Eigen::Index i = 0; i < scene.d.size(); ++i) {
-    d += "inf\n";
-    g += "inf\n";
-  }
-  files.put("d.txt", d);
-  CHECK(files.solve().status == 0);
-  CHECK(files.read("lambda.txt").head(scene.d.size()) == Eigen::VectorXd::Zero(scene.d.size()));
-
-  files.put("g.txt", g);
-  CHECK(files.solve("--tolerance 1e-12").status == 0);
-  Eigen::VectorXd const u = files.read("u.txt");
-  CHECK((scene.T * u).norm() < 1e-10 * u.norm());
-}
-
 TEST_CASE("from_files: a run that stops early says so, with its last iterate") {
   auto const files = examples_test::small_brick();
   for (std::string const limit : {"0", "2"}) {
@@ -206,18 +163,6 @@ TEST_CASE("from_files: a run that stops early says so, with its last iterate") {
     CHECK(result["kkt_residual"].get<double>() > 1e-6);
     CHECK(files.files_written() == 2);
   }
-}
-
-TEST_CASE("from_files: penetration without any force is not taken for a solution") {
-  one_spring const files;
-  files.put("f.txt", "0\n");
-  files.put("d.txt", "-1\n");
-  auto const nothing_done = files.solve("--max-iterations 0");
-  CHECK(nothing_done.status == 1);
-  CHECK(json::parse(nothing_done.out)["kkt_residual"] == 1.0);
-  CHECK(files.solve().status == 0);
-  CHECK(files.read("u.txt")[0] == doctest::Approx(-1).epsilon(1e-14));
-  CHECK(files.read("lambda.txt")[0] == doctest::Approx(4).epsilon(1e-14));
 }
 
 TEST_CASE("from_files: a problem without solution is not solved") {

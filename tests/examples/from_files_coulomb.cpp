@@ -94,26 +94,6 @@ TEST_CASE("from_files: Coulomb friction, too few steps and all digits") {
   }
 }
 
-TEST_CASE("from_files: a slender brick with Coulomb friction, what every method says is true") {
-  auto const scene = fem::make_steel_brick(
-      {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(300, 1, 1)});
-  problem_files const files(scene);
-  std::string const option =
-      put_coefficients(files, Eigen::VectorXd::Constant(scene.N.rows(), 0.3));
-  for (std::string const method : {"coulomb", "newton", "radii", "cones"}) {
-    CAPTURE(method);
-    auto const ran = files.solve(option + " --method " + method);
-    json const result = json::parse(ran.out);
-    CHECK(result["condition_estimate"].get<double>() > 1e5);
-    bool const converged = result["status"] == "converged";
-    CHECK(converged == (result["kkt_residual"].get<double>() <= 1e-7));
-    CHECK(converged == (result["energy_error"].get<double>() <= 1e-8));
-    CHECK(ran.status == (converged ? 0 : 1));
-    // Newton's method alone is at its limit of steps.
-    CHECK(converged == (method != "newton"));
-  }
-}
-
 TEST_CASE("from_files: coefficients that cannot be used") {
   auto const scene = brick();
   Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.3);

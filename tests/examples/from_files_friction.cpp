@@ -7,9 +7,8 @@
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 #include <sstream>
-#include <support/friction_cases.hpp>
 #include <support/folders.hpp>
-#include <vector>
+#include <support/friction_cases.hpp>
 
 #include "problem_files.hpp"
 
@@ -17,7 +16,6 @@ namespace from_files_friction {
 namespace {
 
 using examples_test::check_refusal;
-using examples_test::contains;
 using examples_test::is_one_line;
 using examples_test::problem_files;
 using examples_test::run;
@@ -71,20 +69,6 @@ TEST_CASE("from_files: contacts whose forces are known") {
     if (c.r.size() == 1) {
       CHECK((files.read("r.txt") - c.r[0]).norm() <= 1e-7 * (1 + c.r[0].norm()));
     }
-  }
-}
-
-TEST_CASE("from_files: contacts from simulations") {
-  for (auto const* const name : {"FC3D_Example1", "FrictionContact3D_RR_1c",
-                                 "GFC3D_Example00_badly_scaled", "GFC3D_TwoRods1", "Rover4396",
-                                 "Rover4609", "Rover11035", "Confeti-ex13-4contact-Fc3D-SBM"}) {
-    CAPTURE(name);
-    auto const p = slant::read_friction_problem(test::data("friction") / name);
-    friction_files const files(p);
-    json const result = solved(files);
-    CHECK(result["status"] == "converged");
-    CHECK(result["asymmetry"] == slant::contact::asymmetry(p.W));
-    check_report(files, p, result);
   }
 }
 

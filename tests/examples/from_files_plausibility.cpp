@@ -14,7 +14,6 @@ namespace {
 
 using examples_test::check_refusal;
 using examples_test::contains;
-using examples_test::coordinate;
 using examples_test::is_one_line;
 using examples_test::problem_files;
 using examples_test::solved;

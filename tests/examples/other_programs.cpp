@@ -3,7 +3,6 @@
 // brick, tridiagonal and wire: do they run, end with the right status, and say the right thing?
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -14,7 +13,6 @@ namespace {
 
 using examples_test::contains;
 using examples_test::has_gnuplot;
-using examples_test::is_one_line;
 using examples_test::run;
 using examples_test::word;
 
@@ -70,18 +68,6 @@ TEST_CASE("brick: problem, result, proof and files") {
   CHECK(contains(ran.out, "wrote " + (output / "contact.png").string()) == drawn);
   CHECK(contains(ran.out, "no picture: ") == !drawn);
   CHECK(io_test::get(output / "contact.png").starts_with("\x89PNG") == drawn);
-}
-
-TEST_CASE("brick: without gnuplot it says so and goes on") {
-  io_test::temporary_folder const folder;
-  auto const ran = examples_test::run_command(
-      "PATH=/no/such/folder " + examples_test::program("brick") +
-      " --cells 1 --load press --output " + word(folder.path().string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  CHECK(contains(ran.out, "no picture: gnuplot was not found"));
-  CHECK(std::filesystem::exists(folder / "brick.vtu"));
-  CHECK_FALSE(std::filesystem::exists(folder / "contact.png"));
 }
 
 TEST_CASE("brick: not converged is not success") {

@@ -13,7 +13,6 @@ namespace table_programs {
 namespace {
 
 using examples_test::contains;
-using examples_test::is_one_line;
 using examples_test::run;
 using examples_test::word;
 

@@ -206,10 +206,7 @@ TEST_CASE("an application does not allocate") {
   VectorXd const x = VectorXd::Ones(box.K.rows());
   VectorXd y(x.size());
   auto w = slant::workspace(inverse, x);
-  slant::testing::allocation_guard guard;
-  inverse.apply(x, y, w);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] { inverse.apply(x, y, w); }) == 0);
 }
 
 TEST_CASE("more directions than the iteration begins with") {

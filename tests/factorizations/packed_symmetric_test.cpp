@@ -41,10 +41,7 @@ TEST_CASE_TEMPLATE("products as with the dense matrix, whatever the size", T, fl
     // One place before and behind: nothing else may be written to.
     matrix<T> const x = matrix<T>::Random(n, 1);
     matrix<T> y = matrix<T>::Constant(n + 2, 1, T(7));
-    slant::testing::allocation_guard guard;
-    packed.multiply(x.data(), y.data() + 1);
-    auto const allocations = guard.count();
-    CHECK(allocations == 0);
+    CHECK(test::allocations_of([&] { packed.multiply(x.data(), y.data() + 1); }) == 0);
     for (index i = 0; i < n; ++i) {
       T exact(0), size(0);
       for (index j = 0; j < n; ++j) {

@@ -102,23 +102,6 @@ TEST_CASE("impossible boxes are refused by name") {
   CHECK_THROWS_AS((void)fem::make_brick_mesh(0), std::invalid_argument);
 }
 
-TEST_CASE_TEMPLATE("gradients reproduce differences of the hat functions", dimension,
-                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
-  constexpr int D = dimension::value;
-  Eigen::Matrix<double, D, D + 1> vertices = Eigen::Matrix<double, D, D + 1>::Zero();
-  for (int a = 1; a <= D; ++a) vertices(a - 1, a) = a;
-  vertices.row(0).array() += 0.25;
-  vertices(D - 1, 1) = 0.5;
-  auto const element = fem::make_p1_element<D>(vertices);
-  // The hat function of vertex a is 1 there and 0 at the others.
-  for (int a = 0; a <= D; ++a)
-    for (int b = 0; b <= D; ++b)
-      for (int c = 0; c <= D; ++c) {
-        double const rise = element.gradients.col(a).dot(vertices.col(b) - vertices.col(c));
-        CHECK(rise == doctest::Approx((a == b ? 1 : 0) - (a == c ? 1 : 0)));
-      }
-}
-
 TEST_CASE("volumes are signed") {
   Eigen::Matrix<double, 3, 4> vertices;
   vertices << 0, 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4;

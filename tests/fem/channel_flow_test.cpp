@@ -13,7 +13,6 @@
 #include <fem/stokes_table.hpp>
 #include <fem/stokes_vtu.hpp>
 #include <fem/wall_preconditioner.hpp>
-#include <filesystem>
 #include <io/io_support.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>

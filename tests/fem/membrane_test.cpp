@@ -18,7 +18,6 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <string>
 
 #include "support/effort.hpp"
 

@@ -4,7 +4,6 @@
 // makes a PNG of it.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fem/brick_mesh.hpp>
 #include <fem/plots/contact_line_plot.hpp>
@@ -30,17 +29,6 @@ void check_holds(std::string const& script, std::initializer_list<char const*> p
     CAPTURE(part);
     CHECK(contains(script, part));
   }
-}
-
-/// Lines of the data block of that name.
-std::ptrdiff_t rows_of(std::string const& script, std::string const& block) {
-  auto const head = block + " << EOD\n";
-  auto const from = script.find(head);
-  REQUIRE(from != std::string::npos);
-  auto const begin = script.begin() + static_cast<std::ptrdiff_t>(from + head.size());
-  auto const end =
-      script.begin() + static_cast<std::ptrdiff_t>(script.find("EOD\n", from + head.size()));
-  return std::count(begin, end, '\n');
 }
 
 /// Made up: the first node sticks, the second slips, the others are open.
@@ -73,19 +61,6 @@ fem::contact_field<3> side_field(int k) {
   field.at_slip_bound.assign(field.patches.size(), false);
   field.at_slip_bound[0] = true;
   return field;
-}
-
-TEST_CASE("contact: a row per node, the counts of the states, not too many arrows") {
-  // Place, pressure, friction on the upper plate, slip bound, state.
-  check_holds(fem::contact_script("c.png", line_field(), {.title = "It's", .stress_unit = "kPa"}),
-              {"$nodes << EOD\n1 2 0.25 17000000 1\n2 1 -17000000 17000000 2\n3 0 ", "'open 1'",
-               "'stick 1'", "'slip 1'", "'It''s'", "'Contact pressure [kPa]'", "set xrange [0:3]"});
-  // The middle of the rectangle of a node, the rectangle, pressure, friction, state, at its bound.
-  check_holds(fem::contact_script("c.png", side_field(1), {.title = "It's", .stress_unit = "kPa"}),
-              {"$nodes << EOD\n1 0.25 0.5 1.5 0 0.5 0 0.3 0 1\n", "'open  4'", "'stick  1'",
-               "'slip  1'", "'It''s'", "set cbrange [0:1.5]", "set xrange [0:3]"});
-  CHECK(rows_of(fem::contact_script("c.png", side_field(2), {}), "$arrows") == 18);
-  CHECK(rows_of(fem::contact_script("c.png", side_field(15), {}), "$arrows") <= 40 * 14);
 }
 
 TEST_CASE("histories: what a logarithmic axis cannot show is left out; Newton steps are stars") {

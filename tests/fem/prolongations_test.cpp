@@ -13,7 +13,6 @@
 #include <support/effort.hpp>
 
 #include <cmath>
-#include <string>
 
 namespace prolongations_test {
 
@@ -129,26 +128,6 @@ TEST_CASE("between two points of a line, and beyond them") {
   CHECK_THROWS_WITH_AS((void)fem::interpolate<double>({0, 1, 1}, {0}),
                        "from: got 1, expected increasing points", std::invalid_argument);
   CHECK_THROWS_AS((void)fem::interpolate<double>({}, {0}), std::invalid_argument);
-}
-
-TEST_CASE("the wire: what is linear up to the ends of one element stays as it is") {
-  // A tent over the node t of the coarse mesh, seen from any mesh: linear on both sides of it.
-  for (Eigen::Index const m : {3, 4, 8}) {
-    auto const coarse = fem::make_wire(2);
-    auto const fine = fem::make_wire(m);
-    double const top = coarse.t(1);
-    auto const tent = [&](fem::wire<> const& w) {
-      Eigen::VectorXd x(4 * w.m);
-      for (Eigen::Index node = 0; node < 2 * w.m; ++node) {
-        double const height = std::fmin(w.t(node) / top, (1 - w.t(node)) / (1 - top));
-        x[w.unknown(node, 0)] = height;
-        x[w.unknown(node, 1)] = -3 * height;
-      }
-      return x;
-    };
-    Eigen::VectorXd const x = fem::wire_prolongation(coarse, fine) * tent(coarse);
-    CHECK((x - tent(fine)).cwiseAbs().maxCoeff() < 1e-15 * 16);
-  }
 }
 
 TEST_CASE("the wire: the same as the naive interpolation") {

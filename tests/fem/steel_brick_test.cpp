@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fem/elasticity_3d.hpp>
-#include <functional>
 
 namespace steel_brick_test {
 

@@ -6,7 +6,6 @@
 #include <fem/stokes_balance.hpp>
 #include <fem/stokes_dual.hpp>
 #include <fem/stokes_field.hpp>
-#include <limits>
 #include <oracle/dense_stokes.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>

@@ -11,8 +11,6 @@
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
 
-#include <algorithm>
-
 namespace thesis_ssnm_test {
 
 struct outcome {

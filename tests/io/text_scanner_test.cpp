@@ -11,7 +11,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <random>
 #include <string>

@@ -12,8 +12,6 @@
 #include <support/allocation_guard.hpp>
 #include "spd_matrices.hpp"
 
-#include <cmath>
-
 namespace face_cg_test {
 
 using Eigen::MatrixXd;

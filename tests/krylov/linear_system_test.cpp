@@ -12,7 +12,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace linear_system_test {
 

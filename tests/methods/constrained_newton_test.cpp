@@ -14,7 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::accurate;
 using test::known_problem;
-using test::sparse;
 
 TEST_CASE("the known solution with its multipliers, in any units and lengths") {
   for (auto const& [unit, length] :

@@ -12,7 +12,6 @@
 #include <krylov/spd_matrices.hpp>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "scales.hpp"
 #include "support/message.hpp"
@@ -23,7 +22,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Half lines, intervals, discs and two free unknowns: 12 of them, all lengths in units of t.
 struct problem {
@@ -219,18 +217,6 @@ TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   CHECK(unconstrained.converged());
   CHECK(unconstrained.state.constraints == 0);
   CHECK((free.A * unconstrained.x() - free.b).norm() <= 1e-11 * free.b.norm());
-}
-
-TEST_CASE("bad input names argument, value and expectation") {
-  problem const p;
-  auto const qp = p.qp();
-  slant::interior_point const method{qp};
-  CHECK(test::complaint([&] { static_cast<void>(method.start(VectorXd(VectorXd::Zero(3)))); }) ==
-        "x0: got 3, expected the size of b, 12");
-  VectorXd x0 = zero();
-  x0(1) = nan;
-  CHECK(
-      test::complaint([&] { static_cast<void>(method.start(x0)); }).starts_with("x0[1]: got nan"));
 }
 
 }  // namespace interior_point_statuses_test

@@ -147,30 +147,11 @@ TEST_CASE(
   CHECK(s.x.segment(n - 5, 2) == Eigen::Vector2d(0.7, -0.2));
 }
 
-TEST_CASE("a narrow cone at an angle: no axis leads from its apex to the inside") {
-  auto const set = slant::power(slant::rotated(slant::second_order_cone<2>(0.3),
-                                               Eigen::Matrix2d(Eigen::Rotation2Dd(0.785).matrix())),
-                                4);
-  auto const A = test::spd(test::with_spectrum(test::log_spaced(8, 10), 3));
-  slant::separable_qp const qp{A, VectorXd(test::random_vector(8, 4)), set};
-  VectorXd const zero = VectorXd::Zero(8);
-  auto const exact = slant::solve(slant::symmetric_newton{qp}, zero,
-                                  slant::reduced_gradient_below(1e-13) || slant::at_most(300));
-  REQUIRE(exact.converged());
-  auto const r = slant::solve(slant::interior_point{qp}, zero,
-                              slant::reduced_gradient_below(1e-9) || slant::at_most(80));
-  CHECK(r.converged());
-  CHECK((r.x() - exact.x()).norm() <= 1e-6 * exact.x().norm());
-}
-
-TEST_CASE("cones of any opening: apex, mantle and interior") {
-  for (double μ : {1e-3, 0.5, 1.0, 30.0}) {
-    CAPTURE(μ);
-    auto const set = slant::power(slant::second_order_cone<3>(μ), 8);
-    auto const A = test::spd(test::with_spectrum(test::log_spaced(24, 30), 7));
-    VectorXd const b = test::random_vector(24, 21);
-    slant::separable_qp const qp{A, b, set};
-    VectorXd const zero = VectorXd::Zero(24);
+TEST_CASE("cones: apex, mantle and interior; at an angle, no axis leads from the apex inside") {
+  auto const check = [](auto const& set, MatrixXd const& M, unsigned seed) {
+    auto const A = test::spd(M);
+    slant::separable_qp const qp{A, VectorXd(test::random_vector(M.rows(), seed)), set};
+    VectorXd const zero = VectorXd::Zero(M.rows());
     auto const exact = slant::solve(slant::symmetric_newton{qp}, zero,
                                     slant::reduced_gradient_below(1e-13) || slant::at_most(300));
     REQUIRE(exact.converged());
@@ -178,7 +159,15 @@ TEST_CASE("cones of any opening: apex, mantle and interior") {
                                 slant::reduced_gradient_below(1e-9) || slant::at_most(80));
     CHECK(r.converged());
     CHECK((r.x() - exact.x()).norm() <= 1e-6 * exact.x().norm());
+  };
+  for (double μ : {1e-3, 0.5, 1.0, 30.0}) {
+    CAPTURE(μ);
+    check(slant::power(slant::second_order_cone<3>(μ), 8),
+          test::with_spectrum(test::log_spaced(24, 30), 7), 21);
   }
+  Eigen::Matrix2d const turn(Eigen::Rotation2Dd(0.785).matrix());
+  check(slant::power(slant::rotated(slant::second_order_cone<2>(0.3), turn), 4),
+        test::with_spectrum(test::log_spaced(8, 10), 3), 4);
 }
 
 /// Half lines and free components; A is a stiff string, whose diagonal says little.

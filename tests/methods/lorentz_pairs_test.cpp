@@ -7,8 +7,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 namespace lorentz_pairs_test {
 
 using Eigen::VectorXd;

@@ -5,6 +5,7 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/successive_approximations.hpp>
+#include <slant/methods/symmetric_newton.hpp>
 
 #include <doctest/doctest.h>
 
@@ -78,6 +79,15 @@ TEST_CASE("successive approximations") {
        {{.forcing = {.η_max = 2}}, "η_max: got 2"},
        {{.inner_steps = 0}, "inner_steps: got 0, expected at least 1"},
        {{.patience = 0}, "patience: got 0, expected at least 1"}});
+}
+
+TEST_CASE("the symmetric Newton method") {
+  check<slant::symmetric_newton_options<double>>(
+      {{{}},
+       {{.step_length = -1.0}, "step_length: got -1, expected a number > 0"},
+       {{.step_factor = nan}, "step_factor: got nan"},
+       {{.inner_steps = 0}, "inner_steps: got 0"},
+       {{.sufficient = 1.0}, "sufficient: got 1"}});
 }
 
 TEST_CASE("interior points") {

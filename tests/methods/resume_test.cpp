@@ -13,7 +13,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include <support/allocation_guard.hpp>
 
@@ -39,10 +38,7 @@ void check_same_as_start(Make make) {
   set.update(VectorXd::LinSpaced(m, 0, 300).eval());
   VectorXd const x0 = 100 * test::random_vector(2 * m, 11);
   A.reset_counts();
-  slant::testing::allocation_guard guard;
-  method.resume(s, x0);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] { method.resume(s, x0); }) == 0);
   CHECK(A.applications() == 1);
   CHECK(s.work.operator_applications == 1);
   CHECK(s.work.setup_applications == 0);

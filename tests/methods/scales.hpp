@@ -5,7 +5,6 @@
 
 #include <doctest/doctest.h>
 
-#include <initializer_list>
 #include <utility>
 
 namespace test {

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace schur_contact_test {
@@ -45,42 +43,6 @@ TEST_CASE(
   }
   CHECK(unbounded > 10);
   CHECK(unbounded < 50);
-}
-
-TEST_CASE("without constraints in reach: the solution of a linear system") {
-  MatrixXd k = both(chain(5), chain(4));
-  k(0, 0) += 1;
-  k(8, 8) += 3;
-  VectorXd const f = VectorXd::LinSpaced(9, -1, 2);
-  MatrixXd b = MatrixXd::Zero(1, 9);
-  b(0, 2) = 1;
-  small_problem const p{k, f, b, VectorXd{{100}}};
-  solve(p, {}, [&](body_list const&, report_type const& r) {
-    REQUIRE(r.converged());
-    VectorXd const exact = k.llt().solve(f);
-    CHECK((r.x() - exact).norm() <= 1e-13 * exact.norm());
-    CHECK(r.iterations() <= 1);  // one unknown is not inside
-    CHECK(r.state.multipliers().norm() == 0);
-  });
-}
-
-TEST_CASE("redundant and repeated rows") {
-  // A point pushed against the same wall, written four times, one of them at another distance.
-  small_problem p{chain(3), VectorXd{{0, 0, 2}}, MatrixXd::Zero(5, 3), VectorXd{{1, 1, 3, 1, 0}}};
-  p.B(0, 2) = 1;
-  p.B(1, 2) = 1;
-  p.B(2, 2) = 3;
-  p.B(3, 2) = 0.5;
-  p.B(4, 0) = -1;
-  compare(p);
-  p.c[3] = 0.5;
-  compare(p);
-  solve(p, {}, [&](body_list const&, report_type const& r) {
-    CHECK(r.converged());
-    CHECK(r.x()[2] == doctest::Approx(1));
-    // Forces of the copies add up to the load.
-    CHECK((p.B.transpose() * r.state.multipliers())[2] == doctest::Approx(2));
-  });
 }
 
 TEST_CASE("a corner where more rows are tight than there are directions: no cycling") {

@@ -4,6 +4,7 @@
 // allocation, states that can be copied, and how runs end that cannot end well.
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
@@ -160,6 +161,10 @@ TEST_CASE("a right-hand side of zero is solved by zero, and bad starts are named
     CHECK_THROWS_WITH_AS(static_cast<void>(method.start(x0)),
                          "x0[7]: got inf, expected a finite number", slant::bad_input);
   });
+  slant::interior_point const inside{slant::separable_qp{A, b, set}};
+  CHECK_THROWS_AS(static_cast<void>(inside.start(VectorXd::Zero(19))), slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(inside.start(VectorXd::Constant(20, std::nan("")))),
+                  slant::bad_input);
 }
 
 TEST_CASE("an accuracy beyond reach ends as stalled or converged, at the floor") {

@@ -17,8 +17,6 @@
 #include <Eigen/Dense>
 #include <support/allocation_guard.hpp>
 
-#include <cmath>
-#include <limits>
 #include <string>
 
 namespace successive_approximations_test {

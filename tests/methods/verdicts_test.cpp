@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <oracle/random_programs.hpp>
 #include <string>
 #include <support/program_sets.hpp>

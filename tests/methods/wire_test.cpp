@@ -4,7 +4,6 @@
 // cells where the thesis failed included. Others than these run in tests/scenes.
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/direct_solver.hpp>
@@ -51,15 +50,6 @@ void check_cells(std::size_t entries, Run const& run) {
 
 VectorXd zero(fem::wire<> const& wire) {
   return VectorXd::Zero(wire.b.size());
-}
-
-TEST_CASE("kprgp, with a step that costs no application") {
-  check_cells(test::effort(4, 2), [](auto const& qp, auto const& wire) {  // n = 256 or 64
-    auto const r = slant::solve(slant::kprgp{qp, {.step_length = 1.9 * wire.h() / 4}}, zero(wire),
-                                slant::reduced_gradient_below(1e-9) || slant::at_most(100000));
-    CHECK(r.state.work.setup_applications == 0);
-    return r;
-  });
 }
 
 TEST_CASE("mssn") {

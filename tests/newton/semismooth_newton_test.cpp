@@ -295,21 +295,6 @@ TEST_CASE("a function, its operator and a vector that can do the least") {
   CHECK(r.x().local().norm() <= 1e-12);
 }
 
-TEST_CASE("a natural residual of archetypes") {
-  newton_scene::data const d(4);
-  archetype::spd_operator const A(d.A);
-  auto const set = newton_scene::contact_set(4, 1e-2);
-  auto const F = slant::natural_residual(A, archetype::vector(d.b), set, d.ρ);
-  auto const stop = slant::residual_below(1e-12) || slant::at_most(40);
-  auto const r = slant::solve(slant::semismooth_newton{F}, archetype::vector(d.zero()), stop);
-  auto const definite = d.definite();
-  auto const same = slant::natural_residual(definite, d.b, set, d.ρ);
-  auto const expected = slant::solve(slant::semismooth_newton{same}, d.zero(), stop);
-  REQUIRE(r.converged());
-  CHECK((r.x().local() - expected.x()).norm() <= 1e-12 * expected.x().norm());
-  CHECK(r.state.work == expected.state.work);
-}
-
 TEST_CASE("a scalar without silent conversions gives the bits of double") {
   using S = archetype::scalar;
   using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;

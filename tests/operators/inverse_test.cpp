@@ -51,7 +51,6 @@ TEST_CASE("archetypes: a solve is enough, and promises nothing") {
   slant::testing::check_operator_laws(b, x, {.roundings = 1000});
 }
 
-/// A nonsymmetric factorisation that can also solve with the transposed matrix.
 /// A factorisation that tells its columns, too.
 struct half {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
@@ -73,6 +72,7 @@ TEST_CASE("a factorisation may have cols") {
   CHECK(y == Eigen::Vector2d(3, 6));
 }
 
+/// A nonsymmetric factorisation that can also solve with the transposed matrix.
 struct lu {
   Eigen::PartialPivLU<MatrixXd> factors;
   [[nodiscard]] slant::index rows() const { return factors.rows(); }

@@ -28,23 +28,6 @@ TEST_CASE("the reference of the brick satisfies the contact conditions and is op
   check(test::effort(3, 1), fem::brick_load::lift);
 }
 
-TEST_CASE("loads do what their names say") {
-  int const nodes = 18;
-  auto const [press_scene, press] = solve_brick(2, fem::brick_load::press);
-  auto const [pull_scene, pull] = solve_brick(2, fem::brick_load::pull);
-  auto const [lift_scene, lift] = solve_brick(2, fem::brick_load::lift);
-  auto const open = [](auto const& r) {
-    return oracle::count_active(r.dual, r.report.x).intervals;
-  };
-  auto const slide = [](auto const& r) { return oracle::count_active(r.dual, r.report.x).circles; };
-  CHECK(open(press) == 0);
-  CHECK(open(pull) == 0);
-  CHECK(open(lift) >= nodes / 3);
-  CHECK(open(lift) <= 2 * nodes / 3);
-  CHECK(slide(lift) >= nodes / 2);
-  CHECK(slide(pull) > slide(press));
-}
-
 TEST_CASE("a perturbed displacement violates the conditions") {
   auto const [scene, reference] = solve_brick(1, fem::brick_load::lift);
   oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};

@@ -11,7 +11,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <vector>
 

@@ -67,25 +67,6 @@ Real ellipse_multiplier(Real const& a, Real const& b, Real x, Real y) {
   }
 }
 
-/// Axes a, b > 0.
-template <class Real>
-Eigen::Matrix<Real, 2, 1> project_ellipse(Eigen::Matrix<Real, 2, 1> const& x, Real const& a,
-                                          Real const& b) {
-  Real const t = ellipse_multiplier<Real>(a, b, x(0), x(1));
-  return {a * a * x(0) / (a * a + t), b * b * x(1) / (b * b + t)};
-}
-
-/// Smallest distance from x to `samples` points of the set, drawn along its boundary by `at(θ)`.
-template <class Vector, class Boundary>
-auto sampled_distance(Vector const& x, Boundary const& at, int samples) {
-  auto best = (x - at(0.0)).norm();
-  for (int i = 1; i < samples; ++i) {
-    auto const distance = (x - at(6.283185307179586 * i / samples)).norm();
-    if (distance < best) best = distance;
-  }
-  return best;
-}
-
 /// Largest α with member(x + α d), member(x) given, by doubling and bisection; negative if the ray
 /// stays inside up to α = `longest`.
 template <class Real, class Member, class Vector>

@@ -5,7 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <cmath>
 #include <support/program_sets.hpp>
 
 namespace random_programs_test {

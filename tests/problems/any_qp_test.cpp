@@ -16,7 +16,6 @@
 
 #include <krylov/spd_matrices.hpp>
 #include <support/allocation_guard.hpp>
-#include <utility>
 
 namespace any_qp_test {
 

@@ -44,10 +44,7 @@ TEST_CASE("P, Q and the point next to the origin, as from a dense pseudoinverse"
 
   VectorXd y(6);
   auto w = slant::workspace(P, v);
-  slant::testing::allocation_guard guard;
-  P.apply(v, y, w);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] { P.apply(v, y, w); }) == 0);
 }
 
 TEST_CASE("redundant rows in any units are named and left out; contradictions are refused") {

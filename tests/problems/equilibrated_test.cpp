@@ -12,7 +12,6 @@
 #include <krylov/spd_matrices.hpp>
 #include <limits>
 #include <oracle/dense_newton.hpp>
-#include <string>
 
 namespace equilibrated_test {
 

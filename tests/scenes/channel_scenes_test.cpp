@@ -8,7 +8,6 @@
 #include <fem/channel_flow.hpp>
 #include <fem/stokes_dual.hpp>
 #include <fem/wall_preconditioner.hpp>
-#include <filesystem>
 #include <oracle/envelope_cholesky.hpp>
 #include <scenes/scene.hpp>
 #include <support/effort.hpp>

@@ -105,12 +105,7 @@ TEST_CASE("ball: support is the largest inner product") {
   }
 }
 
-TEST_CASE("ball: inequality and its derivatives") {
-  using wide = Eigen::Matrix<float_50, 3, 1>;
-  oracle::check_inequality_derivatives(ball<3, float_50>(float_50(2)),
-                                       wide(float_50(1), float_50(-0.25), float_50(3)),
-                                       float_50(1e-10));
-  // Next to the sphere all digits of ‖x‖² − g² cancel, and the difference is right all the same.
+TEST_CASE("ball: next to the sphere all digits of ‖x‖² − g² cancel, the difference is right") {
   vec2 const x(0.6 * (1 + 3 * ε), 0.8);
   float_50 const exact = oracle::widen<float_50>(x).squaredNorm() - 1;
   CHECK(oracle::ulp_distance<double>(slant::disc<>(1.0).inequality(x)(0), exact) <= 1);

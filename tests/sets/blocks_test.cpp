@@ -185,15 +185,4 @@ TEST_CASE("place: nested places compose") {
       std::is_same_v<decltype(place<>(0, 5, 4).then(place<2>(0, 0, 2))), place<2, consecutive>>);
 }
 
-TEST_CASE("place: composing is associative") {
-  auto const a = place<>(2, 7, 12);
-  auto const b = slant::block_place<4, planar>(1, 3, 2);
-  auto const c = place<2>(1, 2, 2);
-  auto const left = a.then(b).then(c);
-  auto const right = a.then(b.then(c));
-  static_assert(std::is_same_v<decltype(left), decltype(right)>);
-  CHECK(left.index() == right.index());
-  for (int j = 0; j < 2; ++j) CHECK(left.component(j) == right.component(j));
-}
-
 }  // namespace blocks_test

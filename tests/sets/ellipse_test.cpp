@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
 #include <slant/sets/ellipse.hpp>
 
 #include "oracle/projection_errors.hpp"
@@ -39,19 +38,6 @@ TEST_CASE_TEMPLATE("ellipse: known answers", S, float, double, long double, floa
   CHECK(set.step_to_boundary(vec(S(0), S(1)), vec(S(0), S(-2))) == S(1.5));
   CHECK(set.step_to_boundary(vec(S(-4), S(0)), vec(S(1), S(0))) == S(8));
   CHECK(set.step_to_boundary(vec(S(4), S(0)), vec(S(1), S(0))) == S(0));
-}
-
-TEST_CASE("ellipse: with equal axes it is the disc") {
-  oracle::number_source<double> source(7);
-  for (int i = 0; i < 500; ++i) {
-    double const g = source.positive_of_size(-150, 150);
-    vec2 const x = g * source.of_size(-2, 2) * source.direction<2>();
-    ellipse<> const set(g, g);
-    slant::disc<> const disc(g);
-    CHECK((set.project(x) / g - disc.project(x) / g).norm() <= 8 * ε);
-    CHECK((set.slant(x) - disc.slant(x)).norm() <= 16 * ε);
-    CHECK(set.contains(x) == disc.contains(x));
-  }
 }
 
 TEST_CASE("ellipse: aspect ratios beyond all use stay sane") {
@@ -114,10 +100,7 @@ TEST_CASE("ellipse: support, state and membership") {
   }
 }
 
-TEST_CASE("ellipse: inequality and its derivatives") {
-  using wide = Eigen::Matrix<float_50, 2, 1>;
-  oracle::check_inequality_derivatives(ellipse<float_50>(float_50(2), float_50(0.5)),
-                                       wide(float_50(1), float_50(-0.25)), float_50(1e-10));
+TEST_CASE("ellipse: next to the curve the digits of the inequality are right") {
   vec2 const x(1.8 * (1 + 3 * ε), 0.8);
   float_50 const u = float_50(x(0)) / 3, v = float_50(x(1));
   CHECK(oracle::ulp_distance<double>(ellipse<>(3, 1).inequality(x)(0),

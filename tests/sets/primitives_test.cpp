@@ -17,15 +17,13 @@
 #include <oracle/naive_projections.hpp>
 #include <oracle/precise.hpp>
 #include <oracle/projection_errors.hpp>
-#include <oracle/set_checks.hpp>
 #include <oracle/step_errors.hpp>
 #include <support/effort.hpp>
+#include <support/message.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace primitives_test {
 
@@ -88,23 +86,6 @@ TEST_CASE("a power of two in the units changes nothing but the units") {
     check_units([=](double s) { return slant::ellipse<>(s * a, s * b); },
                 Vector2d(numbers.of_size(-2, 2), numbers.of_size(-2, 2)), true);
     check_units([=](double) { return cone(a); }, x, true);
-  }
-}
-
-TEST_CASE("no smaller distance on the curve of a disc or an ellipse, the variational inequality") {
-  source numbers(9);
-  auto const check = [](auto const& set, double a, double b, Vector2d const& x) {
-    auto const on_curve = [&](double θ) { return Vector2d(a * std::cos(θ), b * std::sin(θ)); };
-    std::vector<Vector2d> points{Vector2d(0, 0)};
-    for (double θ = 0; θ < 6.3; θ += 0.3) points.push_back(on_curve(θ));
-    oracle::check_variational_inequality(set, x, points);
-    double const distance = (x - set.project(x)).norm();
-    CHECK(distance <= naive::sampled_distance(x, on_curve, 400) * (1 + 8 * ε));
-  };
-  for (int i = 0; i < 60; ++i) {
-    double const a = numbers.positive_of_size(-2, 2), b = numbers.positive_of_size(-2, 2);
-    check(slant::disc<>(a), a, a, numbers.of_size(-2, 3) * numbers.direction<2>());
-    check(slant::ellipse<>(a, b), a, b, Vector2d(numbers.of_size(-2, 3), numbers.of_size(-2, 3)));
   }
 }
 
@@ -220,49 +201,46 @@ TEST_CASE("NaN stays NaN") {
   CHECK(cone(1.0).project(Vector3d(inf, 1, 0)).hasNaN());
 }
 
-template <class Make>
-std::string refused(Make const& make) {
-  return oracle::complaint<slant::bad_input>(make);
-}
-
 TEST_CASE("bad parameters are named") {
   auto const half_line = [](double l) {
-    return refused([=] { return slant::half_line<>().with(l); });
+    return test::complaint([=] { (void)slant::half_line<>().with(l); });
   };
   CHECK(half_line(quiet_nan) == "l: got nan, expected a number less than infinity");
   CHECK(half_line(inf) == "l: got inf, expected a number less than infinity");
   auto const interval = [](double l, double u) {
-    return refused([=] { return slant::interval<>().with(l, u); });
+    return test::complaint([=] { (void)slant::interval<>().with(l, u); });
   };
   CHECK(interval(2.0, 1.0) == "l: got 2, expected a number <= u = 1");
   CHECK(interval(quiet_nan, 1.0) == "l: got nan, expected a number less than infinity");
   CHECK(interval(inf, inf) == "l: got inf, expected a number less than infinity");
   CHECK(interval(0.0, quiet_nan) == "u: got nan, expected a number greater than -infinity");
   CHECK(interval(-inf, -inf) == "u: got -inf, expected a number greater than -infinity");
-  CHECK(interval(-inf, inf).empty());
-  auto const disc = [](double g) { return refused([=] { return slant::disc<>().with(g); }); };
+  CHECK(interval(-inf, inf) == "nothing thrown");
+  auto const disc = [](double g) {
+    return test::complaint([=] { (void)slant::disc<>().with(g); });
+  };
   CHECK(disc(-1) == "radius: got -1, expected a number >= 0");
   CHECK(disc(quiet_nan) == "radius: got nan, expected a number >= 0");
-  CHECK(disc(inf).empty());
+  CHECK(disc(inf) == "nothing thrown");
   auto const ellipse = [](double a, double b) {
-    return refused([=] { return slant::ellipse<>().with(a, b); });
+    return test::complaint([=] { (void)slant::ellipse<>().with(a, b); });
   };
   CHECK(ellipse(-1, 2) == "a: got -1, expected a number >= 0");
   CHECK(ellipse(1, -2) == "b: got -2, expected a number >= 0");
   CHECK(ellipse(quiet_nan, 2) == "a: got nan, expected a number >= 0");
   CHECK(ellipse(1, quiet_nan) == "b: got nan, expected a number >= 0");
-  CHECK(ellipse(0, inf).empty());
-  auto const of_cone = [](double μ) { return refused([=] { return cone().with(μ); }); };
+  CHECK(ellipse(0, inf) == "nothing thrown");
+  auto const of_cone = [](double μ) { return test::complaint([=] { (void)cone().with(μ); }); };
   CHECK(of_cone(-1) == "mu: got -1, expected a finite number >= 0");
   CHECK(of_cone(inf) == "mu: got inf, expected a finite number >= 0");
   CHECK(of_cone(quiet_nan) == "mu: got nan, expected a finite number >= 0");
-  CHECK(of_cone(0).empty());
+  CHECK(of_cone(0) == "nothing thrown");
   auto const point = [](double a, double b) {
-    return refused([=] { return slant::point<2>(Vector2d(a, b)); });
+    return test::complaint([=] { (void)slant::point<2>(Vector2d(a, b)); });
   };
   CHECK(point(1.0, quiet_nan) == "p(1): got nan, expected a finite number");
   CHECK(point(-inf, 0.0) == "p(0): got -inf, expected a finite number");
-  CHECK(point(1.0, 2.0).empty());
+  CHECK(point(1.0, 2.0) == "nothing thrown");
 }
 
 template <class C, class D>

@@ -10,9 +10,7 @@
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
 
-#include <cmath>
 #include <limits>
-#include <vector>
 
 namespace second_order_cone_test {
 
@@ -44,25 +42,6 @@ TEST_CASE_TEMPLATE("cone: known answers", S, float, double, long double, float_5
   CHECK(set.step_to_boundary(vec(S(1), S(0), S(0)), vec(S(-2), S(0), S(0))) == S(0.5));
   CHECK(set.step_to_boundary(vec(S(1), S(0), S(0)), vec(S(1), S(0), S(2))) ==
         std::numeric_limits<S>::infinity());
-}
-
-TEST_CASE("cone: variational inequality, and the residual is in the polar cone [Moreau]") {
-  oracle::number_source<double> source(8);
-  for (int i = 0; i < 40; ++i) {
-    double const μ = source.positive_of_size(-2, 2);
-    cone const set(μ);
-    vec3 const x = source.of_size(-3, 3) * source.direction<3>();
-    std::vector<vec3> points{vec3(0, 0, 0), vec3(1, 0, 0)};
-    for (double θ = 0; θ < 6.3; θ += 0.5) {
-      for (double n : {1e-3, 1.0, 1e3}) {
-        points.push_back(set.project(vec3(n, μ * n * std::cos(θ), μ * n * std::sin(θ))));
-      }
-    }
-    oracle::check_variational_inequality(set, x, points);
-    vec3 const p = set.project(x), r = x - p;
-    CHECK(std::abs(p.dot(r)) <= 8 * ε * x.norm() * p.norm());
-    CHECK(r(0) + μ * r.tail<2>().norm() <= 8 * ε * (1 + μ) * x.norm());
-  }
 }
 
 TEST_CASE("cone: state and membership") {
@@ -152,11 +131,7 @@ TEST_CASE("cone: steps along generators, through the apex and from outside by ro
   }
 }
 
-TEST_CASE("cone: inequality and its derivatives") {
-  using wide = Eigen::Matrix<float_50, 3, 1>;
-  oracle::check_inequality_derivatives(slant::second_order_cone<3, float_50>(float_50(0.75)),
-                                       wide(float_50(2), float_50(-0.25), float_50(3)),
-                                       float_50(1e-10));
+TEST_CASE("cone: next to the mantle the digits of the inequality are right") {
   vec3 const x(1.25, 0.6 * (1 + 3 * ε), 0.8);
   float_50 const n = float_50(x(0)) * float_50(0.8);
   float_50 const exact = float_50(x(1)) * float_50(x(1)) + float_50(x(2)) * float_50(x(2)) - n * n;
@@ -187,10 +162,7 @@ TEST_CASE("plane cone: the set of second_order_cone<2>, its slant at the kinks")
   CHECK(set.with(0.5).mu() == 0.5);
 }
 
-TEST_CASE("plane cone: linear inequalities and their derivatives") {
-  using wide = Eigen::Matrix<float_50, 2, 1>;
-  oracle::check_inequality_derivatives(slant::plane_cone<float_50>(float_50(0.75)),
-                                       wide(float_50(2), float_50(-0.25)), float_50(1e-10));
+TEST_CASE("plane cone: linear inequalities") {
   CHECK(plane(0.5).inequality(Vector2d(2, 3)) == Vector2d(2, -4));
   double const almost = 0.1 * 3;  // 0.30000000000000004
   CHECK(plane(0.1).inequality(Vector2d(3, almost))(0) ==

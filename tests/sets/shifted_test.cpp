@@ -4,7 +4,6 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/shifted.hpp>
-#include <slant/testing/archetypes.hpp>
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"
@@ -87,19 +86,6 @@ TEST_CASE("shifted: a product by a vector, block by block, without allocation") 
   CHECK(step == product.step_to_boundary(vec<>(y - c), d));
   CHECK(support == doctest::Approx(product.support(vec<>(-d.cwiseAbs())) - c.dot(d.cwiseAbs())));
   CHECK(!set.contains(vec<>(c.array() - 1)));
-  vec<> z = x;
-  set.project(z, z);
-  CHECK(z == y);
-  set.visit([&](auto const& block, auto const& p) {
-    CHECK((block.project(p.value(x)) - p.value(y)).norm() == 0.0);
-  });
-  auto operator_g = set.slant(y);
-  set.slant(x, operator_g);
-  vec<> got(10);
-  vec<> expected(10);
-  operator_g.apply(d, got);
-  product.slant(vec<>(x - c)).apply(d, expected);
-  CHECK(got == expected);
   auto const face = slant::face_of(set, y);
   auto const centred = slant::face_of(product, vec<>(slant::project(product, vec<>(x - c))));
   CHECK(face == centred);
@@ -126,17 +112,6 @@ TEST_CASE("shifted: powers of shifted blocks keep the centre") {
   auto const set = slant::power(shifted(slant::ball<2>{}, Vector2d(5, 5)), g);
   vec<> const x = Eigen::Vector4d(5, 9, 5, 9);
   CHECK(slant::project(set, x) == Eigen::Vector4d(5, 6, 5, 7));
-}
-
-TEST_CASE("shifted: vectors that are no Eigen vectors") {
-  auto const product = slant::half_lines(2);
-  slant::testing::archetype::vector const c(vec<>(Vector2d(1, 2)));
-  auto const set = shifted(product, c);
-  slant::testing::archetype::vector x(vec<>(Vector2d(0, 0)));
-  slant::project(set, x, x);
-  CHECK(x.local() == Vector2d(1, 2));
-  CHECK(set.contains(x));
-  static_assert(slant::separable_set<decltype(set), slant::testing::archetype::vector>);
 }
 
 TEST_CASE("shifted: bad centres are named") {

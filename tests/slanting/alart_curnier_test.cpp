@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
-#include "oracle/hard_points.hpp"
-#include "oracle/set_checks.hpp"
+#include "support/message.hpp"
 
 #include <slant/slanting/alart_curnier.hpp>
 #include <slant/testing/slanting_laws.hpp>
@@ -109,14 +108,14 @@ TEST_CASE("Alart–Curnier: bad input is named") {
   MatrixXd const W = MatrixXd::Identity(3, 3);
   VectorXd const q = VectorXd::Zero(3);
   auto const made = [&](double μ, double n, double t) {
-    return oracle::complaint<slant::bad_input>([&] {
-      return slant::alart_curnier<3>(W, q, VectorXd{{μ}}, VectorXd{{n, 1.0, t}});
+    return test::complaint([&] {
+      (void)slant::alart_curnier<3>(W, q, VectorXd{{μ}}, VectorXd{{n, 1.0, t}});
     });
   };
-  CHECK(made(0.5, 1, 1).empty());
+  CHECK(made(0.5, 1, 1) == "nothing thrown");
   CHECK(made(-1, 1, 1) == "mu[0]: got -1, expected a finite number >= 0");
   CHECK(made(0.5, 1, 2) == "rho[2]: got 2, expected 1 as for the other tangent of its contact");
-  CHECK_FALSE(made(0.5, 0, 1).empty());
+  CHECK(made(0.5, 0, 1) != "nothing thrown");
 }
 
 }  // namespace alart_curnier_test

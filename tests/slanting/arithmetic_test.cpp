@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <sstream>
-#include <type_traits>
 
 namespace arithmetic_test {
 

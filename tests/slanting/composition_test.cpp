@@ -12,7 +12,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
-#include <cmath>
 
 namespace composition_test {
 
@@ -82,20 +81,6 @@ TEST_CASE("parts of which nothing is known but the concept") {
   CHECK(slant::evaluate(g, archetype::vector(y)).local() == VectorXd{{2.25, 1.5}});
   slant::testing::check_slanting_laws(g, archetype::vector(y),
                                       archetype::vector(VectorXd::Zero(2)));
-}
-
-TEST_CASE("float and long double") {
-  auto const squares = slant::smooth(
-      2, 2, [](auto const& y, auto& f) { f = y.cwiseAbs2(); },
-      [](auto const& y) {
-        return y.asDiagonal() *
-               Eigen::Matrix<typename std::remove_cvref_t<decltype(y)>::Scalar, 2, 2>::Identity() *
-               2;
-      });
-  auto const f = slant::compose(squares, squares);
-  CHECK(slant::evaluate(f, Eigen::Vector2f(1, 3)) == Eigen::Vector2f(1, 81));
-  using vector = Eigen::Matrix<long double, 2, 1>;
-  CHECK(slant::evaluate(f, vector(1, 3)) == vector(1, 81));
 }
 
 TEST_CASE("bad input") {

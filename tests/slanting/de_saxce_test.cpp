@@ -5,6 +5,7 @@
 #include "oracle/naive_projections.hpp"
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"
+#include "support/message.hpp"
 
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
@@ -25,7 +26,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using oracle::float_50;
 using slanting_support::dense_slant;
-using slanting_support::random_matrix;
 using slanting_support::random_vector;
 
 constexpr double ε = std::numeric_limits<double>::epsilon();
@@ -146,14 +146,12 @@ TEST_CASE("de Saxcé: orthotropic friction") {
 
 TEST_CASE("de Saxcé: bad input is named") {
   auto const made = [](double μ) {
-    return oracle::complaint<slant::bad_input>([=] {
-      return slant::de_saxce<3>(VectorXd{{1.0, μ}});
-    });
+    return test::complaint([=] { (void)slant::de_saxce<3>(VectorXd{{1.0, μ}}); });
   };
   CHECK(made(-1) == "mu[1]: got -1, expected a finite number >= 0");
   CHECK(made(std::numeric_limits<double>::infinity()) ==
         "mu[1]: got inf, expected a finite number >= 0");
-  CHECK(made(0).empty());
+  CHECK(made(0) == "nothing thrown");
 }
 
 }  // namespace de_saxce_test

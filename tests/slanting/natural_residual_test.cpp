@@ -11,13 +11,10 @@
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 namespace natural_residual_test {
@@ -89,69 +86,13 @@ TEST_CASE("it is the composition that stands on paper") {
   CHECK(slant::evaluate(f, x) == slant::evaluate(formula, x));
 }
 
-TEST_CASE("Newton's method solves the quadratic program to the last digits") {
-  MatrixXd const m = slanting_support::random_spd(6, 1);
-  VectorXd const b = 20 * slanting_support::random_vector(6, 2);
-  auto const a = definite(m);
-  auto const set = contact_set();
-  auto const f = slant::natural_residual(a, b, set, 6 / m.trace());
-  VectorXd x = VectorXd::Zero(6);
-  int steps = 0;
-  while (slant::evaluate(f, x).norm() > 1e-14 * x.norm() && steps < 30) {
-    x -= slanting_support::solve(dense_slant(f, x), slant::evaluate(f, x));
-    ++steps;
-  }
-  CHECK(steps <= 10);
-  CHECK(set.contains(x));
-  VectorXd const r = m * x - b;
-  for (int i = 0; i < 2; ++i) {
-    CHECK(x[i] >= 0);
-    CHECK(r[i] >= -1e-12);
-    CHECK(std::abs(x[i] * r[i]) <= 1e-12);
-  }
-  for (int k = 0; k < 2; ++k) {  // r = −μ x with μ >= 0 on the circle, 0 inside
-    double const radius = k == 0 ? 1 : 5;
-    Eigen::Vector2d const part = x.segment<2>(2 + 2 * k);
-    Eigen::Vector2d const force = r.segment<2>(2 + 2 * k);
-    CHECK(std::abs(part[0] * force[1] - part[1] * force[0]) <= 1e-12 * radius);
-    CHECK(part.dot(force) <= 1e-12);
-    CHECK(std::abs((radius - part.norm()) * force.norm()) <= 1e-12);
-  }
-}
-
-TEST_CASE("one product by A for the value, none for the slant after it, no allocation") {
+TEST_CASE("one product by A for the value, none for the slant after it, the first one included") {
   MatrixXd const m = slanting_support::random_spd(6, 1);
   VectorXd const b = slanting_support::random_vector(6, 2);
   auto const a = slant::counted(definite(m));
   auto const f = slant::natural_residual(a, b, contact_set(), 0.1);
   VectorXd const x = slanting_support::random_vector(6, 3);
-  VectorXd v(6);
-  VectorXd gx(6);
-  auto w = slant::workspace(f, x);
-  auto g = f.slant(VectorXd::Zero(6).eval());
-  auto gw = slant::workspace(g, x);
-  a.reset_counts();
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(f, x, v, w);
-  auto const for_value = a.counts().applications;
-  slant::update_slant_after_value(f, x, g, w);
-  auto const for_both = a.counts().applications;
-  slant::apply(g, v, gx, gw);
-  auto const for_product = a.counts().applications - for_both;
-  auto const allocations = guard.count();
-  CHECK(for_value == 1);
-  CHECK(for_both == 1);
-  CHECK(for_product == 1);
-  CHECK(allocations == 0);
-  CHECK(dense(g, x) == dense_slant(f, x));
-}
-
-TEST_CASE("the first slant after a value costs no product either") {
-  MatrixXd const m = slanting_support::random_spd(6, 1);
-  VectorXd const b = slanting_support::random_vector(6, 2);
-  auto const a = slant::counted(definite(m));
-  auto const f = slant::natural_residual(a, b, contact_set(), 0.1);
-  VectorXd const x = slanting_support::random_vector(6, 3);
+  slanting_support::check_products(f, a, x);
   VectorXd v(6);
   auto w = slant::workspace(f, x);
   slant::evaluate(f, x, v, w);

@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <type_traits>
 
 namespace scaled_test {
 

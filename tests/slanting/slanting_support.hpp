@@ -55,6 +55,29 @@ void check_renewal(F const& f, Eigen::VectorXd const& y) {
   CHECK(dense(g, y) == dense_slant(f, y));
 }
 
+/// Of A, a value costs one application, the slant after it none, and each product by the slant one;
+/// nothing allocates.
+template <class F, class A>
+void check_products(F const& f, A const& a, Eigen::VectorXd const& y) {
+  Eigen::VectorXd v(f.rows()), x(f.rows());
+  auto w = slant::workspace(f, y);
+  auto g = f.slant(Eigen::VectorXd::Zero(f.cols()).eval());
+  auto gw = slant::workspace(g, y);
+  a.reset_counts();
+  slant::testing::allocation_guard const guard;
+  slant::evaluate(f, y, v, w);
+  auto const for_value = a.applications();
+  slant::update_slant_after_value(f, y, g, w);
+  auto const for_both = a.applications();
+  slant::apply(g, y, x, gw);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(for_value == 1);
+  CHECK(for_both == 1);
+  CHECK(a.applications() == 2);
+  CHECK(dense(g, y) == dense_slant(f, y));
+}
+
 /// n numbers in [−1, 1].
 [[nodiscard]] inline Eigen::VectorXd random_vector(slant::index n, unsigned seed) {
   std::mt19937 engine(seed);

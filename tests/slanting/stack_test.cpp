@@ -9,8 +9,6 @@
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -56,22 +54,8 @@ TEST_CASE("a slant after a value evaluates nothing again; nothing allocates") {
   auto const a = slant::counted(m);
   auto const inner = slant::positive_part(slant::affine(a, random_vector(4, 2)));
   auto const f = slant::stack(slant::positive_part(4), slant::positive_part(4) * inner);
-  VectorXd const y = random_vector(4, 3);
-  VectorXd v(8);
-  auto w = slant::workspace(f, y);
-  auto g = f.slant(VectorXd::Zero(4).eval());
-  auto gw = slant::workspace(g, y);
-  a.reset_counts();
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(f, y, v, w);
-  slant::update_slant_after_value(f, y, g, w);
-  auto const applications = a.counts().applications;
-  slant::update_slant(f, y, g, w);
-  slant::apply(g, y, v, gw);
-  auto const allocations = guard.count();
-  CHECK(applications == 1);
-  CHECK(allocations == 0);
-  CHECK(dense(g, y) == dense_slant(f, y));
+  slanting_support::check_products(f, a, random_vector(4, 3));
+  slanting_support::check_renewal(f, random_vector(4, 3));
 }
 
 TEST_CASE("archetypes") {

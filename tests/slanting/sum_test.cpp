@@ -8,13 +8,10 @@
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
 #include <type_traits>
-#include <utility>
 
 namespace sum_test {
 
@@ -59,18 +56,8 @@ TEST_CASE("parts of which nothing is known but the concept") {
 }
 
 TEST_CASE("value and renewal allocate nothing") {
-  auto const f = slant::add(slant::positive_part(50), slant::positive_part(50));
-  VectorXd const y = slanting_support::random_vector(50, 1);
-  auto w = slant::workspace(f, y);
-  auto g = f.slant(VectorXd::Zero(50).eval());
-  VectorXd v(50);
-  slant::testing::allocation_guard const guard;
-  slant::evaluate(f, y, v, w);
-  slant::update_slant(f, y, g, w);
-  slant::update_slant_after_value(f, y, g, w);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(slanting_support::dense(g, y) == dense_slant(f, y));
+  slanting_support::check_renewal(slant::add(slant::positive_part(50), slant::positive_part(50)),
+                                  slanting_support::random_vector(50, 1));
 }
 
 TEST_CASE("bad input") {

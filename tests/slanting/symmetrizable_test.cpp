@@ -17,7 +17,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
-#include <type_traits>
 
 namespace symmetrizable_test {
 

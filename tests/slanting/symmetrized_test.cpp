@@ -56,35 +56,6 @@ TEST_CASE("H is symmetric, semidefinite and definite on the range of G") {
   CHECK((hd * radial).norm() == 0);
 }
 
-TEST_CASE("its solution by conjugate gradients is the Newton step") {
-  scene const s;
-  auto const a = slant::matrix<slant::self_adjoint, slant::positive_definite>(s.m);
-  auto const f = slant::natural_residual(a, s.b, s.set(), s.ρ);
-  auto const newton = f.slant(s.x);
-  VectorXd const residual = slant::evaluate(f, s.x);
-  auto const h = slant::symmetrized(newton);
-  auto w = slant::workspace(h, s.x);
-  VectorXd rhs(8);
-  h.right_hand_side(residual, rhs, w);
-  // Plain conjugate gradients, although H is singular: the right-hand side is in its range.
-  VectorXd solution = VectorXd::Zero(8);
-  VectorXd r = rhs;
-  VectorXd p = r;
-  VectorXd hp(8);
-  for (int k = 0; k < 16 && r.norm() > 1e-15 * rhs.norm(); ++k) {
-    slant::apply(h, p, hp, w);
-    double const rr = r.squaredNorm();
-    double const α = rr / p.dot(hp);
-    solution += α * p;
-    r -= α * hp;
-    p = r + r.squaredNorm() / rr * p;
-  }
-  VectorXd dx(8);
-  h.step(residual, solution, dx, w);
-  VectorXd const expected = slanting_support::solve(dense(newton, s.x), VectorXd(-residual));
-  CHECK((dx - expected).norm() <= 1e-13 * expected.norm());
-}
-
 TEST_CASE("one product by A each, no allocation, follows renewals of the operator") {
   scene const s;
   auto const a = slant::counted(slant::matrix<slant::self_adjoint, slant::positive_definite>(s.m));

@@ -8,9 +8,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-#include <utility>
-
 namespace projections_test {
 
 using oracle::float_50;

@@ -2,8 +2,12 @@
 //
 // Counts heap allocations, so that a test can demand that a piece of code makes none.
 //
+//   CHECK(test::allocations_of([&] { method.step(state); }) == 0);
+//
+// or, where the code makes what is looked at later,
+//
 //   slant::testing::allocation_guard guard;
-//   for (int k = 0; k < 100; ++k) method.step(state);
+//   auto const report = solver.solve(F, f, dy);
 //   auto const allocations = guard.count();  // before CHECK, which may itself allocate
 //   CHECK(allocations == 0);
 //
@@ -38,3 +42,14 @@ class allocation_guard {
 };
 
 }  // namespace slant::testing
+
+namespace test {
+
+/// Allocations that a call makes.
+[[nodiscard]] std::size_t allocations_of(auto&& call) {
+  slant::testing::allocation_guard const guard;
+  call();
+  return guard.count();
+}
+
+}  // namespace test

@@ -6,9 +6,6 @@
 
 #include <doctest/doctest.h>
 
-#include <map>
-#include <string>
-
 namespace stochastic_methods_test {
 
 using S = slant::testing::stochastic<double>;
@@ -77,18 +74,6 @@ TEST_CASE("a factorisation: the true digits, within one") {
       CHECK(said <= is + 1);
       CHECK(said >= is - 1);
     }
-  }
-}
-
-TEST_CASE("a seed repeats a run to the last bit") {
-  std::map<std::string, double> first;
-  for (int run = 0; run < 2; ++run) {
-    slant::testing::seed_rounding(7);
-    stochastic_scene::run_all(stochastic_scene::scene<S>(100), 1e-8, [&](auto const& o) {
-      double const sum = o.x.sum().sample(1);
-      if (run == 0) first[o.method] = sum;
-      CHECK(first[o.method] == sum);
-    });
   }
 }
 

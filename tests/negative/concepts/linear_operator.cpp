@@ -5,14 +5,25 @@
 // case MISSPELT_APPLY, clang: 'has_plain_apply['<]
 // case WRITING_APPLY: has_plain_apply
 // case WRITING_APPLY, clang: 'has_plain_apply['<]
+// case ROOM=room WITHOUT_COPY: has_copyable_workspace
 // max-lines-gcc: 25
 // max-lines-clang: 30
 //
 // An operator minus its sizes, with a misspelt apply, or not const while it is applied: two threads
-// could not share it.
+// could not share it; minus the copy of its workspace: no state of a method could be saved.
 #include <slant/concepts/linear_operator.hpp>
 
 #include <Eigen/Core>
+
+struct room {
+  room() = default;
+#ifdef WITHOUT_COPY
+  room(room const&) = delete;
+#else
+  room(room const&) = default;
+#endif
+  room& operator=(room const&) = default;
+};
 
 struct twice {
 #ifndef WITHOUT_ROWS
@@ -21,7 +32,10 @@ struct twice {
 #ifndef WITHOUT_COLS
   Eigen::Index cols() const { return 2; }
 #endif
-#if defined(MISSPELT_APPLY)
+#if defined(ROOM)
+  ROOM workspace(auto const&) const { return {}; }
+  void apply(auto const& x, auto& y, ROOM&) const { y = 2 * x; }
+#elif defined(MISSPELT_APPLY)
   void aply(auto const& x, auto& y) const { y = 2 * x; }
 #elif defined(WRITING_APPLY)
   void apply(auto const& x, auto& y) {

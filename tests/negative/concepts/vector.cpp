@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // case WITHOUT_LOCAL: 'has_local['<]
 // case WITHOUT_LIKE: 'has_like['<]
+// case METHOD=cg WITHOUT_LIKE: b must be a slant::vector.*'has_like['<]
+// case METHOD=cg WITHOUT_LIKE, max-lines-gcc: 20
 // case WITHOUT_INNER_PRODUCT: 'has_inner_product['<]
 // case INNER_PRODUCT_OF_TEXT: has_inner_product.*does not satisfy return-type-requirement
 // case INNER_PRODUCT_OF_TEXT, clang: 'has_inner_product['<].*'std::convertible_to<std::basic_string
@@ -8,8 +10,9 @@
 // max-lines-clang: 30
 //
 // A vector of its own kind minus the part of it on which Eigen works, the way to make another one, or
-// its inner product; or one whose inner product is no number.
-#include <slant/concepts/vector.hpp>
+// its inner product; or one whose inner product is no number. Of the operator of conjugate gradients
+// nothing is said then.
+#include <slant/krylov/cg.hpp>
 
 #include <Eigen/Core>
 
@@ -31,4 +34,17 @@ struct distributed {
 #endif
 };
 
+#ifdef METHOD
+struct twice {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  Eigen::Index rows() const { return 2; }
+  Eigen::Index cols() const { return 2; }
+  void apply(distributed const& x, distributed& y) const { y.entries = 2 * x.entries; }
+};
+
+auto method(distributed const& b) {
+  return slant::METHOD{twice{}, b};
+}
+#else
 static_assert(slant::vector<distributed>);
+#endif

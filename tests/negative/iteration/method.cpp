@@ -3,10 +3,17 @@
 // case USE=iterated WITHOUT_START: 'has_start['<]
 // case USE=iterated WITHOUT_START, max-lines-gcc: 25
 // case USE=observed WITHOUT_RESIDUAL: solve: an observer must take states of this method.*observer<.*progress_bar
+// case USE=asserted WITHOUT_START: 'has_start['<]
+// case USE=asserted WITHOUT_START, max-lines-gcc: 25
+// case USE=asserted WITHOUT_STEP: 'has_step['<]
+// case USE=asserted WITHOUT_STEP, max-lines-gcc: 25
+// case USE=asserted WITHOUT_STATUS: 'has_status['<]
+// case USE=asserted WITHOUT_STATUS, max-lines-gcc: 25
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //
-// A method minus its step or its start, or, for a progress bar, minus a measure of accuracy in its state.
+// A method minus its step or its start, a state minus what says how things stand, or, for a progress
+// bar, minus a measure of accuracy.
 #include <slant/iteration/iterates.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/solve.hpp>
@@ -16,7 +23,9 @@
 struct halving_state {
   Eigen::VectorXd x;
   slant::index iteration = 0;
+#ifndef WITHOUT_STATUS
   slant::status status = slant::status::running;
+#endif
 #ifndef WITHOUT_RESIDUAL
   double residual_norm = 1, residual_scale = 1;
 #endif
@@ -34,6 +43,10 @@ struct halving {
 #endif
 };
 
+template <class Method>
+void asserted(Method const&, Eigen::VectorXd const&) {
+  static_assert(slant::iterative_method<Method, Eigen::VectorXd>);
+}
 auto solved(auto const& method, Eigen::VectorXd const& x0) {
   return slant::solve(method, x0, slant::at_most(10));
 }

@@ -14,7 +14,9 @@
 //
 // The operator of a quadratic program minus its laws, by which nobody has promised that
 // q(x) = ½ xᵀA x − bᵀx is convex, minus its columns, or with a misspelt apply; the operator alone
-// instead of the program; a problem of another kind, which has vectors and a scalar as well.
+// instead of the program; a problem of another kind, which has vectors and a scalar as well. An
+// observer may add nothing to the complaint.
+#include <slant/iteration/observers.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
@@ -47,6 +49,7 @@ auto solution(Eigen::VectorXd const& b, slant::constraint_rows<double> const& ro
   auto const set = slant::half_lines(rows.count());
   auto const qp = slant::separable_qp{twice{}, b, set};
 #endif
+  slant::history accuracy([](auto const& s) { return s.reduced_gradient_norm; });
   return slant::solve(slant::METHOD{qp}, b,
-                      slant::reduced_gradient_below(1e-8) || slant::at_most(500));
+                      slant::reduced_gradient_below(1e-8) || slant::at_most(500), accuracy);
 }
