@@ -9,8 +9,10 @@ using matrix = Eigen::SparseMatrix<double>;
 using vector = Eigen::VectorXd;
 
 template certified_coulomb_result<vector> certified_coulomb<friction_line, double>(
-    friction_line, matrix const&, data<double>, vector const&, certified_coulomb_options const&);
+    friction_line, matrix const&, data<double>, vector const&,
+    certified_coulomb_options<double> const&);
 template certified_coulomb_result<vector> certified_coulomb<friction_disc, double>(
-    friction_disc, matrix const&, data<double>, vector const&, certified_coulomb_options const&);
+    friction_disc, matrix const&, data<double>, vector const&,
+    certified_coulomb_options<double> const&);
 
 }  // namespace slant::contact

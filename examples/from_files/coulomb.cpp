@@ -32,7 +32,8 @@ template <class Friction>
 [[nodiscard]] solution solve_with(Friction friction, coulomb_problem const& p, coulomb_kind kind,
                                   coulomb_settings const& s) {
   auto const begin = clock::now();
-  contact::certified_coulomb_options o;
+  contact::certified_coulomb_options<double> o;
+  o.layout = s.layout;
   o.tolerance = s.tolerance;
   o.method = method_of(kind);
   if (s.max_iterations) o.newton_steps = o.outer_steps = *s.max_iterations;

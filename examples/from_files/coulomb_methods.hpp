@@ -15,6 +15,7 @@ namespace from_files {
 struct coulomb_settings {
   double tolerance = 1e-8;  ///< relative, of the norm that the method judges itself by
   std::optional<slant::index> max_iterations{};  ///< >= 1, of each of the methods that have a turn
+  slant::contact::node_layout<double> layout{};  ///< where the unknowns are; may be unknown
 };
 
 /// `automatic` is the default of the library, `newton` and `radii` are its two parts.

@@ -105,7 +105,8 @@ int solve_coulomb(arguments const& a) {
   from_files::check_data(a, problem.body, layout);
   try {
     auto const solution = from_files::solve_coulomb(
-        problem, method.kind, {.tolerance = a.tolerance, .max_iterations = a.max_iterations});
+        problem, method.kind,
+        {.tolerance = a.tolerance, .max_iterations = a.max_iterations, .layout = layout});
     auto const warnings = from_files::warnings_about(a, problem.body, solution, layout);
     return deliver_solution(a, problem.body, std::string(method.name), solution, warnings, files);
   } catch (slant::bad_input const& refusal) {
@@ -182,10 +183,11 @@ int main(int argc, char** argv) {
   app.add_flag("--strict", a.strict,
                "refuse a body about whose data there are warnings (\"warnings\" in the JSON "
                "object, and on standard error)");
-  app.add_option("--coordinates", a.coordinates,
-                 "file with the coordinates of the nodes of a body, D x p (Matrix Market), each "
-                 "with D consecutive\nunknowns: messages name directions, more can be checked, and large "
-                 "bodies are solved by multigrid")
+  app.add_option(
+         "--coordinates", a.coordinates,
+         "file with the coordinates of the nodes of a body, D x p (Matrix Market), each "
+         "with D consecutive\nunknowns: messages name directions, more can be checked, and large "
+         "bodies are solved by multigrid")
       ->check(examples::expects_name());
   app.add_flag("--list-methods", a.list_methods, "print the methods and end");
   return examples::run_program(app, argc, argv, [&] { return solve_folder(a); });

@@ -30,7 +30,7 @@ constexpr contact::coulomb_method methods[] = {
     contact::coulomb_method::radii, contact::coulomb_method::cones};
 
 auto solve(Eigen::SparseMatrix<double> const& K, contact::data<double> const& c, VectorXd const& F,
-           contact::certified_coulomb_options const& o = {}) {
+           contact::certified_coulomb_options<double> const& o = {}) {
   return contact::certified_coulomb(contact::friction_disc{}, K, c, F, o);
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("certified_coulomb: options and coefficients that do not fit are refus
   auto const c = test::contact_data(s);
   VectorXd const F = VectorXd::Constant(c.nodes(), 0.3);
   auto const message = [&](VectorXd const& coefficients,
-                           contact::certified_coulomb_options const& o = {}) -> std::string {
+                           contact::certified_coulomb_options<double> const& o = {}) -> std::string {
     return test::complaint([&] { static_cast<void>(solve(s.K, c, coefficients, o)); });
   };
   CHECK(message(-F) == "F[0]: got -0.3, expected a finite number >= 0");

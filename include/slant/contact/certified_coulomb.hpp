@@ -3,6 +3,8 @@
 // Contact with Coulomb friction from matrices to displacements, with a verdict that no method gives
 // itself:
 //
+//     choose      by the cost model of contact/route.hpp: without factors, where the layout is known
+//                 and the body is large                      contact/parts/iterated_coulomb; else
 //     factor      K                                                     factorizations/factorize
 //     scale       contacts so that each is about equally stiff: one power of two for the rows of N
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
@@ -27,6 +29,9 @@
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/coulomb/coulomb_newton.hpp>
+#include <slant/contact/node_layout.hpp>
+#include <slant/contact/parts/iterated_coulomb.hpp>
+#include <slant/contact/route.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
@@ -52,15 +57,24 @@ enum class coulomb_method {
 };
 
 /// Options of certified_coulomb.
+template <class S = double>
 struct certified_coulomb_options {
   double tolerance = 1e-8;  ///< of what the certificate finds, in [0, 1); 0: as far as possible
   coulomb_method method = coulomb_method::automatic;
   index newton_steps = 60;  ///< of Newton's method at most
   index outer_steps = 300;  ///< of successive approximations at most
   bool scale = true;        ///< whether rows of B may be scaled
+  /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored, unless
+  /// `route` says otherwise.
+  node_layout<S> layout{};
+  /// Factors of K, or multigrid and no factors, which the method has to be `automatic` for.
+  solution_route route = solution_route::automatic;
+  multigrid_options multigrid{};
+  route_costs costs = default_route_costs<S>();
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
+    multigrid.validate();
     slant::detail::checked_tolerance(tolerance);
     slant::detail::check_option("newton_steps", newton_steps, newton_steps >= 1, "at least 1");
     slant::detail::check_option("outer_steps", outer_steps, outer_steps >= 1, "at least 1");
@@ -74,13 +88,15 @@ struct certified_coulomb_result {
   V u{};                               ///< displacements
   coulomb_error<scalar_t<V>> error{};  ///< of (λ, u)
   slant::status status = status::running;
-  std::string reason{};         ///< the status as a sentence
-  std::string_view method{};    ///< "Newton", "successive approximations", or "cones"
+  std::string reason{};  ///< the status as a sentence
+  /// "Newton", "successive approximations", "cones", or "successive slip bounds" without factors.
+  std::string_view method{};
   index steps = 0;              ///< of that method
   slant::work work{};           ///< of all methods and the certificate
-  scalar_t<V> condition{0};     ///< estimate of the condition number of K
+  scalar_t<V> condition{0};     ///< estimate of the condition number of K; 0: K was not factored
   bool scaled = false;          ///< whether rows of B were scaled
-  std::string factorization{};  ///< what factored K
+  std::string factorization{};  ///< what factored K; or the levels of multigrid
+  route_choice choice{};        ///< which route was taken, and why
 
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
 };
@@ -334,6 +350,33 @@ template <class V>
   return all;
 }
 
+// --- without factors -----------------------------------------------------------------------------
+
+template <class Friction, class S>
+[[nodiscard]] auto iterated_certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K,
+                                              data<S> const& c,
+                                              Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
+                                              certified_coulomb_options<S> const& o)
+    -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
+  auto found = detail::iterated_coulomb(friction, K, c, F, o.layout, o.multigrid, S(o.tolerance),
+                                        o.outer_steps);
+  certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> result{std::move(found.λ)};
+  result.u = std::move(found.u);
+  result.error = found.error;
+  result.status = found.status;
+  result.reason = found.error.sentence();
+  if (result.converged()) {
+    result.reason += ", at most " + slant::detail::show(o.tolerance);
+  } else {
+    result.reason += "; asked was " + slant::detail::show(o.tolerance) + "; " + found.reason;
+  }
+  result.method = "successive slip bounds";
+  result.steps = found.bounds;
+  result.work = found.work;
+  result.factorization = std::move(found.levels);
+  return result;
+}
+
 }  // namespace detail
 
 /// Solves the problem at the top of this file; the slip bounds of the data have no meaning here. F
@@ -343,18 +386,37 @@ template <class V>
 template <class Friction, class S>
 [[nodiscard]] auto certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c,
                                      Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
-                                     certified_coulomb_options const& o = {})
+                                     certified_coulomb_options<S> const& o = {})
     -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
   o.validate();
   c.g = vector_type::Zero(c.nodes());
   detail::validated(friction, c, K.rows());
+  detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
+  std::optional<std::string> const why =
+      o.method == coulomb_method::automatic
+          ? detail::iteration_refusal(K, c, o.layout, o.route == solution_route::iterate)
+          : std::optional<std::string>("the method works on forces");
+  route_choice choice = choose_route(K, why, o.route, o.costs);
+  if (choice.route == solution_route::iterate) {
+    try {
+      auto found = detail::iterated_certified_coulomb(friction, K, c, F, o);
+      found.choice = choice;
+      if (found.converged() || o.route == solution_route::iterate) return found;
+      choice.reason += "; factored after all: " + found.reason;
+    } catch (bad_input const& refusal) {
+      if (o.route == solution_route::iterate) throw;
+      choice.reason += "; factored after all: " + std::string(refusal.what());
+    }
+    choice.route = solution_route::factor;
+  }
   auto const factor = factorize(K);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);
   coulomb_certificate certificate(given, factor, K, c, F, S(o.tolerance));
   certified_coulomb_result<vector_type> result{given.zero()};
+  result.choice = std::move(choice);
   result.factorization = std::string(factor.name());
 
   vector_type const factors =
@@ -419,10 +481,10 @@ template <class Friction, class S>
 #if SLANT_USES_COMPILED
 extern template certified_coulomb_result<Eigen::VectorXd> certified_coulomb<friction_line, double>(
     friction_line, Eigen::SparseMatrix<double> const&, data<double>, Eigen::VectorXd const&,
-    certified_coulomb_options const&);
+    certified_coulomb_options<double> const&);
 extern template certified_coulomb_result<Eigen::VectorXd> certified_coulomb<friction_disc, double>(
     friction_disc, Eigen::SparseMatrix<double> const&, data<double>, Eigen::VectorXd const&,
-    certified_coulomb_options const&);
+    certified_coulomb_options<double> const&);
 #endif
 
 }  // namespace slant::contact

@@ -54,6 +54,7 @@ class surface_function {
     S g{0};
     index q = 0;
     index stride = 1;
+    index number = 0;  ///< of the contact in the data
   };
 
   /// Contacts of vectors of n components with 0, 1 or 2 tangents each; no component of two of them.
@@ -65,6 +66,11 @@ class surface_function {
     return static_cast<index>(contacts_.size()) * (tangents_ > 0 ? 2 : 1);
   }
   [[nodiscard]] std::vector<contact> const& contacts() const { return contacts_; }
+  /// Slip bounds of all contacts: g_of(contact) is the new one.
+  template <class F>
+  void set_slip_bounds(F g_of) {
+    for (contact& c : contacts_) c.g = g_of(c);
+  }
 
   /// x = prox_{ρφ}(z); x may be z.
   template <class Z, class X>
@@ -325,6 +331,28 @@ class primal {
   [[nodiscard]] surface_function<S> const& surface() const& { return φ_; }
   surface_function<S> const& surface() const&& = delete;
   [[nodiscard]] vector_type zero() const { return vector_type::Zero(f_.size()); }
+  /// The slip bounds become g, one for each contact: φ changes, and qp() with it.
+  void set_slip_bounds(vector_type const& g) {
+    using std::abs;
+    index const per =
+        local_.normal.empty() ? 0 : index(local_.tangents.size() / local_.normal.size());
+    φ_.set_slip_bounds([&](auto const& c) {
+      S const& bound = g[c.number];
+      if (per == 0 || !slant::detail::is_finite(bound)) return bound;
+      return S(bound * abs(local_.tangents[static_cast<std::size_t>(c.number * per)].size));
+    });
+  }
+  /// λ_ν of all contacts at v with the gradient HKHᵀv − Hf, for a step length ρ: what the projection
+  /// of v − ρ r onto the gaps takes away, over ρ.
+  void pressures(vector_type const& v, vector_type const& r, S const& ρ, vector_type& λ) const {
+    λ.setZero();
+    for (auto const& c : φ_.contacts()) {
+      auto const& row = local_.normal[static_cast<std::size_t>(c.number)];
+      S const z = v[c.p] - ρ * r[c.p];
+      S const force = (z - std::clamp<S>(z, c.gap.lower(), c.gap.upper())) / (ρ * row.size);
+      if (force > S(0)) λ[c.number] = force;
+    }
+  }
   /// Whether H is not the identity.
   [[nodiscard]] bool turns() const { return local_.H.rows() > 0; }
 
@@ -406,6 +434,7 @@ class primal {
     for (index i = 0; i < c.nodes(); ++i) {
       auto const& normal = local_.normal[static_cast<std::size_t>(i)];
       typename surface_function<S>::contact here{interval<S>(-infinity, infinity), 0};
+      here.number = i;
       bool acts = normal.component >= 0;
       if (acts) {
         here.p = normal.component;

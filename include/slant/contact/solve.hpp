@@ -304,7 +304,12 @@ template <class Friction, class S, class... Observers>
   detail::validated(friction, c, K.rows());
   route_choice choice;
   if constexpr (sizeof...(Observers) == 0) {
-    choice = choose_route(K, detail::iteration_refusal(K, c, o), o.route, o.costs);
+    bool const asked = o.route == solution_route::iterate;
+    std::optional<std::string> const why =
+        o.prove             ? std::optional<std::string>("the proof of a bound takes factors")
+        : !asked && o.start ? std::optional<std::string>("forces to start from are given")
+                            : detail::iteration_refusal(K, c, o.layout, asked);
+    choice = choose_route(K, why, o.route, o.costs);
     if (choice.route == solution_route::iterate) {
       try {
         auto found = detail::iterated_run(friction, K, c, o);

@@ -213,6 +213,13 @@ class envelope_newton {
     s.reduce(qp_.get());
     begin(s, false);
   }
+  /// Goes on from s.x after φ has changed, and only φ. No product; no allocation.
+  void adopt_function(state_type& s) const {
+    s.status = status::running;
+    s.progress = {};
+    s.reduce(qp_.get());
+    begin(s, false);
+  }
   /// As start(x0), in a state that start has made, after b or φ of the problem have changed. x0 must
   /// not be s.x. One product; no allocation.
   void resume(state_type& s, vector_type const& x0) const {

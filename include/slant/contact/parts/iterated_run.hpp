@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -107,54 +108,115 @@ template <class S>
   return false;
 }
 
-/// Why this scene is not iterated, or nothing. Throws bad_input for sizes that do not fit.
+/// Why this scene is not iterated, or nothing. `asked`: somebody wants it, coordinates or not. Throws
+/// bad_input for sizes that do not fit.
 template <class S>
 [[nodiscard]] std::optional<std::string> iteration_refusal(Eigen::SparseMatrix<S> const& K,
                                                            data<S> const& c,
-                                                           solve_options<S> const& o) {
-  if (o.prove) return "the proof of a bound takes factors";
-  bool const asked = o.route == solution_route::iterate;
-  if (!asked && !o.layout.is_known()) return "no coordinates of nodes are given";
-  if (!asked && o.start) return "forces to start from are given";
+                                                           node_layout<S> const& layout,
+                                                           bool asked) {
+  if (!asked && !layout.is_known()) return "no coordinates of nodes are given";
   if (auto const why = primal_refusal(c)) return why;
-  if (o.layout.is_known()) {
+  if (layout.is_known()) {
     slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
-    o.layout.validate(K.rows());
-    if (nearly_floats<S>(K, rigid_motions(o.layout), S(1e-9))) {
+    layout.validate(K.rows());
+    if (nearly_floats<S>(K, rigid_motions(layout), S(1e-9))) {
       return "a body is held by contact or friction only, or hardly by anything else";
     }
   }
   return std::nullopt;
 }
 
-/// The run. Throws bad_input where K is found not to be definite or does not fit the nodes.
+/// The problem, its levels and Newton's method, begun on the coarser ones. Not movable: parts refer
+/// to others.
+template <class S>
+class primal_run {
+  using qp_type = decltype(std::declval<primal<S> const&>().qp());
+  using method_type = envelope_newton<qp_type const&, slant::multigrid<S> const&>;
+
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using state_type = typename method_type::state_type;
+
+  /// At most `most` steps. Throws bad_input where K is found not to be definite or does not fit the
+  /// nodes.
+  primal_run(Eigen::SparseMatrix<S> const& K, data<S> const& c, node_layout<S> const& layout,
+             multigrid_options const& o, index most)
+      : problem_(K, c),
+        motions_(layout.is_known() ? problem_.coordinates(rigid_motions(layout)) : matrix_type()),
+        M_(problem_.matrix(), motions_, o),
+        qp_(problem_.qp()),
+        most_(most),
+        state_(begin(c.tangents(), o)) {}
+  primal_run(primal_run const&) = delete;
+  primal_run& operator=(primal_run const&) = delete;
+
+  [[nodiscard]] primal<S> const& problem() const { return problem_; }
+  [[nodiscard]] slant::multigrid<S> const& levels() const { return M_; }
+  [[nodiscard]] qp_type const& qp() const { return qp_; }
+  [[nodiscard]] state_type const& state() const { return state_; }
+
+  /// ‖x‖_K, from x and r.
+  [[nodiscard]] S size() const {
+    using std::sqrt;
+    S const square = state_.unit * slant::inner_product(state_.x, state_.r) +
+                     slant::inner_product(state_.x, qp_.b());
+    return square > S(0) ? S(sqrt(square)) : S(0);
+  }
+  /// A step while one is left, unless the energy error is estimated to be at most `goal`: the run
+  /// is converged then.
+  void step(S const& goal) {
+    if (state_.iteration < most_) {
+      method(goal).step(state_);
+    } else if (state_.status == status::running) {
+      state_.status = status::iteration_limit;
+    }
+  }
+  void go_on() { state_.status = status::running; }
+  /// λ_ν of all contacts, as x and its gradient have it.
+  void pressures(vector_type& λ) const {
+    problem_.pressures(state_.x, state_.r, state_.step_length * state_.unit, λ);
+    λ *= state_.unit;
+  }
+  /// Goes on from x with other slip bounds.
+  void set_slip_bounds(vector_type const& g) {
+    problem_.set_slip_bounds(g);
+    method(S(0)).adopt_function(state_);
+  }
+
+ private:
+  [[nodiscard]] method_type method(S const& goal) const {
+    symmetric_newton_options<S> o;
+    // A step reports its estimate only where it has a goal.
+    o.energy_goal = std::max<S>(goal, std::numeric_limits<S>::min());
+    return method_type(qp_, M_, o);
+  }
+  [[nodiscard]] state_type begin(index tangents, multigrid_options const& o) const {
+    nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions_, o);
+    if (!coarse.found()) return method(S(0)).start(problem_.zero());
+    return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
+  }
+
+  primal<S> problem_;
+  matrix_type motions_;
+  slant::multigrid<S> M_;
+  qp_type qp_;
+  index most_;
+  state_type state_;
+};
+
+/// Contact with given slip bounds, or none.
 template <class Friction, class S>
 [[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
                                        data<S> const& c, solve_options<S> const& o) {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using slant::detail::show;
-  using std::sqrt;
   solution<S> result;
-  primal<S> const problem(K, c);
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  matrix_type const motions =
-      o.layout.is_known() ? problem.coordinates(rigid_motions(o.layout)) : matrix_type();
-  slant::multigrid<S> const M(problem.matrix(), motions, o.multigrid);
-  result.factorization = M.description();
-  auto const qp = problem.qp();
-  symmetric_newton_options<S> newton;
-  newton.energy_goal = std::numeric_limits<S>::min();  // asks for the estimate
-  nested_start<S> const coarse(qp.b(), problem.surface(), c.tangents(), M, motions, o.multigrid);
-  envelope_newton const first{qp, M, newton};
-  auto state = coarse.found() ? first.start_on_face([&](S const& ρ) { return coarse.at(ρ); })
-                              : first.start(problem.zero());
-  energy_certificate certificate(qp, M);
-  // ‖x‖_K from x and r.
-  auto const size = [&] {
-    S const square =
-        state.unit * slant::inner_product(state.x, state.r) + slant::inner_product(state.x, qp.b());
-    return square > S(0) ? S(sqrt(square)) : S(0);
-  };
+  primal_run<S> run(K, c, o.layout, o.multigrid, o.max_steps);
+  auto const& state = run.state();
+  result.factorization = run.levels().description();
+  energy_certificate certificate(run.qp(), run.levels());
   auto const tell = [&] {
     if (!o.progress) return;
     bool const is_measured = state.gradient_scale > S(0);
@@ -165,12 +227,10 @@ template <class Friction, class S>
   constexpr index rounds = 12;
   for (index round = 0;; ++round) {
     tell();
-    while (state.status == status::running && state.iteration < o.max_steps) {
-      newton.energy_goal = std::max<S>(share * size(), std::numeric_limits<S>::min());
-      envelope_newton{qp, M, newton}.step(state);
-      tell();
+    while (state.status == status::running) {
+      run.step(share * run.size());
+      if (state.status != status::iteration_limit) tell();
     }
-    bool const ends = state.status == status::converged || state.status == status::stalled;
     result.error = certificate(state.x);
     S const error = result.error.relative();
     bool const is_enough = error <= o.tolerance;
@@ -179,8 +239,6 @@ template <class Friction, class S>
     if (is_enough || !goes_on) {
       result.status = is_enough                           ? status::converged
                       : state.status == status::converged ? status::stalled
-                      : ends                              ? state.status
-                      : state.status == status::running   ? status::iteration_limit
                                                           : state.status;
       result.reason = result.error.sentence() +
                       (is_enough ? ", at most " + show(o.tolerance)
@@ -189,10 +247,10 @@ template <class Friction, class S>
     }
     best = error;
     share *= std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
-    state.status = status::running;
+    run.go_on();
   }
-  result.u = problem.displacement(state.x);
-  vector_type λ = problem.multipliers(state.x);
+  result.u = run.problem().displacement(state.x);
+  vector_type λ = run.problem().multipliers(state.x);
   slant::project(detail::feasible_set(law, c), λ, λ);
   result.multipliers = std::move(λ);
   result.iterations = state.iteration;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+//
+// Contact with Coulomb friction without factors of K: successive slip bounds [Haslinger, Dostál,
+// Kučera 2002], each of whose problems of Tresca's is solved by Newton's method for the displacements
+// (iterated_run.hpp) only as far as its bounds deserve:
+//
+//     start     without friction, to 5 %
+//     bounds    g ← F λ_ν(u), from the gradient that is at hand: no product
+//     steps     e₀ the energy error for the new bounds, estimated by the first step (one cycle);
+//               further steps until it is e₀/10
+//     certify   where e₀ is half of the tolerance: Coulomb's law contact by contact (coulomb_check),
+//               and the energy error for the last bounds (energy_certificate)
+//     go on     where that asks for more, with a goal that is smaller by as much
+//
+// The state is kept from problem to problem, so that bounds cost some two steps. Where they do not
+// contract the run ends: stalled after `patience` problems of which none was nearer than all before.
+#pragma once
+
+#include <slant/certificates/energy_certificate.hpp>
+#include <slant/contact/contact_data.hpp>
+#include <slant/contact/coulomb/coulomb_certificate.hpp>
+#include <slant/contact/friction_law.hpp>
+#include <slant/contact/node_layout.hpp>
+#include <slant/contact/parts/iterated_run.hpp>
+#include <slant/multilevel/multigrid.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace slant::contact::detail {
+
+/// What coulomb_check asks of a dual problem, from the data: contacts of the body as they lie.
+template <class S>
+class contact_rows {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  explicit contact_rows(data<S> const& c)
+      : f_(c.f), B_(stacked_constraints(c)), b_(vector_type::Zero(B_.rows())) {
+    b_.head(c.nodes()) = c.d;
+  }
+  [[nodiscard]] vector_type const& b() const { return b_; }
+  [[nodiscard]] vector_type const& load() const { return f_; }
+  [[nodiscard]] sparse_type const& constraints() const { return B_; }
+  /// −(N u − d), −T u
+  [[nodiscard]] vector_type openings(vector_type const& u) const { return b_ - B_ * u; }
+
+ private:
+  vector_type f_;
+  sparse_type B_;
+  vector_type b_;
+};
+
+/// What a run of iterated_coulomb found.
+template <class S>
+struct iterated_coulomb_result {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  vector_type u, λ;
+  coulomb_error<S> error{};
+  slant::status status = status::running;
+  std::string reason;  ///< of an end other than converged
+  index bounds = 0;    ///< problems of Tresca's
+  slant::work work{};
+  std::string levels;
+};
+
+/// The run, from c without its slip bounds. Throws bad_input where K is found not to be definite or
+/// does not fit the nodes.
+template <class Friction, class S>
+[[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
+    Friction law, Eigen::SparseMatrix<S> const& K, data<S> c,
+    Eigen::Matrix<S, Eigen::Dynamic, 1> const& F, node_layout<S> const& layout,
+    multigrid_options const& levels, S const& tolerance, index most) {
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  constexpr index patience = 15, rounds = 12, steps_for_bounds = 40;
+  iterated_coulomb_result<S> result;
+  c.g = vector_type::Zero(c.nodes());
+  primal_run<S> run(K, c, layout, levels, (most + 1) * steps_for_bounds);
+  result.levels = run.levels().description();
+  energy_certificate frozen(run.qp(), run.levels());
+  contact_rows<S> const rows(c);
+  coulomb_check const check(rows, F);
+  vector_type λ(c.nodes());
+
+  auto const& state = run.state();
+  for (index k = 0; k < steps_for_bounds && state.status == status::running; ++k) {
+    run.step(S(0.05) * run.size());
+  }
+  S share = tolerance / S(2), best = std::numeric_limits<S>::infinity(), nearest = best;
+  index since = 0, round = 0;
+  auto const judge = [&] {
+    result.u = run.problem().displacement(state.x);
+    result.λ = run.problem().multipliers(state.x);
+    vector_type const g = F.cwiseProduct(result.λ.head(c.nodes()).cwiseMax(S(0)));
+    slant::project(feasible_set(law, c.nodes(), g), result.λ, result.λ);
+    result.error = {check(result.λ, result.u), frozen(state.x)};
+    return result.error.relative();
+  };
+  while (true) {
+    run.pressures(λ);
+    run.set_slip_bounds(F.cwiseProduct(λ));
+    ++result.bounds;
+    S const goal = share * run.size();
+    run.step(goal);
+    if (state.status == status::running) {
+      S const first = state.energy_estimate;
+      since = first < nearest ? 0 : since + 1;
+      nearest = std::min<S>(nearest, first);
+      for (index k = 1; k < steps_for_bounds && state.status == status::running; ++k) {
+        run.step(std::max<S>(goal, first / S(10)));
+      }
+      bool const ends =
+          state.status == status::breakdown || since >= patience || result.bounds >= most;
+      if (!ends) continue;
+      result.status = state.status == status::breakdown ? status::breakdown
+                      : since >= patience               ? status::stalled
+                                                        : status::iteration_limit;
+      result.reason = state.status == status::breakdown ? state.reason()
+                      : since >= patience               ? "successive slip bounds do not contract"
+                                          : "no more problems of Tresca's were allowed";
+      if (judge() <= tolerance) result.status = status::converged;
+      break;
+    }
+    // With the bounds of x itself x needs no step.
+    S const error = judge();
+    if (error <= tolerance) {
+      result.status = status::converged;
+      break;
+    }
+    bool const goes_on = state.status == status::converged && error < best / S(2) &&
+                         state.reduced_gradient_norm > S(0) && ++round < rounds;
+    if (!goes_on) {
+      result.status = state.status == status::converged ? status::stalled : state.status;
+      result.reason = state.reason();
+      break;
+    }
+    best = error;
+    share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
+  }
+  result.work = state.work;
+  result.work.operator_applications += frozen.applications();
+  return result;
+}
+
+}  // namespace slant::contact::detail

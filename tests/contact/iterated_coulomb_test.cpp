@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+//
+// certified_coulomb without factors, against its methods for the forces with factors.
+#include <slant/contact/certified_coulomb.hpp>
+
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/solve.hpp>
+
+#include <doctest/doctest.h>
+
+#include <fem/steel_brick.hpp>
+#include "support/effort.hpp"
+#include "support/message.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace iterated_coulomb_test {
+
+namespace contact = slant::contact;
+using contact::solution_route;
+using Eigen::Index;
+using Eigen::VectorXd;
+using sparse = Eigen::SparseMatrix<double>;
+using options = contact::certified_coulomb_options<double>;
+
+struct scene {
+  sparse K;
+  contact::data<double> data;
+  VectorXd F;
+  contact::node_layout<double> layout;
+};
+
+scene brick(int k, fem::brick_load load, double F) {
+  auto const s = fem::make_steel_brick({.k = k, .load = load});
+  return {s.K,
+          {s.N, s.T, s.f, s.d, VectorXd::Zero(s.d.size())},
+          VectorXd::Constant(s.d.size(), F),
+          contact::layout_of(s.mesh.nodes, s.unknowns.first)};
+}
+
+auto solve(scene const& s, options o = {}) {
+  o.layout = s.layout;
+  return contact::certified_coulomb(contact::friction_disc{}, s.K, s.data, s.F, o);
+}
+
+double energy(sparse const& K, VectorXd const& u) {
+  return std::sqrt(u.dot(VectorXd(K * u)));
+}
+
+auto agree(scene const& s) {
+  double const tolerance = 1e-9;
+  auto const iterated = solve(s, {.tolerance = tolerance, .route = solution_route::iterate});
+  auto const factored = solve(s, {.tolerance = 1e-12, .route = solution_route::factor});
+  CAPTURE(iterated.reason);
+  REQUIRE(iterated.converged());
+  CHECK(iterated.choice.route == solution_route::iterate);
+  CHECK(iterated.method == "successive slip bounds");
+  CHECK(iterated.work.factorizations == 0);
+  CHECK(iterated.error.relative() <= tolerance);
+  CHECK(energy(s.K, VectorXd(iterated.u - factored.u)) <= tolerance * energy(s.K, factored.u));
+  CHECK((iterated.λ - factored.λ).norm() <= 100 * tolerance * factored.λ.norm());
+  auto law = s.data;
+  law.g = s.F.cwiseProduct(iterated.λ.head(s.F.size()));
+  CHECK(contact::check_optimality(s.K, law, iterated.u, iterated.λ).residual() <= 1e-7);
+  return iterated;
+}
+
+TEST_CASE("bricks with Coulomb friction: the solution by forces, K never factored") {
+  for (auto const load : fem::brick_loads) {
+    for (double const F : {0.1, 0.3, 1.0}) {
+      for (int const k : {2, test::effort(8, 4)}) {
+        CAPTURE(k);
+        CAPTURE(F);
+        auto const r = agree(brick(k, load, F));
+        CHECK(r.steps <= 30);
+        CHECK(r.work.inner_iterations <= 110);
+      }
+    }
+  }
+}
+
+TEST_CASE("no friction, nodes without, infinite gaps, units, turned rows, no coordinates") {
+  scene const s = brick(3, fem::brick_load::lift, 0.3);
+  scene other = s;
+  other.F.setZero();
+  auto const r = agree(other);
+  auto const frictionless = contact::solve(
+      contact::frictionless{}, s.K,
+      contact::data<double>{s.data.N, sparse(0, s.K.rows()), s.data.f, s.data.d, VectorXd(0)},
+      {.tolerance = 1e-11});
+  CHECK((r.u - frictionless.u).norm() <= 1e-7 * frictionless.u.norm());
+  other = s;
+  for (Index i = 0; i < s.F.size(); i += 2) other.F[i] = 0;
+  for (Index i = 1; i < s.F.size(); i += 3) {
+    other.data.d[i] = std::numeric_limits<double>::infinity();
+  }
+  agree(other);
+  other = s;
+  other.layout = {};
+  VectorXd const u = agree(other).u;
+  other = s;
+  other.K *= 0x1p200;
+  other.data.f *= 0x1p-200;
+  other.data.d *= 0x1p-400;
+  auto const scaled = solve(other, {.route = solution_route::iterate});
+  CHECK(scaled.converged());
+  CHECK((scaled.u * 0x1p400 - u).norm() <= 1e-7 * u.norm());
+  // Rows of N and T in any direction, of other lengths: the same contact of a turned body.
+  Eigen::Matrix3d const Q =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  sparse turn(s.K.rows(), s.K.rows());
+  for (Index i = 0; i < s.K.rows(); i += 3) {
+    for (Index a = 0; a < 3; ++a) {
+      for (Index b = 0; b < 3; ++b) turn.insert(i + a, i + b) = Q(a, b);
+    }
+  }
+  other = s;
+  other.K = turn * s.K * sparse(turn.transpose());
+  other.K = sparse(0.5 * (other.K + sparse(other.K.transpose())));
+  other.data.f = turn * s.data.f;
+  other.data.N = 2 * s.data.N * sparse(turn.transpose());
+  other.data.T = 2 * s.data.T * sparse(turn.transpose());
+  other.data.d = 2 * s.data.d;
+  auto const turned = agree(other);
+  CHECK((turn.transpose() * turned.u - u).norm() <= 1e-6 * u.norm());
+}
+
+TEST_CASE("the choice, and what ends without a solution") {
+  scene const s = brick(2, fem::brick_load::lift, 0.3);
+  contact::route_costs costs;
+  costs.cycle = 1;
+  CHECK(solve(s, {.costs = costs}).choice.route == solution_route::factor);
+  costs = {.ordering = 1};
+  CHECK(solve(s, {.costs = costs}).choice.route == solution_route::iterate);
+  // Two problems of Tresca's do not do.
+  auto const few = solve(s, {.outer_steps = 2, .route = solution_route::iterate});
+  CHECK(few.status == slant::status::iteration_limit);
+  CHECK(few.reason.find("no more problems of Tresca's were allowed") != std::string::npos);
+  auto const after = solve(s, {.outer_steps = 2, .costs = costs});
+  CHECK(after.converged());
+  CHECK(after.choice.route == solution_route::factor);
+  CHECK(after.choice.reason.find("factored after all") != std::string::npos);
+  CHECK(after.work.factorizations == 1);
+  auto const exact = solve(s, {.tolerance = 0, .route = solution_route::iterate});
+  CHECK(exact.status == slant::status::stalled);
+  CHECK(exact.error.relative() <= 1e-11);
+  CHECK(test::complaint([&] {
+          (void)solve(
+              s, {.method = contact::coulomb_method::newton, .route = solution_route::iterate});
+        }).find("the method works on forces") != std::string::npos);
+}
+
+}  // namespace iterated_coulomb_test
