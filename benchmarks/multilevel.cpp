@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Bricks in contact, with Tresca friction and without, by contact::solve with multigrid, K never
-// factored:
+// Bricks in contact, without friction, with Tresca's and with Coulomb's (F = 0.3), by contact::solve
+// and contact::certified_coulomb with multigrid, K never factored:
 //
 //     multilevel [--no-direct] [K...]     sizes of the brick, 8 12 16 without any
 //
-// prints comma-separated values: friction, load, size, unknowns, Newton steps, cycles, products by K,
-// processor seconds of the hierarchy, of everything from K, N, T, f, d, g and the coordinates to a
-// certified u (the hierarchy included), and of factoring K and solving once by slant::factorize; the
-// relative error in the energy norm, as certified, and against a reference: the dual method with
-// factors at 1e-12, or with --no-direct, where factors take too long, the same method at 1e-11.
-// Exit status 1 if a run does not converge, or an error is above 1e-8 or above what is certified by
-// more than a tenth.
+// prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's: problems
+// of Tresca's), cycles, products by K, processor seconds of the hierarchy, of everything from K, N, T,
+// f, d, g and the coordinates to a certified u (the hierarchy included), and of factoring K and solving
+// once by slant::factorize; the relative error in the energy norm, as certified, and against a
+// reference: the dual method with factors at 1e-12, or with --no-direct, where factors take too long,
+// the same method at 1e-11. Exit status 1 if a run does not converge, or an error is above 1e-8 or
+// above what is certified by more than a tenth.
 
+#include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/solve.hpp>
 
 #include <fem/steel_brick.hpp>
@@ -23,6 +24,7 @@
 #include <ctime>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -41,24 +43,42 @@ class stopwatch {
   std::clock_t start_ = std::clock();
 };
 
-contact::solution<double> run(fem::contact_scene<3> const& s, bool friction,
-                              contact::solution_route route, double tolerance) {
+enum class law : unsigned char { none, tresca, coulomb };
+
+struct answer {
+  vector u;
+  double certified;
+  bool converged;
+  slant::index steps;
+  slant::work work;
+};
+
+answer run(fem::contact_scene<3> const& s, law friction, contact::solution_route route,
+           double tolerance) {
   contact::data<double> c{s.N, s.T, s.f, s.d, s.g};
-  if (!friction) {
+  auto const layout = contact::layout_of(s.mesh.nodes, s.unknowns.first);
+  if (friction == law::coulomb) {
+    vector const F = vector::Constant(c.nodes(), 0.3);
+    auto r = contact::certified_coulomb(contact::friction_disc{}, s.K, std::move(c), F,
+                                        {.tolerance = tolerance, .layout = layout, .route = route});
+    return {std::move(r.u), r.error.relative(), r.converged(), r.steps, r.work};
+  }
+  if (friction == law::none) {
     c.T.resize(0, s.f.size());
     c.g.resize(0);
   }
   contact::solve_options<double> o{.tolerance = tolerance};
-  o.layout = contact::layout_of(s.mesh.nodes, s.unknowns.first);
+  o.layout = layout;
   o.route = route;
-  return contact::solve(s.K, c, o);
+  auto r = contact::solve(s.K, c, o);
+  return {std::move(r.u), r.error.relative(), r.converged(), r.iterations, r.work};
 }
 
 double energy(fem::contact_scene<3> const& s, vector const& u) {
   return std::sqrt(u.dot(vector(s.K * u)));
 }
 
-bool measure(fem::brick_load load, bool friction, int k, bool direct) {
+bool measure(fem::brick_load load, law friction, int k, bool direct) {
   using contact::solution_route;
   auto const scene = fem::make_steel_brick({.k = k, .load = load});
   stopwatch const whole;
@@ -80,13 +100,15 @@ bool measure(fem::brick_load load, bool friction, int k, bool direct) {
   auto const reference = direct ? run(scene, friction, solution_route::factor, 1e-12)
                                 : run(scene, friction, solution_route::iterate, 1e-11);
   double const error = energy(scene, r.u - reference.u) / energy(scene, reference.u);
-  double const certified = r.error.relative();
-  std::printf("%s,%s,%d,%td,%td,%td,%td,%.3f,%.3f,%.3f,%.1e,%.1e\n", friction ? "yes" : "no",
-              std::string(name_of(load)).c_str(), k, scene.f.size(), r.iterations,
+  char const* const name = friction == law::none     ? "none"
+                           : friction == law::tresca ? "tresca"
+                                                     : "coulomb";
+  std::printf("%s,%s,%d,%td,%td,%td,%td,%.3f,%.3f,%.3f,%.1e,%.1e\n", name,
+              std::string(name_of(load)).c_str(), k, scene.f.size(), r.steps,
               r.work.inner_iterations, r.work.operator_applications, setup_seconds, seconds,
-              linear_seconds, certified, error);
+              linear_seconds, r.certified, error);
   std::fflush(stdout);
-  return r.converged() && error <= 1e-8 && error <= 1.1 * certified;
+  return r.converged && error <= 1e-8 && error <= 1.1 * r.certified;
 }
 
 }  // namespace
@@ -110,7 +132,7 @@ int main(int argc, char** argv) {
       "friction,load,k,unknowns,steps,cycles,products,setup_seconds,seconds,linear_solve_seconds,"
       "certified,error\n");
   bool good = true;
-  for (bool const friction : {true, false}) {
+  for (law const friction : {law::tresca, law::coulomb, law::none}) {
     for (int const k : sizes) {
       for (auto const load : fem::brick_loads) good = measure(load, friction, k, direct) && good;
     }

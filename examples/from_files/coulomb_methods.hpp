@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <slant/concepts/scalar.hpp>
+#include <slant/contact/node_layout.hpp>
 #include <string_view>
 
 #include "method_list.hpp"

@@ -35,12 +35,12 @@ namespace slant::contact::detail {
 
 /// What coulomb_check asks of a dual problem, from the data: contacts of the body as they lie.
 template <class S>
-class contact_rows {
+class checked_rows {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  explicit contact_rows(data<S> const& c)
+  explicit checked_rows(data<S> const& c)
       : f_(c.f), B_(stacked_constraints(c)), b_(vector_type::Zero(B_.rows())) {
     b_.head(c.nodes()) = c.d;
   }
@@ -84,7 +84,7 @@ template <class Friction, class S>
   primal_run<S> run(K, c, layout, levels, (most + 1) * steps_for_bounds);
   result.levels = run.levels().description();
   energy_certificate frozen(run.qp(), run.levels());
-  contact_rows<S> const rows(c);
+  checked_rows<S> const rows(c);
   coulomb_check const check(rows, F);
   vector_type λ(c.nodes());
 
