@@ -7,7 +7,7 @@
 //     start     without friction, to 5 %
 //     bounds    g ← F λ_ν(u), from the gradient that is at hand: no product
 //     steps     e₀ the energy error for the new bounds, estimated by the first step (one cycle);
-//               further steps until it is e₀/10
+//               further steps until it is e₀/10, or well below what is certified
 //     certify   where e₀ is half of the tolerance: Coulomb's law contact by contact (coulomb_check),
 //               and the energy error for the last bounds (energy_certificate)
 //     go on     where that asks for more, with a goal that is smaller by as much
@@ -113,7 +113,7 @@ template <class Friction, class S>
       since = first < nearest ? 0 : since + 1;
       nearest = std::min<S>(nearest, first);
       for (index k = 1; k < steps_for_bounds && state.status == status::running; ++k) {
-        run.step(std::max<S>(goal, first / S(10)));
+        run.step(std::max<S>(goal / S(8), first / S(10)));
       }
       bool const ends =
           state.status == status::breakdown || since >= patience || result.bounds >= most;
