@@ -53,10 +53,12 @@ def sentences(root):
     yield (f"| the same to 1e-6, the fastest of PETSc/TAO, IPOPT, CVXOPT, Siconos | "
            f"{span([number(row[6]) for row in every], 1)} times our time |")
 
-    large = table(accuracy, "| k | unknowns | press: steps/cycles, seconds")[-1]
-    seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
-    yield (f"| contact with friction, {large[1]} unknowns, multigrid | "
-           f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve |")
+    for name, heading in (("contact with friction, {} unknowns, multigrid", "press: steps/cycles"),
+                          ("the same with Coulomb's law", "press: problems/cycles")):
+        large = table(accuracy, f"| k | unknowns | {heading}, seconds")[-1]
+        seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
+        yield (f"| {name.format(large[1])} | "
+               f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve |")
 
     steps = re.search(r"Twenty load steps take ([\d.]+ to [\d.]+) times", accuracy)[1]
     yield f"| twenty load steps | {steps} times the first one |"
