@@ -357,7 +357,7 @@ class envelope_newton {
     // What is not seen of A may cost a step a part of what it gains, but not more.
     scalar const allowed = std::max<scalar>(target, s.residual_norm / s.unit / scalar(20));
     if (s.roughly && (!inner.finite || inner.flat || error_of_image(s) > allowed)) {
-      s.roughly = false;
+      multiply_exactly(s);
       s.work.inner_iterations += inner.iterations;
       s.work.operator_applications += inner.iterations;
       inner = minimise();
@@ -374,6 +374,7 @@ class envelope_newton {
         s.status = status::stalled;
         return;
       }
+      multiply_exactly(s);  // rough products may have been why
       descend(s);
     }
     s.forcing.record(s.residual_norm);
@@ -404,6 +405,8 @@ class envelope_newton {
     return false;
   }
 
+  /// From now on all products are by A itself.
+  static void multiply_exactly(state_type& s) { s.roughly = false; }
   /// What A t may be off.
   static scalar error_of_image(state_type const& s) {
     if constexpr (multiplies_roughly<preconditioner, vector_type>) {

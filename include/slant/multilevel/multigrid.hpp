@@ -450,10 +450,16 @@ index enter_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, Fa
       // The next level lags behind as this one does.
       T const* const now = f.A[l].diagonal(i);
       T* const before = f.formed[l].data() + static_cast<std::size_t>(i) * (M * M);
-      T change(0), size(0);
-      for (int k = 0; k < M * M; ++k) change = std::max<T>(change, std::abs(now[k] - before[k]));
-      for (int c = 0; c < M; ++c) size = std::max<T>(size, before[(M + 1) * c]);
-      if (!(change > T(node_face<N, T>::lag) * size)) continue;
+      // Beside √(a_qq a_cc): unknowns may have units of their own.
+      bool moved = false;
+      for (int k = 0; k < M * M; ++k) {
+        double const change = static_cast<double>(now[k]) - static_cast<double>(before[k]);
+        double const size = static_cast<double>(before[(M + 1) * (k / M)]) *
+                            static_cast<double>(before[(M + 1) * (k % M)]);
+        constexpr double lag = node_face<N, T>::lag;
+        moved = moved || change * change > lag * lag * size;
+      }
+      if (!moved) continue;
       std::copy_n(now, M * M, before);
       f.moved.push_back(i);
     }
