@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <slant/factorizations/ldlt.hpp>
 #include <slant/methods/solve_program.hpp>
+#include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/cartesian.hpp>
@@ -8,13 +10,16 @@
 #include <doctest/doctest.h>
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <oracle/random_programs.hpp>
+#include <sstream>
 #include <string>
 #include <support/program_sets.hpp>
+#include <vector>
 
 namespace solve_program_test {
 
@@ -64,7 +69,7 @@ TEST_CASE("solve(qp, tolerance): the error that is asked for, and what is said o
   for (double const tolerance : {1e-2, 1e-6, 1e-12}) {
     auto const run = slant::solve(qp, tolerance);
     CHECK(run.converged());
-    CHECK_FALSE(run.scaled);
+    CHECK(run.choice.empty());
     CHECK(p.error(run.x()) <= tolerance);
     CHECK(p.error(run.x()) <= 2 * run.error.relative() + 1e-15);
     CHECK(run.reason.find("relative energy error") != std::string::npos);
@@ -80,7 +85,7 @@ TEST_CASE(
   known_program const p(6, 1e12);
   auto const run = slant::solve(p.program(), 1e-9);
   CHECK(run.converged());
-  CHECK(run.scaled);
+  CHECK(run.choice.find("blocks scaled") == 0);
   CHECK(p.error(run.x()) <= 1e-9);
   CHECK(run.iterations() <= 30);
 }
@@ -127,6 +132,117 @@ TEST_CASE("solve(qp, 0): the digits that there are, as `stalled`") {
   auto const run = slant::solve(p.program(), 0.0);
   CHECK((run.status == slant::status::stalled || run.error.bound == 0));
   CHECK(p.error(run.x()) <= 1e-14);
+}
+
+/// An obstacle under a membrane on N × N nodes that are linked by springs of stiffness 1, or, in the
+/// stripes, of `contrast`.
+struct membrane {
+  Eigen::SparseMatrix<double> A;
+  VectorXd b, floor;
+
+  explicit membrane(int N, double contrast = 1) : A(N * N, N * N) {
+    std::vector<Eigen::Triplet<double>> t;
+    VectorXd sum = VectorXd::Zero(N * N);
+    auto const link = [&](int i, int j, double c) {
+      t.emplace_back(i, j, -c);
+      t.emplace_back(j, i, -c);
+      sum(i) += c;
+      sum(j) += c;
+    };
+    for (int k = 0; k < N * N; ++k) {
+      int const x = k % N, y = k / N;
+      double const c = (x / 10) % 2 == 0 ? 1 : contrast;
+      if (x + 1 < N) link(k, k + 1, c);
+      if (y + 1 < N) link(k, k + N, c);
+      sum(k) += (x == 0) + (x + 1 == N) + (y == 0) + (y + 1 == N);  // the frame
+    }
+    for (int k = 0; k < N * N; ++k) t.emplace_back(k, k, sum(k));
+    A.setFromTriplets(t.begin(), t.end());
+    b = VectorXd::Constant(N * N, -4.0 / (N * N));
+    floor = VectorXd::Constant(N * N, -0.1);
+  }
+  [[nodiscard]] auto program() const {
+    return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
+                               slant::half_lines(floor)};
+  }
+  /// A bound of ‖x − x*‖_A / ‖x‖_A from the violation e of r ≥ 0 where x is on the floor, r = 0 where
+  /// not: ‖e‖ / √λ, λ ≤ λ_min(A) that of the membrane of springs 1, all of them ≥ 1.
+  [[nodiscard]] double error_at_most(VectorXd const& x) const {
+    VectorXd e = A * x - b;
+    double const π = std::acos(-1.0), N = std::sqrt(double(x.size()));
+    for (int i = 0; i < x.size(); ++i) {
+      if (x(i) < floor(i)) return 1;
+      if (x(i) == floor(i) && e(i) > 0) e(i) = 0;
+    }
+    return e.norm() / (std::sqrt(8.0) * std::sin(π / (2 * (N + 1)))) / std::sqrt(x.dot(A * x));
+  }
+};
+
+TEST_CASE(
+    "solve(qp, tolerance) for a sparse matrix: multigrid where conjugate gradients take long") {
+  membrane const easy(20), wide(120), stripes(120, 1e6);
+  auto const run = slant::solve(easy.program(), 1e-8);
+  CHECK(run.converged());
+  CHECK(run.choice.empty());
+  CHECK(easy.error_at_most(run.x()) <= 1e-7);
+
+  for (membrane const* m : {&wide, &stripes}) {
+    auto const qp = m->program();
+    auto const chosen = slant::solve(qp, 1e-8);
+    CAPTURE(chosen.reason);
+    CHECK(chosen.converged());
+    CHECK(m->error_at_most(chosen.x()) <= 1e-6);
+    CHECK(chosen.choice.find("multigrid, because") != std::string::npos);
+    CHECK((chosen.choice.find("blocks scaled") == 0) == (m == &stripes));
+    // What was tried first, and the expert's spelling.
+    auto const spelled = slant::solve(qp, slant::multigrid{m->A}, 1e-8);
+    CHECK(chosen.work.operator_applications <= 700 + spelled.work.operator_applications);
+    CHECK(chosen.iterations() <= 60);
+  }
+  std::ostringstream out;
+  out << slant::solve(stripes.program(), 1e-6);
+  CHECK(out.str().find("\n  chosen                 blocks scaled, because") != std::string::npos);
+}
+
+/// An operator that knows its inverse, as those of a client may.
+struct invertible {
+  static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
+  Eigen::SparseMatrix<double> A;
+  slant::ldlt<double> factors{A};
+
+  [[nodiscard]] slant::index rows() const { return A.rows(); }
+  [[nodiscard]] slant::index cols() const { return A.cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = A * x; }
+  [[nodiscard]] auto inverse() const { return slant::inverse(factors); }
+};
+
+TEST_CASE("solve(qp, tolerance): an inverse that A offers preconditions, as it would by hand") {
+  membrane const m(40);
+  invertible const A{m.A};
+  slant::separable_qp const qp{A, m.b, slant::half_lines(m.floor)};
+  auto const run = slant::solve(qp, 1e-8);
+  CHECK(run.converged());
+  CHECK(m.error_at_most(run.x()) <= 1e-7);
+  CHECK(run.choice == "A⁻¹ as preconditioner, because A offers it");
+  auto const spelled = slant::solve(qp, slant::inverse(A.factors), 1e-8);
+  CHECK(run.work.operator_applications == spelled.work.operator_applications);
+  CHECK(run.work.operator_applications <
+        slant::solve(m.program(), 1e-8).work.operator_applications);
+}
+
+TEST_CASE("solve(qp, tolerance): a sparse matrix that levels refuse is solved without") {
+  // A node without stiffness, pressed onto its floor.
+  membrane m(120);
+  m.A.coeffRef(0, 0) = 0;
+  m.A.coeffRef(0, 1) = m.A.coeffRef(1, 0) = m.A.coeffRef(0, 120) = m.A.coeffRef(120, 0) = 0;
+  m.b(0) = -1;
+  slant::separable_qp const qp{
+      slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(m.A), m.b,
+      slant::half_lines(m.floor)};
+  auto const run = slant::solve(qp, 1e-8);
+  CHECK(run.converged());
+  CHECK(run.x()(0) == m.floor(0));
+  CHECK(run.choice.find("no multigrid, because") != std::string::npos);
 }
 
 }  // namespace solve_program_test

@@ -5,11 +5,16 @@
 //     auto const run = slant::solve(qp, 1e-8);         // ‖x − x*‖_A ≤ 1e-8 ‖x*‖_A, estimated
 //     auto const run = slant::solve(qp, M, 1e-8);      // with a preconditioner M ≈ A⁻¹
 //
-//     scale      blocks whose stiffness diag(A) differs by more than 64 become alike
-//                (problems/equilibrated.hpp), where A gives its diagonal
-//     solve      symmetric_newton to a reduced gradient of a tenth of the tolerance
-//     certify    the energy error by energy_certificate; while that is too large, a smaller one
-//     otherwise  where 300 steps do not do, interior_point goes first, and Newton's method again
+//     scale         blocks whose stiffness diag(A) differs by more than 64 become alike
+//                   (problems/equilibrated.hpp), where A gives its diagonal
+//     precondition  by A⁻¹ where A offers it; by multigrid on the face (multilevel/multigrid.hpp)
+//                   where A is a sparse matrix, once conjugate gradients have taken long without
+//     solve         symmetric_newton to a reduced gradient of a tenth of the tolerance; with a longer
+//                   ρ where A is a sparse matrix: what is active changes its neighbours first
+//     certify       the energy error by energy_certificate; while that is too large, a smaller one
+//     otherwise     where 300 steps do not do, interior_point goes first, and Newton's method again
+//
+// What A is, its type says, so that what is not chosen is not compiled. `run.choice` tells.
 //
 // The certificate estimates ‖·‖_{A⁻¹} by conjugate gradients, in up to 200 applications of A. Give
 // `solve(method, x0, energy_error_below(tolerance, certificate))` a bound where one is known.
@@ -20,7 +25,9 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
+#include <slant/multilevel/multigrid.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/problems/equilibrated.hpp>
 
 #include <algorithm>
@@ -43,7 +50,7 @@ struct certified_point {
   energy_error<scalar> error{};  ///< what is known of ‖x − x*‖_A
   index steps = 0;               ///< of symmetric_newton
   slant::work work{};            ///< all applications of A, those of certificates included
-  bool scaled = false;           ///< whether the blocks were scaled
+  std::string choice;            ///< what was chosen for A and why, as sentences; or empty
 
   [[nodiscard]] V const& x() const { return point; }
   [[nodiscard]] index iterations() const { return steps; }
@@ -54,31 +61,56 @@ struct certified_point {
 ///
 ///     converged: relative energy error 2.1e-10, estimated, at most 1e-08
 ///       unknowns               12
-///       steps                  9 of symmetric_newton, blocks scaled
+///       steps                  9 of symmetric_newton
 ///       inner steps            40
 ///       applications of A      51, and 20 before the first step
+///       chosen                 blocks scaled, because their stiffness differs by more than 64
 template <class V>
 std::ostream& operator<<(std::ostream& out, certified_point<V> const& run) {
-  detail::print_run(
-      out, run.status, run.reason, detail::unknowns_of(run.point),
-      std::to_string(run.steps) + " of symmetric_newton" + (run.scaled ? ", blocks scaled" : ""),
-      run.work);
+  detail::print_run(out, run.status, run.reason, detail::unknowns_of(run.point),
+                    std::to_string(run.steps) + " of symmetric_newton", run.work);
+  if (!run.choice.empty()) out << "  chosen                 " << run.choice << "\n";
   return out;
 }
 
 namespace detail {
 
-/// Newton's method from x0 under the control of certificates, in at most `most` steps.
+/// A offers an inverse that may precondition.
+template <class QP>
+concept inverse_preconditions = requires(QP const& qp) {
+  requires has_inverse<typename QP::operator_type, typename QP::vector_type>;
+  { qp.a().inverse() } -> preconditioner_for<QP>;
+};
+
+/// A is a sparse matrix of the scalars of levels.
+template <class QP>
+concept levels_precondition =
+    matrix_behind<typename QP::operator_type>::sparse &&
+    std::same_as<typename QP::vector_type, Eigen::Matrix<typename QP::scalar, Eigen::Dynamic, 1>>;
+
+/// How far newton_certified goes.
+struct newton_limits {
+  index steps;
+  index applications = std::numeric_limits<index>::max();  ///< of A, those of certificates apart
+};
+
+/// Newton's method from x0 under the control of certificates.
 template <class QP, class M, class Certificate>
 [[nodiscard]] auto newton_certified(QP const& qp, M const& m, typename QP::vector_type const& x0,
                                     Certificate& certificate, typename QP::scalar tolerance,
-                                    index most) -> certified_point<typename QP::vector_type> {
+                                    newton_limits most)
+    -> certified_point<typename QP::vector_type> {
   using V = typename QP::vector_type;
   using S = typename QP::scalar;
   S threshold = tolerance / S(10), best = std::numeric_limits<S>::infinity();
   auto const method = [&] {
     symmetric_newton_options<S> o;
     o.forcing.goal = static_cast<double>(threshold);
+    o.inner_steps = std::min<index>(o.inner_steps, most.applications);
+    if constexpr (quadratic_program<QP> && matrix_behind<typename QP::operator_type>::sparse) {
+      // A front moves as many nodes a step as ρ A reaches; longer ones set free too much.
+      o.step_factor = S(4);
+    }
     if constexpr (std::same_as<M, identity_operator>) {
       return symmetric_newton{qp, o};
     } else {
@@ -86,10 +118,11 @@ template <class QP, class M, class Certificate>
     }
   };
   auto state = method().start(x0);
-  certified_point<V> result{.point = x0, .status = status::running, .reason = {}};
+  certified_point<V> result{.point = x0, .status = status::running, .reason = {}, .choice = {}};
   while (true) {
     auto newton = method();
-    auto stop = reduced_gradient_below(threshold) || slant::at_most(most);
+    auto stop = reduced_gradient_below(threshold) || slant::at_most(most.steps) ||
+                slant::at_most_applications(most.applications);
     auto end = run_to_end(newton, state, stop);
     result.error = certificate(state.x);
     S const error = result.error.relative();
@@ -145,16 +178,15 @@ template <class QP>
   return false;
 }
 
-/// Newton's method; where 300 of its steps do not do, an interior-point method and Newton's again.
+/// Newton's method from x; where 300 of its steps do not do, an interior-point method and Newton's
+/// again.
 template <class QP, class M>
-[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::scalar tolerance,
-                                   index most) -> certified_point<typename QP::vector_type> {
-  using V = typename QP::vector_type;
-  V x = like(qp.b(), qp.size());
-  vectors::set_zero(x);
+[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::vector_type x,
+                                   typename QP::scalar tolerance, index most)
+    -> certified_point<typename QP::vector_type> {
   energy_certificate certificate(qp, m);
   index const first = std::min<index>(most, 300);
-  auto result = newton_certified(qp, m, x, certificate, tolerance, first);
+  auto result = newton_certified(qp, m, x, certificate, tolerance, {.steps = first});
   bool const is_open = result.status == status::stalled || result.status == status::breakdown ||
                        result.status == status::iteration_limit;
   if (is_open && result.steps < most && result.error.relative() > tolerance) {
@@ -162,7 +194,8 @@ template <class QP, class M>
     bool const has_start = start_inside(qp, x, tolerance, spent);
     if (!has_start) vectors::copy(result.point, x);
     if (has_start || result.status == status::iteration_limit) {
-      auto again = newton_certified(qp, m, x, certificate, tolerance, most - result.steps);
+      auto again =
+          newton_certified(qp, m, x, certificate, tolerance, {.steps = most - result.steps});
       again.steps += result.steps;
       spent += again.work;
       spent += result.work;
@@ -176,6 +209,76 @@ template <class QP, class M>
   }
   result.work.operator_applications += certificate.applications();
   return result;
+}
+template <class QP>
+[[nodiscard]] typename QP::vector_type zero_of(QP const& qp) {
+  auto x = like(qp.b(), qp.size());
+  vectors::set_zero(x);
+  return x;
+}
+
+/// Multigrid for D K D, or for K if d is empty.
+template <class K, class S>
+[[nodiscard]] auto multigrid_of(K const& k, Eigen::Matrix<S, Eigen::Dynamic, 1> const& d) {
+  if (d.size() == 0) return slant::multigrid<S>(k);
+  Eigen::SparseMatrix<S> const scaled = d.asDiagonal() * k * d.asDiagonal();
+  // What was constant: one column for each unknown of a node.
+  multigrid_options const o{.block_size = std::min<index>(3, detected_block_size(scaled))};
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> constants;
+  constants.setZero(d.size(), o.block_size);
+  for (index i = 0; i < d.size(); ++i) constants(i, i % o.block_size) = S(1) / d(i);
+  return slant::multigrid<S>(scaled, constants, o);
+}
+
+/// Solves qp with A = D K D: without a preconditioner as long as that costs about what levels and a
+/// face on them would, then with multigrid from where that has come.
+template <class QP, class K, class S>
+[[nodiscard]] auto solve_sparse(QP const& qp, K const& k,
+                                Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, S tolerance,
+                                index most) {
+  identity_operator const I(qp.size());
+  // The coarsest level is factored for each face, 500³/3 operations; K may have few entries.
+  auto const enough = 150 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
+  energy_certificate certificate(qp, I);
+  auto first = newton_certified(qp, I, zero_of(qp), certificate, tolerance,
+                                {.steps = most, .applications = enough});
+  if (first.status != status::iteration_limit || first.steps >= most) {
+    first.work.operator_applications += certificate.applications();
+    return first;
+  }
+  auto const go_on = [&](auto const& m, std::string choice) {
+    auto run = solve_certified(qp, m, first.point, tolerance, most - first.steps);
+    run.steps += first.steps;
+    run.work += first.work;
+    run.work.operator_applications += certificate.applications();
+    run.choice = std::move(choice);
+    return run;
+  };
+  std::string const why = "because " + show(first.work.operator_applications) +
+                          " applications of A were not enough without: ";
+  try {
+    auto const m = multigrid_of(k, d);
+    return go_on(m, "multigrid, " + why + m.description());
+  } catch (bad_input const& e) {  // A is not definite, or of a kind that levels do not fit
+    return go_on(I, "no multigrid, " + why + e.what());
+  }
+}
+
+/// Solves qp with the preconditioner that A offers.
+template <class QP>
+[[nodiscard]] auto solve_by_parts(QP const& qp, typename QP::scalar tolerance, index most) {
+  using A = typename QP::operator_type;
+  using S = typename QP::scalar;
+  if constexpr (inverse_preconditions<QP>) {
+    auto run = solve_certified(qp, qp.a().inverse(), zero_of(qp), tolerance, most);
+    run.choice = "A⁻¹ as preconditioner, because A offers it";
+    return run;
+  } else if constexpr (levels_precondition<QP>) {
+    return solve_sparse(qp, matrix_behind<A>::of(qp.a()), Eigen::Matrix<S, Eigen::Dynamic, 1>(),
+                        tolerance, most);
+  } else {
+    return solve_certified(qp, identity_operator(qp.size()), zero_of(qp), tolerance, most);
+  }
 }
 
 /// One factor for each unknown if the stiffness of the blocks spreads by more than 64; else none.
@@ -206,21 +309,28 @@ template <class QP>
 template <class QP>
   requires symmetric_newton_problem<QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {
+  using A = typename QP::operator_type;
   detail::checked_tolerance(tolerance);
-  identity_operator const I(qp.size());
-  if constexpr (quadratic_program<QP> &&
-                may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
+  if constexpr (quadratic_program<QP> && may_have_diagonal<A, typename QP::vector_type>) {
     auto d = detail::block_factors_if_needed(qp);
     if (d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));
       auto const alike = scaled.qp();
-      auto result = detail::solve_certified(alike, I, tolerance, max_steps);
+      auto result = [&] {
+        if constexpr (detail::levels_precondition<QP>) {
+          return detail::solve_sparse(alike, detail::matrix_behind<A>::of(qp.a()), scaled.d(),
+                                      tolerance, max_steps);
+        } else {
+          return detail::solve_by_parts(alike, tolerance, max_steps);
+        }
+      }();
       result.point = scaled.back(std::move(result.point));
-      result.scaled = true;
+      result.choice = "blocks scaled, because their stiffness differs by more than 64" +
+                      (result.choice.empty() ? "" : "; " + result.choice);
       return result;
     }
   }
-  return detail::solve_certified(qp, I, tolerance, max_steps);
+  return detail::solve_by_parts(qp, tolerance, max_steps);
 }
 
 /// The same with a preconditioner M ≈ A⁻¹, self-adjoint and semidefinite; blocks are not scaled.
@@ -229,7 +339,7 @@ template <class QP, class M>
 [[nodiscard]] auto solve(QP const& qp, M const& m, typename QP::scalar tolerance,
                          index max_steps = 5000) {
   detail::checked_tolerance(tolerance);
-  return detail::solve_certified(qp, m, tolerance, max_steps);
+  return detail::solve_certified(qp, m, detail::zero_of(qp), tolerance, max_steps);
 }
 
 }  // namespace slant

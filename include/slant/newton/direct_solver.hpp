@@ -27,23 +27,6 @@ namespace slant {
 
 namespace detail {
 
-/// The matrix that an operator is, perhaps behind the reference that a linear function hands out.
-template <class G>
-struct stored_matrix {
-  static constexpr bool exists = false;
-  static constexpr bool sparse = false;
-};
-template <class M, law_set L>
-struct stored_matrix<matrix_operator<M, L>> {
-  static constexpr bool exists = true;
-  static constexpr bool sparse = is_sparse_matrix<M>;
-  static auto const& of(matrix_operator<M, L> const& g) { return g.get(); }
-};
-template <auto Name, class A>
-struct stored_matrix<expr::letter<Name, A, 0>> : stored_matrix<A> {
-  static auto const& of(expr::letter<Name, A, 0> const& g) { return stored_matrix<A>::of(g.get()); }
-};
-
 template <class V>
 using dense_matrix_t = Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -108,7 +91,7 @@ template <class G, class V, class P, class Solve>
 /// A direct solution costs no more than the operator's own inverse, or the factors of its matrix.
 template <class G, class V>
 concept solved_cheaply =
-    linear_operator<G, V> && (has_inverse<G, V> || detail::stored_matrix<G>::exists);
+    linear_operator<G, V> && (has_inverse<G, V> || detail::matrix_behind<G>::exists);
 
 /// A direct solution is possible.
 template <class G, class V>
@@ -162,7 +145,7 @@ struct direct_solver {
     if constexpr (has_inverse<G, V>) {
       auto w = slant::workspace(g.inverse(), f);
       return detail::known_inverse<decltype(w)>(std::move(w));
-    } else if constexpr (detail::stored_matrix<G>::sparse) {
+    } else if constexpr (detail::matrix_behind<G>::sparse) {
       return detail::sparse_lu<S>();
     } else {
       return detail::dense_lu<S>(g.rows());
@@ -170,8 +153,8 @@ struct direct_solver {
   }
   template <class G, class Factors>
   [[nodiscard]] static bool factor(G const& g, Factors& factors) {
-    if constexpr (detail::stored_matrix<G>::sparse) {
-      auto const& m = detail::stored_matrix<G>::of(g);
+    if constexpr (detail::matrix_behind<G>::sparse) {
+      auto const& m = detail::matrix_behind<G>::of(g);
       using matrix_type = typename Factors::matrix_type;
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, matrix_type>) {
         return factors.factor(m);

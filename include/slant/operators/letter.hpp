@@ -470,3 +470,24 @@ template <auto Name, class A, unsigned Flags>
 }
 
 }  // namespace slant
+
+namespace slant::detail {
+
+/// The matrix that an operator is, perhaps behind the reference that a linear function hands out.
+template <class G>
+struct matrix_behind {
+  static constexpr bool exists = false;
+  static constexpr bool sparse = false;
+};
+template <class M, law_set L>
+struct matrix_behind<matrix_operator<M, L>> {
+  static constexpr bool exists = true;
+  static constexpr bool sparse = is_sparse_matrix<M>;
+  static auto const& of(matrix_operator<M, L> const& g) { return g.get(); }
+};
+template <auto Name, class A>
+struct matrix_behind<expr::letter<Name, A, 0>> : matrix_behind<A> {
+  static auto const& of(expr::letter<Name, A, 0> const& g) { return matrix_behind<A>::of(g.get()); }
+};
+
+}  // namespace slant::detail
