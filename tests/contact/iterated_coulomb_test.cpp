@@ -9,6 +9,8 @@
 #include <doctest/doctest.h>
 
 #include <fem/steel_brick.hpp>
+#include <fem/two_bricks.hpp>
+#include "facing_bricks.hpp"
 #include "support/effort.hpp"
 #include "support/message.hpp"
 
@@ -34,12 +36,15 @@ struct scene {
   contact::node_layout<double> layout;
 };
 
-scene brick(int k, fem::brick_load load, double F) {
-  auto const s = fem::make_steel_brick({.k = k, .load = load});
+scene scene_of(fem::contact_scene<3> const& s, double F) {
   return {s.K,
           {s.N, s.T, s.f, s.d, VectorXd::Zero(s.d.size())},
           VectorXd::Constant(s.d.size(), F),
           contact::layout_of(s.mesh.nodes, s.unknowns.first)};
+}
+
+scene brick(int k, fem::brick_load load, double F) {
+  return scene_of(fem::make_steel_brick({.k = k, .load = load}), F);
 }
 
 auto solve(scene const& s, options o = {}) {
@@ -81,6 +86,11 @@ TEST_CASE("bricks with Coulomb friction: the solution by forces, K never factore
       }
     }
   }
+}
+
+TEST_CASE("two bodies, meshes that match and such that do not") {
+  agree(scene_of(fem::make_two_bricks(4), 0.3));
+  agree(scene_of(test::facing_bricks(4, 5), 0.3));
 }
 
 TEST_CASE("no friction, nodes without, infinite gaps, units, turned rows, no coordinates") {

@@ -11,6 +11,9 @@
 #include <doctest/doctest.h>
 
 #include <fem/steel_brick.hpp>
+#include <fem/two_bricks.hpp>
+#include <fem/two_plates.hpp>
+#include "facing_bricks.hpp"
 #include "loose_brick.hpp"
 #include "spring_scenes.hpp"
 #include "support/allocation_guard.hpp"
@@ -20,6 +23,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace iterated_run_test {
@@ -51,9 +55,13 @@ scene frictionless(scene const& s) {
   return r;
 }
 
-scene brick(int k, fem::brick_load load) {
-  auto const s = fem::make_steel_brick({.k = k, .load = load});
+template <int D>
+scene scene_of(fem::contact_scene<D> const& s) {
   return {s.K, {s.N, s.T, s.f, s.d, s.g}, contact::layout_of(s.mesh.nodes, s.unknowns.first)};
+}
+
+scene brick(int k, fem::brick_load load) {
+  return scene_of<3>(fem::make_steel_brick({.k = k, .load = load}));
 }
 
 double energy(sparse const& K, VectorXd const& u) {
@@ -263,7 +271,23 @@ TEST_CASE("in the plane") {
                                     .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
                                               {{.axis = 0, .upper = true}, push}},
                                     .slip_bound = 0.3});
-    agree({s.K, {s.N, s.T, s.f, s.d, s.g}, contact::layout_of(s.mesh.nodes, s.unknowns.first)});
+    agree(scene_of<2>(s));
+  }
+}
+
+TEST_CASE("two bodies: levels of each, whose unknowns the contact mixes") {
+  for (int const p : {3, test::effort(10, 6)}) {
+    auto const r = agree(scene_of<3>(fem::make_two_bricks(p)));
+    CHECK(r.iterations <= 12);
+    CHECK(r.work.inner_iterations <= 5 * r.iterations);  // from levels of the mixed unknowns 10
+  }
+  agree(scene_of<2>(fem::make_two_plates(8)));
+  for (auto const& [p, q] : {std::pair{4, 3}, {test::effort(7, 5), test::effort(9, 7)}, {5, 3}}) {
+    CAPTURE(p);
+    auto const s = scene_of<3>(test::facing_bricks(p, q));
+    auto const r = agree(s);
+    CHECK(r.work.inner_iterations <= 6 * r.iterations);
+    CHECK(contact::check_optimality(s.K, s.data, r.u, r.multipliers).residual() <= 1e-6);
   }
 }
 
@@ -322,11 +346,11 @@ TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at
     }
   }
   shared.data.N.setFromTriplets(twice.begin(), twice.end());
-  CHECK(route_of(shared).reason.find("factored: contacts 0 and 1 share unknown") == 0);
+  CHECK(route_of(shared).reason.find("factored: contact 0 shares unknown") == 0);
   o.route = solution_route::iterate;
   CHECK(test::complaint([&] {
           static_cast<void>(contact::solve(shared.K, shared.data, o));
-        }).find("route: got iterate, expected factor or automatic, because contacts 0 and 1") == 0);
+        }).find("route: got iterate, expected factor or automatic, because contact 0 shares") == 0);
 
   o.route = solution_route::automatic;
   test::loose_brick const loose(1, {-0.3, 0, 0}, 0.05);

@@ -590,6 +590,47 @@ TEST_CASE("plane bodies, and blocks that the pattern hides") {
               all_free(308)) <= 24);
 }
 
+TEST_CASE("unknowns that mix those of several nodes: the levels are those of K") {
+  auto const s = fem::make_steel_brick({.k = 4, .load = fem::brick_load::lift});
+  auto const n = s.K.rows();
+  MatrixXd const modes = slant::contact::rigid_body_modes(test::moving_nodes(s));
+  // Sums and differences of the unknowns of nodes that lie far apart; and a shear, not orthogonal.
+  std::vector<Eigen::Triplet<double>> g, inverse;
+  for (int i = 0; i < int(n); ++i) {
+    int const half = int(n) / 6 * 3, other = (i + half) % (2 * half);
+    double const r = std::sqrt(0.5);
+    if (i >= 2 * half) {
+      g.emplace_back(i, i, 1);
+      inverse.emplace_back(i, i, 1);
+    } else if (i % 2 == 0) {
+      g.emplace_back(i, i, i < half ? r : -r);
+      g.emplace_back(i, other, r);
+      inverse.emplace_back(i, i, i < half ? r : -r);
+      inverse.emplace_back(i, other, r);
+    } else {
+      g.emplace_back(i, i, 1);
+      inverse.emplace_back(i, i, 1);
+      if (i >= half) continue;
+      g.emplace_back(i, other, 0.5);
+      inverse.emplace_back(i, other, -0.5);
+    }
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> G(n, n);
+  sparse back(n, n);
+  G.setFromTriplets(g.begin(), g.end());
+  back.setFromTriplets(inverse.begin(), inverse.end());
+  REQUIRE(MatrixXd(G * back).isIdentity(1e-14));
+  sparse const A = sparse(back.transpose()) * s.K * back;
+  VectorXd const b = back.transpose() * s.f;
+  slant::mixed_unknowns<double> const mixed{s.K, G};
+  auto const free = all_free(n);
+  auto const with = steps(multigrid(A, mixed, modes, {.coarsest = 60}), A, b, free);
+  CHECK(with <= steps(multigrid(s.K, modes, {.coarsest = 60}), s.K, s.f, free) + 6);
+  CHECK(multigrid(A, mixed, modes, {.coarsest = 60}).aggregates().count == 0);
+  CHECK_THROWS_WITH_AS(multigrid(A, slant::mixed_unknowns<double>{sparse(6, 6), G}, modes),
+                       doctest::Contains("rows of K: got 6"), slant::bad_input);
+}
+
 TEST_CASE("what cannot be used is named") {
   sparse K = laplacian(10, 10);
   CHECK_THROWS_AS(multigrid(sparse(3, 4)), slant::bad_input);

@@ -3,11 +3,11 @@
 // Contact with Tresca friction as a problem for the displacements:
 //
 //     minimise  ½ uᵀKu − fᵀu + Σ gᵢ‖(T u)ᵢ‖   over   N u ≤ d         becomes
-//     minimise  ½ vᵀ(HKHᵀ)v − (Hf)ᵀv + φ(v),      v = H u,
+//     minimise  ½ vᵀ(G⁻ᵀK G⁻¹)v − (G⁻ᵀf)ᵀv + φ(v),      v = G u,
 //
-// H orthogonal, φ of blocks of a component each for the gaps and of one or two for friction: the
-// normal displacement of a contact between two bounds, g‖·‖ of its tangential one. Where the rows of
-// N and T have one entry each (an obstacle parallel to a coordinate plane) H is the identity. K is
+// φ of blocks of a component each for the gaps and of one or two for friction: the normal
+// displacement of a contact between two bounds, g‖·‖ of its tangential one. Where the rows of N and T
+// have one entry each (an obstacle parallel to a coordinate plane) G is the identity. K is
 // never factored: the problem is for envelope_newton{problem.qp(), M} with the multigrid M of the
 // same matrix.
 #pragma once
@@ -16,6 +16,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/contact/contact_data.hpp>
+#include <slant/multilevel/multigrid.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/ball.hpp>
@@ -118,10 +119,16 @@ namespace slant::contact::detail {
 
 // --- local coordinates ---------------------------------------------------------------------------
 //
-// v = H u in which the rows of N and T of a contact are multiples of unit vectors. Rows of one entry
-// are that already. Otherwise H is, on the unknowns of these rows, the product of the Householder
-// reflections that bring one row after the other onto an axis [Golub, Van Loan, 5.2.1]: if the rows
-// of a contact are orthogonal, tangents of one length, and no other contact has one of the unknowns.
+// v = G u in which the rows of N and T of a contact are multiples of unit vectors. Rows of one entry
+// are that already. Otherwise, with O the unknowns that belong to this contact alone and S those that
+// it shares with others, as the nodes of a face opposite of which several nodes lie,
+//
+//     v_O = H u_O + L u_S,     v_S = u_S,     u_O = Hᵀ(v_O − L v_S):
+//
+// H is the product of the Householder reflections that bring one row of (N, T)_O after the other onto
+// an axis [Golub, Van Loan, 5.2.1], L the rest of the rows over their lengths. Contacts that share
+// nothing have G = H, orthogonal. What is needed: the parts of the rows on O are orthogonal, those of
+// tangents of one length, and none is short beside its row.
 
 /// The rows of one contact: entries (column, value) of N_i, then of T_i.
 template <class S>
@@ -137,62 +144,72 @@ struct local_row {
 template <class S>
 struct local_coordinates {
   using sparse_type = Eigen::SparseMatrix<S>;
+  using rows_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
 
   std::vector<local_row<S>> normal;    ///< of each contact
   std::vector<local_row<S>> tangents;  ///< as the rows of T
-  sparse_type H;                       ///< n × n, empty if it is the identity
+  rows_type G;                         ///< n × n, empty if it is the identity
+  sparse_type inverse;                 ///< G⁻¹, empty likewise
   std::string refusal;                 ///< why there are none, or empty
 
   explicit local_coordinates(data<S> const& c) {
-    Eigen::SparseMatrix<S, Eigen::RowMajor> const N = c.N, T = c.T;
+    rows_type const N = c.N, T = c.T;
     index const n = c.f.size(), per = c.tangents();
-    std::vector<index> owner(static_cast<std::size_t>(n), -1);
-    std::vector<Eigen::Triplet<S>> entries;
+    std::vector<index> owner(static_cast<std::size_t>(n), nobody);
+    auto const for_each_row = [&](index i, auto f) {
+      f(N, i);
+      for (index k = 0; k < per; ++k) f(T, i * per + k);
+    };
+    for (index i = 0; i < c.nodes(); ++i) {
+      for_each_row(i, [&](rows_type const& m, index r) {
+        for (typename rows_type::InnerIterator e(m, r); e; ++e) {
+          index& other = owner[static_cast<std::size_t>(e.col())];
+          if (e.value() != S(0)) other = other == nobody || other == i ? i : several;
+        }
+      });
+    }
+    std::vector<Eigen::Triplet<S>> reflections, rest;
     for (index i = 0; i < c.nodes() && refusal.empty(); ++i) {
-      local_rows<S> rows(static_cast<std::size_t>(1 + per));
-      read(N, i, rows[0]);
-      for (index k = 0; k < per; ++k) read(T, i * per + k, rows[static_cast<std::size_t>(1 + k)]);
-      claim(rows, i, owner);
-      if (refusal.empty()) place_rows(rows, i, entries);
+      local_rows<S> own, shared;
+      for_each_row(i, [&](rows_type const& m, index r) {
+        own.emplace_back();
+        shared.emplace_back();
+        for (typename rows_type::InnerIterator e(m, r); e; ++e) {
+          if (e.value() == S(0)) continue;
+          bool const mine = owner[static_cast<std::size_t>(e.col())] == i;
+          (mine ? own : shared).back().emplace_back(e.col(), e.value());
+        }
+      });
+      place_rows(own, shared, i, reflections, rest);
     }
-    if (!refusal.empty() || entries.empty()) return;
+    if (!refusal.empty() || reflections.empty()) return;
     std::vector<bool> turned(static_cast<std::size_t>(n), false);
-    for (auto const& e : entries) turned[static_cast<std::size_t>(e.row())] = true;
+    for (auto const& e : reflections) turned[static_cast<std::size_t>(e.row())] = true;
     for (index j = 0; j < n; ++j) {
-      if (!turned[static_cast<std::size_t>(j)]) entries.emplace_back(int(j), int(j), S(1));
+      if (!turned[static_cast<std::size_t>(j)]) reflections.emplace_back(int(j), int(j), S(1));
     }
-    H.resize(n, n);
-    H.setFromTriplets(entries.begin(), entries.end());
+    rows_type H(n, n), L(n, n);
+    H.setFromTriplets(reflections.begin(), reflections.end());
+    inverse = H.transpose();
+    if (rest.empty()) {
+      G = std::move(H);
+    } else {
+      L.setFromTriplets(rest.begin(), rest.end());
+      G = H + L;
+      inverse -= sparse_type(inverse * sparse_type(L));
+    }
   }
 
  private:
-  template <class M>
-  static void read(M const& m, index i, std::vector<std::pair<index, S>>& row) {
-    for (typename M::InnerIterator e(m, i); e; ++e) {
-      if (e.value() != S(0)) row.emplace_back(e.col(), e.value());
-    }
-  }
+  static constexpr index nobody = -1, several = -2;
 
-  void claim(local_rows<S> const& rows, index i, std::vector<index>& owner) {
-    for (auto const& row : rows) {
-      for (auto const& [j, value] : row) {
-        index& other = owner[static_cast<std::size_t>(j)];
-        if (other >= 0 && other != i) {
-          refusal = "contacts " + slant::detail::show(other) + " and " + slant::detail::show(i) +
-                    " share unknown " + slant::detail::show(j);
-          return;
-        }
-        other = i;
-      }
-    }
-  }
-
-  void place_rows(local_rows<S> const& rows, index i, std::vector<Eigen::Triplet<S>>& entries) {
-    using std::abs;
-    using std::sqrt;
+  /// Rows of a contact on its own unknowns, and on others.
+  void place_rows(local_rows<S> const& own, local_rows<S> const& shared, index i,
+                  std::vector<Eigen::Triplet<S>>& reflections,
+                  std::vector<Eigen::Triplet<S>>& rest) {
     // The rows as dense vectors of their common support.
     std::vector<index> support;
-    for (auto const& row : rows) {
+    for (auto const& row : own) {
       for (auto const& [j, value] : row) support.push_back(j);
     }
     std::sort(support.begin(), support.end());
@@ -200,26 +217,49 @@ struct local_coordinates {
     std::size_t const k = support.size();
     std::vector<std::vector<S>> a;
     bool single = true;
-    for (auto const& row : rows) {
+    for (std::size_t r = 0; r < own.size(); ++r) {
       std::vector<S> dense(k, S(0));
-      for (auto const& [j, value] : row) {
+      for (auto const& [j, value] : own[r]) {
         auto const at = std::lower_bound(support.begin(), support.end(), j) - support.begin();
         dense[static_cast<std::size_t>(at)] = value;
       }
-      single = single && row.size() <= 1;
+      single = single && own[r].size() <= 1 && shared[r].empty();
       a.push_back(std::move(dense));
     }
-    if (!orthogonal(a, i)) return;
-    std::vector<local_row<S>> where(rows.size());
+    if (!orthogonal(a, i) || !weighty(own, shared, i)) return;
+    std::vector<local_row<S>> where(own.size());
     if (single) {
-      for (std::size_t r = 0; r < rows.size(); ++r) {
-        if (!rows[r].empty()) where[r] = {rows[r][0].first, rows[r][0].second};
+      for (std::size_t r = 0; r < own.size(); ++r) {
+        if (!own[r].empty()) where[r] = {own[r][0].first, own[r][0].second};
       }
     } else {
-      reflect(a, support, where, entries);
+      reflect(a, support, where, reflections);
+      for (std::size_t r = 0; r < own.size(); ++r) {
+        for (auto const& [j, value] : shared[r]) {
+          rest.emplace_back(int(where[r].component), int(j), value / where[r].size);
+        }
+      }
     }
     normal.push_back(where[0]);
     tangents.insert(tangents.end(), where.begin() + 1, where.end());
+  }
+
+  /// Whether no row has its greater part on unknowns of several contacts.
+  bool weighty(local_rows<S> const& own, local_rows<S> const& shared, index i) {
+    auto const size = [](auto const& row) {
+      using std::abs;
+      S sum(0);
+      for (auto const& [j, value] : row) sum += abs(value);
+      return sum;
+    };
+    for (std::size_t r = 0; r < own.size(); ++r) {
+      if (S(4) * size(own[r]) >= size(shared[r])) continue;
+      index const j = shared[r].front().first;
+      refusal = "contact " + slant::detail::show(i) + " shares unknown " + slant::detail::show(j) +
+                " with others, and has hardly any of its own";
+      return false;
+    }
+    return true;
   }
 
   /// Whether rows are orthogonal and those of T of one length, up to rounding of what they are given
@@ -293,8 +333,8 @@ namespace slant::contact {
 
 // --- primal --------------------------------------------------------------------------------------
 
-/// Why the displacements of a scene cannot be solved for directly, or nothing: contacts that share an
-/// unknown, rows of N and T that are not orthogonal.
+/// Why the displacements of a scene cannot be solved for directly, or nothing: contacts without
+/// unknowns of their own, rows of N and T that are not orthogonal there.
 template <class S>
 [[nodiscard]] std::optional<std::string> primal_refusal(data<S> const& c) {
   detail::local_coordinates<S> const local(c);
@@ -302,7 +342,7 @@ template <class S>
   return local.refusal;
 }
 
-/// The problem at the top of this file. Refers to K if H is the identity; not movable, and qp() not
+/// The problem at the top of this file. Refers to K; not movable, and qp() not
 /// to be had from a temporary.
 template <class S = double>
 class primal {
@@ -319,7 +359,7 @@ class primal {
   primal(primal const&) = delete;
   primal& operator=(primal const&) = delete;
 
-  /// HKHᵀ.
+  /// G⁻ᵀK G⁻¹.
   [[nodiscard]] sparse_type const& matrix() const& { return own_.rows() > 0 ? own_ : *K_; }
   sparse_type const& matrix() const&& = delete;
   /// The problem; refers to this object.
@@ -342,7 +382,7 @@ class primal {
       return S(bound * abs(local_.tangents[static_cast<std::size_t>(c.number * per)].size));
     });
   }
-  /// λ_ν of all contacts at v with the gradient HKHᵀv − Hf, for a step length ρ: what the projection
+  /// λ_ν of all contacts at v with the gradient of the problem, for a step length ρ: what the projection
   /// of v − ρ r onto the gaps takes away, over ρ.
   void pressures(vector_type const& v, vector_type const& r, S const& ρ, vector_type& λ) const {
     λ.setZero();
@@ -353,21 +393,27 @@ class primal {
       if (force > S(0)) λ[c.number] = force;
     }
   }
-  /// Whether H is not the identity.
-  [[nodiscard]] bool turns() const { return local_.H.rows() > 0; }
+  /// Whether G is not the identity.
+  [[nodiscard]] bool turns() const { return local_.G.rows() > 0; }
+  /// Multigrid for matrix(), from candidates of the near kernel of K (n × r, or without columns).
+  [[nodiscard]] slant::multigrid<S> levels(matrix_type const& candidates,
+                                           multigrid_options const& o) const {
+    if (!turns()) return slant::multigrid<S>(matrix(), candidates, o);
+    return slant::multigrid<S>(own_, mixed_unknowns<S>{*K_, local_.G}, candidates, o);
+  }
 
-  /// v = H u; of a matrix, that of each column.
+  /// v = G u; of a matrix, that of each column.
   template <class V>
   [[nodiscard]] V coordinates(V const& u) const {
     slant::detail::check_size("rows of u", u.rows(), f_.size(), "the size of f,");
     if (!turns()) return u;
-    return V(local_.H * u);
+    return V(local_.G * u);
   }
-  /// u = Hᵀv.
+  /// u = G⁻¹v.
   [[nodiscard]] vector_type displacement(vector_type const& v) const {
     slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
     if (!turns()) return v;
-    return vector_type(local_.H.transpose() * v);
+    return vector_type(local_.inverse * v);
   }
   /// The forces (λ_ν, λ_t) of the contacts, f − K u = Nᵀλ_ν + Tᵀλ_t at a solution v. One product.
   [[nodiscard]] vector_type multipliers(vector_type const& v) const {
@@ -398,7 +444,7 @@ class primal {
     detail::local_coordinates<S> local(c);
     if (!local.refusal.empty()) {
       throw bad_input("N and T", local.refusal,
-                      "contacts of unknowns of their own and with orthogonal rows");
+                      "contacts with unknowns of their own and orthogonal rows");
     }
     return local;
   }
@@ -408,20 +454,20 @@ class primal {
         own_(turned(K)),
         rows_(matrix().rows(), matrix().cols(), matrix().nonZeros(), matrix().outerIndexPtr(),
               matrix().innerIndexPtr(), matrix().valuePtr()),
-        f_(coordinates(c.f, local_)),
+        f_(turned(c.f)),
         d_(c.d),
         φ_(c.f.size(), c.tangents(), contacts(c)) {}
 
   [[nodiscard]] sparse_type turned(sparse_type const& K) const {
-    if (turns()) return sparse_type(local_.H * K) * sparse_type(local_.H.transpose());
+    if (turns()) return sparse_type(local_.inverse.transpose()) * sparse_type(K * local_.inverse);
     if (K.isCompressed()) return {};
     sparse_type copy = K;
     copy.makeCompressed();
     return copy;
   }
-  static vector_type coordinates(vector_type const& f, detail::local_coordinates<S> const& local) {
-    if (local.H.rows() == 0) return f;
-    return vector_type(local.H * f);
+  [[nodiscard]] vector_type turned(vector_type const& f) const {
+    if (!turns()) return f;
+    return vector_type(local_.inverse.transpose() * f);
   }
 
   [[nodiscard]] std::vector<typename surface_function<S>::contact> contacts(
@@ -461,7 +507,7 @@ class primal {
 
   detail::local_coordinates<S> local_;
   sparse_type const* K_;
-  sparse_type own_;  // HKHᵀ, or a compressed copy, or nothing
+  sparse_type own_;  // G⁻ᵀK G⁻¹, or a compressed copy, or nothing
   rows_type rows_;
   vector_type f_, d_;
   surface_function<S> φ_;

@@ -103,6 +103,13 @@ struct multigrid_options {
   }
 };
 
+/// K, and G of unknowns v = G u: of a multigrid for G⁻ᵀK G⁻¹.
+template <class S>
+struct mixed_unknowns {
+  Eigen::SparseMatrix<S> const& K;
+  Eigen::SparseMatrix<S, Eigen::RowMajor> const& G;
+};
+
 }  // namespace slant
 
 namespace slant::detail {
@@ -172,47 +179,7 @@ class hierarchy {
   /// Level 0: factor · K.
   template <class K>
   void begin(K const& k, typename K::Scalar const& factor) {
-    using S = typename K::Scalar;
-    constexpr int stride = block_matrix<N, T>::stride;
-    fine.A = block_matrix<N, T>(k, factor);
-    auto const n = static_cast<std::size_t>(fine.A.nodes());
-    diagonal.assign(n * N * N, 0.0);
-    fine.inverses.assign(n * N * stride, T(0));
-    for (std::size_t i = 0; i < n; ++i) {
-      double* const a = diagonal.data() + i * (N * N);
-      for (int c = 0; c < N; ++c) {
-        index const column = static_cast<index>(i) * N + c;
-        auto const* const inner = k.innerIndexPtr();
-        index const end = k.isCompressed() ? index(k.outerIndexPtr()[column + 1])
-                                           : index(k.outerIndexPtr()[column]) +
-                                                 index(k.innerNonZeroPtr()[column]);
-        index e = std::lower_bound(inner + k.outerIndexPtr()[column], inner + end,
-                                   static_cast<index>(i) * N) -
-                  inner;
-        for (; e < end && inner[e] < static_cast<index>(i) * N + N; ++e) {
-          a[N * c + (inner[e] - static_cast<index>(i) * N)] =
-              static_cast<double>(S(k.valuePtr()[e] * factor));
-        }
-        // In double it may be a number that is none in T.
-        if (!(T(a[(N + 1) * c]) >= std::numeric_limits<T>::min())) {
-          throw bad_input("K",
-                          "diagonal entry " + show(column) + " = " + show(k.coeff(column, column)),
-                          "a symmetric positive definite matrix");
-        }
-      }
-      double inverse[N * N], least[N], scale[N];
-      std::copy(a, a + N * N, inverse);
-      for (int c = 0; c < N; ++c) {
-        scale[c] = a[(N + 1) * c];
-        least[c] = 64 * std::numeric_limits<double>::epsilon() * scale[c];
-      }
-      invert_semidefinite<N>(inverse, least, scale);
-      for (int c = 0; c < N; ++c) {
-        for (int q = 0; q < N; ++q) {
-          fine.inverses[(i * N + std::size_t(c)) * stride + std::size_t(q)] = T(inverse[N * c + q]);
-        }
-      }
-    }
+    fine = level_of(k, factor, diagonal);
   }
 
   /// The level below the last one by P, which becomes its prolongation.
@@ -231,18 +198,42 @@ class hierarchy {
   /// others already, of the last.
   void aggregate_all(near_kernel<N, M> const& B, multigrid_options const& o) {
     near_kernel<M, M> next;
-    if (!done(fine.A, o)) {
-      if (!aggregate_below(fine, B, next, o)) return;
-      kernel = next;
-      aggregate_rest(std::move(next), o);
-    }
+    if (done(fine.A, o)) return;
+    auto below = aggregate_below(fine, B, next, o);
+    if (!below) return;
+    append(fine, std::move(below->P), std::move(below->C));
+    aggregates = std::move(below->nodes);
+    kernel = next;
+    aggregate_rest(std::move(next), o);
+  }
+  /// The same where level 0 is G⁻ᵀK G⁻¹, of unknowns v = G u: P = G P_K, with P_K and near kernel
+  /// those of factor · K.
+  template <class K, class G>
+  void aggregate_mixed(K const& k, typename K::Scalar const& factor, G const& g,
+                       near_kernel<N, M> const& B, multigrid_options const& o) {
+    near_kernel<M, M> next;
+    if (done(fine.A, o)) return;
+    std::vector<double> unused;
+    fine_level apart = level_of(k, factor, unused);
+    auto below = aggregate_below(apart, B, next, o);
+    if (!below) return;
+    apart = {};
+    bool within = true;  // nodes
+    auto P = mixed_prolongation(below->P, g, within);
+    auto C = galerkin_pattern(fine.A, P, fine.longest);
+    append(fine, std::move(P), std::move(C));
+    if (within) aggregates = std::move(below->nodes);
+    kernel = next;
+    aggregate_rest(std::move(next), o);
   }
   void aggregate_rest(near_kernel<M, M> B, multigrid_options const& o) {
     near_kernel<M, M> next;
     while (!done(coarse.back().A, o)) {
       // append() makes a new last level, after it has used this one.
       coarse.reserve(coarse.size() + 1);
-      if (!aggregate_below(coarse.back(), B, next, o)) return;
+      auto below = aggregate_below(coarse.back(), B, next, o);
+      if (!below) return;
+      append(coarse.back(), std::move(below->P), std::move(below->C));
       std::swap(B.blocks, next.blocks);
     }
   }
@@ -275,10 +266,19 @@ class hierarchy {
 
   [[nodiscard]] static double weaker(double θ) { return θ > 0.01 ? θ / 2 : 0; }
 
-  /// The level below, with its near kernel; false if there is none that is smaller.
+  /// What a level below is made of: P, the pattern of PᵀA P, and the aggregates.
   template <int F>
-  bool aggregate_below(multigrid_level<F, M, T>& above, near_kernel<F, M> const& B,
-                       near_kernel<M, M>& next, multigrid_options const& o) {
+  struct level_below {
+    prolongation<F, M, T> P;
+    block_matrix<M, T> C;
+    aggregation nodes;
+  };
+
+  /// The level below with its near kernel; nothing if there is none that is smaller.
+  template <int F>
+  std::optional<level_below<F>> aggregate_below(multigrid_level<F, M, T>& above,
+                                                near_kernel<F, M> const& B, near_kernel<M, M>& next,
+                                                multigrid_options const& o) {
     // A level may have so many of the numbers of the one above that all have what the limit allows.
     double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
     T const λ = largest_jacobi_eigenvalue(above.A, above.inverses.data());
@@ -287,7 +287,7 @@ class hierarchy {
     while (true) {
       aggregation a = aggregate(above.A, θ);
       if (a.count == 0 || 10 * a.count > 9 * index(above.A.nodes())) {
-        if (θ == 0) return false;
+        if (θ == 0) return std::nullopt;
         θ = weaker(θ);
         continue;
       }
@@ -301,10 +301,56 @@ class hierarchy {
         continue;
       }
       smoothed = smoothed && smooth;
-      append(above, std::move(P), std::move(C));
-      if (F == N && coarse.size() == 1) aggregates = std::move(a);
-      return true;
+      return level_below<F>{std::move(P), std::move(C), std::move(a)};
     }
+  }
+
+  /// The matrix factor · K, the blocks D of its diagonal, and their inverses.
+  template <class K>
+  static fine_level level_of(K const& k, typename K::Scalar const& factor,
+                             std::vector<double>& diagonal) {
+    using S = typename K::Scalar;
+    constexpr int stride = block_matrix<N, T>::stride;
+    fine_level l{block_matrix<N, T>(k, factor), {}, {}, 0};
+    auto const n = static_cast<std::size_t>(l.A.nodes());
+    diagonal.assign(n * N * N, 0.0);
+    l.inverses.assign(n * N * stride, T(0));
+    for (std::size_t i = 0; i < n; ++i) {
+      double* const a = diagonal.data() + i * (N * N);
+      for (int c = 0; c < N; ++c) {
+        index const column = static_cast<index>(i) * N + c;
+        auto const* const inner = k.innerIndexPtr();
+        index const end = k.isCompressed() ? index(k.outerIndexPtr()[column + 1])
+                                           : index(k.outerIndexPtr()[column]) +
+                                                 index(k.innerNonZeroPtr()[column]);
+        index e = std::lower_bound(inner + k.outerIndexPtr()[column], inner + end,
+                                   static_cast<index>(i) * N) -
+                  inner;
+        for (; e < end && inner[e] < static_cast<index>(i) * N + N; ++e) {
+          a[N * c + (inner[e] - static_cast<index>(i) * N)] =
+              static_cast<double>(S(k.valuePtr()[e] * factor));
+        }
+        // In double it may be a number that is none in T.
+        if (!(T(a[(N + 1) * c]) >= std::numeric_limits<T>::min())) {
+          throw bad_input("K",
+                          "diagonal entry " + show(column) + " = " + show(k.coeff(column, column)),
+                          "a symmetric positive definite matrix");
+        }
+      }
+      double inverse[N * N], least[N], scale[N];
+      std::copy(a, a + N * N, inverse);
+      for (int c = 0; c < N; ++c) {
+        scale[c] = a[(N + 1) * c];
+        least[c] = 64 * std::numeric_limits<double>::epsilon() * scale[c];
+      }
+      invert_semidefinite<N>(inverse, least, scale);
+      for (int c = 0; c < N; ++c) {
+        for (int q = 0; q < N; ++q) {
+          l.inverses[(i * N + std::size_t(c)) * stride + std::size_t(q)] = T(inverse[N * c + q]);
+        }
+      }
+    }
+    return l;
   }
 };
 
@@ -526,6 +572,30 @@ class multigrid {
     with_levels(b, modes.cols() > b, [&]<int N, int W>(levels<N, W>& h) {
       h.begin(K, factor_);
       h.aggregate_all(kernel<N, W>(modes), o);
+      h.finish(o);
+    });
+    note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), modes.cols(), o);
+  }
+  /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides of
+  /// a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with its
+  /// candidates. Throws bad_input as above, also where sizes of k, K, G differ.
+  template <class M, class B>
+  multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const& mixed,
+            Eigen::MatrixBase<B> const& candidates, multigrid_options const& o = {})
+      : sweeps_(o.sweeps) {
+    o.validate();
+    auto const& A = compressed(k.derived());
+    prepare(A);
+    detail::check_size("rows of K", mixed.K.rows(), rows_, "the size of k,");
+    detail::check_size("columns of K", mixed.K.cols(), rows_, "the size of k,");
+    detail::check_size("rows of G", mixed.G.rows(), rows_, "the size of k,");
+    detail::check_size("columns of G", mixed.G.cols(), rows_, "the size of k,");
+    matrix_type const modes = candidates_for(candidates, o);
+    if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
+    index const b = block_size(mixed.K, modes.cols(), o);
+    with_levels(b, modes.cols() > b, [&]<int N, int W>(levels<N, W>& h) {
+      h.begin(A, factor_);
+      h.aggregate_mixed(mixed.K, factor_, mixed.G, kernel<N, W>(modes), o);
       h.finish(o);
     });
     note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), modes.cols(), o);

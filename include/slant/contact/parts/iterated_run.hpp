@@ -144,8 +144,8 @@ class primal_run {
   primal_run(Eigen::SparseMatrix<S> const& K, data<S> const& c, node_layout<S> const& layout,
              multigrid_options const& o, index most)
       : problem_(K, c),
-        motions_(layout.is_known() ? problem_.coordinates(rigid_motions(layout)) : matrix_type()),
-        M_(problem_.matrix(), motions_, o),
+        motions_(layout.is_known() ? rigid_motions(layout) : matrix_type(0, 0)),
+        M_(problem_.levels(motions_, o)),
         qp_(problem_.qp()),
         most_(most),
         state_(begin(c.tangents(), o)) {}
@@ -193,7 +193,9 @@ class primal_run {
     return method_type(qp_, M_, o);
   }
   [[nodiscard]] state_type begin(index tangents, multigrid_options const& o) const {
-    nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions_, o);
+    matrix_type const motions =
+        motions_.cols() > 0 ? problem_.coordinates(motions_) : matrix_type(0, 0);
+    nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions, o);
     if (!coarse.found()) return method(S(0)).start(problem_.zero());
     return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
   }

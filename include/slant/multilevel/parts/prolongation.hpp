@@ -87,6 +87,51 @@ struct prolongation {
   }
 };
 
+/// G P for a matrix G of unknowns; within ← whether no row of G reaches beyond its node.
+template <int N, int M, class T, class S>
+[[nodiscard]] prolongation<N, M, T> mixed_prolongation(
+    prolongation<N, M, T> const& P, Eigen::SparseMatrix<S, Eigen::RowMajor> const& G,
+    bool& within) {
+  constexpr std::size_t block = static_cast<std::size_t>(N * M);
+  using row = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
+  prolongation<N, M, T> mixed;
+  mixed.coarse_nodes = P.coarse_nodes;
+  mixed.column.reserve(P.column.size());
+  std::vector<T> entries;
+  entries.reserve(P.entries.size());
+  std::vector<int> columns;
+  for (int i = 0; i < P.nodes(); ++i) {
+    columns.clear();
+    for (int a = 0; a < N; ++a) {
+      for (row e(G, N * i + a); e; ++e) {
+        int const j = static_cast<int>(e.col()) / N;
+        within = within && j == i;
+        columns.insert(columns.end(), P.column.begin() + P.begin(j), P.column.begin() + P.end(j));
+      }
+    }
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    auto const start = entries.size();
+    entries.resize(start + columns.size() * block, T(0));
+    for (int a = 0; a < N; ++a) {
+      for (row e(G, N * i + a); e; ++e) {
+        int const j = static_cast<int>(e.col()) / N, b = static_cast<int>(e.col()) % N;
+        for (int k = P.begin(j); k < P.end(j); ++k) {
+          auto const at = std::lower_bound(columns.begin(), columns.end(), P.at(k));
+          T* const to = entries.data() + start +
+                        static_cast<std::size_t>(at - columns.begin()) * block + M * a;
+          for (int c = 0; c < M; ++c) to[c] += T(e.value()) * P.block(k)[M * b + c];
+        }
+      }
+    }
+    mixed.column.insert(mixed.column.end(), columns.begin(), columns.end());
+    mixed.first.push_back(static_cast<int>(mixed.column.size()));
+  }
+  entries.resize(entries.size() + mixed.beyond, T(0));
+  mixed.entries = std::move(entries);
+  return mixed;
+}
+
 /// P of the user as blocks of N unknowns: rows are the nodes of the fine level and columns those of
 /// the coarse one, entries the weights; or rows and columns are unknowns. `nodes` fine nodes.
 /// Throws bad_input naming what does not fit.
