@@ -42,6 +42,7 @@ struct outcome {
   Eigen::VectorXd x{};  ///< last iterate in Λ, or its projection; λ in contact
   Eigen::Matrix<long double, Eigen::Dynamic, 1> fine_x{};  ///< x with all its digits, where those
                                                            ///< of a double are not all
+  Eigen::VectorXd u{};  ///< displacements, of a method that finds these and λ from them
   /// What the method says of its own relative energy error, if it does.
   double claimed = std::numeric_limits<double>::quiet_NaN();
 };

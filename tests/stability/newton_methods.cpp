@@ -61,9 +61,7 @@ outcome program_door(prepared const& p, request const& r) {
   return o;
 }
 
-outcome contact_door(prepared const& p, request const& r) {
-  slant::contact::solve_options<double> options{.tolerance = r.tolerance, .max_steps = r.steps};
-  if (r.start != start_point::zero) options.start = p.start(r.start);
+outcome contact_run(prepared const& p, slant::contact::solve_options<double> const& options) {
   auto const found =
       slant::contact::solve(slant::contact::friction_disc{}, p.source().K, p.contact(), options);
   outcome o;
@@ -72,8 +70,24 @@ outcome contact_door(prepared const& p, request const& r) {
   o.iterations = found.iterations;
   o.applications = found.work.operator_applications;
   o.x = found.multipliers;
+  if (found.choice.route == slant::contact::solution_route::iterate) o.u = found.u;
   o.claimed = found.error.relative();
   return o;
+}
+
+outcome contact_door(prepared const& p, request const& r) {
+  slant::contact::solve_options<double> options{.tolerance = r.tolerance, .max_steps = r.steps};
+  if (r.start != start_point::zero) options.start = p.start(r.start);
+  return contact_run(p, options);
+}
+
+/// Without factors, on levels as small as those of large problems; starts are not for displacements.
+outcome contact_levels(prepared const& p, request const& r) {
+  return contact_run(p, {.tolerance = r.tolerance,
+                         .max_steps = r.steps,
+                         .layout = slant::contact::layout_of(p.source().nodes, p.source().first),
+                         .route = slant::contact::solution_route::iterate,
+                         .multigrid = {.coarsest = 40}});
 }
 
 }  // namespace
@@ -86,6 +100,7 @@ std::span<method const> newton_methods() {
       {"interior_point", inside},
       {"solve", program_door, scope::dense},
       {"contact_solve", contact_door, scope::contact},
+      {"contact_solve_iterated", contact_levels, scope::contact},
   };
   return list;
 }

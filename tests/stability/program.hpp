@@ -29,6 +29,8 @@ struct program {
   // in contact; N is m × n_u, T is 2m × n_u, d are gaps, radius are the slip bounds
   Eigen::SparseMatrix<double> K{}, N{}, T{};
   Eigen::VectorXd f{}, d{};
+  Eigen::MatrixXd nodes{};  ///< coordinates, a column each
+  Eigen::VectorXi first{};  ///< the first unknown of each node, -1 where it is held
 
   [[nodiscard]] bool contact() const { return K.rows() > 0; }
   [[nodiscard]] Eigen::Index size() const { return lower.size() + low.size() + 2 * radius.size(); }

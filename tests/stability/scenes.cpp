@@ -98,6 +98,8 @@ program make_brick(std::string const& load, brick_changes const& c) {
   p.T = scene.T;
   p.f = scene.f;
   p.d = scene.d;
+  p.nodes = scene.mesh.nodes;
+  p.first = scene.unknowns.first;
   p.radius = scene.g;
   p.lower = Eigen::VectorXd::Zero(scene.d.size());
   return p;

@@ -28,6 +28,7 @@ judgement judge(prepared const& p, reference const& exact, method const& m, requ
   bool const finite = o.x.size() == p.source().size() && o.x.allFinite();
   if (finite) {
     j.error = o.fine_x.size() > 0 ? relative_error(p.source(), exact, o.fine_x)
+              : o.u.size() > 0    ? relative_error(p.source(), exact, o.u)
                                   : relative_error(p.source(), exact, p.answer(o.x));
     j.kkt = p.kkt(o.x);
     j.ratio = j.error / j.allowed;
