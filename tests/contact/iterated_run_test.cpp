@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <fem/stacked_bricks.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
@@ -77,6 +78,7 @@ contact::solution<double> agree(scene const& s, double tolerance = 1e-9) {
   auto const factored =
       contact::solve(s.K, s.data, {.tolerance = 1e-12, .route = solution_route::factor});
   CAPTURE(iterated.reason);
+  CHECK(factored.error.relative() <= 1e-10);
   CHECK(iterated.converged());
   CHECK(iterated.choice.route == solution_route::iterate);
   CHECK(iterated.work.factorizations == 0);
@@ -353,12 +355,58 @@ TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at
         }).find("route: got iterate, expected factor or automatic, because contact 0 shares") == 0);
 
   o.route = solution_route::automatic;
-  test::loose_brick const loose(1, {-0.3, 0, 0}, 0.05);
-  options free;
-  free.layout = contact::interleaved_layout(loose.mesh.nodes);
-  auto const floats = contact::solve(loose.K, loose.data, free);
-  CHECK(floats.converged());
-  CHECK(floats.motions.free.size() == 1);
+}
+
+scene loose(double press, Eigen::Vector3d const& end, double gap) {
+  test::loose_brick const s(press, end, 0.05);
+  scene r{s.K, s.data, contact::interleaved_layout(s.mesh.nodes)};
+  r.data.d.setConstant(gap);
+  return r;
+}
+
+TEST_CASE("bodies that contact and friction hold: springs that end where they began") {
+  for (auto const& end : {Eigen::Vector3d(0, 0, 0), {-0.1, 0, 0}, {-0.45, 0.2, 0}}) {
+    for (double const gap : {0.0, 1e-6, 1e-4}) {
+      CAPTURE(gap);
+      auto const s = loose(0.3, end, gap);
+      auto const r = agree(s);
+      CHECK(r.springs <= 12);
+      CHECK(contact::check_optimality(s.K, s.data, r.u, r.multipliers).residual() <= 1e-6);
+    }
+  }
+  agree(loose(0.01, {0, 0, -0.5}, 0));  // tips over an edge of the floor, and ends there
+  // Three bricks in a corner, the upper ones on the lower, no friction.
+  auto const stack =
+      fem::make_stack({.bricks = 3, .cells = {4, 2, 2}, .top = {1.5, -0.4}, .gap = 1e-5});
+  auto corner = bare(stack.K, stack.B, stack.f, stack.c);
+  corner.layout = contact::layout_of(stack.mesh.nodes, stack.unknowns.first);
+  agree(corner, 1e-8);
+  // Forces of 2^-200, a stiffness of 2^300.
+  auto s = loose(0.3, {-0.1, 0, 0}, 1e-6);
+  VectorXd const u = agree(s).u;
+  s.K *= 0x1p300;
+  for (VectorXd* v : {&s.data.f, &s.data.g}) *v *= 0x1p-200;
+  s.data.d *= 0x1p-500;
+  options o;
+  o.layout = s.layout;
+  o.route = solution_route::iterate;
+  CHECK((contact::solve(s.K, s.data, o).u * 0x1p500 - u).norm() <= 1e-7 * u.norm());
+}
+
+TEST_CASE("bodies that nothing holds: told by the factors, a stall without them") {
+  for (auto const& s : {loose(-0.3, {0, 0, 0}, 0), loose(0.3, {-2, 0, 0}, 0)}) {
+    options o;
+    o.layout = s.layout;
+    auto const r = contact::solve(s.K, s.data, o);
+    CHECK(r.status == slant::status::unbounded);
+    CHECK(r.motions.free.size() == 1);
+    o.route = solution_route::iterate;
+    auto const iterated = contact::solve(s.K, s.data, o);
+    CHECK(iterated.status == slant::status::stalled);
+    CHECK(iterated.error.relative() == infinity);
+    CHECK(iterated.reason.find("contact hardly holds bodies without supports") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("a K that is not square") {

@@ -394,11 +394,14 @@ template <class Friction, class S>
   c.g = vector_type::Zero(c.nodes());
   detail::validated(friction, c, K.rows());
   detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
-  std::optional<std::string> const why =
+  auto outlook =
       o.method == coulomb_method::automatic
-          ? detail::iteration_refusal(K, c, o.layout, o.route == solution_route::iterate)
-          : std::optional<std::string>("the method works on forces");
-  route_choice choice = choose_route(K, why, o.route, o.costs);
+          ? detail::outlook_of_iteration(K, c, o.layout, o.route == solution_route::iterate)
+          : detail::iteration_outlook{"the method works on forces"};
+  if (!outlook.floating.empty()) {
+    outlook.refusal = "a body is held by contact or friction only, or hardly by anything else";
+  }
+  route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   if (choice.route == solution_route::iterate) {
     try {
       auto found = detail::iterated_certified_coulomb(friction, K, c, F, o);

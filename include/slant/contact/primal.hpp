@@ -371,6 +371,11 @@ class primal {
   [[nodiscard]] surface_function<S> const& surface() const& { return φ_; }
   surface_function<S> const& surface() const&& = delete;
   [[nodiscard]] vector_type zero() const { return vector_type::Zero(f_.size()); }
+  /// The load becomes f: b of qp() changes with it.
+  void set_load(vector_type const& f) {
+    slant::detail::check_size("f", f.size(), f_.size(), "the number of unknowns,");
+    f_ = turned(f);
+  }
   /// The slip bounds become g, one for each contact: φ changes, and qp() with it.
   void set_slip_bounds(vector_type const& g) {
     using std::abs;

@@ -305,14 +305,16 @@ template <class Friction, class S, class... Observers>
   route_choice choice;
   if constexpr (sizeof...(Observers) == 0) {
     bool const asked = o.route == solution_route::iterate;
-    std::optional<std::string> const why =
-        o.prove             ? std::optional<std::string>("the proof of a bound takes factors")
-        : !asked && o.start ? std::optional<std::string>("forces to start from are given")
-                            : detail::iteration_refusal(K, c, o.layout, asked);
-    choice = choose_route(K, why, o.route, o.costs);
+    auto const outlook = o.prove ? detail::iteration_outlook{"the proof of a bound takes factors"}
+                         : !asked && o.start
+                             ? detail::iteration_outlook{"forces to start from are given"}
+                             : detail::outlook_of_iteration(K, c, o.layout, asked);
+    choice = choose_route(K, outlook.refusal, o.route, o.costs);
     if (choice.route == solution_route::iterate) {
       try {
-        auto found = detail::iterated_run(friction, K, c, o);
+        auto found = outlook.floating.empty()
+                         ? detail::iterated_run(friction, K, c, o)
+                         : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
         found.choice = choice;
         if (found.converged() || o.route == solution_route::iterate) return found;
         choice.reason += "; factored after all: " + found.reason;

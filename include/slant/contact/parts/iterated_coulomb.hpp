@@ -95,7 +95,7 @@ template <class Friction, class S>
   S share = tolerance / S(2), best = std::numeric_limits<S>::infinity(), nearest = best;
   index since = 0, round = 0;
   auto const judge = [&] {
-    result.u = run.problem().displacement(state.x);
+    result.u = run.displacement();
     result.λ = run.problem().multipliers(state.x);
     vector_type const g = F.cwiseProduct(result.λ.head(c.nodes()).cwiseMax(S(0)));
     slant::project(feasible_set(law, c.nodes(), g), result.λ, result.λ);

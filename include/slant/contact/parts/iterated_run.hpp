@@ -65,14 +65,15 @@ template <class S>
   return R;
 }
 
-/// Is there a motion of a whole body, of those in R, that K resists by less than `share` of what the
-/// diagonal of K would? Then the error in the energy norm says little of it.
+/// The unknowns of bodies with a motion, of those in R, that K resists by less than `share` of what
+/// the diagonal of K would.
 template <class S>
-[[nodiscard]] bool nearly_floats(Eigen::SparseMatrix<S> const& K,
-                                 Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R,
-                                 S const& share) {
+[[nodiscard]] std::vector<index> floating_unknowns(
+    Eigen::SparseMatrix<S> const& K, Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R,
+    S const& share) {
   using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using six = Eigen::Matrix<S, 6, 6>;
+  std::vector<index> floating;
   // By rows, so that one pass through K does; in the plane with zeros.
   Eigen::Matrix<S, Eigen::Dynamic, 6, Eigen::RowMajor> rows;
   rows.setZero(R.rows(), 6);
@@ -103,28 +104,31 @@ template <class S>
     matrix const small = W.transpose() * G * W;
     Eigen::SelfAdjointEigenSolver<matrix> const resistance(
         matrix(small / 2 + small.transpose() / 2), Eigen::EigenvaluesOnly);
-    if (!(resistance.eigenvalues().minCoeff() > share)) return true;
-  }
-  return false;
-}
-
-/// Why this scene is not iterated, or nothing. `asked`: somebody wants it, coordinates or not. Throws
-/// bad_input for sizes that do not fit.
-template <class S>
-[[nodiscard]] std::optional<std::string> iteration_refusal(Eigen::SparseMatrix<S> const& K,
-                                                           data<S> const& c,
-                                                           node_layout<S> const& layout,
-                                                           bool asked) {
-  if (!asked && !layout.is_known()) return "no coordinates of nodes are given";
-  if (auto const why = primal_refusal(c)) return why;
-  if (layout.is_known()) {
-    slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
-    layout.validate(K.rows());
-    if (nearly_floats<S>(K, rigid_motions(layout), S(1e-9))) {
-      return "a body is held by contact or friction only, or hardly by anything else";
+    if (!(resistance.eigenvalues().minCoeff() > share)) {
+      floating.insert(floating.end(), body.begin(), body.end());
     }
   }
-  return std::nullopt;
+  return floating;
+}
+
+/// Whether a scene can be iterated: why not, or nothing; and the unknowns of bodies that contact or
+/// friction holds, or hardly anything else.
+struct iteration_outlook {
+  std::optional<std::string> refusal{};
+  std::vector<index> floating{};
+};
+
+/// `asked`: somebody wants it, coordinates or not. Throws bad_input for sizes that do not fit.
+template <class S>
+[[nodiscard]] iteration_outlook outlook_of_iteration(Eigen::SparseMatrix<S> const& K,
+                                                     data<S> const& c, node_layout<S> const& layout,
+                                                     bool asked) {
+  if (!asked && !layout.is_known()) return {"no coordinates of nodes are given"};
+  if (auto why = primal_refusal(c)) return {std::move(why)};
+  if (!layout.is_known()) return {};
+  slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+  layout.validate(K.rows());
+  return {std::nullopt, floating_unknowns<S>(K, rigid_motions(layout), S(1e-9))};
 }
 
 /// The problem, its levels and Newton's method, begun on the coarser ones. Not movable: parts refer
@@ -179,6 +183,19 @@ class primal_run {
     problem_.pressures(state_.x, state_.r, state_.step_length * state_.unit, λ);
     λ *= state_.unit;
   }
+  /// The displacements, and the forces of the contacts in Λ.
+  [[nodiscard]] vector_type displacement() const { return problem_.displacement(state_.x); }
+  template <class C>
+  [[nodiscard]] vector_type multipliers(C const& Λ) const {
+    vector_type λ = problem_.multipliers(state_.x);
+    slant::project(Λ, λ, λ);
+    return λ;
+  }
+  /// Goes on from x with another load.
+  void set_load(vector_type const& f) {
+    problem_.set_load(f);
+    method(S(0)).resume(state_);
+  }
   /// Goes on from x with other slip bounds.
   void set_slip_bounds(vector_type const& g) {
     problem_.set_slip_bounds(g);
@@ -208,30 +225,32 @@ class primal_run {
   state_type state_;
 };
 
+/// What tells options.progress of a state.
+template <class S, class State>
+void tell_progress(solve_options<S> const& o, State const& state) {
+  if (!o.progress) return;
+  bool const is_measured = state.gradient_scale > S(0);
+  o.progress({state.iteration,
+              is_measured ? S(state.reduced_gradient_norm / state.gradient_scale) : S(0)});
+}
+
 /// Contact with given slip bounds, or none.
 template <class Friction, class S>
 [[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
                                        data<S> const& c, solve_options<S> const& o) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using slant::detail::show;
   solution<S> result;
   primal_run<S> run(K, c, o.layout, o.multigrid, o.max_steps);
   auto const& state = run.state();
   result.factorization = run.levels().description();
   energy_certificate certificate(run.qp(), run.levels());
-  auto const tell = [&] {
-    if (!o.progress) return;
-    bool const is_measured = state.gradient_scale > S(0);
-    o.progress({state.iteration,
-                is_measured ? S(state.reduced_gradient_norm / state.gradient_scale) : S(0)});
-  };
   S share = o.tolerance / S(2), best = std::numeric_limits<S>::infinity();
   constexpr index rounds = 12;
   for (index round = 0;; ++round) {
-    tell();
+    tell_progress(o, state);
     while (state.status == status::running) {
       run.step(share * run.size());
-      if (state.status != status::iteration_limit) tell();
+      if (state.status != status::iteration_limit) tell_progress(o, state);
     }
     result.error = certificate(state.x);
     S const error = result.error.relative();
@@ -251,13 +270,108 @@ template <class Friction, class S>
     share *= std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
     run.go_on();
   }
-  result.u = run.problem().displacement(state.x);
-  vector_type λ = run.problem().multipliers(state.x);
-  slant::project(detail::feasible_set(law, c), λ, λ);
-  result.multipliers = std::move(λ);
+  result.u = run.displacement();
+  result.multipliers = run.multipliers(feasible_set(law, c));
   result.iterations = state.iteration;
   result.work = state.work;
   result.work.operator_applications += certificate.applications();
+  return result;
+}
+
+// --- bodies that float ---------------------------------------------------------------------------
+//
+// Contact or friction holds them, or nothing. The proximal point method [Rockafellar 1976]
+//
+//     u⁺ = argmin  ½ vᵀK v − fᵀv + φ(v) + ½ ‖v − u‖²_D,       D = 1e-5 diag(K) on these bodies,
+//
+// solves problems with springs that end where they began: they need nothing but another load, f + D u,
+// and levels of K + D. Where contact holds the bodies by a stiffness c it contracts by D/(D + c), a
+// hundredth or less on bricks; where it does not, u goes away and the run ends.
+//
+// Error. With w = ‖u⁺ − u‖_D and r(u⁺) + v = −D(u⁺ − u), v ∈ ∂φ(u⁺), monotonicity gives
+//
+//     ‖u⁺ − u*‖²_K ≤ ⟨D(u − u⁺), u⁺ − u*⟩ ≤ w d,        d = ‖u⁺ − u*‖_D ≤ θ w/(1 − θ),
+//
+// θ twice the last contraction as it was observed: an estimate, as that of the problem with springs is.
+
+/// As iterated_run, where these unknowns belong to bodies that float.
+template <class Friction, class S>
+[[nodiscard]] solution<S> iterated_floating_run(Friction law, Eigen::SparseMatrix<S> const& K,
+                                                data<S> const& c,
+                                                std::vector<index> const& floating,
+                                                solve_options<S> const& o) {
+  using slant::detail::show;
+  using std::sqrt;
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  constexpr index rounds = 30, patience = 8;
+  constexpr S infinity = std::numeric_limits<S>::infinity();
+  vector_type D = vector_type::Zero(c.f.size());
+  Eigen::SparseMatrix<S> held = K;
+  for (index const j : floating) {
+    D[j] = S(1e-5) * K.coeff(j, j);
+    held.coeffRef(j, j) += D[j];
+  }
+  solution<S> result;
+  primal_run<S> run(held, c, o.layout, o.multigrid, o.max_steps);
+  auto const& state = run.state();
+  result.factorization = run.levels().description();
+  vector_type u = vector_type::Zero(c.f.size()), before = u, Du = u;
+  S w = infinity, size(0), share = S(1e-3);
+  index slow = 0, applications = 0;
+  while (true) {
+    tell_progress(o, state);
+    while (state.status == status::running) {
+      run.step(share * run.size());
+      if (state.status != status::iteration_limit) tell_progress(o, state);
+    }
+    ++result.springs;
+    u.swap(before);
+    u = run.displacement();
+    S const last = w, unit = unit_near(S(slant::norm(u)));
+    vector_type const δ = (u - before) / unit;
+    w = unit * sqrt(S(δ.dot(D.cwiseProduct(δ))));
+    S const contraction = w / last, θ = S(2) * contraction;
+    // d/w; from a contraction of ½ on nothing is known.
+    S const left = θ < S(1) ? S(sqrt(S(θ / (S(1) - θ)))) : infinity;
+    vector_type const Ku = K * (u / unit);
+    ++applications;
+    S const square = Ku.dot(u / unit);
+    size = square > S(0) ? S(unit * sqrt(square)) : S(0);
+    bool const ended = state.status != status::converged;
+    result.error = {.bound = infinity, .size = size};
+    if (w * left <= S(0.5) * o.tolerance * size || ended) {
+      energy_certificate certificate(run.qp(), run.levels());
+      S const inner = certificate(state.x).bound;
+      applications += certificate.applications();
+      result.error.bound = S((w + inner) * left) + inner;
+    }
+    S const error = result.error.relative();
+    bool const is_enough = error <= o.tolerance;
+    slow = θ < S(1) ? 0 : slow + 1;
+    if (is_enough || ended || slow > patience || result.springs > rounds) {
+      result.status = is_enough ? status::converged : ended ? state.status : status::stalled;
+      result.reason = result.error.sentence();
+      if (is_enough) {
+        result.reason += ", at most " + show(o.tolerance);
+      } else {
+        result.reason += "; asked was " + show(o.tolerance) + "; " +
+                         (slow > patience ? "contact hardly holds bodies without supports"
+                          : ended         ? state.reason()
+                                          : std::string("rounding errors allow no more"));
+      }
+      break;
+    }
+    // As accurate as the next step is long, if it is as much shorter as this one was.
+    S const expected = contraction < S(1) ? S(w * contraction) : w;
+    share = std::clamp<S>(S(0.1) * expected / run.size(), o.tolerance / S(8), S(1e-3));
+    Du = D.cwiseProduct(u);
+    run.set_load(c.f + Du);
+  }
+  result.u = std::move(u);
+  result.multipliers = run.multipliers(feasible_set(law, c));
+  result.iterations = state.iteration;
+  result.work = state.work;
+  result.work.operator_applications += applications;
   return result;
 }
 
