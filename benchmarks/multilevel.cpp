@@ -5,10 +5,12 @@
 //
 //     multilevel [--no-direct] [K...]     sizes of the brick, 8 12 16 without any
 //
-// prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's: problems
+// under the loads of the brick, and with Tresca's friction `loose`, the brick without its clamp, pressed
+// onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge. It prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's: problems
 // of Tresca's), cycles, products by K, processor seconds of the hierarchy, of everything from K, N, T,
-// f, d, g and the coordinates to a certified u (the hierarchy included), and of factoring K and solving
-// once by slant::factorize; the relative error in the energy norm, as certified, and against a
+// f, d, g and the coordinates to a certified u (the hierarchy included), of factoring K and solving
+// once by slant::factorize, and, where a body is loose or there are two, of the dual method with factors
+// to the same tolerance; the relative error in the energy norm, as certified, and against a
 // reference: the dual method with factors at 1e-12, or with --no-direct, where factors take too long,
 // the same method at 1e-11. Exit status 1 if a run does not converge, or an error is above 1e-8 or
 // above what is certified by more than a tenth.
@@ -17,6 +19,7 @@
 #include <slant/contact/solve.hpp>
 
 #include <fem/steel_brick.hpp>
+#include <fem/two_bricks.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -78,9 +81,35 @@ double energy(fem::contact_scene<3> const& s, vector const& u) {
   return std::sqrt(u.dot(vector(s.K * u)));
 }
 
-bool measure(fem::brick_load load, law friction, int k, bool direct) {
+/// The brick of K × 3K × K cells on the floor, without its clamp.
+fem::contact_scene<3> loose_brick(int k) {
+  fem::contact_scene<3> s;
+  auto const mesh = fem::make_box_mesh<3>({3 * k, k, k}, {3, 1, 1});
+  s.mesh = mesh;
+  s.unknowns = fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
+  s.K = fem::stiffness<3>(mesh, s.unknowns, fem::lame(2.119e5, 0.277));
+  s.f = vector::Zero(s.K.rows());
+  fem::add_tractions<3>(mesh, s.unknowns, {{{2, true}, {0, 0, -0.3}}, {{0, true}, {-0.1, 0.05, 0}}},
+                        s.f);
+  s.contact_nodes = mesh.nodes_on({2, false});
+  auto const m = static_cast<Eigen::Index>(s.contact_nodes.size());
+  s.N.resize(m, s.K.rows());
+  s.T.resize(2 * m, s.K.rows());
+  for (Eigen::Index i = 0; i < m; ++i) {
+    int const first = s.unknowns.first[s.contact_nodes[static_cast<std::size_t>(i)]];
+    s.N.insert(i, first + 2) = -1;
+    s.T.insert(2 * i, first) = 1;
+    s.T.insert(2 * i + 1, first + 1) = 1;
+  }
+  s.d = vector::Constant(m, 1e-4);
+  s.g = vector::Constant(m, 0.5 / double(m));
+  return s;
+}
+
+bool measure(fem::contact_scene<3> const& scene, std::string const& load, law friction, int k,
+             bool direct) {
   using contact::solution_route;
-  auto const scene = fem::make_steel_brick({.k = k, .load = load});
+  bool const is_loose = load == "loose", is_pair = load == "bricks";
   stopwatch const whole;
   auto const r = run(scene, friction, solution_route::iterate, 1e-8);
   double const seconds = whole.seconds();
@@ -91,11 +120,17 @@ bool measure(fem::brick_load load, law friction, int k, bool direct) {
   double const setup_seconds = setup.seconds();
 
   double linear_seconds = std::nan("");
-  if (direct) {
+  if (direct && !is_loose) {
     stopwatch const linear;
     vector u(scene.f.size());
     slant::apply(slant::inverse(slant::factorize(scene.K)), scene.f, u);
     linear_seconds = linear.seconds();
+  }
+  double dual_seconds = std::nan("");
+  if (direct && (is_loose || is_pair)) {
+    stopwatch const dual;
+    run(scene, friction, solution_route::factor, 1e-8);
+    dual_seconds = dual.seconds();
   }
   auto const reference = direct ? run(scene, friction, solution_route::factor, 1e-12)
                                 : run(scene, friction, solution_route::iterate, 1e-11);
@@ -103,10 +138,9 @@ bool measure(fem::brick_load load, law friction, int k, bool direct) {
   char const* const name = friction == law::none     ? "none"
                            : friction == law::tresca ? "tresca"
                                                      : "coulomb";
-  std::printf("%s,%s,%d,%td,%td,%td,%td,%.3f,%.3f,%.3f,%.1e,%.1e\n", name,
-              std::string(name_of(load)).c_str(), k, scene.f.size(), r.steps,
-              r.work.inner_iterations, r.work.operator_applications, setup_seconds, seconds,
-              linear_seconds, r.certified, error);
+  std::printf("%s,%s,%d,%td,%td,%td,%td,%.3f,%.3f,%.3f,%.3f,%.1e,%.1e\n", name, load.c_str(), k,
+              scene.f.size(), r.steps, r.work.inner_iterations, r.work.operator_applications,
+              setup_seconds, seconds, linear_seconds, dual_seconds, r.certified, error);
   std::fflush(stdout);
   return r.converged && error <= 1e-8 && error <= 1.1 * r.certified;
 }
@@ -130,11 +164,17 @@ int main(int argc, char** argv) {
   if (sizes.empty()) sizes = {8, 12, 16};
   std::printf(
       "friction,load,k,unknowns,steps,cycles,products,setup_seconds,seconds,linear_solve_seconds,"
-      "certified,error\n");
+      "dual_seconds,certified,error\n");
   bool good = true;
   for (law const friction : {law::tresca, law::coulomb, law::none}) {
     for (int const k : sizes) {
-      for (auto const load : fem::brick_loads) good = measure(load, friction, k, direct) && good;
+      for (auto const load : fem::brick_loads) {
+        auto const scene = fem::make_steel_brick({.k = k, .load = load});
+        good = measure(scene, std::string(name_of(load)), friction, k, direct) && good;
+      }
+      if (friction != law::tresca) continue;
+      good = measure(loose_brick(k), "loose", friction, k, direct) && good;
+      good = measure(fem::make_two_bricks(3 * k / 2), "bricks", friction, k, direct) && good;
     }
   }
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

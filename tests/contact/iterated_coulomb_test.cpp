@@ -11,6 +11,7 @@
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include "facing_bricks.hpp"
+#include "loose_brick.hpp"
 #include "support/effort.hpp"
 #include "support/message.hpp"
 
@@ -91,6 +92,35 @@ TEST_CASE("bricks with Coulomb friction: the solution by forces, K never factore
 TEST_CASE("two bodies, meshes that match and such that do not") {
   agree(scene_of(fem::make_two_bricks(4), 0.3));
   agree(scene_of(test::facing_bricks(4, 5), 0.3));
+}
+
+TEST_CASE(
+    "bodies that contact and friction hold: by Tresca's problem with the bounds that were found") {
+  for (auto const& end : {Eigen::Vector3d(0, 0, 0), {-0.25, 0, 0}, {-3, 0, 0}}) {
+    for (double const gap : {0.0, 1e-5}) {
+      CAPTURE(end[0]);
+      CAPTURE(gap);
+      test::loose_brick const loose(0.3, end, 0);
+      scene s{loose.K, loose.data, VectorXd::Constant(loose.data.d.size(), 0.3),
+              contact::interleaved_layout(loose.mesh.nodes)};
+      s.data.d.setConstant(gap);
+      auto const r = solve(s, {.tolerance = 1e-9});
+      CAPTURE(r.reason);
+      if (end[0] == -3) {  // slides away
+        CHECK(r.status == slant::status::stalled);
+        CHECK(r.reason.find("contact hardly holds bodies without supports") != std::string::npos);
+        continue;
+      }
+      CHECK(r.converged());
+      CHECK(r.choice.route == solution_route::iterate);
+      auto law = s.data;
+      law.g = s.F.cwiseProduct(r.λ.head(s.F.size()).cwiseMax(0));
+      CHECK(contact::check_optimality(s.K, law, r.u, r.λ).residual() <= 1e-7);
+      auto const tresca =
+          contact::solve(s.K, law, {.tolerance = 1e-11, .route = solution_route::factor});
+      CHECK(energy(s.K, VectorXd(r.u - tresca.u)) <= 1e-9 * energy(s.K, tresca.u));
+    }
+  }
 }
 
 TEST_CASE("no friction, nodes without, infinite gaps, units, turned rows, no coordinates") {

@@ -356,10 +356,11 @@ template <class Friction, class S>
 [[nodiscard]] auto iterated_certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K,
                                               data<S> const& c,
                                               Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
+                                              std::vector<index> const& floating,
                                               certified_coulomb_options<S> const& o)
     -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
-  auto found = detail::iterated_coulomb(friction, K, c, F, o.layout, o.multigrid, S(o.tolerance),
-                                        o.outer_steps);
+  auto found = detail::iterated_coulomb(friction, K, c, F, o.layout, floating, o.multigrid,
+                                        S(o.tolerance), o.outer_steps);
   certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> result{std::move(found.λ)};
   result.u = std::move(found.u);
   result.error = found.error;
@@ -394,19 +395,18 @@ template <class Friction, class S>
   c.g = vector_type::Zero(c.nodes());
   detail::validated(friction, c, K.rows());
   detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
-  auto outlook =
+  auto const outlook =
       o.method == coulomb_method::automatic
           ? detail::outlook_of_iteration(K, c, o.layout, o.route == solution_route::iterate)
           : detail::iteration_outlook{"the method works on forces"};
-  if (!outlook.floating.empty()) {
-    outlook.refusal = "a body is held by contact or friction only, or hardly by anything else";
-  }
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   if (choice.route == solution_route::iterate) {
     try {
-      auto found = detail::iterated_certified_coulomb(friction, K, c, F, o);
+      auto found = detail::iterated_certified_coulomb(friction, K, c, F, outlook.floating, o);
       found.choice = choice;
-      if (found.converged() || o.route == solution_route::iterate) return found;
+      // The methods with factors need supports.
+      bool const is_last = o.route == solution_route::iterate || !outlook.floating.empty();
+      if (found.converged() || is_last) return found;
       choice.reason += "; factored after all: " + found.reason;
     } catch (bad_input const& refusal) {
       if (o.route == solution_route::iterate) throw;

@@ -12,7 +12,8 @@
 //               and the energy error for the last bounds (energy_certificate)
 //     go on     where that asks for more, with a goal that is smaller by as much
 //
-// The state is kept from problem to problem, so that bounds cost some two steps. Where they do not
+// Bodies that float are held by springs that move with the bounds (moving_springs). The state is kept
+// from problem to problem, so that bounds cost some two steps. Where they do not
 // contract the run ends: stalled after `patience` problems of which none was nearer than all before.
 #pragma once
 
@@ -30,6 +31,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace slant::contact::detail {
 
@@ -70,18 +72,20 @@ struct iterated_coulomb_result {
   std::string levels;
 };
 
-/// The run, from c without its slip bounds. Throws bad_input where K is found not to be definite or
+/// The run, from c without its slip bounds; `floating` unknowns of bodies that contact holds. Throws bad_input where K is found not to be definite or
 /// does not fit the nodes.
 template <class Friction, class S>
 [[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
     Friction law, Eigen::SparseMatrix<S> const& K, data<S> c,
     Eigen::Matrix<S, Eigen::Dynamic, 1> const& F, node_layout<S> const& layout,
-    multigrid_options const& levels, S const& tolerance, index most) {
+    std::vector<index> const& floating, multigrid_options const& levels, S const& tolerance,
+    index most) {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   constexpr index patience = 15, rounds = 12, steps_for_bounds = 40;
   iterated_coulomb_result<S> result;
   c.g = vector_type::Zero(c.nodes());
-  primal_run<S> run(K, c, layout, levels, (most + 1) * steps_for_bounds);
+  moving_springs<S> springs(K, floating);
+  primal_run<S> run(springs.held(), c, layout, levels, (most + 1) * steps_for_bounds);
   result.levels = run.levels().description();
   energy_certificate frozen(run.qp(), run.levels());
   checked_rows<S> const rows(c);
@@ -100,9 +104,18 @@ template <class Friction, class S>
     vector_type const g = F.cwiseProduct(result.λ.head(c.nodes()).cwiseMax(S(0)));
     slant::project(feasible_set(law, c.nodes(), g), result.λ, result.λ);
     result.error = {check(result.λ, result.u), frozen(state.x)};
+    if (!springs.empty()) {
+      springs.measure(result.u);
+      result.error.frozen = springs.error(result.error.frozen.bound);
+    }
     return result.error.relative();
   };
   while (true) {
+    if (!springs.empty()) {
+      springs.measure(run.displacement());
+      springs.move();
+      run.set_load(springs.load(c.f));
+    }
     run.pressures(λ);
     run.set_slip_bounds(F.cwiseProduct(λ));
     ++result.bounds;
@@ -122,8 +135,10 @@ template <class Friction, class S>
                       : since >= patience               ? status::stalled
                                                         : status::iteration_limit;
       result.reason = state.status == status::breakdown ? state.reason()
-                      : since >= patience               ? "successive slip bounds do not contract"
-                                          : "no more problems of Tresca's were allowed";
+                      : since < patience ? "no more problems of Tresca's were allowed"
+                      : !springs.empty() && !(springs.contraction() < S(0.5))
+                          ? "contact hardly holds bodies without supports"
+                          : "successive slip bounds do not contract";
       if (judge() <= tolerance) result.status = status::converged;
       break;
     }
@@ -133,7 +148,8 @@ template <class Friction, class S>
       result.status = status::converged;
       break;
     }
-    bool const goes_on = state.status == status::converged && error < best / S(2) &&
+    bool const is_better = error < best / S(2) || (!springs.empty() && !(error < best));
+    bool const goes_on = state.status == status::converged && is_better &&
                          state.reduced_gradient_norm > S(0) && ++round < rounds;
     if (!goes_on) {
       result.status = state.status == status::converged ? status::stalled : state.status;

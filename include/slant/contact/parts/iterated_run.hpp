@@ -293,6 +293,71 @@ template <class Friction, class S>
 //     ‖u⁺ − u*‖²_K ≤ ⟨D(u − u⁺), u⁺ − u*⟩ ≤ w d,        d = ‖u⁺ − u*‖_D ≤ θ w/(1 − θ),
 //
 // θ twice the last contraction as it was observed: an estimate, as that of the problem with springs is.
+// With Coulomb's law the bounds of each problem come from the one before.
+
+/// The springs, and how far they have come.
+template <class S>
+class moving_springs {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using sparse_type = Eigen::SparseMatrix<S>;
+
+  /// On these unknowns; none: nothing is copied or done. Refers to K.
+  moving_springs(sparse_type const& K, std::vector<index> const& floating) : K_(&K) {
+    if (floating.empty()) return;
+    D_ = centre_ = u_ = vector_type::Zero(K.rows());
+    held_ = K;
+    for (index const j : floating) {
+      D_[j] = S(1e-5) * K.coeff(j, j);
+      held_.coeffRef(j, j) += D_[j];
+    }
+  }
+  moving_springs(moving_springs const&) = delete;
+  moving_springs& operator=(moving_springs const&) = delete;
+
+  [[nodiscard]] bool empty() const { return D_.size() == 0; }
+  /// K + D.
+  [[nodiscard]] sparse_type const& held() const { return empty() ? *K_ : held_; }
+
+  /// u⁺ = u has been found, to the accuracy that it has. One product.
+  void measure(vector_type u) {
+    using std::sqrt;
+    u_ = std::move(u);
+    S const unit = unit_near(S(slant::norm(u_)));
+    vector_type const δ = (u_ - centre_) / unit, x = u_ / unit;
+    way_ = unit * sqrt(S(δ.dot(D_.cwiseProduct(δ))));
+    S const square = x.dot(vector_type(*K_ * x));
+    size_ = square > S(0) ? S(unit * sqrt(square)) : S(0);
+  }
+  /// The springs end where that is.
+  void move() {
+    centre_ = u_;
+    last_ = way_;
+  }
+  /// The load that keeps the springs at ease where they have been moved to.
+  [[nodiscard]] vector_type load(vector_type const& f) const {
+    return f + D_.cwiseProduct(centre_);
+  }
+
+  /// w, and w over that of the step before.
+  [[nodiscard]] S way() const { return way_; }
+  [[nodiscard]] S contraction() const { return S(way_ / last_); }
+  /// Of ‖u − u*‖_K, where the error of the problem with springs is at most `inner`; ∞ from a
+  /// contraction of ½ on.
+  [[nodiscard]] energy_error<S> error(S const& inner) const {
+    using std::sqrt;
+    S const θ = S(2) * contraction();
+    S const bound = θ < S(1) ? S((way_ + inner) * sqrt(S(θ / (S(1) - θ))) + inner)
+                             : std::numeric_limits<S>::infinity();
+    return {.bound = bound, .size = size_};
+  }
+
+ private:
+  sparse_type const* K_;
+  sparse_type held_;
+  vector_type D_, centre_, u_;
+  S way_{0}, last_ = std::numeric_limits<S>::infinity(), size_{0};
+};
 
 /// As iterated_run, where these unknowns belong to bodies that float.
 template <class Friction, class S>
@@ -301,22 +366,13 @@ template <class Friction, class S>
                                                 std::vector<index> const& floating,
                                                 solve_options<S> const& o) {
   using slant::detail::show;
-  using std::sqrt;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   constexpr index rounds = 30, patience = 8;
-  constexpr S infinity = std::numeric_limits<S>::infinity();
-  vector_type D = vector_type::Zero(c.f.size());
-  Eigen::SparseMatrix<S> held = K;
-  for (index const j : floating) {
-    D[j] = S(1e-5) * K.coeff(j, j);
-    held.coeffRef(j, j) += D[j];
-  }
+  moving_springs<S> springs(K, floating);
   solution<S> result;
-  primal_run<S> run(held, c, o.layout, o.multigrid, o.max_steps);
+  primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
   auto const& state = run.state();
   result.factorization = run.levels().description();
-  vector_type u = vector_type::Zero(c.f.size()), before = u, Du = u;
-  S w = infinity, size(0), share = S(1e-3);
+  S share = S(1e-3);
   index slow = 0, applications = 0;
   while (true) {
     tell_progress(o, state);
@@ -325,29 +381,20 @@ template <class Friction, class S>
       if (state.status != status::iteration_limit) tell_progress(o, state);
     }
     ++result.springs;
-    u.swap(before);
-    u = run.displacement();
-    S const last = w, unit = unit_near(S(slant::norm(u)));
-    vector_type const δ = (u - before) / unit;
-    w = unit * sqrt(S(δ.dot(D.cwiseProduct(δ))));
-    S const contraction = w / last, θ = S(2) * contraction;
-    // d/w; from a contraction of ½ on nothing is known.
-    S const left = θ < S(1) ? S(sqrt(S(θ / (S(1) - θ)))) : infinity;
-    vector_type const Ku = K * (u / unit);
+    springs.measure(run.displacement());
     ++applications;
-    S const square = Ku.dot(u / unit);
-    size = square > S(0) ? S(unit * sqrt(square)) : S(0);
     bool const ended = state.status != status::converged;
-    result.error = {.bound = infinity, .size = size};
-    if (w * left <= S(0.5) * o.tolerance * size || ended) {
+    result.error = springs.error(S(0));
+    if (result.error.bound <= S(0.5) * o.tolerance * result.error.size || ended) {
       energy_certificate certificate(run.qp(), run.levels());
-      S const inner = certificate(state.x).bound;
+      result.error = springs.error(certificate(state.x).bound);
       applications += certificate.applications();
-      result.error.bound = S((w + inner) * left) + inner;
+    } else {
+      result.error.bound = std::numeric_limits<S>::infinity();
     }
     S const error = result.error.relative();
     bool const is_enough = error <= o.tolerance;
-    slow = θ < S(1) ? 0 : slow + 1;
+    slow = springs.contraction() < S(0.5) ? 0 : slow + 1;
     if (is_enough || ended || slow > patience || result.springs > rounds) {
       result.status = is_enough ? status::converged : ended ? state.status : status::stalled;
       result.reason = result.error.sentence();
@@ -362,12 +409,12 @@ template <class Friction, class S>
       break;
     }
     // As accurate as the next step is long, if it is as much shorter as this one was.
-    S const expected = contraction < S(1) ? S(w * contraction) : w;
+    S const expected = springs.way() * std::min<S>(springs.contraction(), S(1));
     share = std::clamp<S>(S(0.1) * expected / run.size(), o.tolerance / S(8), S(1e-3));
-    Du = D.cwiseProduct(u);
-    run.set_load(c.f + Du);
+    springs.move();
+    run.set_load(springs.load(c.f));
   }
-  result.u = std::move(u);
+  result.u = run.displacement();
   result.multipliers = run.multipliers(feasible_set(law, c));
   result.iterations = state.iteration;
   result.work = state.work;
