@@ -163,6 +163,19 @@ TEST_CASE("certified_coulomb: options and coefficients that do not fit are refus
   CHECK(message(F, {.outer_steps = 0}) == "outer_steps: got 0, expected at least 1");
 }
 
+TEST_CASE("certified_coulomb: a body without supports is refused by the name of its motions") {
+  auto const s = test::spring_block<2>(2, 0);
+  VectorXd const F = VectorXd::Constant(s.contact.nodes(), 0.3);
+  std::string const said = test::complaint([&] {
+    static_cast<void>(
+        contact::certified_coulomb(contact::friction_line{}, s.K, s.contact, F));
+  });
+  CHECK(said.starts_with("K: got pivot "));
+  CHECK(said.find("body 0 (unknowns 0 to 29) has 3 free motions") != said.npos);
+  CHECK(said.ends_with(
+      ", expected a symmetric positive definite matrix, with supports that hold every body"));
+}
+
 template <class Dual>
 auto solve(Dual& problem, VectorXd const& F, contact::detail::coulomb_limits const& limits) {
   contact::coulomb_check const check(problem, F);

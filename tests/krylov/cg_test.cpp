@@ -94,6 +94,7 @@ TEST_CASE("an operator that breaks its promise is reported, not trusted") {
   auto const A = test::spd(M);
   auto const r = slant::solve(slant::cg{A, b}, VectorXd(VectorXd::Zero(2)), slant::at_most(10));
   CHECK(r.status == slant::status::breakdown);
+  CHECK(r.reason == "pᵀA p = 0 for a direction p, where a positive definite A has a number > 0");
 }
 
 TEST_CASE("b = 0 from zero is solved before the first step") {

@@ -127,6 +127,35 @@ TEST_CASE("solve(qp, 1e-8): hard programs, degenerate and singular ones, tiny on
   }
 }
 
+TEST_CASE("solve(qp, tolerance): scaled or not, x is in Λ to the last bit") {
+  MatrixXd const A{{3e6, 1e2, 0}, {1e2, 0.7, 1e-4}, {0, 1e-4, 1e-5}};
+  VectorXd const b{{1e9, 5, 9}}, high{{1.0 / 3, 0.1, 0.7}};
+  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
+                               slant::intervals(VectorXd(-high), high)};
+  auto const run = slant::solve(qp, 1e-8);
+  CHECK(run.converged());
+  CHECK(run.choice.find("blocks scaled") == 0);
+  CHECK(run.x() == VectorXd{{high[0], -high[1], high[2]}});
+}
+
+TEST_CASE("solve(qp, tolerance): an unbounded program, with the direction of descent") {
+  for (double const stiffness : {1.0, 1e-6}) {  // the latter scaled
+    VectorXd const b{{1, 1, -1}};
+    MatrixXd const A = VectorXd{{1, 0, stiffness}}.asDiagonal();
+    slant::separable_qp const qp{
+        slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b,
+        slant::half_lines(3)};
+    auto const run = slant::solve(qp, 1e-8);
+    CAPTURE(stiffness);
+    CAPTURE(run.reason);
+    CHECK(run.status == slant::status::unbounded);
+    REQUIRE(run.descent.size() == 3);
+    CHECK((run.descent.array() >= 0).all());
+    CHECK((A * run.descent).norm() <= 1e-12 * run.descent.norm());
+    CHECK(b.dot(run.descent) > 0);
+  }
+}
+
 TEST_CASE("solve(qp, 0): the digits that there are, as `stalled`") {
   known_program const p(4, 1);
   auto const run = slant::solve(p.program(), 0.0);

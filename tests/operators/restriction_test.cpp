@@ -41,6 +41,7 @@ TEST_CASE("a restricted operator is R A Rᵀ") {
   MatrixXd const r = rows_of_identity(components, 6);
   auto const a = slant::restricted(m, components);
   CHECK(test::matches(a, MatrixXd(r * m * r.transpose())));
+  CHECK(test::matches(slant::restricted(m, {5, 1, 2, 3}), MatrixXd(r * m * r.transpose())));
   static_assert(slant::has_diagonal<decltype(a), VectorXd>);
   static_assert(slant::has_columns<decltype(a), MatrixXd>);
   static_assert(slant::has_adjoint_accumulate<decltype(a), VectorXd>);

@@ -161,6 +161,28 @@ TEST_CASE("what declares, asserts or counts is printed as the operator behind it
         }) == "A: got two different objects, expected one object: a name stands for one operator");
 }
 
+TEST_CASE("what has no name is printed by its kind, and so is what holds many operators") {
+  SLANT_TEST_LETTERS;
+  auto const text = [](auto const& a) {
+    std::ostringstream out;
+    out << a;
+    return out.str();
+  };
+  auto const saddle = slant::block(slant::block_row(S, adjoint(B)),
+                                   slant::block_row(B, slant::zero(m)));
+  CHECK(text(saddle) == "block_operator   (11 × 11, no laws)");
+  CHECK(text(op<"C">(saddle)) == "C   (11 × 11, no laws)");
+  CHECK(text(slant::counted(S + P)) == "S + P   (7 × 7, spd)");
+  CHECK(text(slant::declare<self_adjoint>(G)) == "G   (7 × 7, self-adjoint)");
+  CHECK(text(slant::restricted(S, {0, 3})) == "restricted_operator   (2 × 2, spd)");
+  CHECK(slant::describe(saddle).find("block_operator   11 × 11, no laws") == 0);
+
+  auto const product = slant::kronecker(S, identity(3));  // its workspace has six members
+  CHECK(slant::describe(product).find("kronecker_operator   21 × 21, spd, workspace ") == 0);
+  CHECK(slant::describe(product + slant::identity(21)).find("21 × 21, spd, workspace ") !=
+        std::string::npos);
+}
+
 TEST_CASE("describe") {
   SLANT_TEST_LETTERS;
   auto const Kc = op<"K">(slant::counted(Kinv));

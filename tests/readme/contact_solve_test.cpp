@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/plausibility.hpp>
 #include <slant/contact/solve.hpp>
 
 #include <doctest/doctest.h>
 
 #include <Eigen/SparseCore>
+#include <iostream>
 
 TEST_CASE("contact of one node") {
   // A node on a rigid floor, pressed down and pulled along it: u = (into the floor, along it, across).
@@ -25,4 +28,9 @@ TEST_CASE("contact of one node") {
   CHECK(error <= 1e-8);
   CHECK((r.u - Eigen::Vector3d(0, 0.75, 0)).norm() <= 1e-8);
   CHECK((r.multipliers - Eigen::Vector3d(1.75, 0.5, 0)).norm() <= 1e-8);
+
+  auto const warnings = slant::contact::check_plausibility(K, data);  // valid data that look wrong
+  for (auto const& warning : warnings) std::cerr << warning.text << '\n';
+  auto const seen = slant::contact::check_optimality(K, data, r.u, r.multipliers);
+  if (seen.residual() > 1e-6) FAIL("relative KKT residual ", seen.residual());
 }

@@ -29,6 +29,7 @@
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/coulomb/coulomb_newton.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
@@ -414,7 +415,7 @@ template <class Friction, class S>
     }
     choice.route = solution_route::factor;
   }
-  auto const factor = factorize(K);
+  auto const factor = factorize_stiffness(K, o.layout);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);
   coulomb_certificate certificate(given, factor, K, c, F, S(o.tolerance));

@@ -157,7 +157,21 @@ template <class Values>
 // --- vtu -----------------------------------------------------------------------------------------
 
 /// Cell shapes, with VTK's numbers for them.
-enum class vtu_cell : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
+enum class vtu_cell : std::uint8_t {
+  vertex = 1,
+  line = 3,
+  triangle = 5,
+  quadrilateral = 9,
+  tetrahedron = 10,
+  hexahedron = 12,  ///< the lower face around, then the upper one, as VTK has them
+  wedge = 13,
+  pyramid = 14,
+  quadratic_line = 21,  ///< corners first, then the middles of the edges, as VTK has them
+  quadratic_triangle = 22,
+  quadratic_quadrilateral = 23,
+  quadratic_tetrahedron = 24,
+  quadratic_hexahedron = 25
+};
 
 [[nodiscard]] constexpr index node_count(vtu_cell cell) {
   switch (cell) {
@@ -166,9 +180,23 @@ enum class vtu_cell : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahe
     case vtu_cell::line:
       return 2;
     case vtu_cell::triangle:
+    case vtu_cell::quadratic_line:
       return 3;
+    case vtu_cell::quadrilateral:
     case vtu_cell::tetrahedron:
       return 4;
+    case vtu_cell::pyramid:
+      return 5;
+    case vtu_cell::wedge:
+    case vtu_cell::quadratic_triangle:
+      return 6;
+    case vtu_cell::hexahedron:
+    case vtu_cell::quadratic_quadrilateral:
+      return 8;
+    case vtu_cell::quadratic_tetrahedron:
+      return 10;
+    case vtu_cell::quadratic_hexahedron:
+      return 20;
   }
   return 0;
 }

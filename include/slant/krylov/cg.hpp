@@ -20,6 +20,7 @@
 #include <slant/operators/identity.hpp>
 
 #include <concepts>
+#include <string>
 #include <type_traits>
 
 namespace slant {
@@ -31,6 +32,16 @@ struct cg_state : detail::residual_state<V> {
   conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
   WA a_workspace;                      ///< temporaries of A
   WM m_workspace;                      ///< temporaries of M
+
+  /// Why the method has ended the run.
+  [[nodiscard]] std::string reason() const {
+    if (this->status == slant::status::breakdown && directions.live &&
+        !(directions.curvature > scalar_t<V>(0))) {
+      return "pᵀA p = " + detail::show(directions.curvature) +
+             " for a direction p, where a positive definite A has a number > 0";
+    }
+    return "the method reports: " + std::string(to_string(this->status));
+  }
 };
 
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.

@@ -50,7 +50,8 @@ struct certified_point {
   energy_error<scalar> error{};  ///< what is known of ‖x − x*‖_A
   index steps = 0;               ///< of symmetric_newton
   slant::work work{};            ///< all applications of A, those of certificates included
-  std::string choice;            ///< what was chosen for A and why, as sentences; or empty
+  V descent{};         ///< where unbounded: a direction in which the function falls for ever
+  std::string choice;  ///< what was chosen for A and why, as sentences; or empty
 
   [[nodiscard]] V const& x() const { return point; }
   [[nodiscard]] index iterations() const { return steps; }
@@ -149,6 +150,12 @@ template <class QP, class M, class Certificate>
     newton.resume(state);
   }
   vectors::copy(state.x, result.point);
+  if constexpr (requires { state.descent.state()->directions.p; }) {
+    if (result.status == status::unbounded && state.descent.state()) {
+      result.descent = state.descent.state()->directions.p;
+      vectors::negate(result.descent, result.descent);
+    }
+  }
   result.steps = state.iteration;
   result.work = state.work;
   return result;
@@ -296,7 +303,10 @@ template <class QP>
       least = std::min<S>(least, factors(i));
       most = std::max<S>(most, factors(i));
     }
-    if (most > S(8) * least && is_finite(most)) d = factors;
+    // Powers of two: bounds are met to the last bit.
+    if (most > S(8) * least && is_finite(most)) {
+      d = factors.unaryExpr([](S const& factor) { return unit_near(factor); });
+    }
   }
   return d;
 }
@@ -325,6 +335,9 @@ template <class QP>
         }
       }();
       result.point = scaled.back(std::move(result.point));
+      if (result.status == status::unbounded) {
+        result.descent = scaled.back(std::move(result.descent));
+      }
       result.choice = "blocks scaled, because their stiffness differs by more than 64" +
                       (result.choice.empty() ? "" : "; " + result.choice);
       return result;
@@ -340,6 +353,14 @@ template <class QP, class M>
                          index max_steps = 5000) {
   detail::checked_tolerance(tolerance);
   return detail::solve_certified(qp, m, detail::zero_of(qp), tolerance, max_steps);
+}
+
+/// A program that lacks something ends here and is told so by symmetric_newton.
+template <class QP>
+  requires(!symmetric_newton_problem<QP>) && requires(QP const& qp) { qp.a(), qp.b(), qp.set(); }
+auto solve(QP const&, typename QP::scalar, index = 0) -> certified_point<typename QP::vector_type> {
+  static_assert(sizeof(symmetric_newton<QP const&>) > 0);
+  return {};
 }
 
 }  // namespace slant

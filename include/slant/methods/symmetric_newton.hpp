@@ -287,7 +287,7 @@ std::string symmetric_newton_state<QP, M>::reason() const {
     case slant::status::breakdown:
       return "a number left the range of the scalar, or A is not semidefinite";
     case slant::status::unbounded:
-      return "the function decreases for ever along −descent.state()->directions.p";
+      return "the function decreases for ever along a direction in the set that A does not resist";
     default:
       return std::string(to_string(status));
   }
@@ -447,7 +447,13 @@ class symmetric_newton_steps {
     auto const inner =
         s.products.minimise(s.inner, qp.a(), s.a_workspace, m_.get(), s.r, s.face, s.step_length,
                             s.preconditioner_size, target, options_.inner_steps);
-    if (!note_inner(inner, s)) return;
+    if (!note_inner(inner, s)) {
+      if constexpr (declares_positive_definite<typename problem::operator_type>) return;
+      // A direction that A does not resist but for rounding; the other method knows these.
+      s.status = status::running;
+      begin_descent(s);
+      return;
+    }
     vectors::waxpy(s.unit, s.inner.t, s.x, s.segment.target_y);
     vectors::add(s.r, s.inner.image);
     vectors::waxpy(-ρ(s), s.inner.image, s.segment.target_y, s.segment.target_z);

@@ -10,6 +10,7 @@
 // Matrices with several columns are factors, not arguments: for those slant::apply(A, X, Y).
 #pragma once
 
+#include <slant/base/diagnosis.hpp>
 #include <slant/operators/syntax.hpp>
 
 #include <Eigen/Core>
@@ -50,16 +51,29 @@ void refuse_overlap(X const& x, Y const& y) {
   }
 }
 
+/// What is said of an A that cannot be applied to vectors of type V.
+template <class A, class V>
+struct argument_demands {
+  using a = slant::detail::questions_about<A, V>;
+  static_assert(linear_operator<typename a::whole, typename a::vector_type>,
+                "A * x: A must be a linear operator on vectors like x");
+  static_assert(slant::detail::usable_part<typename a::part, typename a::vector_type>,
+                "A * x: a part of A, or its adjoint, cannot be used on vectors like x");
+  static constexpr bool told = true;
+};
+
 template <class A, class X, class Y, class W>
 void assign_application(A const& a, X const& x, Y& y, W& w) {
   expr::refuse_overlap(x, y);
   if constexpr (slant::detail::applies<A, X, Y>) {
     slant::apply(a, x, y, w);
-  } else {  // an operator on one type of vectors
+  } else if constexpr (linear_operator<A, plain_t<X>>) {  // an operator on one type of vectors
     plain_t<X> const from = x;
     plain_t<X> to = slant::like(from, a.rows());
     slant::apply(a, from, to, w);
     y = to;
+  } else {
+    static_assert(argument_demands<A, plain_t<X>>::told);
   }
 }
 

@@ -27,7 +27,8 @@ inline constexpr bool is_hana_tuple = false;
 template <class... T>
 inline constexpr bool is_hana_tuple<hana::tuple<T...>> = true;
 
-/// Bytes of the vectors that a workspace holds, however deep: of aggregates of up to five members.
+/// Bytes of the vectors that a workspace holds, however deep: of aggregates of up to eight members; 0 of
+/// larger ones.
 template <class W>
 [[nodiscard]] std::size_t bytes_of(W const& w) {
   auto const all = [](auto const&... part) {
@@ -43,6 +44,20 @@ template <class W>
     return std::apply(all, w);
   } else if constexpr (std::is_empty_v<W> || !std::is_aggregate_v<W>) {
     return 0;
+  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything,
+                                  anything, anything, anything>) {
+    return 0;
+  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything,
+                                  anything, anything>) {
+    auto const& [a, b, c, d, e, f, g, h] = w;
+    return all(a, b, c, d, e, f, g, h);
+  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything,
+                                  anything>) {
+    auto const& [a, b, c, d, e, f, g] = w;
+    return all(a, b, c, d, e, f, g);
+  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything>) {
+    auto const& [a, b, c, d, e, f] = w;
+    return all(a, b, c, d, e, f);
   } else if constexpr (has_fields<W, anything, anything, anything, anything, anything>) {
     auto const& [a, b, c, d, e] = w;
     return all(a, b, c, d, e);
@@ -123,6 +138,12 @@ template <class V = Eigen::VectorXd, expression A>
   std::string out;
   expr::draw_tree<V>(a, "", "", out);
   return out;
+}
+/// Of an operator that is no expression: its line.
+template <class V = Eigen::VectorXd, linear_term A>
+  requires(!expression<A>)
+[[nodiscard]] std::string describe(A const& a) {
+  return slant::describe<V>(expr::as_expression(a));
 }
 
 }  // namespace slant

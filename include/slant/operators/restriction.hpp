@@ -233,6 +233,10 @@ template <operand A, class Components>
   restriction r(part.get().rows(), components);
   return restricted_operator<part_t<A>>{std::move(part), std::move(r)};
 }
+template <operand A>
+[[nodiscard]] auto restricted(A&& a, std::initializer_list<index> components) {
+  return slant::restricted<A, std::initializer_list<index>>(std::forward<A>(a), components);
+}
 
 // --- slice ---------------------------------------------------------------------------------------
 //

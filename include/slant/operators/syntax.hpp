@@ -93,21 +93,32 @@ template <expression A>
   return expr::make_letter<expr::nameless{}>(std::move(a));
 }
 
-/// An operator that is printed as a formula: an expression, or a product or sum of what is none.
-template <class A> concept formula_node = std::is_base_of_v<node_base, A> && operand<A>;
+namespace expr {
 
-/// The formula alone: B K⁻¹ Bᵀ + 0.001 I.
-template <formula_node A>
+/// The formula of A without parentheses around it, or the symbol of what has none.
+template <class A>
+void print_whole(A const& a, std::string& out) {
+  if constexpr (decorates<A>) {
+    expr::print_whole(a.get(), out);
+  } else {
+    expr::print_part(a, out);
+  }
+}
+
+}  // namespace expr
+
+/// The formula alone: B K⁻¹ Bᵀ + 0.001 I; of what is no formula its kind: block_operator.
+template <linear_term A>
 [[nodiscard]] std::string to_string(A const& a) {
   std::string out;
-  a.print(out);
+  expr::print_whole(a, out);
   return out;
 }
 
 /// B K⁻¹ Bᵀ + 0.001 I   (600 × 600, spd)
-template <formula_node A>
+template <linear_term A>
 std::ostream& operator<<(std::ostream& out, A const& a) {
-  return out << to_string(a) << "   (" << a.rows() << " × " << a.cols() << ", "
+  return out << slant::to_string(a) << "   (" << a.rows() << " × " << a.cols() << ", "
              << expr::laws_text(laws_of<A>) << ")";
 }
 
