@@ -156,6 +156,19 @@ TEST_CASE("solve(qp, tolerance): an unbounded program, with the direction of des
   }
 }
 
+TEST_CASE("solve(qp, x0, tolerance): a start near the solution saves steps, scaled or not") {
+  for (double const contrast : {1.0, 1e12}) {
+    known_program const p(6, contrast);
+    auto const qp = p.program();
+    auto const cold = slant::solve(qp, 1e-9);
+    auto const warm = slant::solve(qp, VectorXd(p.x * (1 + 1e-5)), 1e-9);
+    CHECK(warm.converged());
+    CHECK(p.error(warm.x()) <= 1e-9);
+    CHECK(warm.iterations() < cold.iterations());
+    CHECK_THROWS_AS((void)slant::solve(qp, VectorXd(3), 1e-9), slant::bad_input);
+  }
+}
+
 TEST_CASE("solve(qp, 0): the digits that there are, as `stalled`") {
   known_program const p(4, 1);
   auto const run = slant::solve(p.program(), 0.0);

@@ -3,6 +3,7 @@
 // A quadratic program solved to a relative error in the energy norm, with nothing else to choose:
 //
 //     auto const run = slant::solve(qp, 1e-8);         // ‖x − x*‖_A ≤ 1e-8 ‖x*‖_A, estimated
+//     auto const run = slant::solve(qp, x0, 1e-8);     // from x0, a solution nearby
 //     auto const run = slant::solve(qp, M, 1e-8);      // with a preconditioner M ≈ A⁻¹
 //
 //     scale         blocks whose stiffness diag(A) differs by more than 64 become alike
@@ -241,14 +242,14 @@ template <class K, class S>
 /// face on them would, then with multigrid from where that has come.
 template <class QP, class K, class S>
 [[nodiscard]] auto solve_sparse(QP const& qp, K const& k,
-                                Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, S tolerance,
-                                index most) {
+                                Eigen::Matrix<S, Eigen::Dynamic, 1> const& d,
+                                typename QP::vector_type const& x0, S tolerance, index most) {
   identity_operator const I(qp.size());
   // The coarsest level is factored for each face, 500³/3 operations; K may have few entries.
   auto const enough = 150 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
   energy_certificate certificate(qp, I);
-  auto first = newton_certified(qp, I, zero_of(qp), certificate, tolerance,
-                                {.steps = most, .applications = enough});
+  auto first =
+      newton_certified(qp, I, x0, certificate, tolerance, {.steps = most, .applications = enough});
   if (first.status != status::iteration_limit || first.steps >= most) {
     first.work.operator_applications += certificate.applications();
     return first;
@@ -273,18 +274,19 @@ template <class QP, class K, class S>
 
 /// Solves qp with the preconditioner that A offers.
 template <class QP>
-[[nodiscard]] auto solve_by_parts(QP const& qp, typename QP::scalar tolerance, index most) {
+[[nodiscard]] auto solve_by_parts(QP const& qp, typename QP::vector_type const& x0,
+                                  typename QP::scalar tolerance, index most) {
   using A = typename QP::operator_type;
   using S = typename QP::scalar;
   if constexpr (inverse_preconditions<QP>) {
-    auto run = solve_certified(qp, qp.a().inverse(), zero_of(qp), tolerance, most);
+    auto run = solve_certified(qp, qp.a().inverse(), x0, tolerance, most);
     run.choice = "A⁻¹ as preconditioner, because A offers it";
     return run;
   } else if constexpr (levels_precondition<QP>) {
-    return solve_sparse(qp, matrix_behind<A>::of(qp.a()), Eigen::Matrix<S, Eigen::Dynamic, 1>(),
+    return solve_sparse(qp, matrix_behind<A>::of(qp.a()), Eigen::Matrix<S, Eigen::Dynamic, 1>(), x0,
                         tolerance, most);
   } else {
-    return solve_certified(qp, identity_operator(qp.size()), zero_of(qp), tolerance, most);
+    return solve_certified(qp, identity_operator(qp.size()), x0, tolerance, most);
   }
 }
 
@@ -314,24 +316,28 @@ template <class QP>
 }  // namespace detail
 
 /// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this file.
-/// Requires what symmetric_newton does. Throws bad_input for a tolerance that is not in [0, 1), a
-/// limit < 0, or a problem that the method refuses.
+/// From x0: any point, such as the solution of the problem before. Requires what symmetric_newton does.
+/// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, a problem that the method
+/// refuses, or an x0 of another size or with numbers that are not finite.
 template <class QP>
   requires symmetric_newton_problem<QP>
-[[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {
+[[nodiscard]] auto solve(QP const& qp, typename QP::vector_type const& x0,
+                         typename QP::scalar tolerance, index max_steps = 5000) {
   using A = typename QP::operator_type;
   detail::checked_tolerance(tolerance);
+  detail::check_start_in_set(x0, qp.b());
   if constexpr (quadratic_program<QP> && may_have_diagonal<A, typename QP::vector_type>) {
     auto d = detail::block_factors_if_needed(qp);
     if (d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));
       auto const alike = scaled.qp();
+      auto const y0 = scaled.from(x0);
       auto result = [&] {
         if constexpr (detail::levels_precondition<QP>) {
-          return detail::solve_sparse(alike, detail::matrix_behind<A>::of(qp.a()), scaled.d(),
+          return detail::solve_sparse(alike, detail::matrix_behind<A>::of(qp.a()), scaled.d(), y0,
                                       tolerance, max_steps);
         } else {
-          return detail::solve_by_parts(alike, tolerance, max_steps);
+          return detail::solve_by_parts(alike, y0, tolerance, max_steps);
         }
       }();
       result.point = scaled.back(std::move(result.point));
@@ -343,7 +349,13 @@ template <class QP>
       return result;
     }
   }
-  return detail::solve_by_parts(qp, tolerance, max_steps);
+  return detail::solve_by_parts(qp, x0, tolerance, max_steps);
+}
+/// The same from 0.
+template <class QP>
+  requires symmetric_newton_problem<QP>
+[[nodiscard]] auto solve(QP const& qp, typename QP::scalar tolerance, index max_steps = 5000) {
+  return slant::solve(qp, detail::zero_of(qp), tolerance, max_steps);
 }
 
 /// The same with a preconditioner M ≈ A⁻¹, self-adjoint and semidefinite; blocks are not scaled.
