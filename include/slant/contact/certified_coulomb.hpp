@@ -20,7 +20,7 @@
 //     if (r.converged()) use(r.u, r.λ);
 //
 // It is for those who do not want to choose. With a dual problem and a family at hand each method
-// can be had alone: contact/coulomb/coulomb.hpp, contact/coulomb/coulomb_newton.hpp.
+// can be had alone: contact/coulomb/coulomb.hpp.
 #pragma once
 
 #include <slant/base/scaling.hpp>
@@ -28,7 +28,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
-#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>

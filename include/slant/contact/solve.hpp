@@ -32,7 +32,6 @@
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dual.hpp>
-#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/parts/iterated_run.hpp>
 #include <slant/contact/parts/spring_supports.hpp>
 #include <slant/contact/preconditioners.hpp>
