@@ -2,7 +2,6 @@
 #include "methods.hpp"
 
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/natural_residual.hpp>

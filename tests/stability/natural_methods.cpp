@@ -2,7 +2,6 @@
 #include <slant/contact/primal_dual.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/ssnm.hpp>
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/saddle_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>

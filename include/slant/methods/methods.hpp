@@ -7,7 +7,6 @@
 // First: a complaint about it begins with the trail of headers that has led to it.
 #include <slant/problems/quadratic_program.hpp>
 
-#include <slant/methods/anderson_mixing.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/envelope_newton.hpp>
 #include <slant/methods/forward_backward.hpp>
