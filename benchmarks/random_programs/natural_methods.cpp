@@ -4,7 +4,7 @@
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 namespace random_programs {
 

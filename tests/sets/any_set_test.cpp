@@ -5,8 +5,8 @@
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/face.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/point.hpp>
-#include <slant/sets/shifted.hpp>
 #include <slant/testing/set_laws.hpp>
 
 #include <doctest/doctest.h>

@@ -3,7 +3,7 @@
 
 #include "support/message.hpp"
 
-#include <slant/slanting/alart_curnier.hpp>
+#include <slant/slanting/coulomb_law.hpp>
 #include <slant/testing/slanting_laws.hpp>
 
 #include <doctest/doctest.h>

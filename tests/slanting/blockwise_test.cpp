@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
-#include <slant/slanting/blockwise.hpp>
+#include <slant/slanting/coulomb_law.hpp>
 #include <slant/testing/operator_laws.hpp>
 #include <slant/testing/slanting_laws.hpp>
 

@@ -2,7 +2,7 @@
 #include "slanting_support.hpp"
 
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/max.hpp>
+#include <slant/slanting/pairs.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>
 

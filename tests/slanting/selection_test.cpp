@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
-#include <slant/slanting/max.hpp>
+#include <slant/slanting/pairs.hpp>
 #include <slant/slanting/selection.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/slanting_laws.hpp>

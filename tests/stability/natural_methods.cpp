@@ -6,7 +6,7 @@
 #include <slant/newton/saddle_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <stability/methods.hpp>
 #include <stability/stopping.hpp>

@@ -11,7 +11,7 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -41,9 +41,8 @@
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/alart_curnier.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/de_saxce.hpp>
+#include <slant/slanting/coulomb_law.hpp>
 #include <slant/slanting/projection.hpp>
 
 #include <Eigen/SparseCore>
@@ -361,7 +360,7 @@ auto coulomb(Family&, M const&&, coulomb_options<typename Family::scalar> = {}) 
 // Contact with Coulomb friction by Newton's method for a natural residual of the whole law, over
 // the problem of coulomb_cones, multipliers contact by contact:
 //
-//     coulomb_residual    λ − P(λ − ρ (A λ − b)),   P of slanting/alart_curnier.hpp
+//     coulomb_residual    λ − P(λ − ρ (A λ − b)),   P of slanting/coulomb_law.hpp
 //     de_saxce_residual   λ − P_K(λ − ρ (A λ − b + μ‖u_t‖ n))
 //
 //     contact::coulomb_cones cones(problem, mu);
