@@ -3,7 +3,7 @@
 
 #include <slant/factorizations/generalized_inverse.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/parts/interior_start.hpp>
+#include <slant/methods/interior_point_state.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>

@@ -7,7 +7,7 @@
 #include <slant/sets/face.hpp>
 #include <slant/sets/images.hpp>
 #include <slant/sets/point.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include "support/message.hpp"
 
 #include <slant/slanting/coulomb_law.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,8 +2,7 @@
 #include "slanting_support.hpp"
 
 #include <slant/slanting/coulomb_law.hpp>
-#include <slant/testing/operator_laws.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <support/allocation_guard.hpp>
 #include <support/message.hpp>

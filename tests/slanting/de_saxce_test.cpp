@@ -13,7 +13,7 @@
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/coulomb_law.hpp>
 #include <slant/slanting/projection.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

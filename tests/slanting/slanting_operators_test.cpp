@@ -12,7 +12,7 @@
 #include <slant/slanting/projection.hpp>
 #include <slant/slanting/symmetrized.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,7 @@
 #include <slant/slanting/pairs.hpp>
 #include <slant/slanting/stack.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -40,7 +40,6 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/interior_point_state.hpp>
-#include <slant/methods/parts/interior_start.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>

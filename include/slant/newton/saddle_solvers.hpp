@@ -8,10 +8,10 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/parts/schur_reduction.hpp>
+#include <slant/operators/block.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/product.hpp>
-#include <slant/operators/schur_complement.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <Eigen/SparseCore>

@@ -28,7 +28,6 @@
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/kronecker.hpp>
 #include <slant/operators/range_sum.hpp>
-#include <slant/operators/schur_complement.hpp>
 
 // Any of them: with other laws, counted, of one type:
 #include <slant/operators/any_operator.hpp>
