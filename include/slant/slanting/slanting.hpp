@@ -17,7 +17,6 @@
 // Made of functions:
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/composition.hpp>
-#include <slant/slanting/selection.hpp>
 #include <slant/slanting/stack.hpp>
 
 // Optimality conditions:
