@@ -3,7 +3,7 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 #include <slant/factorizations/parts/tail.hpp>
 #include <slant/testing/laws.hpp>
 
