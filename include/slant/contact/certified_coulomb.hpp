@@ -31,6 +31,7 @@
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
+#include <slant/contact/solve_options.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
@@ -398,18 +399,8 @@ template <class Friction, class S>
           ? detail::iteration_refusal(K, c, o.layout, o.route == solution_route::iterate)
           : std::optional<std::string>("the method works on forces");
   route_choice choice = choose_route(K, why, o.route, o.costs);
-  if (choice.route == solution_route::iterate) {
-    try {
-      auto found = detail::iterated_certified_coulomb(friction, K, c, F, o);
-      found.choice = choice;
-      if (found.converged() || o.route == solution_route::iterate) return found;
-      choice.reason += "; factored after all: " + found.reason;
-    } catch (bad_input const& refusal) {
-      if (o.route == solution_route::iterate) throw;
-      choice.reason += "; factored after all: " + std::string(refusal.what());
-    }
-    choice.route = solution_route::factor;
-  }
+  auto const iterate = [&] { return detail::iterated_certified_coulomb(friction, K, c, F, o); };
+  if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   auto const factor = factorize(K);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);

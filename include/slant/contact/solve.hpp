@@ -309,18 +309,8 @@ template <class Friction, class S, class... Observers>
         : !asked && o.start ? std::optional<std::string>("forces to start from are given")
                             : detail::iteration_refusal(K, c, o.layout, asked);
     choice = choose_route(K, why, o.route, o.costs);
-    if (choice.route == solution_route::iterate) {
-      try {
-        auto found = detail::iterated_run(friction, K, c, o);
-        found.choice = choice;
-        if (found.converged() || o.route == solution_route::iterate) return found;
-        choice.reason += "; factored after all: " + found.reason;
-      } catch (bad_input const& refusal) {
-        if (o.route == solution_route::iterate) throw;
-        choice.reason += "; factored after all: " + std::string(refusal.what());
-      }
-      choice.route = solution_route::factor;
-    }
+    auto const iterate = [&] { return detail::iterated_run(friction, K, c, o); };
+    if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   } else if (o.route == solution_route::iterate) {
     throw bad_input("route", "iterate", "another one, as observers see states of symmetric_newton");
   }
