@@ -35,14 +35,13 @@ auto all_kinds() {
       slant::friction_cones<2>(VectorXd{{0.3, 1.0}}), slant::friction_cones<3>(VectorXd{{0.3}}));
 }
 
-static_assert(slant::has_usual_blocks<decltype(all_kinds())>);
-static_assert(slant::has_usual_blocks<slant::ball<2>>);
-static_assert(!slant::has_usual_blocks<slant::ball<2, float>>);
-static_assert(!slant::has_usual_blocks<slant::ball<4>>);
-static_assert(!slant::has_usual_blocks<slant::point<1>>);
-static_assert(
-    !slant::has_usual_blocks<decltype(slant::shifted(slant::half_lines(2), VectorXd{{1.0, 2.0}}))>);
+static_assert(std::is_constructible_v<any_set<>, decltype(all_kinds())>);
+static_assert(std::is_constructible_v<any_set<>, slant::ball<2>>);
+static_assert(!std::is_constructible_v<any_set<>, slant::ball<2, float>>);
 static_assert(!std::is_constructible_v<any_set<>, slant::ball<4>>);
+static_assert(!std::is_constructible_v<any_set<>, slant::point<1>>);
+static_assert(!std::is_constructible_v<any_set<>, decltype(slant::shifted(slant::half_lines(2),
+                                                                          VectorXd{{1.0, 2.0}}))>);
 static_assert(slant::convex_set<any_set<>, VectorXd>);
 static_assert(slant::convex_set<any_set<float>, Eigen::VectorXf>);
 
