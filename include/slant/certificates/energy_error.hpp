@@ -62,7 +62,7 @@ namespace slant {
 //     s,  balanced up to the gap  γ = sᵀx + σ(−s) ≥ 0,      and the rest  d = g − s,
 //
 // γ = 0 exactly if −s is normal to Λᵢ at x. Both enter the bound of the error
-// as m‖d‖² + 4γ, m > 0 the stiffness of the block: the size of A⁻¹ there. The least value belongs to
+// as m‖d‖² + 4γ, m > 0 the stiffness of the block, the size of A⁻¹ there. Least is the value for
 //
 //     s = (p − z)/ρ,   z = x − ρ g,   p = P(z),   ρ = m/2,
 //
