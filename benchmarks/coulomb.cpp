@@ -32,7 +32,6 @@
 #include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/coulomb/coulomb.hpp>
-#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>

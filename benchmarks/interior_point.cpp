@@ -15,7 +15,7 @@
 // steps and 300 products; preconditioned condition numbers below κ(A) κ(D) at every iterate; with
 // the Dirichlet preconditioner a crossover with fewer products than either method alone.
 
-#include <slant/iteration/solve_then.hpp>
+#include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>

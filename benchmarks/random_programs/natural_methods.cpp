@@ -2,10 +2,9 @@
 #include "methods.hpp"
 
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 namespace random_programs {
 

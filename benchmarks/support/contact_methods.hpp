@@ -9,7 +9,6 @@
 #include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/solve_then.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>

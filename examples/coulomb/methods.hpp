@@ -6,7 +6,6 @@
 
 #include <Eigen/SparseCore>
 #include <slant/contact/coulomb/coulomb.hpp>
-#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <string>

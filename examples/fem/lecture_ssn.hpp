@@ -11,7 +11,7 @@
 
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 namespace fem {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/saddle_solvers.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <string_view>
 
 #include "any_dual.hpp"

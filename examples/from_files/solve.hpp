@@ -7,7 +7,6 @@
 #include <limits>
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/dual.hpp>
-#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 
 #include "oracle/hard_points.hpp"
 #include "oracle/precise.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <support/allocation_guard.hpp>
 
-#include <slant/certificates/face_correction.hpp>
+#include <slant/certificates/newton_estimate.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/certificates/normal_part.hpp>
+#include <slant/certificates/energy_error.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/point.hpp>

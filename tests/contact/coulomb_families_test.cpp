@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb/coulomb_families.hpp>
-
 #include <slant/contact/coulomb/coulomb.hpp>
+
 #include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/coulomb/coulomb_newton.hpp>
+#include <slant/contact/coulomb/coulomb.hpp>
 
 #include "coulomb_scenes.hpp"
 
-#include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>

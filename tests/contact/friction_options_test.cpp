@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/friction/friction_options.hpp>
+#include <slant/contact/solve_friction.hpp>
 
 #include <doctest/doctest.h>
 

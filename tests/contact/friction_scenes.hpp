@@ -6,7 +6,7 @@
 
 #include "support/friction_cases.hpp"
 
-#include <slant/contact/friction/friction_options.hpp>
+#include <slant/contact/solve_friction.hpp>
 
 #include <Eigen/Core>
 #include <cmath>

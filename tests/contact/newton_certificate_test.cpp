@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <slant/contact/newton_certificate.hpp>
+#include <slant/contact/certificate.hpp>
 
 #include <cmath>
 #include <fem/steel_brick.hpp>

@@ -3,7 +3,7 @@
 
 #include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

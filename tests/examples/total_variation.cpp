@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <slant/methods/solve_program.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 #include <sstream>
 #include <string>
 #include <total_variation/steps_signal.hpp>

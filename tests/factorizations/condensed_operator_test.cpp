@@ -3,9 +3,9 @@
 
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 #include <slant/factorizations/parts/tail.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

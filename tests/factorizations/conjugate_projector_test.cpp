@@ -4,7 +4,7 @@
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/rigid_body_modes.hpp>
 
-#include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/factorizations/woodbury.hpp>
 #include <slant/operators/syntax.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <oracle/naive_membrane.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include "support/allocation_guard.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/matrix.hpp>
 
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

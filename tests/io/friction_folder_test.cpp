@@ -127,17 +127,6 @@ TEST_CASE("friction folder: what is written reads back to the same bits") {
   CHECK(Eigen::MatrixXd(again.W) == Eigen::MatrixXd(p.W));
   CHECK(again.q == p.q);
   CHECK(again.mu == p.mu);
-
-  Eigen::VectorXd const r = p.q / 3, u = p.W * r + p.q;
-  slant::write_friction_solution(folder.path(), r, u);
-  CHECK(slant::read_text_vector(folder / "r.txt") == r);
-  CHECK(slant::read_text_vector(folder / "u.txt") == u);
-  // Both or none: what cannot be written leaves the files as they were.
-  Eigen::VectorXd bad = u;
-  bad[0] = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_AS(slant::write_friction_solution(folder.path(), Eigen::VectorXd(2 * r), bad),
-                  slant::bad_input);
-  CHECK(slant::read_text_vector(folder / "r.txt") == r);
 }
 
 TEST_CASE("friction folder: problems from simulations") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve_then.hpp>
+#include <slant/iteration/solve.hpp>
 
 #include <doctest/doctest.h>
 

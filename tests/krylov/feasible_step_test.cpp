@@ -54,9 +54,6 @@ TEST_CASE("no further than the boundary, in two moves") {
   CHECK(found.end == end::boundary);
   CHECK_FALSE(found.flat);
   CHECK(s.x == x0);  // nothing has happened yet
-  std::vector<slant::index> blocking;
-  slant::find_blocking(set, s.x, s.trial, found.length, blocking);
-  CHECK(blocking == std::vector<slant::index>{1});
   slant::half_step_within(set, s, found);
   CHECK(s.x(1) == 0.0);
   CHECK(s.x(0) == doctest::Approx(1 + 1.0 / 7));

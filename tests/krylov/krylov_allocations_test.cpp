@@ -6,12 +6,9 @@
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/krylov/face_cg.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/face.hpp>
 
 #include <doctest/doctest.h>
 
@@ -31,7 +28,7 @@ std::size_t allocations_of(Method const& method, VectorXd const& x0, int steps) 
   return count;
 }
 
-TEST_CASE("cg, preconditioned cg, bicgstab and cg on a face do not allocate") {
+TEST_CASE("cg, preconditioned cg and bicgstab do not allocate") {
   auto const M = test::with_spectrum(test::log_spaced(40, 1e4));
   auto const K = slant::dense_ldlt(test::with_spectrum(test::log_spaced(60, 100), 3));
   Eigen::MatrixXd const B = test::random_vector(40 * 60, 4).reshaped(40, 60);
@@ -42,9 +39,6 @@ TEST_CASE("cg, preconditioned cg, bicgstab and cg on a face do not allocate") {
   CHECK(allocations_of(slant::cg{A, b}, x0, 20) == 0);
   CHECK(allocations_of(slant::cg{A, b, preconditioner}, x0, 20) == 0);
   CHECK(allocations_of(slant::bicgstab{A, b}, x0, 20) == 0);
-  auto const set = slant::half_lines(40);
-  auto const face = slant::face_of(set, VectorXd(x0.cwiseMax(0)));
-  CHECK(allocations_of(slant::face_cg{A, b, face}, VectorXd(x0.cwiseMax(0)), 20) == 0);
 }
 
 }  // namespace krylov_allocations_test

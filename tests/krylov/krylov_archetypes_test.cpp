@@ -7,7 +7,6 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/krylov/face_cg.hpp>
 #include <slant/krylov/spectral_bound.hpp>
 #include <slant/testing/archetypes.hpp>
 
@@ -38,16 +37,6 @@ TEST_CASE("bicgstab") {
   archetype::linear_operator const A(M);
   auto const r = slant::solve(slant::bicgstab{A, b}, zero, stop);
   CHECK((r.x().local() - solution).norm() <= 1e-11);
-}
-
-TEST_CASE("cg on a face") {
-  archetype::psd_operator const A(M);
-  archetype::face face;
-  face.assign(nullptr, VectorXd{{1.0, 1.0, 1.0, 1.0, 0.0, 0.0}});
-  auto const r = slant::solve(slant::face_cg{A, b, face}, zero, stop);
-  VectorXd const head = M.topLeftCorner(4, 4).llt().solve(b.local().head(4));
-  CHECK((r.x().local().head(4) - head).norm() <= 1e-11);
-  CHECK(r.x().local().tail(2) == VectorXd::Zero(2));
 }
 
 TEST_CASE("spectral bound") {

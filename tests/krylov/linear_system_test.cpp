@@ -5,7 +5,6 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/krylov/face_cg.hpp>
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/counted.hpp>
 
@@ -27,10 +26,6 @@ struct minimal_state {
   double residual_scale = 0;
   slant::status status = slant::status::running;
   slant::work work{};
-};
-
-struct everything {
-  void keep(VectorXd const& x, VectorXd& y) const { y = x; }
 };
 
 TEST_CASE("first residual and its scale: one product, none from zero") {
@@ -71,8 +66,6 @@ TEST_CASE("converged is said of A x − b, not of a residual that lost it on the
     CAPTURE(size);
     check(slant::cg{A, b}, size);
     check(slant::bicgstab{A, b}, size);
-    everything const all{};
-    check(slant::face_cg{A, b, all}, size);
   }
 }
 

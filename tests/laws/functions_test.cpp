@@ -3,7 +3,7 @@
 // Support functions of all sets, sums of functions of parts: the laws of functions with a proximal
 // map. And functions that lie about one thing each: the check finds them.
 #include <slant/sets/sets.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 
@@ -34,8 +34,8 @@ TEST_CASE("laws: support functions of blocks") {
         support(slant::interval<>{0.5, 2.0}), support(slant::interval<>{-infinity, 2.0}),
         support(slant::interval<>{3.0, 3.0}), support(slant::symmetric_interval<>{0.25}),
         support(slant::ball<2>{}), support(slant::ball<2>{0.0}), support(slant::ball<3>{0.7}),
-        support(slant::ellipse<>{1.0, 0.2}),
-        support(slant::second_order_cone<3>{0.4}), support(slant::free_space<2>{}),
+        support(slant::ellipse<>{1.0, 0.2}), support(slant::second_order_cone<3>{0.4}),
+        support(slant::free_space<2>{}),
         support(slant::shifted(slant::ball<2>{}, Eigen::Vector2d(0.5, -2))));
   check_function_laws(support(slant::ball<2>{1e3}), few(2, 1e3));
   check_function_laws(support(slant::ball<2>{1e-7}), few(3, 1e-7));

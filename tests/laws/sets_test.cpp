@@ -4,7 +4,7 @@
 // every product keeps the laws of convex sets, in any scalar.
 #include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

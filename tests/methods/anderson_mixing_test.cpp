@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/anderson_mixing.hpp>
+#include <slant/methods/successive_approximations.hpp>
 
 #include <doctest/doctest.h>
 

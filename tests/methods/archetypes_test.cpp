@@ -2,7 +2,6 @@
 //
 // Methods ask their archetypes for nothing more than the concepts name.
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/face_cg.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
@@ -64,19 +63,6 @@ TEST_CASE("operator, vector and set that can do the least") {
   static_assert(std::is_same_v<std::decay_t<decltype(state.face)>, archetype::face>);
   CHECK(state.face.state(0) == slant::block_state::free);
   CHECK(state.face.state(1) == slant::block_state::fixed);
-}
-
-TEST_CASE("cg_feas: a face that can only keep, a set of one block") {
-  archetype::psd_operator const A(Eigen::MatrixXd{{2.0, 1.0}, {1.0, 2.0}});
-  archetype::vector const b(VectorXd{{3.0, -3.0}});
-  one_block const set(2);
-  archetype::face all;
-  all.assign(set, VectorXd{{1.0, 1.0}});
-  auto const r =
-      slant::solve(slant::cg_feas{A, b, set, all}, archetype::vector(VectorXd{{1.0, 1.0}}),
-                   slant::residual_below(1e-12) || slant::at_most(10));
-  CHECK(r.state.at_boundary);
-  CHECK(r.state.blocked == std::vector<slant::index>{0});
 }
 
 TEST_CASE("interior_point, symmetric_newton: blocks of the library on vectors of another kind") {

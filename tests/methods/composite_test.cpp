@@ -16,7 +16,7 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/minimise.hpp>
 #include <slant/sets/sets.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <doctest/doctest.h>
 

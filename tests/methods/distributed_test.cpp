@@ -8,7 +8,7 @@
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/parts/interior_start.hpp>
+#include <slant/methods/interior_point_state.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/sets/scaled.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <slant/methods/barrier.hpp>
 #include <slant/methods/interior_point.hpp>
-#include <slant/methods/reduced_systems.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>

@@ -11,13 +11,11 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/rotated.hpp>
-#include <slant/sets/scaled.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/sets/shifted.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include "grids.hpp"
 
 #include <slant/multilevel/block_matrix.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <fem/steel_brick.hpp>
 #include <support/allocation_guard.hpp>

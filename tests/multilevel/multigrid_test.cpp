@@ -11,7 +11,7 @@
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/curved_face.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <fem/steel_brick.hpp>
 #include <support/allocation_guard.hpp>

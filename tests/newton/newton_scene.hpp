@@ -10,7 +10,7 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <slanting/slanting_support.hpp>
 

@@ -4,7 +4,7 @@
 #include <slant/newton/symmetrized_cg.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/symmetrized.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

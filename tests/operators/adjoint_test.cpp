@@ -3,7 +3,7 @@
 
 #include <slant/operators/diagonal.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

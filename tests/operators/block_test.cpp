@@ -5,7 +5,7 @@
 #include <slant/operators/declare.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>

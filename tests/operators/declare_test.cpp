@@ -4,7 +4,7 @@
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/product.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

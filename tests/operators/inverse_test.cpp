@@ -2,11 +2,11 @@
 #include <slant/operators/inverse.hpp>
 
 #include <slant/factorizations/ldlt.hpp>
+#include <slant/operators/block.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/operators/schur_complement.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>

@@ -2,7 +2,7 @@
 #include <slant/operators/matrix.hpp>
 
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

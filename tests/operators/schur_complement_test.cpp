@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/schur_complement.hpp>
+#include <slant/operators/block.hpp>
 
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <Eigen/LU>

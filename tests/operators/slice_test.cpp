@@ -2,7 +2,7 @@
 #include <slant/operators/product.hpp>
 #include <slant/operators/restriction.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <support/allocation_guard.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/small_blocks.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

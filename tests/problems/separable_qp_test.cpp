@@ -13,9 +13,8 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/rotated.hpp>
-#include <slant/sets/shifted.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <doctest/doctest.h>

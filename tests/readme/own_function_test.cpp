@@ -5,7 +5,7 @@
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
 
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
 
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

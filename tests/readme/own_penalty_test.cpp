@@ -6,7 +6,7 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/minimise.hpp>
 #include <slant/sets/sets.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

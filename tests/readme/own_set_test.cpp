@@ -6,7 +6,7 @@
 #include <slant/operators/identity.hpp>
 #include <slant/sets/power.hpp>
 
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -4,14 +4,13 @@
 // its energy error against the reference is a small multiple of the tolerance, down to where digits
 // end. So any two of them agree to the sum of their errors, and find the same active constraints.
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/solve_then.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <doctest/doctest.h>
 

@@ -5,9 +5,9 @@
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/face.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/point.hpp>
-#include <slant/sets/shifted.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 
@@ -35,14 +35,13 @@ auto all_kinds() {
       slant::friction_cones<2>(VectorXd{{0.3, 1.0}}), slant::friction_cones<3>(VectorXd{{0.3}}));
 }
 
-static_assert(slant::has_usual_blocks<decltype(all_kinds())>);
-static_assert(slant::has_usual_blocks<slant::ball<2>>);
-static_assert(!slant::has_usual_blocks<slant::ball<2, float>>);
-static_assert(!slant::has_usual_blocks<slant::ball<4>>);
-static_assert(!slant::has_usual_blocks<slant::point<1>>);
-static_assert(
-    !slant::has_usual_blocks<decltype(slant::shifted(slant::half_lines(2), VectorXd{{1.0, 2.0}}))>);
+static_assert(std::is_constructible_v<any_set<>, decltype(all_kinds())>);
+static_assert(std::is_constructible_v<any_set<>, slant::ball<2>>);
+static_assert(!std::is_constructible_v<any_set<>, slant::ball<2, float>>);
 static_assert(!std::is_constructible_v<any_set<>, slant::ball<4>>);
+static_assert(!std::is_constructible_v<any_set<>, slant::point<1>>);
+static_assert(!std::is_constructible_v<any_set<>, decltype(slant::shifted(slant::half_lines(2),
+                                                                          VectorXd{{1.0, 2.0}}))>);
 static_assert(slant::convex_set<any_set<>, VectorXd>);
 static_assert(slant::convex_set<any_set<float>, Eigen::VectorXf>);
 

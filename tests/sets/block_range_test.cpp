@@ -2,8 +2,8 @@
 #include <slant/sets/any_set.hpp>
 #include <slant/sets/block_range.hpp>
 #include <slant/sets/contact_sets.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/point.hpp>
-#include <slant/sets/rotated.hpp>
 #include <slant/sets/syntax.hpp>
 
 #include <doctest/doctest.h>

@@ -6,12 +6,10 @@
 #include <slant/sets/face.hpp>
 #include <slant/sets/free_space.hpp>
 #include <slant/sets/half_line.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/parts/image.hpp>
 #include <slant/sets/point.hpp>
-#include <slant/sets/rotated.hpp>
-#include <slant/sets/scaled.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/sets/shifted.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,9 +3,9 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/free_space.hpp>
+#include <slant/sets/images.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/sets/rotated.hpp>
 
 #include "oracle/precise.hpp"
 

@@ -3,8 +3,8 @@
 #include <slant/sets/ball.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/sets/scaled.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/sets/images.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include <slant/sets/second_order_cone.hpp>
 
 #include <slant/sets/contact_sets.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

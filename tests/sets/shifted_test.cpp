@@ -3,7 +3,7 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>
-#include <slant/sets/shifted.hpp>
+#include <slant/sets/images.hpp>
 
 #include "counting_disc.hpp"
 #include "support/allocation_guard.hpp"

@@ -3,8 +3,8 @@
 
 #include "support/message.hpp"
 
-#include <slant/slanting/alart_curnier.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/slanting/coulomb_law.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

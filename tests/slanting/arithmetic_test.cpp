@@ -2,9 +2,10 @@
 #include "slanting_support.hpp"
 
 #include <slant/operators/matrix.hpp>
+#include <slant/operators/restriction.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/max.hpp>
+#include <slant/slanting/pairs.hpp>
 
 #include <doctest/doctest.h>
 
@@ -47,6 +48,7 @@ TEST_CASE("formulas say what they say on paper") {
   CHECK((at_y(a * p) - a * plus).norm() <= 1e-15);
   CHECK((at_y(p * a) - VectorXd((a * y).cwiseMax(0))).norm() <= 1e-15);
   CHECK((at_y(slant::matrix(a) * p) - a * plus).norm() <= 1e-15);
+  CHECK(at_y(slant::restriction(3, {2, 0}) * p) == VectorXd{{4.0, 1.0}});  // some rows
   CHECK(at_y(id - 2 * p + client::doubling{}) == 3 * y - 2 * plus);
 }
 

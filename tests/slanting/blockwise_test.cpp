@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "slanting_support.hpp"
 
-#include <slant/slanting/blockwise.hpp>
-#include <slant/testing/operator_laws.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/slanting/coulomb_law.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <support/allocation_guard.hpp>
 #include <support/message.hpp>

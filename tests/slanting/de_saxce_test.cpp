@@ -11,9 +11,9 @@
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/de_saxce.hpp>
+#include <slant/slanting/coulomb_law.hpp>
 #include <slant/slanting/projection.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,8 +2,8 @@
 #include "slanting_support.hpp"
 
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/fischer_burmeister.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/slanting/pairs.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>

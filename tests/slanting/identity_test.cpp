@@ -3,7 +3,7 @@
 
 #include <slant/slanting/affine.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,7 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/inequalities.hpp>
-#include <slant/testing/operator_laws.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

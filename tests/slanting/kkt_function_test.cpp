@@ -6,7 +6,7 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/slanting/kkt_function.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 #include <fem/string_1d.hpp>

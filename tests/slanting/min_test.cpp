@@ -4,9 +4,9 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/slanting/max.hpp>
-#include <slant/slanting/natural_residual.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/projection.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 
 #include <slant/sets/ball.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -7,7 +7,7 @@
 #include <slant/sets/power.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

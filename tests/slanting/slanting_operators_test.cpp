@@ -8,11 +8,11 @@
 #include <slant/sets/power.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/max.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/projection.hpp>
 #include <slant/slanting/symmetrized.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include <slant/operators/diagonal.hpp>
 #include <slant/slanting/smooth.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <support/allocation_guard.hpp>
 

@@ -4,10 +4,10 @@
 #include <slant/operators/counted.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/max.hpp>
+#include <slant/slanting/pairs.hpp>
 #include <slant/slanting/stack.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

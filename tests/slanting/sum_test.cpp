@@ -4,9 +4,9 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/max.hpp>
+#include <slant/slanting/pairs.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/slanting_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

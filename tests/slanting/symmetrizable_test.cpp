@@ -9,8 +9,8 @@
 #include <slant/sets/ball.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
-#include <slant/slanting/max.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/projection.hpp>
 #include <slant/slanting/smooth.hpp>
 #include <slant/slanting/symmetrized.hpp>
 

@@ -4,7 +4,7 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/declare.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,6 @@
 #include <stability/methods.hpp>
 
 #include <slant/contact/certificate.hpp>
-#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/operators/matrix.hpp>

@@ -2,12 +2,11 @@
 #include <slant/contact/primal_dual.hpp>
 #include <slant/krylov/mean_diagonal.hpp>
 #include <slant/methods/ssnm.hpp>
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/saddle_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <stability/methods.hpp>
 #include <stability/stopping.hpp>

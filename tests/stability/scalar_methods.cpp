@@ -9,10 +9,9 @@
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The law checks must find operators that lie: one liar per law, and honest operators that pass.
-#include <slant/testing/operator_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/testing/set_laws.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <slant/sets/ball.hpp>
 #include <slant/testing/archetypes.hpp>

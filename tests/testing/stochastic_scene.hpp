@@ -15,7 +15,7 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 #include <slant/testing/stochastic.hpp>
 
 #include <cmath>

@@ -7,7 +7,5 @@
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error.hpp>
-#include <slant/certificates/face_correction.hpp>
 #include <slant/certificates/newton_estimate.hpp>
-#include <slant/certificates/normal_part.hpp>
 // IWYU pragma: end_exports

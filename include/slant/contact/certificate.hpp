@@ -34,7 +34,7 @@
 //                  subtracted where it is the size that the bound is divided by
 //     λ ∈ Λ        a computed projection is off by some ε of the radius; what leads to the point λ̂
 //                  of the sphere is computed from R² − ‖λ_t‖² in doubled precision and enters ρ
-//     s            exactly normal up to γ as in certificates/normal_part.hpp; d = g − s is off by
+//     s            exactly normal up to γ as in certificates/energy_error.hpp; d = g − s is off by
 //                  at most 24 ε|g|, a vector r; ‖r‖_{A⁻¹} ≤ 2 √‖K‖ ‖D r‖, D⁻¹ the lengths of rows
 //     γ, ‖·‖₂      positive sums of n terms: all is enlarged by 1 + 8 (n + 64) ε
 //
@@ -48,8 +48,11 @@
 #include <slant/base/double_word.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/newton_estimate.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/factorization.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/concepts/vector.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/parts/extension.hpp>
 #include <slant/operators/inverse.hpp>
@@ -419,6 +422,68 @@ class certificate {
   bool is_proven_ = false;
   index solves_ = 0;
   vector_type residual_, load_, second_, w_, g_, rest_, image_, lost_, outward_, scaled_;
+};
+
+// --- newton certificate --------------------------------------------------------------------------
+//
+// What a Newton step of the dual problem says of the error where the certificate does not
+// show the goal: certificates/newton_estimate.hpp, with the displacements' bound for the norm of
+// what the step leaves over. The certificate charges a point inside of Λ its gap, of which the
+// error is the square; the step goes to the face first, where there is none. So iterates of
+// interior-point methods are judged like those on a face. An estimate: nothing is proven by it.
+
+/// Sharpens a certificate of the scene whose dual problem is qp, A ≈ M⁻¹; refers to all three.
+/// Costs some 12 products by A a call.
+template <class QP, class M>
+class newton_certificate {
+ public:
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+
+  /// `units`: d where the unknowns x of qp are λ = d ∘ x; empty: λ itself.
+  newton_certificate(QP const& qp, M const& m, certificate<scalar>& c, vector_type units = {})
+      : qp_(&qp),
+        m_(&m),
+        certificate_(&c),
+        d_(units.size() > 0 ? std::move(units) : vector_type::Ones(qp.size()).eval()),
+        newton_(qp, m),
+        of_a_(workspace(qp.a(), d_)) {
+    // About 1/diag A; an empty row is held by nothing and asked for nothing.
+    inverse_diagonal_ = c.stiffness().cwiseQuotient(d_).cwiseQuotient(d_);
+    scalar sum(0);
+    for (scalar& entry : inverse_diagonal_) {
+      if (!slant::detail::is_finite(entry)) entry = scalar(1);
+      sum += scalar(1) / entry;
+    }
+    // A short step to the face: from a long one Newton's step would have to come back.
+    if (sum > scalar(0)) ρ_ = scalar(qp.size()) / sum / scalar(1024);
+  }
+  newton_certificate(QP const&&, M const&, certificate<scalar>&, vector_type = {}) = delete;
+
+  /// The last certificate, which was that of λ ∈ Λ, or what the step says if that is less.
+  [[nodiscard]] energy_error<scalar> const& operator()(vector_type const& λ) {
+    if (!certificate_->gradient().allFinite()) return certificate_->estimated(scalar(-1));
+    x_ = λ.cwiseQuotient(d_);
+    gradient_ = certificate_->gradient().cwiseProduct(d_);
+    auto const norm = [&](vector_type const& d) {
+      return certificate_->extended_norm(d.cwiseQuotient(d_));
+    };
+    return certificate_->estimated(
+        newton_({x_, gradient_, inverse_diagonal_, ρ_, 12,
+                 gradient_size<scalar>{slant::norm(x_), slant::norm(qp_->b())}, false},
+                *m_, of_a_, norm));
+  }
+  /// Products by A so far.
+  [[nodiscard]] index applications() const { return newton_.applications(); }
+
+ private:
+  QP const* qp_;
+  M const* m_;
+  certificate<scalar>* certificate_;
+  vector_type d_, inverse_diagonal_, x_, gradient_;
+  newton_estimate<QP, M> newton_;
+  workspace_t<typename QP::operator_type, vector_type> of_a_;
+  scalar ρ_{1};
 };
 
 }  // namespace slant::contact

@@ -20,7 +20,7 @@
 //     if (r.converged()) use(r.u, r.λ);
 //
 // It is for those who do not want to choose. With a dual problem and a family at hand each method
-// can be had alone: contact/coulomb/coulomb.hpp, contact/coulomb/coulomb_newton.hpp.
+// can be had alone: contact/coulomb/coulomb.hpp.
 #pragma once
 
 #include <slant/base/scaling.hpp>
@@ -28,11 +28,11 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
-#include <slant/contact/coulomb/coulomb_newton.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
+#include <slant/contact/solve_options.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
@@ -401,20 +401,12 @@ template <class Friction, class S>
           ? detail::outlook_of_iteration(K, c, o.layout, o.route == solution_route::iterate)
           : detail::iteration_outlook{"the method works on forces"};
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
-  if (choice.route == solution_route::iterate) {
-    try {
-      auto found = detail::iterated_certified_coulomb(friction, K, c, F, outlook.floating, o);
-      found.choice = choice;
-      // The methods with factors need supports.
-      bool const is_last = o.route == solution_route::iterate || !outlook.floating.empty();
-      if (found.converged() || is_last) return found;
-      choice.reason += "; factored after all: " + found.reason;
-    } catch (bad_input const& refusal) {
-      if (o.route == solution_route::iterate) throw;
-      choice.reason += "; factored after all: " + std::string(refusal.what());
-    }
-    choice.route = solution_route::factor;
-  }
+  // The methods with factors need supports.
+  auto const asked = outlook.floating.empty() ? o.route : solution_route::iterate;
+  auto const iterate = [&] {
+    return detail::iterated_certified_coulomb(friction, K, c, F, outlook.floating, o);
+  };
+  if (auto found = detail::iterated_first(choice, asked, iterate)) return *std::move(found);
   auto const factor = factorize_stiffness(K, o.layout);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);

@@ -28,7 +28,6 @@
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/load_stepper.hpp>
-#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/rigid_body_modes.hpp>
@@ -37,15 +36,12 @@
 // Coulomb friction of elastic bodies:
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
-#include <slant/contact/coulomb/coulomb_families.hpp>
-#include <slant/contact/coulomb/coulomb_newton.hpp>
 
 // Coulomb friction from u = W r + q:
 #include <slant/contact/friction/friction_blocks.hpp>
 #include <slant/contact/friction/friction_gauss_seidel.hpp>
 #include <slant/contact/friction/friction_interior_point.hpp>
 #include <slant/contact/friction/friction_newton.hpp>
-#include <slant/contact/friction/friction_options.hpp>
 #include <slant/contact/friction/friction_problem.hpp>
 #include <slant/contact/friction/verify.hpp>
 // IWYU pragma: end_exports

@@ -4,7 +4,7 @@
 // connected components of the graph of K, numbered from 0 in the order of their first unknowns; the
 // free motions of a body are the kernel of its block, rigid motions for an elastic one.
 //
-//     kernel    R, orthonormal, by inverse iteration (factorizations/computed_kernel.hpp)
+//     kernel    R, orthonormal, by inverse iteration (computed_kernel)
 //     names     where the places of the unknowns are known: R = Φ C with the rigid motions Φ about
 //               the centre of the body. Combinations without rotation are translations, the others
 //               turn about the axes that are left.
@@ -15,8 +15,8 @@
 #include <slant/compiled.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/prepared_body.hpp>
-#include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/factorize.hpp>
+#include <slant/factorizations/kernel_basis.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/QR>

@@ -99,4 +99,27 @@ template <class S>
   return c;
 }
 
+namespace detail {
+
+/// What run() finds without factors, if that is the route and leads to the solution or was asked
+/// for; none: factors are to be taken, and the choice says why.
+template <class Run>
+[[nodiscard]] auto iterated_first(route_choice& choice, solution_route asked, Run&& run)
+    -> std::optional<decltype(run())> {
+  if (choice.route != solution_route::iterate) return std::nullopt;
+  try {
+    auto found = run();
+    found.choice = choice;
+    if (found.converged() || asked == solution_route::iterate) return found;
+    choice.reason += "; factored after all: " + found.reason;
+  } catch (bad_input const& refusal) {
+    if (asked == solution_route::iterate) throw;
+    choice.reason += "; factored after all: " + std::string(refusal.what());
+  }
+  choice.route = solution_route::factor;
+  return std::nullopt;
+}
+
+}  // namespace detail
+
 }  // namespace slant::contact

@@ -33,7 +33,6 @@
 #include <slant/contact/certificate.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dual.hpp>
-#include <slant/contact/newton_certificate.hpp>
 #include <slant/contact/parts/iterated_run.hpp>
 #include <slant/contact/parts/spring_supports.hpp>
 #include <slant/contact/preconditioners.hpp>
@@ -311,20 +310,12 @@ template <class Friction, class S, class... Observers>
                              ? detail::iteration_outlook{"forces to start from are given"}
                              : detail::outlook_of_iteration(K, c, o.layout, asked);
     choice = choose_route(K, outlook.refusal, o.route, o.costs);
-    if (choice.route == solution_route::iterate) {
-      try {
-        auto found = outlook.floating.empty()
-                         ? detail::iterated_run(friction, K, c, o)
-                         : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
-        found.choice = choice;
-        if (found.converged() || o.route == solution_route::iterate) return found;
-        choice.reason += "; factored after all: " + found.reason;
-      } catch (bad_input const& refusal) {
-        if (o.route == solution_route::iterate) throw;
-        choice.reason += "; factored after all: " + std::string(refusal.what());
-      }
-      choice.route = solution_route::factor;
-    }
+    auto const iterate = [&] {
+      return outlook.floating.empty()
+                 ? detail::iterated_run(friction, K, c, o)
+                 : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
+    };
+    if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   } else if (o.route == solution_route::iterate) {
     throw bad_input("route", "iterate", "another one, as observers see states of symmetric_newton");
   }

@@ -14,7 +14,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 #include <slant/factorizations/parts/tail.hpp>
 
 #include <Eigen/SparseCore>

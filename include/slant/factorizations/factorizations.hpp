@@ -15,7 +15,6 @@
 #include <slant/factorizations/woodbury.hpp>
 
 // Kernels of semidefinite matrices:
-#include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 
 // The contact unknowns late in the elimination:

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <slant/concepts/linear_operator.hpp>
-#include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 
@@ -38,7 +37,7 @@ class generalized_inverse {
   using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
 
-  /// K of which the kernel is not known; see computed_kernel.hpp. Two factorisations.
+  /// K of which the kernel is not known; see kernel_basis.hpp. Two factorisations.
   explicit generalized_inverse(sparse_type const& K)
       : generalized_inverse(K, slant::computed_kernel(K)) {}
 

@@ -6,8 +6,7 @@
 //   q.txt    n        velocities without contact forces
 //   mu.txt   a friction coefficient >= 0 for each contact
 //
-// and the solution beside it: forces r.txt and velocities u.txt. The dimension, 2 or 3, follows
-// from the sizes.
+// The dimension, 2 or 3, follows from the sizes.
 #pragma once
 
 #include <slant/contact/friction/friction_problem.hpp>
@@ -104,16 +103,6 @@ void write_friction_problem(std::filesystem::path const& folder,
   write_matrix_market(files.add(folder / "W.mtx"), p.W);
   write_text_vector(files.add(folder / "q.txt"), p.q);
   write_text_vector(files.add(folder / "mu.txt"), p.mu);
-  files.commit();
-}
-
-/// Forces and velocities into r.txt and u.txt of a folder; both appear, or none. Throws bad_input
-/// for numbers that are not finite, std::system_error if there is no room.
-template <class V>
-void write_friction_solution(std::filesystem::path const& folder, V const& r, V const& u) {
-  atomic_files files;
-  write_text_vector(files.add(folder / "r.txt"), r);
-  write_text_vector(files.add(folder / "u.txt"), u);
   files.commit();
 }
 

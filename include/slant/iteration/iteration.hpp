@@ -7,6 +7,5 @@
 #include <slant/iteration/nested.hpp>
 #include <slant/iteration/observers.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/solve_then.hpp>
 #include <slant/iteration/stopping.hpp>
 // IWYU pragma: end_exports

@@ -18,7 +18,6 @@
 
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace slant {
 
@@ -90,26 +89,6 @@ void half_step_within(Set const& set, State& s, feasible_step<S> const& step) {
     slant::project(set, slant::local(s.x), slant::local(s.trial));
     std::swap(s.x, s.trial);
   }
-}
-
-/// The blocks, in the order of visit, whose own sets end where x + length · d does: those that
-/// blocked a half step from x along d. Nothing is allocated if `list` has room for all blocks. Of a
-/// distributed vector, the blocks that lie here.
-template <class Set, class X, class S>
-void find_blocking(Set const& set, X const& x, X const& d, S const& length,
-                   std::vector<index>& list) {
-  list.clear();
-  slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-    if constexpr (has_visit<Set> || has_static_dimension<Set>) {
-      auto const from = detail::argument_of(block, place, x),
-                 along = detail::argument_of(block, place, d);
-      if constexpr (requires { block.step_to_boundary(from, along); }) {
-        if (block.step_to_boundary(from, along) <= length) list.push_back(place.index());
-      }
-    } else if (set.step_to_boundary(x, d) <= length) {
-      list.push_back(0);
-    }
-  });
 }
 
 }  // namespace slant

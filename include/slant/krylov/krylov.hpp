@@ -7,7 +7,6 @@
 // Methods:
 #include <slant/krylov/bicgstab.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/krylov/face_cg.hpp>
 #include <slant/krylov/range_cg.hpp>
 
 // Their steps:

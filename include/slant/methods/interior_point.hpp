@@ -21,7 +21,7 @@
 // along the gradient leaves x no way to go: a unit disc in the plane took 1767 steps to nowhere.
 // All other inequalities keep ν_i, with the slacks z = −f(x), which are no unknowns of their own.
 // So every iterate is a point of the interior, f(x) + z = 0 always holds, and W is semidefinite
-// even where f is not convex (parts/barrier.hpp). c_min is a fifth, not 1e-30: with no centring the
+// even where f is not convex (barrier.hpp). c_min is a fifth, not 1e-30: with no centring the
 // iterates run into the boundary and the next steps are short. ϑ may not fall much faster than the
 // first ∇L does, for the same reason. The start lies on a curve ν_i z_i = ϑ with lengths and forces
 // taken from the data, so that units do not matter, and at P_Λ(0) where q is smaller there than at
@@ -40,7 +40,6 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/interior_point_state.hpp>
-#include <slant/methods/parts/interior_start.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>

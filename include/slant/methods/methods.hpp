@@ -7,17 +7,15 @@
 // First: a complaint about it begins with the trail of headers that has led to it.
 #include <slant/problems/quadratic_program.hpp>
 
-#include <slant/methods/anderson_mixing.hpp>
+#include <slant/methods/barrier.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/envelope_newton.hpp>
 #include <slant/methods/forward_backward.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/interior_point_state.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/methods/modified_newton.hpp>
 #include <slant/methods/mssn.hpp>
 #include <slant/methods/proportioning.hpp>
-#include <slant/methods/reduced_systems.hpp>
 #include <slant/methods/schur_contact.hpp>
 #include <slant/methods/smalse.hpp>
 #include <slant/methods/solve_program.hpp>

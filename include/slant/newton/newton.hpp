@@ -8,7 +8,6 @@
 #include <slant/newton/semismooth_newton.hpp>
 
 // Linear solvers:
-#include <slant/newton/by_laws.hpp>
 #include <slant/newton/direct_solver.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/newton/krylov_solvers.hpp>

@@ -8,10 +8,10 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/parts/schur_reduction.hpp>
+#include <slant/operators/block.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/product.hpp>
-#include <slant/operators/schur_complement.hpp>
 #include <slant/operators/sum.hpp>
 
 #include <Eigen/SparseCore>
@@ -69,11 +69,6 @@ struct schur_cg : detail::schur_solver<schur_cg, cg_solver> {
     symmetric.residual_norm /= S(g.rho());  // the active rows were divided by ρ
     auto report = inner.solve(schur(g, p), p.reduced, symmetric, p.multipliers, prepared.krylov);
     slant::local(p.multipliers) -= slant::local(p.inactive).cwiseProduct(f2);
-    slant::local(p.force) = f1;
-    J.apply_adjoint_add(S(1), p.multipliers, p.force);
-    p.factors.solve(p.force, p.x, p.w);
-    report.operator_applications += 2;
-    report.factorizations = 1;
     detail::finish_direction(g, f, request, dy, p, report);
     return report;
   }
@@ -131,11 +126,6 @@ struct schur_bicgstab : detail::schur_solver<schur_bicgstab, bicgstab_solver> {
     slant::local(p.reduced) = f2 + slant::local(p.active).cwiseProduct(slant::local(p.reduced));
     if (!detail::is_finite(S(norm(p.reduced)))) return detail::no_factors(request, dy);
     auto report = inner.solve(schur(g, p), p.reduced, request, p.multipliers, prepared.krylov);
-    slant::local(p.force) = f1;
-    J.apply_adjoint_add(S(1), p.multipliers, p.force);
-    p.factors.solve(p.force, p.x, p.w);  // x = K⁻¹(F₁ + Jᵀdz)
-    report.operator_applications += 2;
-    report.factorizations = 1;
     detail::finish_direction(g, f, request, dy, p, report);
     return report;
   }

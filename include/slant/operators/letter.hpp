@@ -433,11 +433,7 @@ template <operand A>
   }
 }
 
-/// A and Aᵀ by reference, for as long as A lives.
-template <class A>
-[[nodiscard]] auto reference_to(A const& a) {
-  return letter<nameless{}, A, 0>(a);
-}
+/// Aᵀ by reference, for as long as A lives.
 template <class A>
 using adjoint_view = letter<nameless{}, A, adjointed>;
 

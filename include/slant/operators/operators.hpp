@@ -15,9 +15,8 @@
 // Written as mathematics, with laws that the compiler knows:
 #include <slant/operators/applied.hpp>  // A * x
 #include <slant/operators/explain.hpp>  // errors that name the formula
+#include <slant/operators/factors.hpp>  // laws of products and sums
 #include <slant/operators/letter.hpp>   // names, adjoint
-#include <slant/operators/mirror.hpp>   // laws of products and sums
-#include <slant/operators/number.hpp>   // numbers in front and their signs
 #include <slant/operators/product.hpp>  // A B C, B A Bᵀ
 #include <slant/operators/sum.hpp>      // A + B − C
 #include <slant/operators/syntax.hpp>   // + − *, printing
@@ -29,7 +28,6 @@
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/kronecker.hpp>
 #include <slant/operators/range_sum.hpp>
-#include <slant/operators/schur_complement.hpp>
 
 // Any of them: with other laws, counted, of one type:
 #include <slant/operators/any_operator.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A product c F₁ F₂ … F_n: a number and one flat sequence of factors, which are letters and sums.
-// y = c F₁ (F₂ (… (F_n x))) with one temporary between two factors. Laws: mirror.hpp.
+// y = c F₁ (F₂ (… (F_n x))) with one temporary between two factors. Laws: factors.hpp.
 //
 //     (A B) C, A (B C)      one flat sequence
 //     (c A) (d B)           (c d) A B
@@ -14,7 +14,7 @@
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
-#include <slant/operators/mirror.hpp>
+#include <slant/operators/factors.hpp>
 
 #include <boost/hana/at.hpp>
 #include <boost/hana/back.hpp>

@@ -2,7 +2,7 @@
 //
 // A sum T₁ + … + T_n: one flat sequence of terms, which are letters and products. A − B is
 // A + (−1) B. The first term writes y, the others add to it (capability apply_add), so a sum costs
-// what the hand-written loop costs. Laws: mirror.hpp.
+// what the hand-written loop costs. Laws: factors.hpp.
 #pragma once
 
 #include <slant/operators/product.hpp>

@@ -21,7 +21,7 @@
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/problems/separable_qp.hpp>
-#include <slant/sets/scaled.hpp>
+#include <slant/sets/images.hpp>
 
 #include <cmath>
 #include <string>

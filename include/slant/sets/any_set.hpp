@@ -185,10 +185,6 @@ inline constexpr bool has_slants_of<S, std::variant<power_product<Block, Layout,
 
 }  // namespace detail
 
-/// All blocks of C are of the kinds that any_set<S> has, the powers among its parts included.
-template <class C, class S = double>
-concept has_usual_blocks = detail::is_made_of<usual_runs<S>, std::remove_cvref_t<C>>();
-
 template <scalar S, class Runs>
 class any_set;
 

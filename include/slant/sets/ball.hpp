@@ -5,7 +5,6 @@
 
 #include <slant/base/double_word.hpp>
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>

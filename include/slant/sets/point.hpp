@@ -4,7 +4,6 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/face.hpp>

@@ -14,9 +14,7 @@
 #include <slant/sets/second_order_cone.hpp>
 
 // Images of blocks:
-#include <slant/sets/rotated.hpp>
-#include <slant/sets/scaled.hpp>
-#include <slant/sets/shifted.hpp>
+#include <slant/sets/images.hpp>
 
 // Products of blocks:
 #include <slant/sets/any_set.hpp>

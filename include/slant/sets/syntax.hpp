@@ -12,8 +12,7 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/member_names.hpp>
 #include <slant/sets/cartesian.hpp>
-#include <slant/sets/scaled.hpp>
-#include <slant/sets/shifted.hpp>
+#include <slant/sets/images.hpp>
 
 #include <boost/hana/basic_tuple.hpp>
 #include <boost/hana/unpack.hpp>

@@ -22,7 +22,7 @@
 namespace slant {
 
 /// c F₁∘…∘F_n. Each F is `Function const&` (referenced) or a function type (owned), C a number of
-/// operators/number.hpp.
+/// operators/factors.hpp.
 template <class C, class... F>
 class composition_map : public slanting_base {
   static constexpr std::size_t n = sizeof...(F);

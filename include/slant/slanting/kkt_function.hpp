@@ -21,7 +21,7 @@
 #include <slant/operators/restriction.hpp>
 #include <slant/slanting/arithmetic.hpp>
 #include <slant/slanting/inequalities.hpp>
-#include <slant/slanting/max.hpp>
+#include <slant/slanting/pairs.hpp>
 #include <slant/slanting/stack.hpp>
 
 #include <utility>

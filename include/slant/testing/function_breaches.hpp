@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The laws of functions with a proximal map (concepts/proximable.hpp), sampled; needs no test
-// framework (set_laws.hpp does). With x = prox_{ρφ}(z), v = (z − x)/ρ:
+// framework (laws.hpp does). With x = prox_{ρφ}(z), v = (z − x)/ρ:
 //
 //     φ(w) ≥ φ(x) + vᵀ(w − x),    φ(x) + φ*(v) = vᵀx,    φ*(v) ≥ vᵀw − φ(w),
 //     ‖x − y‖² ≤ ⟨z − w, x − y⟩ for y = prox_{ρφ}(w),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The laws of linear operators, sampled; needs no test framework (operator_laws.hpp does).
+// The laws of linear operators, sampled; needs no test framework (laws.hpp does).
 //
 //     A(αx + βy) = αAx + βAy,   A x into a y full of NaN,   A x with a used or copied workspace, or
 //     beside another thread,   the laws that the type declares,   and of each capability it has:

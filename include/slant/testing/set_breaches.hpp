@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The laws of convex sets, sampled; needs no test framework (set_laws.hpp does).
+// The laws of convex sets, sampled; needs no test framework (laws.hpp does).
 //
 //     P(P(x)) = P(x),   contains(P(x)),   ‖P(x) − P(y)‖² ≤ ⟨x − y, P(x) − P(y)⟩,
 //     ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
@@ -314,7 +314,7 @@ template <class C>
 
 // --- face breaches -------------------------------------------------------------------------------
 //
-// The laws of faces, sampled; needs no test framework (set_laws.hpp does).
+// The laws of faces, sampled; needs no test framework (laws.hpp does).
 //
 //     keep ∘ keep = keep,   ⟨keep x, y⟩ = ⟨x, keep y⟩,   keep x + keep_complement x = x,
 //     y may be x, may hold NaN on entry; an infinite entry off the face is cut to 0, not to NaN;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The laws of slanting functions, sampled; needs no test framework (slanting_laws.hpp does).
+// The laws of slanting functions, sampled; needs no test framework (laws.hpp does).
 //
 //     F° bounded near y,     ‖F(y+h) − F(y) − F°(y+h) h‖ = o(‖h‖)          [T Def 1.3, K Def 1]
 //     F°(y) linear, of size rows() × cols();   value and apply overwrite;   renewal = new

@@ -10,7 +10,6 @@
 // The rule of KPRGP for conjugate gradients, whose state has a residual and no reduced gradient: alone,
 // in a combination of rules, for the second of two methods.
 #include <slant/iteration/solve.hpp>
-#include <slant/iteration/solve_then.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/identity.hpp>
 

@@ -10,7 +10,7 @@
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/slanting/affine.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 
 auto function_for(slant::cg_solver const&, auto const& A, Eigen::VectorXd const& b) {
   return slant::affine(A, -b);

@@ -43,7 +43,6 @@
 #include <slant/sets/half_line.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/slanting/kkt_function.hpp>
-#include <slant/slanting/natural_residual.hpp>
 #include <slant/slanting/projection.hpp>
 
 struct upper_half_plane {

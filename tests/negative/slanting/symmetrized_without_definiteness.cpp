@@ -6,7 +6,7 @@
 // A Newton operator I − G (I − ρ A) whose A has not promised to be definite.
 #include <slant/operators/declare.hpp>
 #include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/natural_residual.hpp>
+#include <slant/slanting/projection.hpp>
 #include <slant/slanting/symmetrized.hpp>
 
 auto newton(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& b) {

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/friction/friction_problem.hpp>

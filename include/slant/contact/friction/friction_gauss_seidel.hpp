@@ -9,7 +9,7 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/contact/friction/friction_blocks.hpp>

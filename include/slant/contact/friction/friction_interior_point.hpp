@@ -28,7 +28,7 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/scalar.hpp>

@@ -17,8 +17,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/friction/friction_blocks.hpp>
 #include <slant/sets/second_order_cone.hpp>
-#include <slant/slanting/alart_curnier.hpp>
-#include <slant/slanting/de_saxce.hpp>
+#include <slant/slanting/coulomb_law.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -37,7 +36,7 @@ namespace slant::contact {
 // dF = A dr + B du by the chain rule, composed of parts of the library:
 //
 //     natural map    F = r − P_K(r − ρ û),  û de Saxcé's map of u     A = I − G,   B = ρ G û°
-//     Alart–Curnier  F = r − P(r − ρ u),    P of alart_curnier.hpp    A = I − P°,  B = ρ P°
+//     Alart–Curnier  F = r − P(r − ρ u),    P of coulomb_law.hpp      A = I − P°,  B = ρ P°
 //
 // An open contact has G = 0 or P° = 0: F = r, A = I, B = 0.
 

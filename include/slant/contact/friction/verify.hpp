@@ -22,7 +22,7 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/compiled.hpp>
 #include <slant/contact/friction/friction_problem.hpp>
 

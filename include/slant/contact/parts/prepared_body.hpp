@@ -6,7 +6,6 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
-#include <slant/factorizations/computed_kernel.hpp>
 #include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 

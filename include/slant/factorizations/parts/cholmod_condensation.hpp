@@ -11,7 +11,7 @@
 #include <slant/factorizations/condensed_operator.hpp>
 #include <slant/factorizations/fill_estimate.hpp>
 #include <slant/factorizations/parts/contact_ordering.hpp>
-#include <slant/factorizations/parts/packed_symmetric.hpp>
+#include <slant/factorizations/parts/panel_kernels.hpp>
 #include <slant/factorizations/parts/tail.hpp>
 
 #include <Eigen/SparseCore>

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <slant/concepts/scalar.hpp>
-#include <slant/factorizations/parts/packed_symmetric.hpp>
 #include <slant/factorizations/parts/panel_kernels.hpp>
 
 #include <Eigen/Core>

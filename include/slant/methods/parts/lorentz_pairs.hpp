@@ -34,7 +34,7 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/base/scaled_norm.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/second_order_cone.hpp>

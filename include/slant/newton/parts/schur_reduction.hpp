@@ -245,14 +245,19 @@ template <class V>
   return diagonal_operator<V const&>(held<V const&>(v));
 }
 
-/// dy = (−x − K⁻¹Jᵀdz', dz) where x and dz' stand in p, and dz where dz' was completed; then its
-/// residual, one application of G. The report is that of the inner iteration for dz'.
+/// dy = (−x, dz) for the dz in p, x = K⁻¹(F₁ + Jᵀdz); then its residual, one application of G. The
+/// report is that of the inner iteration, after one solve and one factorisation of K.
 template <class G, class V, class P>
 void finish_direction(G const& g, V const& f, direction_request<scalar_t<V>> const& request, V& dy,
                       P& p, direction_report<scalar_t<V>>& report) {
   using S = scalar_t<V>;
   index const n = g.jacobian().cols();
   index const m = g.jacobian().rows();
+  slant::local(p.force) = slice(n + m, 0, n).segment(f);
+  g.jacobian().apply_adjoint_add(S(1), p.multipliers, p.force);
+  p.factors.solve(p.force, p.x, p.w);
+  report.operator_applications += 2;
+  report.factorizations = 1;
   slice(n + m, 0, n).segment(dy) = -slant::local(p.x);
   slice(n + m, n, m).segment(dy) = slant::local(p.multipliers);
   slant::apply(g, dy, p.residual, p.g_workspace);
