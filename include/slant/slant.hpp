@@ -9,6 +9,7 @@
 //     <slant/operators/describe.hpp>             the tree of an expression
 //     <slant/factorizations/factorizations.hpp>  kernels, static condensation, generalised inverses
 //     <slant/iteration/iterates.hpp>             a run as a range (range-v3)
+//     <slant/operators/timed.hpp>                seconds spent in an operator (<chrono>)
 //     <slant/testing/…>                          law checks, for test suites (partly with doctest)
 //
 // CHOLMOD takes part where SLANT_HAS_CHOLMOD is 1, as with the CMake target slant::cholmod.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// describe(A): the tree of an expression with sizes, laws, bytes of workspace, what was counted,
-// and for a missing law the part that breaks it.
+// describe(A): the tree of an expression with sizes, laws, bytes of workspace, what was counted and
+// timed, and for a missing law the part that breaks it.
 #pragma once
 
 #include <slant/operators/explain.hpp>
@@ -82,6 +82,9 @@ template <class A>
   std::string out = ", " + std::string(type_name<A>());
   if constexpr (requires { object.applications(); }) {
     out += ", " + std::to_string(object.applications()) + " applications";
+  }
+  if constexpr (requires { number_text(object.seconds()); }) {
+    out += ", " + number_text(object.seconds()) + " s";
   }
   if constexpr (requires { object.get().nonZeros(); }) {
     out += ", " + std::to_string(object.get().nonZeros()) + " entries";
