@@ -5,7 +5,6 @@
 //
 //     <slant/contact/contact.hpp>                contact from stiffness matrices, friction laws
 //     <slant/io/io.hpp>, <slant/io/vtu.hpp>      files (the second one needs pugixml)
-//     <slant/multilevel/multilevel.hpp>          multigrid
 //     <slant/operators/describe.hpp>             the tree of an expression
 //     <slant/factorizations/factorizations.hpp>  kernels, static condensation, generalised inverses
 //     <slant/iteration/iterates.hpp>             a run as a range (range-v3)
@@ -27,6 +26,7 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/iteration.hpp>
 #include <slant/krylov/krylov.hpp>
+#include <slant/multilevel/multilevel.hpp>
 #include <slant/newton/newton.hpp>
 #include <slant/operators/operators.hpp>
 #include <slant/sets/sets.hpp>

@@ -19,6 +19,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace iterated_coulomb_test {
@@ -65,6 +66,9 @@ auto agree(scene const& s) {
   REQUIRE(iterated.converged());
   CHECK(iterated.choice.route == solution_route::iterate);
   CHECK(iterated.method == "successive slip bounds");
+  std::ostringstream out;
+  out << iterated;
+  CHECK(out.str().find(" of successive slip bounds\n") != std::string::npos);
   CHECK(iterated.work.factorizations == 0);
   CHECK(iterated.error.relative() <= tolerance);
   CHECK(energy(s.K, VectorXd(iterated.u - factored.u)) <= tolerance * energy(s.K, factored.u));

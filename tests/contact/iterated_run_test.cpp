@@ -23,6 +23,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -328,6 +329,11 @@ TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at
     return r.choice;
   };
   CHECK(route_of(s).route == solution_route::iterate);
+  std::ostringstream out;
+  out << contact::solve(s.K, s.data, o);
+  CHECK(out.str().find("converged: relative energy error") == 0);
+  CHECK(out.str().find("\n  chosen                 iterated: factors are estimated at") !=
+        std::string::npos);
   o.costs.cycle = 1;
   CHECK(route_of(s).route == solution_route::factor);
   o.costs = {};

@@ -19,7 +19,7 @@ endforeach()
 
 set(waiting
     slant/slant.hpp slant/contact/contact.hpp slant/operators/describe.hpp slant/factorizations/factorizations.hpp slant/io/io.hpp
-    slant/iteration/iterates.hpp slant/multilevel/multilevel.hpp)
+    slant/iteration/iterates.hpp)
 set(reached "")
 while(waiting)
   list(POP_FRONT waiting header)

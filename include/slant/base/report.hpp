@@ -47,7 +47,8 @@ namespace detail {
 
 /// The lines of a run; those of numbers that are 0 are left out.
 [[gnu::cold]] inline void print_run(std::ostream& out, status how, std::string const& why,
-                                    index unknowns, std::string const& steps, work const& spent) {
+                                    index unknowns, std::string const& steps, work const& spent,
+                                    std::string const& choice = {}) {
   out << to_string(how) << ": " << why;
   if (unknowns > 0) out << "\n  unknowns               " << unknowns;
   out << "\n  steps                  " << steps;
@@ -56,6 +57,7 @@ namespace detail {
   if (products + before > 0) out << "\n  applications of A      " << products;
   if (before > 0) out << ", and " << before << " before the first step";
   if (spent.factorizations > 0) out << "\n  factorizations         " << spent.factorizations;
+  if (!choice.empty()) out << "\n  chosen                 " << choice;
   out << "\n";
 }
 

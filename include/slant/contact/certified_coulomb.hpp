@@ -102,6 +102,15 @@ struct certified_coulomb_result {
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
 };
 
+/// As a solution of contact::solve prints itself.
+template <class V>
+std::ostream& operator<<(std::ostream& out, certified_coulomb_result<V> const& run) {
+  slant::detail::print_run(out, run.status, run.reason, index(run.u.size()),
+                           std::to_string(run.steps) + " of " + std::string(run.method), run.work,
+                           run.choice.reason);
+  return out;
+}
+
 namespace detail {
 
 // --- coulomb run ---------------------------------------------------------------------------------
@@ -402,11 +411,11 @@ template <class Friction, class S>
           : detail::iteration_outlook{"the method works on forces"};
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   // The methods with factors need supports.
-  auto const asked = outlook.floating.empty() ? o.route : solution_route::iterate;
+  auto const route = outlook.floating.empty() ? o.route : solution_route::iterate;
   auto const iterate = [&] {
     return detail::iterated_certified_coulomb(friction, K, c, F, outlook.floating, o);
   };
-  if (auto found = detail::iterated_first(choice, asked, iterate)) return *std::move(found);
+  if (auto found = detail::iterated_first(choice, route, iterate)) return *std::move(found);
   auto const factor = factorize_stiffness(K, o.layout);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);

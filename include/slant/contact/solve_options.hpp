@@ -3,6 +3,7 @@
 // Options and result of contact::solve.
 #pragma once
 
+#include <slant/base/report.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/free_motions.hpp>
@@ -17,6 +18,7 @@
 
 #include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 
 namespace slant::contact {
@@ -82,5 +84,20 @@ struct solution {
 
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
 };
+
+/// How well, how, and at what cost:
+///
+///     converged: relative energy error 2.1e-10, estimated, at most 1e-08
+///       unknowns               41616
+///       steps                  9
+///       inner steps            20
+///       applications of A      47
+///       chosen                 iterated: factors are estimated at 1.9 s, multigrid at 0.3 s
+template <class S>
+std::ostream& operator<<(std::ostream& out, solution<S> const& run) {
+  slant::detail::print_run(out, run.status, run.reason, index(run.u.size()),
+                           std::to_string(run.iterations), run.work, run.choice.reason);
+  return out;
+}
 
 }  // namespace slant::contact

@@ -70,8 +70,7 @@ struct certified_point {
 template <class V>
 std::ostream& operator<<(std::ostream& out, certified_point<V> const& run) {
   detail::print_run(out, run.status, run.reason, detail::unknowns_of(run.point),
-                    std::to_string(run.steps) + " of symmetric_newton", run.work);
-  if (!run.choice.empty()) out << "  chosen                 " << run.choice << "\n";
+                    std::to_string(run.steps) + " of symmetric_newton", run.work, run.choice);
   return out;
 }
 
