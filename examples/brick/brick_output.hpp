@@ -41,6 +41,16 @@ inline void print_problem(fem::contact_scene<3> const& scene, fem::brick_load lo
   std::fflush(stdout);
 }
 
+/// States of the contact nodes, and what is largest.
+inline void print_field(fem::contact_field<3> const& field, Eigen::Matrix3Xd const& displacement) {
+  std::printf("  contact nodes  %td open, %td stick, %td slip\n",
+              field.count(fem::contact_state::open), field.count(fem::contact_state::stick),
+              field.count(fem::contact_state::slip));
+  std::printf("  largest        pressure %.4g MPa, friction %.4g MPa, displacement %.4g\n\n",
+              field.normal.maxCoeff(), field.friction.colwise().norm().maxCoeff(),
+              displacement.colwise().norm().maxCoeff());
+}
+
 template <class State>
 void print_result(slant::report<State> const& report, double setup_seconds, double solve_seconds,
                   fem::contact_field<3> const& field, Eigen::Matrix3Xd const& displacement) {
@@ -54,12 +64,7 @@ void print_result(slant::report<State> const& report, double setup_seconds, doub
   std::printf("  products       %td, and %td for the step length\n", work.operator_applications,
               work.setup_applications);
   std::printf("  seconds        %.3f set-up, %.3f solve\n", setup_seconds, solve_seconds);
-  std::printf("  contact nodes  %td open, %td stick, %td slip\n",
-              field.count(fem::contact_state::open), field.count(fem::contact_state::stick),
-              field.count(fem::contact_state::slip));
-  std::printf("  largest        pressure %.4g MPa, friction %.4g MPa, displacement %.4g\n\n",
-              field.normal.maxCoeff(), field.friction.colwise().norm().maxCoeff(),
-              displacement.colwise().norm().maxCoeff());
+  print_field(field, displacement);
 }
 
 inline void print_optimality(slant::contact::optimality<double> const& o) {
@@ -94,7 +99,8 @@ inline void write_output(std::filesystem::path const& folder, fem::contact_scene
   std::string const title = "Steel brick, load \"" + history.label + "\"";
   auto const contact = fem::contact_plot(folder / "contact.png", field, {.title = title});
   std::printf("%s\n", contact.message.c_str());
-  if (!contact.written) return;  // the other picture would fail for the same reason
+  // The other picture would fail for the same reason.
+  if (!contact.written || history.points.empty()) return;
   std::vector<fem::history_series> series;
   series.push_back({history.label, std::move(history.points)});
   auto const course = fem::history_plot(

@@ -70,6 +70,16 @@ TEST_CASE("brick: problem, result, proof and files") {
   CHECK(io_test::get(output / "contact.png").starts_with("\x89PNG") == drawn);
 }
 
+TEST_CASE("brick: a fine mesh without factors") {
+  auto const ran = run("brick", "--refine 4 --load lift --tolerance 1e-8");
+  CHECK(ran.status == 0);
+  CHECK(contains(ran.out, "converged: relative energy error"));
+  CHECK(contains(ran.out, "chosen                 iterated, as asked for"));
+  CHECK(contains(ran.out, "levels                 smoothed aggregation"));
+  CHECK(contains(ran.out, "contact nodes"));
+  CHECK(run("brick", "--refine 2 --max-iterations 1").status == 1);
+}
+
 TEST_CASE("brick: not converged is not success") {
   auto const ran = run("brick", "--cells 1 --max-iterations 2");
   CHECK(ran.status == 1);
