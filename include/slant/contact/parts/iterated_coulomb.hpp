@@ -105,14 +105,14 @@ template <class Friction, class S>
     slant::project(feasible_set(law, c.nodes(), g), result.λ, result.λ);
     result.error = {check(result.λ, result.u), frozen(state.x)};
     if (!springs.empty()) {
-      springs.measure(result.u);
+      springs.measure(result.u, share * run.size());
       result.error.frozen = springs.error(result.error.frozen.bound);
     }
     return result.error.relative();
   };
   while (true) {
     if (!springs.empty()) {
-      springs.measure(run.displacement());
+      springs.measure(run.displacement(), share * run.size());
       springs.move();
       run.set_load(springs.load(c.f));
     }

@@ -293,6 +293,7 @@ template <class Friction, class S>
 //     ‖u⁺ − u*‖²_K ≤ ⟨D(u − u⁺), u⁺ − u*⟩ ≤ w d,        d = ‖u⁺ − u*‖_D ≤ θ w/(1 − θ),
 //
 // θ twice the last contraction as it was observed: an estimate, as that of the problem with springs is.
+// For that all problems are solved as accurately as the last.
 // With Coulomb's law the bounds of each problem come from the one before.
 
 /// The springs, and how far they have come.
@@ -319,15 +320,23 @@ class moving_springs {
   /// K + D.
   [[nodiscard]] sparse_type const& held() const { return empty() ? *K_ : held_; }
 
-  /// u⁺ = u has been found, to the accuracy that it has. One product.
-  void measure(vector_type u) {
+  /// u⁺ = u has been found, up to `noise` in ‖·‖_{K + D}. One product.
+  void measure(vector_type u, S const& noise) {
     using std::sqrt;
     u_ = std::move(u);
-    S const unit = unit_near(S(slant::norm(u_)));
+    S const unit = unit_near(std::max<S>(slant::norm(u_), slant::norm(centre_)));
     vector_type const δ = (u_ - centre_) / unit, x = u_ / unit;
     way_ = unit * sqrt(S(δ.dot(D_.cwiseProduct(δ))));
     S const square = x.dot(vector_type(*K_ * x));
     size_ = square > S(0) ? S(unit * sqrt(square)) : S(0);
+    // A way that is all noise bounds the contraction from above; a first way that is none needs none.
+    if (!(last_ > S(0))) {
+      if (!(way_ > noise)) contraction_ = S(0.25);
+    } else if (way_ > noise) {
+      contraction_ = way_ / last_;
+    } else {
+      contraction_ = std::min<S>(contraction_, (way_ + noise) / last_);
+    }
   }
   /// The springs end where that is.
   void move() {
@@ -339,14 +348,15 @@ class moving_springs {
     return f + D_.cwiseProduct(centre_);
   }
 
-  /// w, and w over that of the step before.
-  [[nodiscard]] S way() const { return way_; }
-  [[nodiscard]] S contraction() const { return S(way_ / last_); }
+  /// ‖u‖_K.
+  [[nodiscard]] S size() const { return size_; }
+  /// w over that of the step before; ∞ where there was none.
+  [[nodiscard]] S contraction() const { return contraction_; }
   /// Of ‖u − u*‖_K, where the error of the problem with springs is at most `inner`; ∞ from a
   /// contraction of ½ on.
   [[nodiscard]] energy_error<S> error(S const& inner) const {
     using std::sqrt;
-    S const θ = S(2) * contraction();
+    S const θ = S(2) * contraction_;
     S const bound = θ < S(1) ? S((way_ + inner) * sqrt(S(θ / (S(1) - θ))) + inner)
                              : std::numeric_limits<S>::infinity();
     return {.bound = bound, .size = size_};
@@ -356,7 +366,7 @@ class moving_springs {
   sparse_type const* K_;
   sparse_type held_;
   vector_type D_, centre_, u_;
-  S way_{0}, last_ = std::numeric_limits<S>::infinity(), size_{0};
+  S way_{0}, last_{0}, size_{0}, contraction_ = std::numeric_limits<S>::infinity();
 };
 
 /// As iterated_run, where these unknowns belong to bodies that float.
@@ -372,7 +382,8 @@ template <class Friction, class S>
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
   auto const& state = run.state();
   result.factorization = run.levels().description();
-  S share = S(1e-3);
+  S const share =
+      std::clamp<S>(o.tolerance / S(8), S(1e3) * std::numeric_limits<S>::epsilon(), S(1e-4));
   index slow = 0, applications = 0;
   while (true) {
     tell_progress(o, state);
@@ -381,11 +392,11 @@ template <class Friction, class S>
       if (state.status != status::iteration_limit) tell_progress(o, state);
     }
     ++result.springs;
-    springs.measure(run.displacement());
+    springs.measure(run.displacement(), share * run.size());
     ++applications;
     bool const ended = state.status != status::converged;
-    result.error = springs.error(S(0));
-    if (result.error.bound <= S(0.5) * o.tolerance * result.error.size || ended) {
+    result.error = springs.error(share * springs.size());
+    if (result.error.relative() <= o.tolerance || ended) {
       energy_certificate certificate(run.qp(), run.levels());
       result.error = springs.error(certificate(state.x).bound);
       applications += certificate.applications();
@@ -408,9 +419,6 @@ template <class Friction, class S>
       }
       break;
     }
-    // As accurate as the next step is long, if it is as much shorter as this one was.
-    S const expected = springs.way() * std::min<S>(springs.contraction(), S(1));
-    share = std::clamp<S>(S(0.1) * expected / run.size(), o.tolerance / S(8), S(1e-3));
     springs.move();
     run.set_load(springs.load(c.f));
   }
