@@ -361,6 +361,13 @@ TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at
         }).find("route: got iterate, expected factor or automatic, because contact 0 shares") == 0);
 
   o.route = solution_route::automatic;
+  // Friction alone at a contact, or a gap alone beside contacts with friction.
+  for (bool const of_gaps : {true, false}) {
+    scene half = s;
+    (of_gaps ? half.data.N : half.data.T).prune([](Index row, Index, double) { return row > 1; });
+    CHECK(route_of(half).reason.find(of_gaps ? "factored: contact 0 has a row of T and none of N"
+                                             : "factored: contact 0 has an empty row of T") == 0);
+  }
 }
 
 scene loose(double press, Eigen::Vector3d const& end, double gap) {
@@ -381,6 +388,19 @@ TEST_CASE("bodies that contact and friction hold: springs that end where they be
       CHECK(contact::check_optimality(s.K, s.data, r.u, r.multipliers).residual() <= 1e-6);
     }
   }
+  // A gap of 1e4 times the deformation: rounding errors of the way, at any tolerance.
+  auto const far = loose(0.3, {-0.1, 0, 0}, 0.02);
+  options o;
+  o.layout = far.layout;
+  o.route = solution_route::iterate;
+  o.tolerance = 1e-9;
+  VectorXd const exact = contact::solve(far.K, far.data, o).u;
+  for (double const tolerance : {1e-1, 1e-2, 1e-4, 1e-6}) {
+    o.tolerance = tolerance;
+    auto const r = contact::solve(far.K, far.data, o);
+    CHECK(r.converged());
+    CHECK(energy(far.K, VectorXd(r.u - exact)) <= tolerance * energy(far.K, exact));
+  }
   agree(loose(0.01, {0, 0, -0.5}, 0));  // tips over an edge of the floor, and ends there
   // Three bricks in a corner, the upper ones on the lower, no friction.
   auto const stack =
@@ -394,9 +414,8 @@ TEST_CASE("bodies that contact and friction hold: springs that end where they be
   s.K *= 0x1p300;
   for (VectorXd* v : {&s.data.f, &s.data.g}) *v *= 0x1p-200;
   s.data.d *= 0x1p-500;
-  options o;
   o.layout = s.layout;
-  o.route = solution_route::iterate;
+  o.tolerance = 1e-8;
   CHECK((contact::solve(s.K, s.data, o).u * 0x1p500 - u).norm() <= 1e-7 * u.norm());
 }
 

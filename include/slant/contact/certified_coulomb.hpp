@@ -409,9 +409,11 @@ template <class Friction, class S>
       o.method == coulomb_method::automatic
           ? detail::outlook_of_iteration(K, c, o.layout, o.route == solution_route::iterate)
           : detail::iteration_outlook{"the method works on forces"};
-  route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   // The methods with factors need supports.
-  auto const route = outlook.floating.empty() ? o.route : solution_route::iterate;
+  bool const needs_none = !outlook.floating.empty() && o.route == solution_route::automatic;
+  auto const route = needs_none ? solution_route::iterate : o.route;
+  route_choice choice = choose_route(K, outlook.refusal, route, o.costs);
+  if (needs_none) choice.reason = "iterated: factors need supports of every body";
   auto const iterate = [&] {
     return detail::iterated_certified_coulomb(friction, K, c, F, outlook.floating, o);
   };

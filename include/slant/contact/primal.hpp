@@ -226,7 +226,7 @@ struct local_coordinates {
       single = single && own[r].size() <= 1 && shared[r].empty();
       a.push_back(std::move(dense));
     }
-    if (!orthogonal(a, i) || !weighty(own, shared, i)) return;
+    if (!complete(own, shared, i) || !orthogonal(a, i) || !weighty(own, shared, i)) return;
     std::vector<local_row<S>> where(own.size());
     if (single) {
       for (std::size_t r = 0; r < own.size(); ++r) {
@@ -244,6 +244,21 @@ struct local_coordinates {
     tangents.insert(tangents.end(), where.begin() + 1, where.end());
   }
 
+  /// Whether N and T act both or neither of them, on unknowns of which a few are its own.
+  bool complete(local_rows<S> const& own, local_rows<S> const& shared, index i) {
+    auto const acts = [&](std::size_t r) { return !own[r].empty() || !shared[r].empty(); };
+    for (std::size_t r = 1; r < own.size() && refusal.empty(); ++r) {
+      if (acts(r) == acts(0)) continue;
+      refusal = "contact " + slant::detail::show(i) + " has " + (acts(0) ? "an empty" : "a") +
+                " row of T and " + (acts(0) ? "one" : "none") + " of N";
+    }
+    std::size_t entries = 0;
+    for (auto const& row : own) entries = std::max(entries, row.size());
+    if (entries > 64 && refusal.empty()) {
+      refusal = "contact " + slant::detail::show(i) + " has a row of more than 64 unknowns";
+    }
+    return refusal.empty();
+  }
   /// Whether no row has its greater part on unknowns of several contacts.
   bool weighty(local_rows<S> const& own, local_rows<S> const& shared, index i) {
     auto const size = [](auto const& row) {

@@ -93,6 +93,9 @@ concept levels_precondition =
 struct newton_limits {
   index steps;
   index applications = std::numeric_limits<index>::max();  ///< of A, those of certificates apart
+  /// A front moves as many nodes a step as ρ A reaches, which matters where A is sparse; a longer ρ
+  /// sets free too much.
+  bool sparse = false;
 };
 
 /// Newton's method from x0 under the control of certificates.
@@ -108,10 +111,7 @@ template <class QP, class M, class Certificate>
     symmetric_newton_options<S> o;
     o.forcing.goal = static_cast<double>(threshold);
     o.inner_steps = std::min<index>(o.inner_steps, most.applications);
-    if constexpr (quadratic_program<QP> && matrix_behind<typename QP::operator_type>::sparse) {
-      // A front moves as many nodes a step as ρ A reaches; longer ones set free too much.
-      o.step_factor = S(4);
-    }
+    if (most.sparse) o.step_factor = S(4);
     if constexpr (std::same_as<M, identity_operator>) {
       return symmetric_newton{qp, o};
     } else {
@@ -125,6 +125,10 @@ template <class QP, class M, class Certificate>
     auto stop = reduced_gradient_below(threshold) || slant::at_most(most.steps) ||
                 slant::at_most_applications(most.applications);
     auto end = run_to_end(newton, state, stop);
+    if (state.work.operator_applications >= most.applications && end.how != status::converged) {
+      result.status = status::iteration_limit;
+      break;
+    }
     result.error = certificate(state.x);
     S const error = result.error.relative();
     result.status = end.how;
@@ -189,11 +193,12 @@ template <class QP>
 /// again.
 template <class QP, class M>
 [[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::vector_type x,
-                                   typename QP::scalar tolerance, index most)
+                                   typename QP::scalar tolerance, index most, bool sparse)
     -> certified_point<typename QP::vector_type> {
   energy_certificate certificate(qp, m);
   index const first = std::min<index>(most, 300);
-  auto result = newton_certified(qp, m, x, certificate, tolerance, {.steps = first});
+  auto result =
+      newton_certified(qp, m, x, certificate, tolerance, {.steps = first, .sparse = sparse});
   bool const is_open = result.status == status::stalled || result.status == status::breakdown ||
                        result.status == status::iteration_limit;
   if (is_open && result.steps < most && result.error.relative() > tolerance) {
@@ -201,8 +206,8 @@ template <class QP, class M>
     bool const has_start = start_inside(qp, x, tolerance, spent);
     if (!has_start) vectors::copy(result.point, x);
     if (has_start || result.status == status::iteration_limit) {
-      auto again =
-          newton_certified(qp, m, x, certificate, tolerance, {.steps = most - result.steps});
+      auto again = newton_certified(qp, m, x, certificate, tolerance,
+                                    {.steps = most - result.steps, .sparse = sparse});
       again.steps += result.steps;
       spent += again.work;
       spent += result.work;
@@ -245,22 +250,25 @@ template <class QP, class K, class S>
                                 typename QP::vector_type const& x0, S tolerance, index most) {
   identity_operator const I(qp.size());
   // The coarsest level is factored for each face, 500³/3 operations; K may have few entries.
-  auto const enough = 150 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
+  auto const enough = 300 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
   energy_certificate certificate(qp, I);
-  auto first =
-      newton_certified(qp, I, x0, certificate, tolerance, {.steps = most, .applications = enough});
-  if (first.status != status::iteration_limit || first.steps >= most) {
+  auto first = newton_certified(
+      qp, I, x0, certificate, tolerance,
+      {.steps = std::min<index>(most, 300), .applications = enough, .sparse = true});
+  bool const ended = first.status == status::converged || first.status == status::unbounded;
+  if (ended || first.steps >= most) {
     first.work.operator_applications += certificate.applications();
     return first;
   }
   auto const go_on = [&](auto const& m, std::string choice) {
-    auto run = solve_certified(qp, m, first.point, tolerance, most - first.steps);
+    auto run = solve_certified(qp, m, first.point, tolerance, most - first.steps, true);
     run.steps += first.steps;
     run.work += first.work;
     run.work.operator_applications += certificate.applications();
     run.choice = std::move(choice);
     return run;
   };
+  if (first.work.operator_applications < enough) return go_on(I, {});
   std::string const why = "because " + show(first.work.operator_applications) +
                           " applications of A were not enough without: ";
   try {
@@ -278,14 +286,14 @@ template <class QP>
   using A = typename QP::operator_type;
   using S = typename QP::scalar;
   if constexpr (inverse_preconditions<QP>) {
-    auto run = solve_certified(qp, qp.a().inverse(), x0, tolerance, most);
+    auto run = solve_certified(qp, qp.a().inverse(), x0, tolerance, most, false);
     run.choice = "A⁻¹ as preconditioner, because A offers it";
     return run;
   } else if constexpr (levels_precondition<QP>) {
     return solve_sparse(qp, matrix_behind<A>::of(qp.a()), Eigen::Matrix<S, Eigen::Dynamic, 1>(), x0,
                         tolerance, most);
   } else {
-    return solve_certified(qp, identity_operator(qp.size()), x0, tolerance, most);
+    return solve_certified(qp, identity_operator(qp.size()), x0, tolerance, most, false);
   }
 }
 
@@ -363,7 +371,8 @@ template <class QP, class M>
 [[nodiscard]] auto solve(QP const& qp, M const& m, typename QP::scalar tolerance,
                          index max_steps = 5000) {
   detail::checked_tolerance(tolerance);
-  return detail::solve_certified(qp, m, detail::zero_of(qp), tolerance, max_steps);
+  return detail::solve_certified(qp, m, detail::zero_of(qp), tolerance, max_steps,
+                                 detail::levels_precondition<QP>);
 }
 
 /// A program that lacks something ends here and is told so by symmetric_newton.

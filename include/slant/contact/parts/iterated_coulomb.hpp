@@ -5,7 +5,7 @@
 // (iterated_run.hpp) only as far as its bounds deserve:
 //
 //     start     without friction, to 5 %
-//     bounds    g ← F λ_ν(u), from the gradient that is at hand: no product
+//     bounds    g ← F λ_ν(u), from the gradient that is at hand: no product (with springs two)
 //     steps     e₀ the energy error for the new bounds, estimated by the first step (one cycle);
 //               further steps until it is e₀/10, or well below what is certified
 //     certify   where e₀ is half of the tolerance: Coulomb's law contact by contact (coulomb_check),
@@ -98,6 +98,10 @@ template <class Friction, class S>
   }
   S share = tolerance / S(2), best = std::numeric_limits<S>::infinity(), nearest = best;
   index since = 0, round = 0;
+  // As in iterated_floating_run.
+  auto const goal = [&] {
+    return S(share * (springs.size() > S(0) ? springs.size() : run.size()));
+  };
   auto const judge = [&] {
     result.u = run.displacement();
     result.λ = run.problem().multipliers(state.x);
@@ -105,28 +109,27 @@ template <class Friction, class S>
     slant::project(feasible_set(law, c.nodes(), g), result.λ, result.λ);
     result.error = {check(result.λ, result.u), frozen(state.x)};
     if (!springs.empty()) {
-      springs.measure(result.u, share * run.size());
+      springs.measure(result.u, goal());
       result.error.frozen = springs.error(result.error.frozen.bound);
     }
     return result.error.relative();
   };
   while (true) {
     if (!springs.empty()) {
-      springs.measure(run.displacement(), share * run.size());
+      springs.measure(run.displacement(), goal());
       springs.move();
       run.set_load(springs.load(c.f));
     }
     run.pressures(λ);
     run.set_slip_bounds(F.cwiseProduct(λ));
     ++result.bounds;
-    S const goal = share * run.size();
-    run.step(goal);
+    run.step(goal());
     if (state.status == status::running) {
       S const first = state.energy_estimate;
       since = first < nearest ? 0 : since + 1;
       nearest = std::min<S>(nearest, first);
       for (index k = 1; k < steps_for_bounds && state.status == status::running; ++k) {
-        run.step(std::max<S>(goal / S(8), first / S(10)));
+        run.step(std::max<S>(goal() / S(8), first / S(10)));
       }
       bool const ends =
           state.status == status::breakdown || since >= patience || result.bounds >= most;
@@ -148,7 +151,8 @@ template <class Friction, class S>
       result.status = status::converged;
       break;
     }
-    bool const is_better = error < best / S(2) || (!springs.empty() && !(error < best));
+    bool const is_known = slant::detail::is_finite(error);
+    bool const is_better = error < best / S(2) || (!springs.empty() && !is_known);
     bool const goes_on = state.status == status::converged && is_better &&
                          state.reduced_gradient_norm > S(0) && ++round < rounds;
     if (!goes_on) {
@@ -157,10 +161,10 @@ template <class Friction, class S>
       break;
     }
     best = error;
-    share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
+    if (is_known) share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
   }
   result.work = state.work;
-  result.work.operator_applications += frozen.applications();
+  result.work.operator_applications += frozen.applications() + springs.products();
   return result;
 }
 
