@@ -5,15 +5,16 @@
 //
 //     multilevel [--no-direct] [K...]     sizes of the brick, 8 12 16 without any
 //
-// under the loads of the brick, and with Tresca's friction `loose`, the brick without its clamp, pressed
-// onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge. It prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's: problems
-// of Tresca's), cycles, products by K, processor seconds of the hierarchy, of everything from K, N, T,
-// f, d, g and the coordinates to a certified u (the hierarchy included), of factoring K and solving
-// once by slant::factorize, and, where a body is loose or there are two, of the dual method with factors
-// to the same tolerance; the relative error in the energy norm, as certified, and against a
-// reference: the dual method with factors at 1e-12, or with --no-direct, where factors take too long,
-// the same method at 1e-11. Exit status 1 if a run does not converge, or an error is above 1e-8 or
-// above what is certified by more than a tenth.
+// under the loads of the brick, and with Tresca's friction `loose`, the brick without its clamp,
+// pressed onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge. It
+// prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's:
+// problems of Tresca's), cycles, products by K, processor seconds of the hierarchy, of everything
+// from K, N, T, f, d, g and the coordinates to a certified u (the hierarchy included), of factoring
+// K and solving once by slant::factorize, and, where a body is loose or there are two, of the dual
+// method with factors to the same tolerance; the relative error in the energy norm, as certified,
+// and against a reference: the dual method with factors at 1e-12, or with --no-direct, where
+// factors take too long, the same method at 1e-11. Exit status 1 if a run does not converge, or an
+// error is above 1e-8 or above what is certified by more than a tenth.
 
 #include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/solve.hpp>

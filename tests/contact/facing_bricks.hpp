@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Two bricks, one on the other, whose meshes do not match: contacts are the nodes of the upper one, each
-// between the four nodes of the lower one around it, which several contacts share.
+// Two bricks, one on the other, whose meshes do not match: contacts are the nodes of the upper one,
+// each between the four nodes of the lower one around it, which several contacts share.
 #pragma once
 
 #include <fem/two_bodies.hpp>

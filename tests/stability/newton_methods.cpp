@@ -81,7 +81,8 @@ outcome contact_door(prepared const& p, request const& r) {
   return contact_run(p, options);
 }
 
-/// Without factors, on levels as small as those of large problems; starts are not for displacements.
+/// Without factors, on levels as small as those of large problems; starts are not for
+/// displacements.
 outcome contact_levels(prepared const& p, request const& r) {
   return contact_run(p, {.tolerance = r.tolerance,
                          .max_steps = r.steps,

@@ -6,10 +6,10 @@
 //     minimise  ½ vᵀ(G⁻ᵀK G⁻¹)v − (G⁻ᵀf)ᵀv + φ(v),      v = G u,
 //
 // φ of blocks of a component each for the gaps and of one or two for friction: the normal
-// displacement of a contact between two bounds, g‖·‖ of its tangential one. Where the rows of N and T
-// have one entry each (an obstacle parallel to a coordinate plane) G is the identity. K is
-// never factored: the problem is for envelope_newton{problem.qp(), M} with the multigrid M of the
-// same matrix.
+// displacement of a contact between two bounds, g‖·‖ of its tangential one. Where the rows of N and
+// T have one entry each (an obstacle parallel to a coordinate plane) G is the identity. K is never
+// factored: the problem is for envelope_newton{problem.qp(), M} with the multigrid M of the same
+// matrix.
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
@@ -119,16 +119,16 @@ namespace slant::contact::detail {
 
 // --- local coordinates ---------------------------------------------------------------------------
 //
-// v = G u in which the rows of N and T of a contact are multiples of unit vectors. Rows of one entry
-// are that already. Otherwise, with O the unknowns that belong to this contact alone and S those that
-// it shares with others, as the nodes of a face opposite of which several nodes lie,
+// v = G u in which the rows of N and T of a contact are multiples of unit vectors. Rows of one
+// entry are that already. Otherwise, with O the unknowns that belong to this contact alone and S
+// those that it shares with others, as the nodes of a face opposite of which several nodes lie,
 //
 //     v_O = H u_O + L u_S,     v_S = u_S,     u_O = Hᵀ(v_O − L v_S):
 //
-// H is the product of the Householder reflections that bring one row of (N, T)_O after the other onto
-// an axis [Golub, Van Loan, 5.2.1], L the rest of the rows over their lengths. Contacts that share
-// nothing have G = H, orthogonal. What is needed: the parts of the rows on O are orthogonal, those of
-// tangents of one length, and none is short beside its row.
+// H is the product of the Householder reflections that bring one row of (N, T)_O after the other
+// onto an axis [Golub, Van Loan, 5.2.1], L the rest of the rows over their lengths. Contacts that
+// share nothing have G = H, orthogonal. What is needed: the parts of the rows on O are orthogonal,
+// those of tangents of one length, and none is short beside its row.
 
 /// The rows of one contact: entries (column, value) of N_i, then of T_i.
 template <class S>
@@ -402,8 +402,8 @@ class primal {
       return S(bound * abs(local_.tangents[static_cast<std::size_t>(c.number * per)].size));
     });
   }
-  /// λ_ν of all contacts at v with the gradient of the problem, for a step length ρ: what the projection
-  /// of v − ρ r onto the gaps takes away, over ρ.
+  /// λ_ν of all contacts at v with the gradient of the problem, for a step length ρ: what the
+  /// projection of v − ρ r onto the gaps takes away, over ρ.
   void pressures(vector_type const& v, vector_type const& r, S const& ρ, vector_type& λ) const {
     λ.setZero();
     for (auto const& c : φ_.contacts()) {

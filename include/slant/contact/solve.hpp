@@ -16,17 +16,17 @@
 //
 // One certificate is all that a well-conditioned scene costs: one solve with K beyond that for u.
 //
-// Where the layout of the unknowns is known and K is large, K is not factored: the displacements are
-// solved for with multigrid (contact/parts/iterated_run.hpp). Which is faster is estimated
-// (contact/route.hpp), and what has not converged that way is factored after all. Bodies that supports
-// do not hold get springs that end where they began.
+// Where the layout of the unknowns is known and K is large, K is not factored: the displacements
+// are solved for with multigrid (contact/parts/iterated_run.hpp). Which is faster is estimated
+// (contact/route.hpp), and what has not converged that way is factored after all. Bodies that
+// supports do not hold get springs that end where they began.
 //
-// With factors, for bodies that supports do not hold, so that K is singular: their free motions are computed and
-// named (contact/free_motions), and where contact or friction holds them the same method solves a
-// few problems with springs that give way (contact/parts/spring_supports), from where the load
-// puts the bodies across their gaps. The error is then that in the seminorm ‖·‖_K, an estimate.
-// Where nothing holds them the status is `unbounded`, with the motion along which the energy falls
-// for ever.
+// With factors, for bodies that supports do not hold, so that K is singular: their free motions are
+// computed and named (contact/free_motions), and where contact or friction holds them the same
+// method solves a few problems with springs that give way (contact/parts/spring_supports), from
+// where the load puts the bodies across their gaps. The error is then that in the seminorm ‖·‖_K,
+// an estimate. Where nothing holds them the status is `unbounded`, with the motion along which the
+// energy falls for ever.
 #pragma once
 
 #include <slant/compiled.hpp>

@@ -10,8 +10,8 @@
 //                   (problems/equilibrated.hpp), where A gives its diagonal
 //     precondition  by A⁻¹ where A offers it; by multigrid on the face (multilevel/multigrid.hpp)
 //                   where A is a sparse matrix, once conjugate gradients have taken long without
-//     solve         symmetric_newton to a reduced gradient of a tenth of the tolerance; with a longer
-//                   ρ where A is a sparse matrix: what is active changes its neighbours first
+//     solve         symmetric_newton to a reduced gradient of a tenth of the tolerance; with a
+//                   longer ρ where A is a sparse matrix: what is active changes its neighbours first
 //     certify       the energy error by energy_certificate; while that is too large, a smaller one
 //     otherwise     where 300 steps do not do, interior_point goes first, and Newton's method again
 //
@@ -322,10 +322,10 @@ template <class QP>
 
 }  // namespace detail
 
-/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this file.
-/// From x0: any point, such as the solution of the problem before. Requires what symmetric_newton does.
-/// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, a problem that the method
-/// refuses, or an x0 of another size or with numbers that are not finite.
+/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this
+/// file. From x0: any point, such as the solution of the problem before. Requires what
+/// symmetric_newton does. Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, a
+/// problem that the method refuses, or an x0 of another size or with numbers that are not finite.
 template <class QP>
   requires symmetric_newton_problem<QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::vector_type const& x0,

@@ -576,9 +576,9 @@ class multigrid {
     });
     note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), modes.cols(), o);
   }
-  /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides of
-  /// a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with its
-  /// candidates. Throws bad_input as above, also where sizes of k, K, G differ.
+  /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides
+  /// of a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with
+  /// its candidates. Throws bad_input as above, also where sizes of k, K, G differ.
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const& mixed,
             Eigen::MatrixBase<B> const& candidates, multigrid_options const& o = {})

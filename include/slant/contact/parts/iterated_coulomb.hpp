@@ -12,9 +12,9 @@
 //               and the energy error for the last bounds (energy_certificate)
 //     go on     where that asks for more, with a goal that is smaller by as much
 //
-// Bodies that float are held by springs that move with the bounds (moving_springs). The state is kept
-// from problem to problem, so that bounds cost some two steps. Where they do not
-// contract the run ends: stalled after `patience` problems of which none was nearer than all before.
+// Bodies that float are held by springs that move with the bounds (moving_springs). The state is
+// kept from problem to problem, so that bounds cost some two steps. Where they do not contract the
+// run ends: stalled after `patience` problems of which none was nearer than all before.
 #pragma once
 
 #include <slant/certificates/energy_certificate.hpp>
@@ -72,8 +72,8 @@ struct iterated_coulomb_result {
   std::string levels;
 };
 
-/// The run, from c without its slip bounds; `floating` unknowns of bodies that contact holds. Throws bad_input where K is found not to be definite or
-/// does not fit the nodes.
+/// The run, from c without its slip bounds; `floating` unknowns of bodies that contact holds.
+/// Throws bad_input where K is found not to be definite or does not fit the nodes.
 template <class Friction, class S>
 [[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
     Friction law, Eigen::SparseMatrix<S> const& K, data<S> c,

@@ -284,17 +284,17 @@ template <class Friction, class S>
 //
 //     u⁺ = argmin  ½ vᵀK v − fᵀv + φ(v) + ½ ‖v − u‖²_D,       D = 1e-5 diag(K) on these bodies,
 //
-// solves problems with springs that end where they began: they need nothing but another load, f + D u,
-// and levels of K + D. Where contact holds the bodies by a stiffness c it contracts by D/(D + c), a
-// hundredth or less on bricks; where it does not, u goes away and the run ends.
+// solves problems with springs that end where they began: they need nothing but another load, f + D
+// u, and levels of K + D. Where contact holds the bodies by a stiffness c it contracts by D/(D +
+// c), a hundredth or less on bricks; where it does not, u goes away and the run ends.
 //
 // Error. With w = ‖u⁺ − u‖_D and r(u⁺) + v = −D(u⁺ − u), v ∈ ∂φ(u⁺), monotonicity gives
 //
 //     ‖u⁺ − u*‖²_K ≤ ⟨D(u − u⁺), u⁺ − u*⟩ ≤ w d,        d = ‖u⁺ − u*‖_D ≤ θ w/(1 − θ),
 //
-// θ twice the last contraction as it was observed: an estimate, as that of the problem with springs is.
-// For that all problems are solved as accurately as the last.
-// With Coulomb's law the bounds of each problem come from the one before.
+// θ twice the last contraction as it was observed: an estimate, as that of the problem with springs
+// is. For that all problems are solved as accurately as the last. With Coulomb's law the bounds of
+// each problem come from the one before.
 
 /// The springs, and how far they have come.
 template <class S>
@@ -347,8 +347,8 @@ class moving_springs {
   [[nodiscard]] S size() const { return size_; }
   /// Applications of K so far.
   [[nodiscard]] index products() const { return products_; }
-  /// w over that of the step before, from above; ∞ where there was none. A way that is all noise says
-  /// no more than that the springs are at rest.
+  /// w over that of the step before, from above; ∞ where there was none. A way that is all noise
+  /// says no more than that the springs are at rest.
   [[nodiscard]] S contraction() const {
     if (!(way_ > noise_)) {
       bool const was_good = before_ < S(0.25);
