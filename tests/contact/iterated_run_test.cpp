@@ -384,6 +384,8 @@ TEST_CASE("bodies that contact and friction hold: springs that end where they be
       auto const s = loose(0.3, end, gap);
       auto const r = agree(s);
       CHECK(r.springs <= 12);
+      CHECK(r.motions.sentence() ==
+            "body 0 (unknowns 0 to 107) can move along x, y and z and turn about x, y and z");
       agree(s, 1e-2);  // not before the springs have moved
       CHECK(contact::check_optimality(s.K, s.data, r.u, r.multipliers).residual() <= 1e-6);
     }

@@ -200,6 +200,7 @@ TEST_CASE("contact::solve: limits, starts, bad input") {
 
 contact::solution<double> solve(test::loose_brick const& b, contact::solve_options<double> o = {}) {
   o.layout = contact::interleaved_layout(b.mesh.nodes);
+  o.route = contact::solution_route::factor;
   return solve(b.K, b.data, o);
 }
 

@@ -366,7 +366,7 @@ template <class Friction, class S>
 [[nodiscard]] auto iterated_certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K,
                                               data<S> const& c,
                                               Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
-                                              std::vector<index> const& floating,
+                                              free_motions<S> const& floating,
                                               certified_coulomb_options<S> const& o)
     -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
   auto found = detail::iterated_coulomb(friction, K, c, F, o.layout, floating, o.multigrid,
@@ -408,9 +408,9 @@ template <class Friction, class S>
   auto const outlook =
       o.method == coulomb_method::automatic
           ? detail::outlook_of_iteration(K, c, o.layout, o.route == solution_route::iterate)
-          : detail::iteration_outlook{"the method works on forces"};
+          : detail::iteration_outlook<S>{"the method works on forces"};
   // The methods with factors need supports.
-  bool const needs_none = !outlook.floating.empty() && o.route == solution_route::automatic;
+  bool const needs_none = !outlook.floating.free.empty() && o.route == solution_route::automatic;
   auto const route = needs_none ? solution_route::iterate : o.route;
   route_choice choice = choose_route(K, outlook.refusal, route, o.costs);
   if (needs_none) choice.reason = "iterated: factors need supports of every body";

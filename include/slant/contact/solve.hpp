@@ -305,13 +305,13 @@ template <class Friction, class S, class... Observers>
   route_choice choice;
   if constexpr (sizeof...(Observers) == 0) {
     bool const asked = o.route == solution_route::iterate;
-    auto const outlook = o.prove ? detail::iteration_outlook{"the proof of a bound takes factors"}
-                         : !asked && o.start
-                             ? detail::iteration_outlook{"forces to start from are given"}
-                             : detail::outlook_of_iteration(K, c, o.layout, asked);
+    auto const outlook =
+        o.prove             ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
+        : !asked && o.start ? detail::iteration_outlook<S>{"forces to start from are given"}
+                            : detail::outlook_of_iteration(K, c, o.layout, asked);
     choice = choose_route(K, outlook.refusal, o.route, o.costs);
     auto const iterate = [&] {
-      return outlook.floating.empty()
+      return outlook.floating.free.empty()
                  ? detail::iterated_run(friction, K, c, o)
                  : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
     };

@@ -79,8 +79,9 @@ struct solution {
   bool scaled = false;      ///< whether rows of B were scaled
   std::string factorization;  ///< what factored K, and how; or the levels of multigrid
   route_choice choice{};      ///< which route was taken, and why
-  free_motions<S> motions{};  ///< what factors of K leave free; empty if supports hold all bodies
-  vector_type descent{};      ///< where unbounded by a free motion: that motion
+  free_motions<S>
+      motions{};  ///< what K leaves free, or hardly holds; empty if supports hold all bodies
+  vector_type descent{};  ///< where unbounded by a free motion: that motion
 
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
 };

@@ -72,13 +72,13 @@ struct iterated_coulomb_result {
   std::string levels;
 };
 
-/// The run, from c without its slip bounds; `floating` unknowns of bodies that contact holds.
+/// The run, from c without its slip bounds; `floating` bodies that contact holds.
 /// Throws bad_input where K is found not to be definite or does not fit the nodes.
 template <class Friction, class S>
 [[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
     Friction law, Eigen::SparseMatrix<S> const& K, data<S> c,
     Eigen::Matrix<S, Eigen::Dynamic, 1> const& F, node_layout<S> const& layout,
-    std::vector<index> const& floating, multigrid_options const& levels, S const& tolerance,
+    free_motions<S> const& floating, multigrid_options const& levels, S const& tolerance,
     index most) {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   constexpr index patience = 15, rounds = 12, steps_for_bounds = 40;

@@ -12,6 +12,7 @@
 
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/contact/contact_data.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/nested_start.hpp>
@@ -23,6 +24,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -65,20 +67,20 @@ template <class S>
   return R;
 }
 
-/// The unknowns of bodies with a motion, of those in R, that K resists by less than `share` of what
-/// the diagonal of K would.
+/// Bodies with rigid motions that K resists by less than `share` of what its diagonal would.
 template <class S>
-[[nodiscard]] std::vector<index> floating_unknowns(
-    Eigen::SparseMatrix<S> const& K, Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R,
-    S const& share) {
+[[nodiscard]] free_motions<S> floating_bodies(Eigen::SparseMatrix<S> const& K,
+                                              node_layout<S> const& layout, S const& share) {
   using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using six = Eigen::Matrix<S, 6, 6>;
-  std::vector<index> floating;
+  auto const R = rigid_motions(layout);
+  free_motions<S> floating;
   // By rows, so that one pass through K does; in the plane with zeros.
   Eigen::Matrix<S, Eigen::Dynamic, 6, Eigen::RowMajor> rows;
   rows.setZero(R.rows(), 6);
   rows.leftCols(R.cols()) = R;
-  for (auto const& body : bodies_of(K)) {
+  for (auto& body : bodies_of(K)) {
+    index const number = floating.bodies++;
     six all = six::Zero(), own = six::Zero();
     for (index const j : body) {
       Eigen::Matrix<S, 1, 6> image = Eigen::Matrix<S, 1, 6>::Zero();
@@ -103,32 +105,43 @@ template <class S>
     if (W.cols() == 0) continue;
     matrix const small = W.transpose() * G * W;
     Eigen::SelfAdjointEigenSolver<matrix> const resistance(
-        matrix(small / 2 + small.transpose() / 2), Eigen::EigenvaluesOnly);
-    if (!(resistance.eigenvalues().minCoeff() > share)) {
-      floating.insert(floating.end(), body.begin(), body.end());
+        matrix(small / 2 + small.transpose() / 2));
+    index count = 0;
+    while (count < W.cols() && !(resistance.eigenvalues()[count] > share)) ++count;
+    if (count == 0) continue;
+    matrix const combined = W * resistance.eigenvectors().leftCols(count);
+    auto const size = static_cast<index>(body.size());
+    matrix part(size, count);
+    for (index j = 0; j < size; ++j) {
+      part.row(j) = R.row(body[static_cast<std::size_t>(j)]) * combined;
     }
+    Eigen::HouseholderQR<matrix> const qr(part);
+    matrix motions = qr.householderQ() * matrix::Identity(size, count);
+    std::string text = body_text(number, body) + motions_text(layout, body, motions);
+    floating.free.push_back({number, std::move(body), std::move(motions), std::move(text)});
   }
   return floating;
 }
 
-/// Whether a scene can be iterated: why not, or nothing; and the unknowns of bodies that contact or
-/// friction holds, or hardly anything else.
+/// Whether a scene can be iterated: why not, or nothing; and the bodies that contact or friction
+/// holds, or hardly anything else.
+template <class S>
 struct iteration_outlook {
   std::optional<std::string> refusal{};
-  std::vector<index> floating{};
+  free_motions<S> floating{};
 };
 
 /// `asked`: somebody wants it, coordinates or not. Throws bad_input for sizes that do not fit.
 template <class S>
-[[nodiscard]] iteration_outlook outlook_of_iteration(Eigen::SparseMatrix<S> const& K,
-                                                     data<S> const& c, node_layout<S> const& layout,
-                                                     bool asked) {
+[[nodiscard]] iteration_outlook<S> outlook_of_iteration(Eigen::SparseMatrix<S> const& K,
+                                                        data<S> const& c,
+                                                        node_layout<S> const& layout, bool asked) {
   if (!asked && !layout.is_known()) return {"no coordinates of nodes are given"};
   if (auto why = primal_refusal(c)) return {std::move(why)};
   if (!layout.is_known()) return {};
   slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
   layout.validate(K.rows());
-  return {std::nullopt, floating_unknowns<S>(K, rigid_motions(layout), S(1e-9))};
+  return {std::nullopt, floating_bodies<S>(K, layout, S(1e-9))};
 }
 
 /// The problem, its levels and Newton's method, begun on the coarser ones. Not movable: parts refer
@@ -303,14 +316,16 @@ class moving_springs {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  /// On these unknowns; none: nothing is copied or done. Refers to K.
-  moving_springs(sparse_type const& K, std::vector<index> const& floating) : K_(&K) {
-    if (floating.empty()) return;
+  /// On these bodies; none: nothing is copied or done. Refers to K.
+  moving_springs(sparse_type const& K, free_motions<S> const& floating) : K_(&K) {
+    if (floating.free.empty()) return;
     D_ = centre_ = u_ = vector_type::Zero(K.rows());
     held_ = K;
-    for (index const j : floating) {
-      D_[j] = S(1e-5) * K.coeff(j, j);
-      held_.coeffRef(j, j) += D_[j];
+    for (auto const& body : floating.free) {
+      for (index const j : body.unknowns) {
+        D_[j] = S(1e-5) * K.coeff(j, j);
+        held_.coeffRef(j, j) += D_[j];
+      }
     }
   }
   moving_springs(moving_springs const&) = delete;
@@ -377,16 +392,16 @@ class moving_springs {
   index products_ = 0;
 };
 
-/// As iterated_run, where these unknowns belong to bodies that float.
+/// As iterated_run, where these bodies float.
 template <class Friction, class S>
 [[nodiscard]] solution<S> iterated_floating_run(Friction law, Eigen::SparseMatrix<S> const& K,
-                                                data<S> const& c,
-                                                std::vector<index> const& floating,
+                                                data<S> const& c, free_motions<S> const& floating,
                                                 solve_options<S> const& o) {
   using slant::detail::show;
   constexpr index rounds = 40, patience = 12;
   moving_springs<S> springs(K, floating);
   solution<S> result;
+  result.motions = floating;
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
   auto const& state = run.state();
   result.factorization = run.levels().description();
