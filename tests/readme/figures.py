@@ -31,8 +31,9 @@ def number(cell):
 
 
 def span(values, digits):
-    """The least and the greatest, rounded."""
-    return f"{min(values):.{digits}f} to {max(values):.{digits}f}"
+    """The least and the greatest, rounded; one number where they are the same."""
+    least, most = f"{min(values):.{digits}f}", f"{max(values):.{digits}f}"
+    return least if least == most else f"{least} to {most}"
 
 
 def sentences(root):
@@ -58,7 +59,7 @@ def sentences(root):
         large = table(accuracy, f"| k | unknowns | {heading}, seconds")[-1]
         seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
         yield (f"| {name.format(large[1])} | "
-               f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve |")
+               f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve; twice that where memory is slower |")
 
     steps = re.search(r"Twenty load steps take ([\d.]+ to [\d.]+) times", accuracy)[1]
     yield f"| twenty load steps | {steps} times the first one |"
