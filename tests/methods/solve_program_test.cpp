@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/ldlt.hpp>
+#include <slant/krylov/cg.hpp>
 #include <slant/methods/solve_program.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
@@ -258,6 +259,23 @@ struct invertible {
   void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = A * x; }
   [[nodiscard]] auto inverse() const { return slant::inverse(factors); }
 };
+
+TEST_CASE("multigrid of a scaled matrix: what was constant is in its near kernel") {
+  membrane const m(80);
+  VectorXd const d = VectorXd::NullaryExpr(
+      m.b.size(), [](Eigen::Index i) { return std::exp2(double(i % 7)) / (1 + double(i % 3)); });
+  Eigen::SparseMatrix<double> const scaled = d.asDiagonal() * m.A * d.asDiagonal();
+  auto const steps = [](auto const& A, VectorXd const& b, auto const& M) {
+    auto const K = slant::matrix<slant::self_adjoint, slant::positive_definite>(A);
+    auto const run = slant::solve(slant::cg{K, b, M}, VectorXd(VectorXd::Zero(b.size())),
+                                  slant::residual_below(1e-8) || slant::at_most(200));
+    return run.iterations();
+  };
+  VectorXd const none;
+  auto const unscaled = steps(m.A, m.b, slant::detail::multigrid_of(m.A, none));
+  CHECK(unscaled <= 20);
+  CHECK(steps(scaled, d.cwiseProduct(m.b), slant::detail::multigrid_of(m.A, d)) <= unscaled + 6);
+}
 
 TEST_CASE("solve(qp, tolerance): a hard sparse program gets all that a dense one gets") {
   for (unsigned seed = 0; seed < 16; ++seed) {
