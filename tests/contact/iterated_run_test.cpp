@@ -21,6 +21,7 @@
 #include "support/effort.hpp"
 #include "support/message.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -402,6 +403,20 @@ TEST_CASE("bodies that contact and friction hold: springs that end where they be
     auto const r = contact::solve(far.K, far.data, o);
     CHECK(r.converged());
     CHECK(energy(far.K, VectorXd(r.u - exact)) <= tolerance * energy(far.K, exact));
+  }
+  // Nearly sliding after a fall: the first way hides a slow motion.
+  for (double const turn : {0.0, -0.2}) {
+    auto const slow = loose(0.3, {-0.597, 0.02, turn}, 1e-3);
+    o.layout = slow.layout;
+    o.tolerance = 1e-9;
+    VectorXd const end = contact::solve(slow.K, slow.data, o).u;
+    for (double const tolerance : {1e-2, 1e-4}) {
+      o.tolerance = tolerance;
+      auto const r = contact::solve(slow.K, slow.data, o);
+      CHECK(r.converged());
+      CHECK(energy(slow.K, VectorXd(r.u - end)) <=
+            std::min(tolerance, r.error.relative()) * energy(slow.K, end));
+    }
   }
   agree(loose(0.01, {0, 0, -0.5}, 0));  // tips over an edge of the floor, and ends there
   // Three bricks in a corner, the upper ones on the lower, no friction.

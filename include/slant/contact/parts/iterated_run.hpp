@@ -366,18 +366,19 @@ class moving_springs {
   /// says no more than that the springs are at rest.
   [[nodiscard]] S contraction() const {
     if (!(way_ > noise_)) {
-      bool const was_good = before_ < S(0.25);
+      bool const was_good = S(0) < before_ && before_ < S(0.25);
       return was_good ? before_ : S(0.25);
     }
     return last_ > S(0) ? S((way_ + noise_) / last_) : std::numeric_limits<S>::infinity();
   }
   /// Of ‖u − u*‖_K, where the error of the problem with springs is at most `inner`; ∞ from a
-  /// contraction of ½ on, and while contractions grow: the first way is longer than those of slow
-  /// motions, as where bodies cross a gap.
+  /// contraction of ½ on, and unless the one before was known and hardly smaller: the first way, as
+  /// across a gap, may be long beside those of slow motions and hides them.
   [[nodiscard]] energy_error<S> error(S const& inner) const {
     using std::sqrt;
     S const c = contraction(), θ = S(2) * c;
-    bool const is_known = θ < S(1) && (!(way_ > noise_) || c <= S(4) * before_);
+    bool const is_steady = slant::detail::is_finite(before_) && c <= S(4) * before_;
+    bool const is_known = θ < S(1) && (is_steady || !(way_ > noise_));
     S const bound = is_known ? S((way_ + inner) * sqrt(S(θ / (S(1) - θ))) + inner)
                              : std::numeric_limits<S>::infinity();
     return {.bound = bound, .size = size_};
