@@ -5,7 +5,8 @@
 //
 //     multilevel [--no-direct] [K...]     sizes of the brick, 8 12 16 without any
 //
-// under the loads of the brick, and with Tresca's friction `loose`, the brick without its clamp,
+// under the loads of the brick, with Tresca's friction also by the interpolation of nested meshes in
+// place of aggregation (`press nested`, …), and `loose`, the brick without its clamp,
 // pressed onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge. It
 // prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's:
 // problems of Tresca's), cycles, products by K, processor seconds of the hierarchy, of everything
@@ -19,6 +20,7 @@
 #include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/solve.hpp>
 
+#include <fem/box_prolongations.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 
@@ -57,8 +59,11 @@ struct answer {
   slant::work work;
 };
 
+using interpolation = std::vector<Eigen::SparseMatrix<double>>;
+
+/// Levels by aggregation if there is no interpolation.
 answer run(fem::contact_scene<3> const& s, law friction, contact::solution_route route,
-           double tolerance) {
+           double tolerance, interpolation const& nested = {}) {
   contact::data<double> c{s.N, s.T, s.f, s.d, s.g};
   auto const layout = contact::layout_of(s.mesh.nodes, s.unknowns.first);
   if (friction == law::coulomb) {
@@ -72,7 +77,8 @@ answer run(fem::contact_scene<3> const& s, law friction, contact::solution_route
     c.g.resize(0);
   }
   contact::solve_options<double> o{.tolerance = tolerance};
-  o.layout = layout;
+  if (nested.empty()) o.layout = layout;
+  o.multigrid.prolongations = nested;
   o.route = route;
   auto r = contact::solve(s.K, c, o);
   return {std::move(r.u), r.error.relative(), r.converged(), r.iterations, r.work};
@@ -108,23 +114,24 @@ fem::contact_scene<3> loose_brick(int k) {
 }
 
 bool measure(fem::contact_scene<3> const& scene, std::string const& load, law friction, int k,
-             bool direct) {
+             bool direct, interpolation const& nested = {}) {
   using contact::solution_route;
   bool const is_loose = load == "loose", is_pair = load == "bricks";
   stopwatch const whole;
-  auto const r = run(scene, friction, solution_route::iterate, 1e-8);
+  auto const r = run(scene, friction, solution_route::iterate, 1e-8, nested);
   double const seconds = whole.seconds();
 
   auto const layout = contact::layout_of(scene.mesh.nodes, scene.unknowns.first);
   double setup_seconds = std::nan("");  // a loose brick has levels of K and springs
   if (!is_loose) {
     stopwatch const setup;
-    slant::multigrid const hierarchy(scene.K, contact::detail::rigid_motions(layout));
+    slant::multigrid const hierarchy(scene.K, contact::detail::rigid_motions(layout),
+                                     {.prolongations = nested});
     setup_seconds = setup.seconds();
   }
 
   double linear_seconds = std::nan("");
-  if (direct && !is_loose) {
+  if (direct && !is_loose && nested.empty()) {
     stopwatch const linear;
     vector u(scene.f.size());
     slant::apply(slant::inverse(slant::factorize(scene.K)), scene.f, u);
@@ -137,7 +144,7 @@ bool measure(fem::contact_scene<3> const& scene, std::string const& load, law fr
     dual_seconds = dual.seconds();
   }
   auto const reference = direct ? run(scene, friction, solution_route::factor, 1e-12)
-                                : run(scene, friction, solution_route::iterate, 1e-11);
+                                : run(scene, friction, solution_route::iterate, 1e-11, nested);
   double const error = energy(scene, r.u - reference.u) / energy(scene, reference.u);
   char const* const name = friction == law::none     ? "none"
                            : friction == law::tresca ? "tresca"
@@ -174,7 +181,13 @@ int main(int argc, char** argv) {
     for (int const k : sizes) {
       for (auto const load : fem::brick_loads) {
         auto const scene = fem::make_steel_brick({.k = k, .load = load});
-        good = measure(scene, std::string(name_of(load)), friction, k, direct) && good;
+        std::string const name(name_of(load));
+        good = measure(scene, name, friction, k, direct) && good;
+        if (friction != law::tresca || k % 2 != 0) continue;
+        auto const mesh = fem::make_brick_mesh(k, {3, 1, 1});
+        good = measure(scene, name + " nested", friction, k, direct,
+                       fem::box_prolongations(mesh, scene.unknowns)) &&
+               good;
       }
       if (friction != law::tresca) continue;
       good = measure(loose_brick(k), "loose", friction, k, direct) && good;

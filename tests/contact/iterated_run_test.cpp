@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <fem/box_prolongations.hpp>
 #include <fem/stacked_bricks.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
@@ -44,6 +45,7 @@ struct scene {
   sparse K;
   contact::data<double> data;
   contact::node_layout<double> layout;
+  std::vector<sparse> prolongations{};
 };
 
 /// Without friction, and without coordinates.
@@ -75,6 +77,7 @@ double energy(sparse const& K, VectorXd const& u) {
 contact::solution<double> agree(scene const& s, double tolerance = 1e-9) {
   options o{.tolerance = tolerance};
   o.layout = s.layout;
+  o.multigrid.prolongations = s.prolongations;
   o.route = solution_route::iterate;
   auto const iterated = contact::solve(s.K, s.data, o);
   auto const factored =
@@ -295,8 +298,8 @@ TEST_CASE("two bodies: levels of each, whose unknowns the contact mixes") {
   }
 }
 
-TEST_CASE("rows of N and T in any direction: reflections of the unknowns of a contact") {
-  scene const s = brick(3, fem::brick_load::pull);
+/// A scene and all of it turned.
+scene turned(scene const& s) {
   Eigen::Matrix3d const Q =
       (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized())).toRotationMatrix();
   std::vector<Eigen::Triplet<double>> entries;
@@ -308,16 +311,41 @@ TEST_CASE("rows of N and T in any direction: reflections of the unknowns of a co
   sparse turn(s.K.rows(), s.K.cols());
   turn.setFromTriplets(entries.begin(), entries.end());
   sparse const back = turn.transpose();
-  scene turned = s;
-  turned.K = turn * s.K * back;
-  turned.data.N = s.data.N * back;
-  turned.data.T = s.data.T * back;
-  turned.data.f = turn * s.data.f;
-  turned.layout.x = Q * s.layout.x;
-  CHECK(contact::primal(turned.K, turned.data).turns());
-  auto const there = agree(turned), here = agree(s);
-  CHECK(energy(s.K, VectorXd(back * there.u - here.u)) <= 3e-9 * energy(s.K, here.u));
+  scene t = s;
+  t.K = turn * s.K * back;
+  t.data.N = s.data.N * back;
+  t.data.T = s.data.T * back;
+  t.data.f = turn * s.data.f;
+  if (s.layout.is_known()) t.layout.x = Q * s.layout.x;
+  return t;
+}
+
+TEST_CASE("rows of N and T in any direction: reflections of the unknowns of a contact") {
+  scene const s = brick(3, fem::brick_load::pull), t = turned(s);
+  CHECK(contact::primal(t.K, t.data).turns());
+  auto const there = agree(t), here = agree(s);
+  CHECK(std::abs(energy(t.K, there.u) - energy(s.K, here.u)) <= 3e-9 * energy(s.K, here.u));
   CHECK((there.multipliers - here.multipliers).norm() <= 1e-6 * here.multipliers.norm());
+}
+
+TEST_CASE("nested meshes: prolongations of the user, their levels begun on the coarser ones") {
+  int const k = test::effort(12, 8);
+  for (auto const load : fem::brick_loads) {
+    auto const made = fem::make_steel_brick({.k = k, .load = load});
+    scene s = scene_of<3>(made);
+    s.layout = {};
+    s.prolongations = fem::box_prolongations(fem::make_brick_mesh(k, {3, 1, 1}), made.unknowns);
+    auto const r = agree(s);
+    CHECK(r.factorization.find("prolongations of the user: levels of") == 0);
+    CHECK(r.iterations <= 9);  // 15 from zero
+    CHECK(r.work.inner_iterations <= 30);
+    if (load != fem::brick_load::lift) continue;
+    auto const there = agree(turned(s));
+    CHECK(there.iterations <= r.iterations + 1);
+    CHECK(there.work.inner_iterations <= r.work.inner_iterations + 3);
+    CHECK(contact::solve(s.K, s.data, {.multigrid = {.prolongations = s.prolongations}})
+              .choice.reason.find("estimated") != std::string::npos);
+  }
 }
 
 TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at all") {

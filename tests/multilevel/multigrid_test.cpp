@@ -13,6 +13,7 @@
 #include <slant/sets/curved_face.hpp>
 #include <slant/testing/laws.hpp>
 
+#include <fem/box_prolongations.hpp>
 #include <fem/steel_brick.hpp>
 #include <support/allocation_guard.hpp>
 #include <support/effort.hpp>
@@ -85,35 +86,10 @@ surface mixed(fem::contact_scene<3> const& s, double bend) {
   return all;
 }
 
-/// Trilinear interpolation between bricks of k and k/2 cells, whose nodes at x = 0 are fixed, as
-/// long as k is even.
+/// Of the mesh of a brick and those of cells twice as long.
 std::vector<sparse> interpolation(int k) {
-  std::vector<sparse> all;
-  for (; k % 2 == 0; k /= 2) {
-    int const g = k / 2, q = k + 1, Q = g + 1;
-    std::vector<Eigen::Triplet<double>> t;
-    auto const weight = [](int a, int b, int c) {
-      return (a % 2 == 1 ? 0.5 : 1) * (b % 2 == 1 ? 0.5 : 1) * (c % 2 == 1 ? 0.5 : 1);
-    };
-    for (int i = 1; i <= 3 * k; ++i) {
-      for (int j = 0; j <= k; ++j) {
-        for (int l = 0; l <= k; ++l) {
-          for (int a = std::max(1, i / 2); a <= (i + 1) / 2; ++a) {
-            for (int b = j / 2; b <= (j + 1) / 2; ++b) {
-              for (int c = l / 2; c <= (l + 1) / 2; ++c) {
-                t.emplace_back(((i - 1) * q + j) * q + l, ((a - 1) * Q + b) * Q + c,
-                               weight(i, j, l));
-              }
-            }
-          }
-        }
-      }
-    }
-    sparse P(3 * k * q * q, 3 * g * Q * Q);
-    P.setFromTriplets(t.begin(), t.end());
-    all.push_back(P);
-  }
-  return all;
+  auto const s = fem::make_steel_brick({.k = k});
+  return fem::box_prolongations(fem::make_brick_mesh(k, {3, 1, 1}), s.unknowns);
 }
 
 /// A face and where it is entered.
@@ -195,7 +171,8 @@ TEST_CASE("a cycle is self-adjoint and definite") {
   slant::testing::check_operator_laws(
       exact_multigrid(brick.K, {.coordinates = nodes, .sweeps = 2, .coarsest = 20}));
   slant::testing::check_operator_laws(exact_multigrid(brick.K, {.sweeps = 2, .coarsest = 20}));
-  slant::testing::check_operator_laws(exact_multigrid(brick.K, interpolation(2)));
+  slant::testing::check_operator_laws(
+      exact_multigrid(brick.K, {.prolongations = interpolation(2)}));
   slant::testing::check_operator_laws(exact_multigrid(laplacian(4, 3)));  // factored at once
   slant::testing::check_operator_laws(
       slant::multigrid<float>(laplacian<float>(9, 8), {.coarsest = 10}), Eigen::VectorXf(72));
@@ -240,7 +217,7 @@ TEST_CASE("the spectrum on the whole space and on faces, by dense algebra") {
     check(exact_multigrid(s.K, o), 1e-12);
     check(multigrid(s.K, o), 1e-5);
   }
-  check(multigrid(s.K, interpolation(2), {.coarsest = 60}), 1e-5);
+  check(multigrid(s.K, {.prolongations = interpolation(2), .coarsest = 60}), 1e-5);
   check(multigrid(s.K), 1e-5);  // one level
 }
 
@@ -267,7 +244,7 @@ TEST_CASE("steps of conjugate gradients do not grow with the mesh, on any face")
     last = now;
     CHECK(aggregated.complexity() <= 2);
     CHECK(aggregated.sizes().size() >= 2);
-    check(multigrid(s.K, interpolation(k)), 18);
+    check(multigrid(s.K, {.prolongations = interpolation(k)}), 18);
   }
   for (int const n : {20, 40, 80}) {
     sparse const K = laplacian(n, n);

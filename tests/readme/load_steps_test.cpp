@@ -4,6 +4,7 @@
 #include <slant/contact/dual.hpp>
 #include <slant/contact/load_steps.hpp>
 #include <slant/contact/preconditioners.hpp>
+#include <slant/contact/primal_stepper.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 
@@ -13,6 +14,22 @@
 #include <ranges>
 
 namespace contact = slant::contact;
+
+TEST_CASE("the same without factors") {
+  auto const brick = fem::make_steel_brick({.k = 2});
+  auto const& K = brick.K;
+  contact::data<double> const data{brick.N, brick.T, brick.f, brick.d, brick.g};
+  auto const layout = contact::layout_of(brick.mesh.nodes, brick.unknowns.first);
+
+  contact::primal_stepper stepper(K, data, {.tolerance = 1e-8, .layout = layout});
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(data.T.rows());
+  for (int i = 1; i <= 20; ++i) {
+    auto const& step = stepper.advance({.f = i / 20.0 * data.f, .w = w});  // also .d, .g
+    if (!step.converged()) FAIL("step ", i, ": ", step.reason);
+    w = data.T * step.u;  // friction resists what comes after this
+  }
+  CHECK(w.norm() > 0);
+}
 
 TEST_CASE("the load grows in twenty steps") {
   auto const brick = fem::make_steel_brick({.k = 1});

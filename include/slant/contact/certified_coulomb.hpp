@@ -66,7 +66,7 @@ struct certified_coulomb_options {
   index outer_steps = 300;  ///< of successive approximations at most
   bool scale = true;        ///< whether rows of B may be scaled
   /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored, unless
-  /// `route` says otherwise.
+  /// multigrid.prolongations are given or `route` says otherwise.
   node_layout<S> layout{};
   /// Factors of K, or multigrid and no factors, which the method has to be `automatic` for.
   solution_route route = solution_route::automatic;
@@ -407,7 +407,7 @@ template <class Friction, class S>
   detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
   auto const outlook =
       o.method == coulomb_method::automatic
-          ? detail::outlook_of_iteration(K, c, o.layout, o.route == solution_route::iterate)
+          ? detail::outlook_of_iteration(K, c, o)
           : detail::iteration_outlook<S>{"the method works on forces"};
   // The methods with factors need supports.
   bool const needs_none = !outlook.floating.free.empty() && o.route == solution_route::automatic;

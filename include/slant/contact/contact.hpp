@@ -22,6 +22,7 @@
 #include <slant/contact/dual.hpp>
 #include <slant/contact/primal.hpp>
 #include <slant/contact/primal_dual.hpp>
+#include <slant/contact/primal_stepper.hpp>
 #include <slant/contact/total_feti.hpp>
 
 // Preconditioners, load steps, motions, checks:

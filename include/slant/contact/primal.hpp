@@ -67,10 +67,10 @@ class surface_function {
     return static_cast<index>(contacts_.size()) * (tangents_ > 0 ? 2 : 1);
   }
   [[nodiscard]] std::vector<contact> const& contacts() const { return contacts_; }
-  /// Slip bounds of all contacts: g_of(contact) is the new one.
+  /// change(contact) for all of them, of their bounds alone.
   template <class F>
-  void set_slip_bounds(F g_of) {
-    for (contact& c : contacts_) c.g = g_of(c);
+  void change_bounds(F change) {
+    for (contact& c : contacts_) change(c);
   }
 
   /// x = prox_{ρφ}(z); x may be z.
@@ -390,17 +390,33 @@ class primal {
   void set_load(vector_type const& f) {
     slant::detail::check_size("f", f.size(), f_.size(), "the number of unknowns,");
     f_ = turned(f);
+    if (offset_.size() > 0) f_ -= K_offset_;
   }
+  /// Friction begins to act where T u = w, in place of 0: unknowns are v = G u − s with T G⁻¹s = w
+  /// from now on, s of tangential components. b of qp() changes. One product.
+  void set_positions(vector_type const& w) {
+    slant::detail::check_size("w", w.size(), index(local_.tangents.size()), "one per row of T,");
+    if (offset_.size() > 0) f_ += K_offset_;
+    offset_ = zero();
+    for (index i = 0; i < w.size(); ++i) {
+      auto const& row = local_.tangents[static_cast<std::size_t>(i)];
+      if (row.component >= 0) offset_[row.component] = w[i] / row.size;
+    }
+    K_offset_ = rows_ * offset_;
+    f_ -= K_offset_;
+  }
+  /// s, or nothing if that is 0; and the image of it.
+  [[nodiscard]] vector_type const& offset() const& { return offset_; }
+  [[nodiscard]] vector_type const& image_of_offset() const& { return K_offset_; }
   /// The slip bounds become g, one for each contact: φ changes, and qp() with it.
   void set_slip_bounds(vector_type const& g) {
-    using std::abs;
-    index const per =
-        local_.normal.empty() ? 0 : index(local_.tangents.size() / local_.normal.size());
-    φ_.set_slip_bounds([&](auto const& c) {
-      S const& bound = g[c.number];
-      if (per == 0 || !slant::detail::is_finite(bound)) return bound;
-      return S(bound * abs(local_.tangents[static_cast<std::size_t>(c.number * per)].size));
-    });
+    φ_.change_bounds([&](auto& c) { c.g = slip_bound(c.number, g[c.number]); });
+  }
+  /// The gaps become d likewise.
+  void set_gaps(vector_type const& d) {
+    slant::detail::check_size("d", d.size(), d_.size(), "one for each contact,");
+    d_ = d;
+    φ_.change_bounds([&](auto& c) { c.gap = gap(c.number, d[c.number]); });
   }
   /// λ_ν of all contacts at v with the gradient of the problem, for a step length ρ: what the
   /// projection of v − ρ r onto the gaps takes away, over ρ.
@@ -429,11 +445,12 @@ class primal {
     if (!turns()) return u;
     return V(local_.G * u);
   }
-  /// u = G⁻¹v.
+  /// u = G⁻¹(v + s).
   [[nodiscard]] vector_type displacement(vector_type const& v) const {
     slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
-    if (!turns()) return v;
-    return vector_type(local_.inverse * v);
+    if (offset_.size() == 0) return turns() ? vector_type(local_.inverse * v) : v;
+    vector_type const moved = v + offset_;
+    return turns() ? vector_type(local_.inverse * moved) : moved;
   }
   /// The forces (λ_ν, λ_t) of the contacts, f − K u = Nᵀλ_ν + Tᵀλ_t at a solution v. One product.
   [[nodiscard]] vector_type multipliers(vector_type const& v) const {
@@ -490,30 +507,37 @@ class primal {
     return vector_type(local_.inverse.transpose() * f);
   }
 
+  /// Bounds of the normal component of a contact with this gap.
+  [[nodiscard]] interval<S> gap(index contact, S const& d) const {
+    constexpr S infinity = std::numeric_limits<S>::infinity();
+    auto const& row = local_.normal[static_cast<std::size_t>(contact)];
+    if (row.component < 0 || !(d < infinity)) return {-infinity, infinity};
+    return row.size > S(0) ? interval<S>(-infinity, d / row.size)
+                           : interval<S>(d / row.size, infinity);
+  }
+  /// g‖·‖ of the tangential components of a contact with this slip bound; 0 without any.
+  [[nodiscard]] S slip_bound(index contact, S const& g) const {
+    using std::abs;
+    auto const per = local_.tangents.size() / local_.normal.size();
+    if (per == 0 || !slant::detail::is_finite(g)) return g;
+    return S(g * abs(local_.tangents[static_cast<std::size_t>(contact) * per].size));
+  }
+
   [[nodiscard]] std::vector<typename surface_function<S>::contact> contacts(
       data<S> const& c) const {
-    using std::abs;
-    constexpr S infinity = std::numeric_limits<S>::infinity();
     index const per = c.tangents();
     std::vector<typename surface_function<S>::contact> list;
     list.reserve(local_.normal.size());
     for (index i = 0; i < c.nodes(); ++i) {
       auto const& normal = local_.normal[static_cast<std::size_t>(i)];
-      typename surface_function<S>::contact here{interval<S>(-infinity, infinity), 0};
+      typename surface_function<S>::contact here{gap(i, c.d[i]), 0};
       here.number = i;
       bool acts = normal.component >= 0;
-      if (acts) {
-        here.p = normal.component;
-        S const bound = c.d[i] / normal.size;
-        if (c.d[i] < infinity) {
-          here.gap =
-              normal.size > S(0) ? interval<S>(-infinity, bound) : interval<S>(bound, infinity);
-        }
-      }
+      if (acts) here.p = normal.component;
       if (per > 0) {
         auto const* const t = local_.tangents.data() + static_cast<std::size_t>(i * per);
         if (t[0].component >= 0 && (per == 1 || t[1].component >= 0)) {
-          here.g = c.g[i] < infinity ? S(c.g[i] * abs(t[0].size)) : infinity;
+          here.g = slip_bound(i, c.g[i]);
           here.q = t[0].component;
           if (per == 2) here.stride = t[1].component - t[0].component;
         } else {
@@ -530,6 +554,7 @@ class primal {
   sparse_type own_;  // G⁻ᵀK G⁻¹, or a compressed copy, or nothing
   rows_type rows_;
   vector_type f_, d_;
+  vector_type offset_{}, K_offset_{};  // s and its image, empty: 0
   surface_function<S> φ_;
 };
 

@@ -308,7 +308,7 @@ template <class Friction, class S, class... Observers>
     auto const outlook =
         o.prove             ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
         : !asked && o.start ? detail::iteration_outlook<S>{"forces to start from are given"}
-                            : detail::outlook_of_iteration(K, c, o.layout, asked);
+                            : detail::outlook_of_iteration(K, c, o);
     choice = choose_route(K, outlook.refusal, o.route, o.costs);
     auto const iterate = [&] {
       return outlook.floating.free.empty()

@@ -209,6 +209,9 @@ class envelope_newton {
   void resume(state_type& s) const {
     s.status = status::running;
     s.progress = {};
+    scalar const size = norm(qp_.get().b());
+    if (size > s.unit) s.unit = unit_near(size);
+    s.size_of_b = size / s.unit;
     static_cast<void>(s.gradient_and_unit(qp_.get()));
     s.reduce(qp_.get());
     begin(s, false);

@@ -115,6 +115,26 @@ template <int N, class T>
 
 namespace slant::detail {
 
+/// To which coarse node each node owes most, the first one of several; −1 for a row without entries.
+template <int N, class T>
+[[nodiscard]] aggregation heaviest_parents(prolongation<N, N, T> const& P) {
+  aggregation a{std::vector<int>(static_cast<std::size_t>(P.nodes()), -1), P.coarse_nodes};
+  for (int i = 0; i < P.nodes(); ++i) {
+    T most(0);
+    for (int e = P.begin(i); e < P.end(i); ++e) {
+      T size(0);
+      for (int k = 0; k < (P.weights ? 1 : N * N); ++k) {
+        T const entry = P.weights ? P.weight(e) : P.block(e)[k];
+        size += entry * entry;
+      }
+      if (!(size > most)) continue;
+      most = size;
+      a.of[static_cast<std::size_t>(i)] = P.at(e);
+    }
+  }
+  return a;
+}
+
 /// Candidates of the near kernel: M motions of nodes of N unknowns, an N × M block by rows for each
 /// node. In double, because rotations about a point far away differ little from translations.
 template <int N, int M>

@@ -67,6 +67,10 @@ struct multigrid_options {
   /// From them come the rigid-body modes of elasticity. Empty: the near kernel is what is given
   /// otherwise, or constants.
   Eigen::MatrixXd coordinates{};
+  /// P of yours in place of aggregation, the one from level 1 to level 0 first, as interpolation on
+  /// nested meshes: weights of nodes (nodes × coarse nodes) or matrices of unknowns. If they end at a
+  /// level with more than twice `coarsest` unknowns, aggregation continues.
+  std::vector<Eigen::SparseMatrix<double>> prolongations{};
   index block_size = 0;  ///< unknowns of a node, consecutive; 0: from the pattern of K, 1 to 3
   double strength = 0.02;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
   double damping = 4.0 / 3;  ///< ω λ_max(D⁻¹K) in (0, 2): the smoothing of the prolongation
@@ -146,6 +150,17 @@ struct multigrid_level {
   std::size_t longest = 0;  // of the rows of A P
 };
 
+/// Constants, one for each unknown of a node.
+template <int N, int M>
+[[nodiscard]] near_kernel<N, M> constants(int nodes) {
+  near_kernel<N, M> B;
+  B.blocks.assign(static_cast<std::size_t>(nodes) * N * M, 0.0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i) {
+    for (std::size_t c = 0; c < N; ++c) B.blocks[i * N * M + c * M + c] = 1;
+  }
+  return B;
+}
+
 /// What is the same for every right-hand side and face: level 0 has nodes of N unknowns, the others
 /// of M.
 template <int N, int M, class T>
@@ -161,7 +176,7 @@ class hierarchy {
   dense_factor<M, T> last;           // of the last level
   bool factored = false;             // whether there is such a factor
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
-  aggregation aggregates{};          // of the nodes of level 0, if level 1 is made of them
+  aggregation aggregates{};          // of the nodes of level 0, if nodes of level 1 stand for them
   near_kernel<M, M> kernel{};        // of level 1, in that case
 
   [[nodiscard]] std::vector<index> sizes() const {
@@ -225,6 +240,30 @@ class hierarchy {
     if (within) aggregates = std::move(below->nodes);
     kernel = next;
     aggregate_rest(std::move(next), o);
+  }
+  /// Levels by prolongations of the user, of unknowns v = G u where G is given, then by aggregation
+  /// until one is small enough.
+  template <class G>
+  void interpolate_all(multigrid_options const& o, G const* g) {
+    static_assert(N == M);
+    coarse.reserve(o.prolongations.size());
+    for (std::size_t l = 0; l < o.prolongations.size(); ++l) {
+      fine_level& above = l == 0 ? fine : coarse.back();
+      auto P = prolongation_from<N, T>(o.prolongations[l], above.A.nodes(),
+                                       "prolongation " + show(static_cast<index>(l)));
+      if (l == 0) {
+        bool within = true;
+        aggregates = heaviest_parents(P);
+        if (g) P = mixed_prolongation(P, *g, within);
+        if (!within) aggregates = {};
+        kernel = constants<M, M>(P.coarse_nodes);
+      }
+      auto C = galerkin_pattern(above.A, P, above.longest);
+      append(above, std::move(P), std::move(C));
+    }
+    if (coarse.back().A.rows() > 2 * o.coarsest) {
+      aggregate_rest(constants<M, M>(coarse.back().A.nodes()), o);
+    }
   }
   void aggregate_rest(near_kernel<M, M> B, multigrid_options const& o) {
     near_kernel<M, M> next;
@@ -569,16 +608,15 @@ class multigrid {
     matrix_type const modes = candidates_for(candidates, o);
     if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
     index const b = block_size(K, modes.cols(), o);
-    with_levels(b, modes.cols() > b, [&]<int N, int W>(levels<N, W>& h) {
+    build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
       h.begin(K, factor_);
-      h.aggregate_all(kernel<N, W>(modes), o);
-      h.finish(o);
+      if (!interpolates(h, o, nullptr)) h.aggregate_all(kernel<N, W>(modes), o);
     });
-    note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), modes.cols(), o);
   }
   /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides
   /// of a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with
-  /// its candidates. Throws bad_input as above, also where sizes of k, K, G differ.
+  /// its candidates, or the first of options.prolongations. Throws bad_input as above, also where
+  /// sizes of k, K, G differ.
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const& mixed,
             Eigen::MatrixBase<B> const& candidates, multigrid_options const& o = {})
@@ -593,53 +631,12 @@ class multigrid {
     matrix_type const modes = candidates_for(candidates, o);
     if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
     index const b = block_size(mixed.K, modes.cols(), o);
-    with_levels(b, modes.cols() > b, [&]<int N, int W>(levels<N, W>& h) {
+    build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
       h.begin(A, factor_);
+      if (interpolates(h, o, &mixed.G)) return;
       h.aggregate_mixed(mixed.K, factor_, mixed.G, kernel<N, W>(modes), o);
-      h.finish(o);
     });
-    note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), modes.cols(), o);
   }
-  /// With prolongations of the user, the one from level 1 to level 0 first: weights of nodes (nodes
-  /// × coarse nodes) or matrices of unknowns. If they end at a level with more than twice
-  /// options.coarsest unknowns, aggregation continues. Throws bad_input as above.
-  template <class M, class P>
-  multigrid(Eigen::SparseMatrixBase<M> const& k, std::vector<P> const& prolongations,
-            multigrid_options const& o = {})
-      : sweeps_(o.sweeps) {
-    o.validate();
-    auto const& K = compressed(k.derived());
-    prepare(K);
-    index const b = block_size(K, 0, o);
-    with_levels(b, false, [&]<int N, int W>(levels<N, W>& h) {
-      h.begin(K, factor_);
-      if constexpr (N == W) {
-        h.coarse.reserve(prolongations.size());
-        for (std::size_t l = 0; l < prolongations.size(); ++l) {
-          auto const below = [&](auto& above) {
-            auto p = detail::prolongation_from<N, T>(
-                prolongations[l], above.A.nodes(),
-                "prolongation " + detail::show(static_cast<index>(l)));
-            auto C = detail::galerkin_pattern(above.A, p, above.longest);
-            h.append(above, std::move(p), std::move(C));
-          };
-          if (l == 0) {
-            below(h.fine);
-          } else {
-            below(h.coarse.back());
-          }
-        }
-        if (h.coarse.empty()) {
-          h.aggregate_all(constants<N, W>(h.fine.A.nodes()), o);
-        } else if (h.coarse.back().A.rows() > 2 * o.coarsest) {
-          h.aggregate_rest(constants<W, W>(h.coarse.back().A.nodes()), o);
-        }
-        h.finish(o);
-      }
-    });
-    description_ = "prolongations of the user: " + levels_text();
-  }
-
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
   /// Unknowns of each level, the finest first.
@@ -655,8 +652,8 @@ class multigrid {
 
   // --- the next coarser level, for problems that are solved there first ---------------------------
 
-  /// Which node of level 1 each node of K belongs to; empty if there is no such level or its nodes
-  /// are not aggregates.
+  /// Which node of level 1 each node of K belongs to, with prolongations of the user the one of the
+  /// greatest weight; empty if there is no such level, or where G mixes nodes.
   [[nodiscard]] aggregation const& aggregates() const {
     return std::visit([](auto const& h) -> aggregation const& { return h.aggregates; }, *levels_);
   }
@@ -665,7 +662,8 @@ class multigrid {
     return std::visit([]<int N, int M>(levels<N, M> const&) { return index(N); }, *levels_);
   }
   /// The near kernel of level 1, n₁ × r for nodes of r unknowns, upper triangular blocks R: on an
-  /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing.
+  /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing. With
+  /// prolongations of the user R = I, for constants as candidates.
   [[nodiscard]] matrix_type coarse_kernel() const {
     return std::visit(
         []<int N, int M>(levels<N, M> const& h) {
@@ -901,6 +899,24 @@ class multigrid {
   }
   static index most_candidates(index b) { return b == 3 ? 6 : b == 2 ? 3 : 1; }
 
+  /// Levels for nodes of b unknowns: fill(levels) makes them.
+  template <class F>
+  void build(index b, index candidates, multigrid_options const& o, F fill) {
+    with_levels(b, candidates > b && o.prolongations.empty(), [&](auto& h) {
+      fill(h);
+      h.finish(o);
+    });
+    note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), candidates, o);
+  }
+  /// Whether there are prolongations of the user; the levels that they make.
+  template <int N, int W>
+  static bool interpolates(levels<N, W>& h, multigrid_options const& o,
+                           Eigen::SparseMatrix<S, Eigen::RowMajor> const* G) {
+    if (o.prolongations.empty()) return false;
+    if constexpr (N == W) h.interpolate_all(o, G);
+    return true;
+  }
+
   /// f(levels) for nodes of b unknowns, coarse ones with rotations or without.
   template <class F>
   void with_levels(index b, bool rotations, F f) {
@@ -930,17 +946,8 @@ class multigrid {
   }
 
   template <int N, int M>
-  [[nodiscard]] static detail::near_kernel<N, M> constants(int nodes) {
-    detail::near_kernel<N, M> B;
-    B.blocks.assign(static_cast<std::size_t>(nodes) * N * M, 0.0);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i) {
-      for (std::size_t c = 0; c < N; ++c) B.blocks[i * N * M + c * M + c] = 1;
-    }
-    return B;
-  }
-  template <int N, int M>
   [[nodiscard]] detail::near_kernel<N, M> kernel(matrix_type const& modes) const {
-    if (modes.cols() == 0) return constants<N, M>(static_cast<int>(rows_ / N));
+    if (modes.cols() == 0) return detail::constants<N, M>(static_cast<int>(rows_ / N));
     detail::near_kernel<N, M> B;
     B.blocks.assign(static_cast<std::size_t>(rows_) * M, 0.0);
     for (index c = 0; c < modes.cols(); ++c) {
@@ -961,6 +968,10 @@ class multigrid {
   void note(bool smoothed, index candidates, multigrid_options const& o) {
     bool const nodes =
         std::visit([]<int N, int M>(levels<N, M> const&) { return N > 1; }, *levels_);
+    if (!o.prolongations.empty()) {
+      description_ = "prolongations of the user: " + levels_text();
+      return;
+    }
     std::string const kernel =
         o.coordinates.size() > 0 && candidates > 0 ? "rigid-body modes of the coordinates"
         : candidates > 0                           ? detail::show(candidates) + " candidates given"
@@ -1024,8 +1035,5 @@ multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const& = {})
 template <class M, class B>
 multigrid(Eigen::SparseMatrixBase<M> const&, Eigen::MatrixBase<B> const&,
           multigrid_options const& = {}) -> multigrid<typename M::Scalar>;
-template <class M, class P>
-multigrid(Eigen::SparseMatrixBase<M> const&, std::vector<P> const&, multigrid_options const& = {})
-    -> multigrid<typename M::Scalar>;
 
 }  // namespace slant

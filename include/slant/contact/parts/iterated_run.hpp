@@ -67,6 +67,15 @@ template <class S>
   return R;
 }
 
+/// The motions of n unknowns, so many of a node, that move all nodes alike.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> translations(index n, index size) {
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> R;
+  R.setZero(n, size);
+  for (index j = 0; j < n; ++j) R(j, j % size) = S(1);
+  return R;
+}
+
 /// Bodies with rigid motions that K resists by less than `share` of what its diagonal would.
 template <class S>
 [[nodiscard]] free_motions<S> floating_bodies(Eigen::SparseMatrix<S> const& K,
@@ -131,12 +140,15 @@ struct iteration_outlook {
   free_motions<S> floating{};
 };
 
-/// `asked`: somebody wants it, coordinates or not. Throws bad_input for sizes that do not fit.
-template <class S>
+/// Of options with layout, route and multigrid. Throws bad_input for sizes that do not fit.
+template <class S, class Options>
 [[nodiscard]] iteration_outlook<S> outlook_of_iteration(Eigen::SparseMatrix<S> const& K,
-                                                        data<S> const& c,
-                                                        node_layout<S> const& layout, bool asked) {
-  if (!asked && !layout.is_known()) return {"no coordinates of nodes are given"};
+                                                        data<S> const& c, Options const& o) {
+  node_layout<S> const& layout = o.layout;
+  bool const is_served = layout.is_known() || !o.multigrid.prolongations.empty();
+  if (!is_served && o.route != solution_route::iterate) {
+    return {"no coordinates of nodes are given"};
+  }
   if (auto why = primal_refusal(c)) return {std::move(why)};
   if (!layout.is_known()) return {};
   slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
@@ -156,16 +168,16 @@ class primal_run {
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using state_type = typename method_type::state_type;
 
-  /// At most `most` steps. Throws bad_input where K is found not to be definite or does not fit the
-  /// nodes.
+  /// At most `most` steps; with tangential positions w, none: 0. Throws bad_input where K is found
+  /// not to be definite or does not fit the nodes.
   primal_run(Eigen::SparseMatrix<S> const& K, data<S> const& c, node_layout<S> const& layout,
-             multigrid_options const& o, index most)
+             multigrid_options const& o, index most, vector_type const& w = {})
       : problem_(K, c),
         motions_(layout.is_known() ? rigid_motions(layout) : matrix_type(0, 0)),
         M_(problem_.levels(motions_, o)),
         qp_(problem_.qp()),
         most_(most),
-        state_(begin(c.tangents(), o)) {}
+        state_(begin(c.tangents(), o, w)) {}
   primal_run(primal_run const&) = delete;
   primal_run& operator=(primal_run const&) = delete;
 
@@ -174,11 +186,15 @@ class primal_run {
   [[nodiscard]] qp_type const& qp() const { return qp_; }
   [[nodiscard]] state_type const& state() const { return state_; }
 
-  /// ‖x‖_K, from x and r.
+  /// ‖u‖_K, from x and r.
   [[nodiscard]] S size() const {
     using std::sqrt;
-    S const square = state_.unit * slant::inner_product(state_.x, state_.r) +
-                     slant::inner_product(state_.x, qp_.b());
+    S square = state_.unit * slant::inner_product(state_.x, state_.r) +
+               slant::inner_product(state_.x, qp_.b());
+    if (auto const& s = problem_.offset(); s.size() > 0) {
+      auto const& Ks = problem_.image_of_offset();
+      square += S(2) * slant::inner_product(state_.x, Ks) + slant::inner_product(s, Ks);
+    }
     return square > S(0) ? S(sqrt(square)) : S(0);
   }
   /// A step while one is left, unless the energy error is estimated to be at most `goal`: the run
@@ -214,6 +230,14 @@ class primal_run {
     problem_.set_slip_bounds(g);
     method(S(0)).adopt_function(state_);
   }
+  /// change(problem, x) of its data and of the point, from which steps begin anew. One product.
+  template <class Change>
+  void restart(Change change) {
+    change(problem_, state_.x);
+    state_.iteration = 0;
+    state_.work = {};
+    method(S(0)).resume(state_);
+  }
 
  private:
   [[nodiscard]] method_type method(S const& goal) const {
@@ -222,9 +246,12 @@ class primal_run {
     o.energy_goal = std::max<S>(goal, std::numeric_limits<S>::min());
     return method_type(qp_, M_, o);
   }
-  [[nodiscard]] state_type begin(index tangents, multigrid_options const& o) const {
-    matrix_type const motions =
-        motions_.cols() > 0 ? problem_.coordinates(motions_) : matrix_type(0, 0);
+  [[nodiscard]] state_type begin(index tangents, multigrid_options const& o, vector_type const& w) {
+    if (w.size() > 0) problem_.set_positions(w);
+    // What level 1 stands for: rigid motions of aggregates, or translations.
+    matrix_type motions =
+        o.prolongations.empty() ? motions_ : translations<S>(qp_.b().size(), M_.node_size());
+    if (motions.cols() > 0) motions = problem_.coordinates(motions);
     nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions, o);
     if (!coarse.found()) return method(S(0)).start(problem_.zero());
     return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
@@ -247,18 +274,16 @@ void tell_progress(solve_options<S> const& o, State const& state) {
               is_measured ? S(state.reduced_gradient_norm / state.gradient_scale) : S(0)});
 }
 
-/// Contact with given slip bounds, or none.
-template <class Friction, class S>
-[[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
-                                       data<S> const& c, solve_options<S> const& o) {
+/// Steps until the certificate agrees, and what has come of them but for the choice of a route.
+template <class Friction, class S, class Certificate>
+void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate, data<S> const& c,
+                      solve_options<S> const& o, solution<S>& result) {
   using slant::detail::show;
-  solution<S> result;
-  primal_run<S> run(K, c, o.layout, o.multigrid, o.max_steps);
   auto const& state = run.state();
-  result.factorization = run.levels().description();
-  energy_certificate certificate(run.qp(), run.levels());
+  index const before = certificate.applications();
   S share = o.tolerance / S(2), best = std::numeric_limits<S>::infinity();
   constexpr index rounds = 12;
+  index idle = 0;
   for (index round = 0;; ++round) {
     tell_progress(o, state);
     while (state.status == status::running) {
@@ -266,9 +291,12 @@ template <class Friction, class S>
       if (state.status != status::iteration_limit) tell_progress(o, state);
     }
     result.error = certificate(state.x);
+    if (run.problem().offset().size() > 0) result.error.size = run.size();
     S const error = result.error.relative();
     bool const is_enough = error <= o.tolerance;
-    bool const goes_on = state.status == status::converged && error < best / S(2) &&
+    // The bound of a step may be loose where that of the next is not.
+    idle = error < best / S(2) ? 0 : idle + 1;
+    bool const goes_on = state.status == status::converged && idle < 2 &&
                          state.reduced_gradient_norm > S(0) && round < rounds;
     if (is_enough || !goes_on) {
       result.status = is_enough                           ? status::converged
@@ -279,7 +307,7 @@ template <class Friction, class S>
                                  : "; asked was " + show(o.tolerance) + "; " + state.reason());
       break;
     }
-    best = error;
+    best = std::min<S>(best, error);
     share *= std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
     run.go_on();
   }
@@ -287,7 +315,18 @@ template <class Friction, class S>
   result.multipliers = run.multipliers(feasible_set(law, c));
   result.iterations = state.iteration;
   result.work = state.work;
-  result.work.operator_applications += certificate.applications();
+  result.work.operator_applications += certificate.applications() - before;
+}
+
+/// Contact with given slip bounds, or none.
+template <class Friction, class S>
+[[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
+                                       data<S> const& c, solve_options<S> const& o) {
+  solution<S> result;
+  primal_run<S> run(K, c, o.layout, o.multigrid, o.max_steps);
+  result.factorization = run.levels().description();
+  energy_certificate certificate(run.qp(), run.levels());
+  run_to_certified(law, run, certificate, c, o, result);
   return result;
 }
 

@@ -12,7 +12,8 @@
 //     minimise  ½ w'ᵀ(EᵀPᵀK P E)w' − (EᵀPᵀf)ᵀw' + φ'(w'),      gaps the least ones, slip bounds added up,
 //
 // and that problem starts from its own next level. What has come of it is prolonged; a node is held
-// as its aggregate is, and the first step does not ask whether that is right.
+// as its aggregate is, and the first step does not ask whether that is right. With prolongations of
+// the user the aggregate of a coarse node are those that owe it most, and Q R translations.
 #pragma once
 
 #include <slant/base/scaling.hpp>
@@ -155,16 +156,31 @@ class nested_start {
       if (members[g] == 0) continue;
       matrix_type const T =
           times_inverse(mean[g] / S(members[g]), R.middleRows(i * width_, width_));
-      auto E = frame_of(T);
-      if (!E) continue;
-      number_[g] = static_cast<int>(list_.size());
       contact c = sums[g];
-      c.p = i * width_;
-      c.q = c.p + 1;
-      c.stride = 1;
+      if (!is_placed(T, i * width_, c)) {
+        auto E = frame_of(T);
+        if (!E) continue;
+        c.p = i * width_;
+        c.q = c.p + 1;
+        c.stride = 1;
+        frames_.emplace_back(i, std::move(*E));
+      }
+      number_[g] = static_cast<int>(list_.size());
       list_.push_back(c);
-      frames_.emplace_back(i, std::move(*E));
     }
+  }
+  /// Whether rows of T are unit vectors, of unknowns from `first` on: c then acts on these.
+  static bool is_placed(matrix_type const& T, index first, contact& c) {
+    index place[3] = {0, 0, 0};
+    for (index r = 0; r < T.rows(); ++r) {
+      index& at = place[r];
+      T.row(r).maxCoeff(&at);
+      if (T(r, at) != S(1) || T.row(r).cwiseAbs().sum() != S(1)) return false;
+    }
+    c.p = first + place[0];
+    if (T.rows() > 1) c.q = first + place[1];
+    if (T.rows() > 2) c.stride = place[2] - place[1];
+    return true;
   }
 
   /// T with T R = B for an upper triangular R; what R does not see is left out.
@@ -251,16 +267,51 @@ class nested_start {
     }
   }
 
+  /// P ← E⁻¹P, of unknowns then; as it is where all E are the identity.
+  void turn_rows(Eigen::SparseMatrix<double>& P, index unknowns) const {
+    if (frames_.empty()) return;
+    index const size = P.rows() == unknowns ? 1 : width_;  // what an entry of P stands for
+    std::vector<Eigen::Triplet<double>> all, turns;
+    for (index j = 0; j < P.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator e(P, j); e; ++e) {
+        for (index c = 0; c < size; ++c) {
+          all.emplace_back(int(e.row() * size + c), int(e.col() * size + c), e.value());
+        }
+      }
+    }
+    std::vector<bool> is_turned(static_cast<std::size_t>(unknowns), false);
+    for (auto const& [node, f] : frames_) {
+      for (index q = 0; q < width_; ++q) {
+        is_turned[static_cast<std::size_t>(node * width_ + q)] = true;
+        for (index c = 0; c < width_; ++c) {
+          turns.emplace_back(int(node * width_ + q), int(node * width_ + c),
+                             static_cast<double>(f.inverse(q, c)));
+        }
+      }
+    }
+    for (index j = 0; j < unknowns; ++j) {
+      if (!is_turned[static_cast<std::size_t>(j)]) turns.emplace_back(int(j), int(j), 1.0);
+    }
+    Eigen::SparseMatrix<double> whole(unknowns, P.cols() * size), E(unknowns, unknowns);
+    whole.setFromTriplets(all.begin(), all.end());
+    E.setFromTriplets(turns.begin(), turns.end());
+    P = E * whole;
+  }
+
   void solve(sparse_type const& K, vector_type const& f, surface_function<S> const& surface,
              matrix_type const& candidates, multigrid_options const& given) {
     multigrid_options o = given;
     o.coordinates.resize(0, 0);
     o.block_size = width_ == 6 ? 3 : width_ == 3 ? 3 : index(width_);
+    if (!o.prolongations.empty()) {
+      o.prolongations.erase(o.prolongations.begin());
+      if (!o.prolongations.empty()) turn_rows(o.prolongations.front(), K.rows());
+    }
     slant::multigrid<S> const M(K, candidates, o);
     separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(K), f, surface};
     symmetric_newton_options<S> newton;
     newton.energy_goal = std::numeric_limits<S>::min();
-    nested_start const coarser(f, surface, tangents_, M, candidates, given);
+    nested_start const coarser(f, surface, tangents_, M, candidates, o);
     auto const method = [&] { return envelope_newton{qp, M, newton}; };
     auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
                                  : method().start(vector_type::Zero(f.size()));

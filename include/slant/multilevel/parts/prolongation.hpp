@@ -120,7 +120,11 @@ template <int N, int M, class T, class S>
           auto const at = std::lower_bound(columns.begin(), columns.end(), P.at(k));
           T* const to = entries.data() + start +
                         static_cast<std::size_t>(at - columns.begin()) * block + M * a;
-          for (int c = 0; c < M; ++c) to[c] += T(e.value()) * P.block(k)[M * b + c];
+          if (N == M && P.weights) {
+            to[b] += T(e.value()) * P.weight(k);
+          } else {
+            for (int c = 0; c < M; ++c) to[c] += T(e.value()) * P.block(k)[M * b + c];
+          }
         }
       }
     }
