@@ -127,7 +127,9 @@ namespace slant::contact::detail {
 //
 // H is the product of the Householder reflections that bring one row of (N, T)_O after the other
 // onto an axis [Golub, Van Loan, 5.2.1], L the rest of the rows over their lengths. Contacts that
-// share nothing have G = H, orthogonal. What is needed: the parts of the rows on O are orthogonal,
+// share nothing have G = H, orthogonal. Where bodies are of different materials, components of
+// contacts whose stiffness is far from the mean are scaled besides, by powers of two: methods have
+// one step length for all blocks. What is needed: the parts of the rows on O are orthogonal,
 // those of tangents of one length, and none is short beside its row.
 
 /// The rows of one contact: entries (column, value) of N_i, then of T_i.
@@ -145,6 +147,7 @@ template <class S>
 struct local_coordinates {
   using sparse_type = Eigen::SparseMatrix<S>;
   using rows_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
   std::vector<local_row<S>> normal;    ///< of each contact
   std::vector<local_row<S>> tangents;  ///< as the rows of T
@@ -198,6 +201,42 @@ struct local_coordinates {
       G = H + L;
       inverse -= sparse_type(inverse * sparse_type(L));
     }
+  }
+
+  /// Scales components of contacts in K = G⁻ᵀK G⁻¹ for diagonal entries near their mean; whether
+  /// there are any to scale.
+  bool scale(sparse_type& K) {
+    using std::sqrt;
+    constexpr S far = S(64);
+    vector_type const diagonal = K.diagonal();
+    S const mean = diagonal.mean();
+    vector_type scales = vector_type::Ones(K.rows());
+    auto const fit = [&](local_row<S>* row, std::size_t count) {
+      if (count == 0 || row->component < 0) return;
+      S const k = diagonal[row->component];
+      if (!(k > S(0)) || (k <= far * mean && mean <= far * k)) return;
+      S const factor = unit_near(S(sqrt(mean) / sqrt(k)));
+      for (std::size_t r = 0; r < count; ++r) {
+        if (row[r].component < 0) continue;
+        scales[row[r].component] = factor;
+        row[r].size *= factor;
+      }
+    };
+    std::size_t const per = normal.empty() ? 0 : tangents.size() / normal.size();
+    for (std::size_t i = 0; i < normal.size(); ++i) {
+      fit(&normal[i], 1);
+      fit(tangents.data() + i * per, per);
+    }
+    if ((scales.array() == S(1)).all()) return false;
+    if (G.rows() == 0) {
+      G.resize(K.rows(), K.rows());
+      G.setIdentity();
+      inverse = G;
+    }
+    G = scales.cwiseInverse().asDiagonal() * G;
+    inverse = inverse * scales.asDiagonal();
+    K = scales.asDiagonal() * K * scales.asDiagonal();
+    return true;
   }
 
  private:
@@ -488,7 +527,7 @@ class primal {
   primal(sparse_type const& K, data<S> const& c, detail::local_coordinates<S> local)
       : local_(std::move(local)),
         K_(&K),
-        own_(turned(K)),
+        own_(scaled(turned(K))),
         rows_(matrix().rows(), matrix().cols(), matrix().nonZeros(), matrix().outerIndexPtr(),
               matrix().innerIndexPtr(), matrix().valuePtr()),
         f_(turned(c.f)),
@@ -501,6 +540,15 @@ class primal {
     sparse_type copy = K;
     copy.makeCompressed();
     return copy;
+  }
+  /// Of K in local coordinates, or nothing if that is K.
+  [[nodiscard]] sparse_type scaled(sparse_type own) {
+    if (own.rows() > 0) {
+      local_.scale(own);
+      return own;
+    }
+    sparse_type copy = *K_;
+    return local_.scale(copy) ? copy : sparse_type();
   }
   [[nodiscard]] vector_type turned(vector_type const& f) const {
     if (!turns()) return f;
