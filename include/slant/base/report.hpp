@@ -45,6 +45,26 @@ struct report {
 
 namespace detail {
 
+/// What the statuses of a method mean; empty: no more than their names say. The usual ones are those of
+/// descent by the reduced gradient.
+struct status_meanings {
+  std::string converged = "the reduced gradient vanishes";
+  std::string stalled{};
+  std::string unbounded = "the function decreases for ever along a direction of the set";
+  std::string breakdown =
+      "a number left the range of the scalar, or A is not positive semidefinite";
+};
+
+/// The meaning of a status, or its name.
+[[nodiscard, gnu::cold]] inline std::string reason_of(status how, status_meanings const& meaning) {
+  std::string const& text = how == status::converged   ? meaning.converged
+                            : how == status::stalled   ? meaning.stalled
+                            : how == status::unbounded ? meaning.unbounded
+                            : how == status::breakdown ? meaning.breakdown
+                                                       : std::string();
+  return text.empty() ? std::string(to_string(how)) : text;
+}
+
 /// The lines of a run; those of numbers that are 0 are left out.
 [[gnu::cold]] inline void print_run(std::ostream& out, status how, std::string const& why,
                                     index unknowns, std::string const& steps, work const& spent,

@@ -186,8 +186,7 @@ template <class QP, class C, class M>
 class constrained_newton : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
 
-  static_assert(detail::program_demands<problem>::told);
-  static_assert(detail::active_set_demands<problem>::told);
+  static_assert(detail::kprgp_told<problem>);
   static_assert(detail::symmetric_newton_demands<problem, std::remove_cvref_t<M>>::told);
   static_assert(
       !symmetric_newton_problem<problem> ||
@@ -200,15 +199,10 @@ class constrained_newton : public detail::refused_program<QP> {
 };
 
 template <class QP, class C>
-constrained_newton(QP&&, C&&) -> constrained_newton<kept_t<QP>, kept_t<C>, identity_operator>;
-template <class QP, class C>
-constrained_newton(QP&&, C&&, constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+constrained_newton(QP&&, C&&, constrained_newton_options<detail::program_scalar_t<QP>> = {})
     -> constrained_newton<kept_t<QP>, kept_t<C>, identity_operator>;
 template <class QP, class C, class M>
-constrained_newton(QP&&, C&&, M&&) -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
-template <class QP, class C, class M>
-constrained_newton(QP&&, C&&, M&&,
-                   constrained_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+constrained_newton(QP&&, C&&, M&&, constrained_newton_options<detail::program_scalar_t<QP>> = {})
     -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
 
 // --- method --------------------------------------------------------------------------------------

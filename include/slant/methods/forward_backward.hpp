@@ -80,16 +80,8 @@ struct forward_backward_state : gradient_point<QP> {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient vanishes";
-      case slant::status::stalled:
-        return "the reduced gradient has not fallen any more: " + this->accuracy();
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not positive semidefinite";
-      default:
-        return std::string(to_string(status));
-    }
+    return detail::reason_of(
+        status, {.stalled = "the reduced gradient has not fallen any more: " + this->accuracy()});
   }
 };
 
@@ -115,9 +107,7 @@ class forward_backward : public detail::refused_program<QP, detail::forward_back
 };
 
 template <class QP>
-forward_backward(QP&&) -> forward_backward<kept_t<QP>>;
-template <class QP>
-forward_backward(QP&&, forward_backward_options<typename std::remove_cvref_t<QP>::scalar>)
+forward_backward(QP&&, forward_backward_options<detail::program_scalar_t<QP>> = {})
     -> forward_backward<kept_t<QP>>;
 
 /// The method at the top of this file: solve(forward_backward{qp}, x0, reduced_gradient_below(1e-6)
@@ -145,7 +135,7 @@ class forward_backward<QP> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp_.get(), x0);
-    set_step_length(s);
+    static_cast<void>(s.set_step_length(qp_.get(), options_, scalar(1)));
     if (s.begin(qp_.get(), x0)) s.status = status::converged;
     judge(s);
     return s;
@@ -199,17 +189,6 @@ class forward_backward<QP> {
   static void judge(state_type& s) {
     if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
     if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
-  }
-
-  /// Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_step_length(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
-    auto const safe = safe_gradient_step(qp_.get().a(), s.x, scalar(1), options_.spectrum);
-    s.step_length = safe.length;
-    s.work.setup_applications += safe.applications;
   }
 
   held<QP> qp_;

@@ -113,14 +113,10 @@ class interior_point : public detail::refused_program<QP, detail::interior_point
 };
 
 template <class QP>
-interior_point(QP&&) -> interior_point<kept_t<QP>, identity_operator>;
-template <class QP>
-interior_point(QP&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
+interior_point(QP&&, interior_point_options<detail::program_scalar_t<QP>> = {})
     -> interior_point<kept_t<QP>, identity_operator>;
 template <class QP, class M>
-interior_point(QP&&, M&&) -> interior_point<kept_t<QP>, kept_t<M>>;
-template <class QP, class M>
-interior_point(QP&&, M&&, interior_point_options<typename std::remove_cvref_t<QP>::scalar>)
+interior_point(QP&&, M&&, interior_point_options<detail::program_scalar_t<QP>> = {})
     -> interior_point<kept_t<QP>, kept_t<M>>;
 
 // --- method --------------------------------------------------------------------------------------

@@ -32,8 +32,6 @@
 namespace slant {
 
 // --- state ---------------------------------------------------------------------------------------
-//
-// The state of the interior-point method.
 
 /// State of interior_point for a separable_qp of type QP with the preconditioner M. x in the
 /// interior of Λ with its gradient r and its reduced gradient are those of gradient_point. Vectors
@@ -107,18 +105,11 @@ struct interior_point_state : gradient_point<QP> {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient is zero: x is the solution";
-      case slant::status::stalled:
-        return "no step gets any further at this precision";
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not semidefinite";
-      case slant::status::unbounded:
-        return "the function decreases for ever along step";
-      default:
-        return std::string(to_string(status));
-    }
+    return detail::reason_of(
+        status, {.converged = "the reduced gradient is zero: x is the solution",
+                 .stalled = "no step gets any further at this precision",
+                 .unbounded = "the function decreases for ever along step",
+                 .breakdown = "a number left the range of the scalar, or A is not semidefinite"});
   }
 };
 

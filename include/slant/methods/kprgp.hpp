@@ -235,23 +235,19 @@ struct face_minimum_release : kkt_release {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::kprgp_told<QP>);
 
  public:
   using kprgp::proportioning::proportioning;
 };
 
 template <class QP>
-kprgp(QP&&) -> kprgp<kept_t<QP>>;
-template <class QP>
-kprgp(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> kprgp<kept_t<QP>>;
+kprgp(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> kprgp<kept_t<QP>>;
 
 /// AS [K Ex 5], KPRGP by its name for the two-sided bounds of plane friction: solve(as(qp), x0,
 /// reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
-[[nodiscard]] auto as(QP&& qp,
-                      kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
+[[nodiscard]] auto as(QP&& qp, kprgp_options<detail::program_scalar_t<QP>> options = {}) {
   return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
 }
 
@@ -260,8 +256,7 @@ template <class QP>
 /// well, and reports it as the stabler one with steps far beyond 2/σ_max. solve(as_s(qp), x0,
 /// reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
-[[nodiscard]] auto as_s(QP&& qp,
-                        kprgp_options<typename std::remove_cvref_t<QP>::scalar> options = {}) {
+[[nodiscard]] auto as_s(QP&& qp, kprgp_options<detail::program_scalar_t<QP>> options = {}) {
   options.active_sets = active_set_rule::semismooth;
   return slant::as(std::forward<QP>(qp), std::move(options));
 }
@@ -297,17 +292,14 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_proportioning> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::kprgp_told<QP>);
 
  public:
   using qpq::proportioning::proportioning;
 };
 
 template <class QP>
-qpq(QP&&) -> qpq<kept_t<QP>>;
-template <class QP>
-qpq(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> qpq<kept_t<QP>>;
+qpq(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpq<kept_t<QP>>;
 
 // --- qpc -----------------------------------------------------------------------------------------
 //
@@ -320,16 +312,13 @@ qpq(QP&&, kprgp_options<typename std::remove_cvref_t<QP>::scalar>) -> qpq<kept_t
 /// Requirements, statuses and cost are those of qpq.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::kprgp_told<QP>);
 
  public:
   using qpc::proportioning::proportioning;
 };
 
 template <class QP>
-qpc(QP&&) -> qpc<kept_t<QP>>;
-template <class QP>
-qpc(QP&&, qpc_options<typename std::remove_cvref_t<QP>::scalar>) -> qpc<kept_t<QP>>;
+qpc(QP&&, qpc_options<detail::program_scalar_t<QP>> = {}) -> qpc<kept_t<QP>>;
 
 }  // namespace slant

@@ -222,18 +222,11 @@ struct modified_newton_state : gradient_point<QP> {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient vanishes";
-      case slant::status::unbounded:
-        return "the function decreases for ever along a direction of the set";
-      case slant::status::stalled:
-        return stagnation() + ": " + this->accuracy();
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not positive definite on a face";
-      default:
-        return std::string(to_string(status));
-    }
+    return detail::reason_of(
+        status,
+        {.stalled = stagnation() + ": " + this->accuracy(),
+         .breakdown = "a number left the range of the scalar, or A is not positive definite "
+                      "on a face"});
   }
 
  private:
@@ -475,16 +468,10 @@ class modified_newton<QP, Start, Inner, Forcing> {
     }
   }
 
-  /// Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_step_length(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
-    auto const safe = safe_gradient_step(qp_.get().a(), s.x, scalar(1), options_.spectrum);
-    s.step_length = options_.step_factor * safe.length;
-    s.σ = safe.σ;
-    s.work.setup_applications += safe.applications;
+  void set_step_length(state_type& s) const {
+    s.σ = s.set_step_length(qp_.get(), options_, scalar(1));
+    if (options_.step_length) return;
+    s.step_length *= options_.step_factor;
     if (!detail::is_finite(s.step_length)) {
       throw bad_input("step_factor", detail::show(options_.step_factor),
                       "one for which step_factor / sigma_max is finite");
@@ -513,17 +500,14 @@ using mssn_options = modified_newton_options<S, fixed_forcing>;
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
 class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::kprgp_told<QP>);
 
  public:
   using mssn::modified_newton::modified_newton;
 };
 
 template <class QP>
-mssn(QP&&) -> mssn<kept_t<QP>>;
-template <class QP>
-mssn(QP&&, mssn_options<typename std::remove_cvref_t<QP>::scalar>) -> mssn<kept_t<QP>>;
+mssn(QP&&, mssn_options<detail::program_scalar_t<QP>> = {}) -> mssn<kept_t<QP>>;
 
 // --- imssn ---------------------------------------------------------------------------------------
 //
@@ -549,17 +533,14 @@ using imssn_options = modified_newton_options<S, adaptive_precision>;
 /// definite on a face).
 template <class QP>
 class imssn : public modified_newton<QP, frozen_start, unlimited_cg, adaptive_precision> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::kprgp_told<QP>);
 
  public:
   using imssn::modified_newton::modified_newton;
 };
 
 template <class QP>
-imssn(QP&&) -> imssn<kept_t<QP>>;
-template <class QP>
-imssn(QP&&, imssn_options<typename std::remove_cvref_t<QP>::scalar>) -> imssn<kept_t<QP>>;
+imssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> imssn<kept_t<QP>>;
 
 // --- gimssn --------------------------------------------------------------------------------------
 //
@@ -585,16 +566,13 @@ using gimssn_options = modified_newton_options<S, adaptive_precision>;
 /// −state.directions.p); breakdown where A was seen not to be semidefinite.
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::kprgp_told<QP>);
 
  public:
   using gimssn::modified_newton::modified_newton;
 };
 
 template <class QP>
-gimssn(QP&&) -> gimssn<kept_t<QP>>;
-template <class QP>
-gimssn(QP&&, gimssn_options<typename std::remove_cvref_t<QP>::scalar>) -> gimssn<kept_t<QP>>;
+gimssn(QP&&, gimssn_options<detail::program_scalar_t<QP>> = {}) -> gimssn<kept_t<QP>>;
 
 }  // namespace slant

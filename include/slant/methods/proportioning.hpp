@@ -97,22 +97,11 @@ struct kprgp_state : gradient_point<QP> {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the reduced gradient vanishes";
-      case slant::status::unbounded:
-        return "the function decreases for ever along a direction of the set";
-      case slant::status::stalled:
-        return (no_minimum
-                    ? "along a direction that does not leave the set the curvature is lost "
-                      "in rounding errors: "
-                    : "neither the reduced gradient nor the function has fallen any more: ") +
-               this->accuracy();
-      case slant::status::breakdown:
-        return "a number left the range of the scalar, or A is not positive semidefinite";
-      default:
-        return std::string(to_string(status));
-    }
+    std::string const why =
+        no_minimum ? "along a direction that does not leave the set the curvature is lost in "
+                     "rounding errors: "
+                   : "neither the reduced gradient nor the function has fallen any more: ";
+    return detail::reason_of(status, {.stalled = why + this->accuracy()});
   }
 };
 
@@ -328,19 +317,6 @@ class proportioning_steps {
     }
   }
 
-  /// Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_step_length(state_type& s) const {
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
-    auto const safe =
-        safe_gradient_step(qp_.get().a(), s.x, options_.step_factor, options_.spectrum);
-    s.step_length = safe.length;
-    s.σ = safe.σ;
-    s.work.setup_applications += safe.applications;
-  }
-
   held<QP> qp_;
   options options_;
 };
@@ -350,7 +326,7 @@ auto proportioning_steps<QP, Rule>::start(vector_type const& x0) const -> state_
   auto const& qp = qp_.get();
   detail::check_start_in_set(x0, qp_.get().b());
   state_type s(qp, x0);
-  set_step_length(s);
+  s.σ = s.set_step_length(qp, options_, options_.step_factor);
   bool const solved = s.begin(qp, x0);
   restart(s);
   settle(s);

@@ -51,6 +51,7 @@
 #include <slant/krylov/flat_direction.hpp>
 #include <slant/methods/parts/active_rows.hpp>
 #include <slant/problems/polyhedral_qp.hpp>
+#include <slant/sets/blocks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -164,24 +165,17 @@ struct schur_contact_state {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the residual vanishes and no multiplier is negative";
-      case slant::status::unbounded:
-        return "no solution: the energy falls for ever along `descent`";
-      case slant::status::stalled:
-        if (trouble == schur_contact_trouble::patience) {
-          return "neither the residual nor the energy has fallen any more";
-        }
-        return "rounding errors leave no direction in which the energy falls";
-      case slant::status::breakdown:
-        if (trouble == schur_contact_trouble::moved_row) {
-          return "the projector moves a row of B: it is not that of a U with B U = 0";
-        }
-        return "a number left the range of the scalar, or K is not positive semidefinite";
-      default:
-        return std::string(to_string(status));
-    }
+    return detail::reason_of(
+        status,
+        {.converged = "the residual vanishes and no multiplier is negative",
+         .stalled = trouble == schur_contact_trouble::patience
+                        ? "neither the residual nor the energy has fallen any more"
+                        : "rounding errors leave no direction in which the energy falls",
+         .unbounded = "no solution: the energy falls for ever along `descent`",
+         .breakdown = trouble == schur_contact_trouble::moved_row
+                          ? "the projector moves a row of B: it is not that of a U with B U = 0"
+                          : "a number left the range of the scalar, or K is not positive "
+                            "semidefinite"});
   }
 };
 
@@ -552,9 +546,6 @@ class schur_contact<P> {
 };
 
 template <class P>
-schur_contact(P&&) -> schur_contact<kept_t<P>>;
-template <class P>
-schur_contact(P&&, schur_contact_options<typename std::remove_cvref_t<P>::scalar>)
-    -> schur_contact<kept_t<P>>;
+schur_contact(P&&, schur_contact_options<set_scalar_t<P>> = {}) -> schur_contact<kept_t<P>>;
 
 }  // namespace slant

@@ -75,58 +75,31 @@ struct smalse_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    require_positive("penalty", penalty);
-    require_positive("balance", balance);
-    require_positive("precision", precision);
+    detail::check_positive("penalty", penalty);
+    detail::check_positive("balance", balance);
+    detail::check_positive("precision", precision);
     detail::check_fraction("shrink", shrink);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
     if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
     spectrum.validate();
     inner.validate();
   }
-
- private:
-  static void require_positive(char const* name, S const& value) {
-    if (!(value > S(0)) || !detail::is_finite(value)) {
-      throw bad_input(name, detail::show(value), "a finite number > 0");
-    }
-  }
 };
-
-}  // namespace slant
-
-namespace slant::detail {
-
-// --- reason with equalities ----------------------------------------------------------------------
-//
-// What the statuses of methods for problems with equality constraints mean.
-
-/// `infeasible`: no point of Λ satisfies G x = e, which has been shown.
-[[nodiscard, gnu::cold]] inline std::string reason_with_equalities(slant::status end,
-                                                                   bool infeasible) {
-  switch (end) {
-    case slant::status::converged:
-      return "the reduced gradient and the residual of the equality constraints vanish";
-    case slant::status::stalled:
-      return infeasible ? "no point of the set satisfies the equality constraints"
-                        : "neither the reduced gradient nor the residual of the equality "
-                          "constraints falls any further at this precision";
-    case slant::status::unbounded:
-      return "the function decreases for ever along a direction of the set";
-    case slant::status::breakdown:
-      return "a number left the range of the scalar, or A is not positive semidefinite";
-    default:
-      return std::string(to_string(end));
-  }
-}
-
-}  // namespace slant::detail
-
-namespace slant {
 
 // --- state ---------------------------------------------------------------------------------------
 
 namespace detail {
+
+/// What the statuses of methods for problems with equality constraints mean. `infeasible`: no point of
+/// Λ satisfies G x = e, which has been shown.
+[[nodiscard, gnu::cold]] inline std::string reason_with_equalities(slant::status end,
+                                                                   bool infeasible) {
+  return reason_of(
+      end, {.converged = "the reduced gradient and the residual of the equality constraints vanish",
+            .stalled = infeasible ? "no point of the set satisfies the equality constraints"
+                                  : "neither the reduced gradient nor the residual of the equality "
+                                    "constraints falls any further at this precision"});
+}
 
 /// The inner problem: its operator is owned, its linear term and set are referenced.
 template <class QP, class C>
@@ -185,8 +158,7 @@ template <class QP, class C>
 class smalse : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
 
-  static_assert(detail::program_demands<problem>::told);
-  static_assert(detail::active_set_demands<problem>::told);
+  static_assert(detail::kprgp_told<problem>);
   static_assert(!kprgp_problem<problem> ||
                     affine_space<std::remove_cvref_t<C>, typename detail::vector_of<problem>::type>,
                 "the constraints must be equality_constraints of vectors like b");
@@ -196,14 +168,8 @@ class smalse : public detail::refused_program<QP> {
 };
 
 template <class QP, class C>
-smalse(QP&&, C&&) -> smalse<kept_t<QP>, kept_t<C>>;
-template <class QP, class C>
-smalse(QP&&, C&&, smalse_options<typename std::remove_cvref_t<QP>::scalar>)
+smalse(QP&&, C&&, smalse_options<detail::program_scalar_t<QP>> = {})
     -> smalse<kept_t<QP>, kept_t<C>>;
-
-}  // namespace slant
-
-namespace slant::detail {
 
 // --- separation ----------------------------------------------------------------------------------
 //
@@ -219,6 +185,8 @@ namespace slant::detail {
 //
 // The right w is the one at the point of Λ next to the space, which minimises ½ ‖Q x − x̄‖² over Λ:
 // accelerated projected gradients find it, at the price of a projection onto both a step.
+
+namespace detail {
 
 /// y and projected are scratch of the size of x. Mostly the first few t say no.
 template <class Set, class V>
@@ -272,9 +240,7 @@ template <class Set, class C, class V>
   return false;
 }
 
-}  // namespace slant::detail
-
-namespace slant {
+}  // namespace detail
 
 // --- method --------------------------------------------------------------------------------------
 

@@ -122,21 +122,16 @@ struct ssnm_state {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "the optimality conditions hold exactly";
-      case slant::status::breakdown:
-        return "the Newton system could not be solved (" + std::string(to_string(solver_status)) +
-               "): A + Σ z ∇²f is singular, or not definite where the solver needs it, or an "
-               "active "
-               "gradient vanishes or depends on others";
-      case slant::status::stalled:
-        return "no direction reduces ‖F‖ any more: it is down to rounding, or the inner iteration "
-               "stagnates (" +
-               std::string(to_string(solver_status)) + ")";
-      default:
-        return std::string(to_string(status));
-    }
+    std::string const how(to_string(solver_status));
+    return detail::reason_of(
+        status,
+        {.converged = "the optimality conditions hold exactly",
+         .stalled = "no direction reduces ‖F‖ any more: it is down to rounding, or the inner "
+                    "iteration stagnates (" +
+                    how + ")",
+         .breakdown = "the Newton system could not be solved (" + how +
+                      "): A + Σ z ∇²f is singular, or not definite where the solver needs "
+                      "it, or an active gradient vanishes or depends on others"});
   }
 };
 
@@ -344,12 +339,8 @@ class ssnm<QP, LinearSolver> {
   function_type f_;
 };
 
-template <class QP>
-ssnm(QP&&) -> ssnm<kept_t<QP>>;
-template <class QP, class LinearSolver>
-ssnm(QP&&, LinearSolver) -> ssnm<kept_t<QP>, LinearSolver>;
-template <class QP, class LinearSolver>
-ssnm(QP&&, LinearSolver, ssnm_options<typename std::remove_cvref_t<QP>::scalar>)
+template <class QP, class LinearSolver = schur_bicgstab>
+ssnm(QP&&, LinearSolver = {}, ssnm_options<detail::program_scalar_t<QP>> = {})
     -> ssnm<kept_t<QP>, LinearSolver>;
 
 }  // namespace slant

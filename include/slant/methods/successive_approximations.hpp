@@ -218,14 +218,9 @@ struct successive_state {
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
-    switch (status) {
-      case slant::status::converged:
-        return "x solves the problem that belongs to it";
-      case slant::status::stalled:
-        return "the fixed point iteration gets no nearer";
-      default:
-        return "the inner method reports: " + std::string(to_string(inner_status));
-    }
+    if (status == slant::status::converged) return "x solves the problem that belongs to it";
+    if (status == slant::status::stalled) return "the fixed point iteration gets no nearer";
+    return "the inner method reports: " + std::string(to_string(inner_status));
   }
 };
 

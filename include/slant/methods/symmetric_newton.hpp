@@ -279,18 +279,13 @@ struct symmetric_newton_state : gradient_point<QP> {
 
 template <class QP, class M>
 std::string symmetric_newton_state<QP, M>::reason() const {
-  switch (status) {
-    case slant::status::converged:
-      return "the reduced gradient is zero: x is the solution";
-    case slant::status::stalled:
-      return "no step lowers the residual any further at this precision: " + this->accuracy();
-    case slant::status::breakdown:
-      return "a number left the range of the scalar, or A is not semidefinite";
-    case slant::status::unbounded:
-      return "the function decreases for ever along a direction in the set that A does not resist";
-    default:
-      return std::string(to_string(status));
-  }
+  return detail::reason_of(
+      status,
+      {.converged = "the reduced gradient is zero: x is the solution",
+       .stalled = "no step lowers the residual any further at this precision: " + this->accuracy(),
+       .unbounded =
+           "the function decreases for ever along a direction in the set that A does not resist",
+       .breakdown = "a number left the range of the scalar, or A is not semidefinite"});
 }
 
 // --- refusal -------------------------------------------------------------------------------------
@@ -335,14 +330,10 @@ class symmetric_newton : public detail::refused_program<QP, detail::symmetric_ne
 };
 
 template <class QP>
-symmetric_newton(QP&&) -> symmetric_newton<kept_t<QP>, identity_operator>;
-template <class QP>
-symmetric_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+symmetric_newton(QP&&, symmetric_newton_options<detail::program_scalar_t<QP>> = {})
     -> symmetric_newton<kept_t<QP>, identity_operator>;
 template <class QP, class M>
-symmetric_newton(QP&&, M&&) -> symmetric_newton<kept_t<QP>, kept_t<M>>;
-template <class QP, class M>
-symmetric_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+symmetric_newton(QP&&, M&&, symmetric_newton_options<detail::program_scalar_t<QP>> = {})
     -> symmetric_newton<kept_t<QP>, kept_t<M>>;
 
 // --- method --------------------------------------------------------------------------------------

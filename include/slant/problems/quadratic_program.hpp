@@ -37,9 +37,8 @@ concept has_separable_function = requires(QP const& qp) {
 };
 /// A quadratic function plus a separable convex one, which may be the indicator of a set.
 template <class QP>
-concept composite_problem =
-    quadratic_program<QP> || (has_hessian<QP> && has_linear_term<QP> &&
-                              has_separable_function<QP> && has_size<QP>);
+concept composite_problem = quadratic_program<QP> || (has_hessian<QP> && has_linear_term<QP> &&
+                                                      has_separable_function<QP> && has_size<QP>);
 
 /// φ of a composite problem; of a quadratic program the set that it is the indicator of.
 template <composite_problem QP>
@@ -112,6 +111,16 @@ struct active_set_demands<QP> {
                 "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
   static constexpr bool told = true;
 };
+
+/// Both, of what kprgp_problem is asked of.
+template <class QP>
+inline constexpr bool kprgp_told = program_demands<std::remove_cvref_t<QP>>::told &&
+                                   active_set_demands<std::remove_cvref_t<QP>>::told;
+
+/// The scalar of a program, double of what is none: deduction does not fail there, so that it can be
+/// refused in words.
+template <class QP>
+using program_scalar_t = set_scalar_t<QP>;
 
 /// The vectors of a program of which nothing has been said yet.
 template <class QP>

@@ -12,6 +12,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/krylov/spectral_bound.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/proximal_step.hpp>
 
@@ -95,6 +96,21 @@ struct gradient_point {
         reduced(like(x0, qp.size())),
         trial(like(x0, qp.size())),
         a_workspace(workspace(qp.a(), x0)) {}
+
+  /// step_length as the options say, else `factor`/σ_max; σ_max to a few digits, 0 if it was not asked
+  /// for. Not inlined: g++ 12 would see *step_length read where there is none.
+  template <class Options>
+  [[nodiscard, gnu::noinline]] scalar set_step_length(QP const& qp, Options const& o,
+                                                      scalar const& factor) {
+    if (o.step_length) {
+      step_length = *o.step_length;
+      return scalar(0);
+    }
+    auto const safe = safe_gradient_step(qp.a(), x, factor, o.spectrum);
+    step_length = safe.length;
+    work.setup_applications += safe.applications;
+    return safe.σ;
+  }
 
   /// x = P_Λ(x0), r, r̃, units and scales; step_length is known. True if there is no need to go on:
   /// x is then P_Λ(0), where r̃ = 0.

@@ -132,14 +132,6 @@ class lorentz_place {
   std::size_t number_ = 0;
 };
 
-namespace detail {
-
-/// The number of entries at a place. A constant, also where the place is a reference.
-template <class Place>
-inline constexpr int entries_of = std::remove_cvref_t<Place>::M;
-
-}  // namespace detail
-
 /// The pairs p, y of a set, which is handed to every member again, as barrier's is. Forces are in
 /// multiples of the unit that the caller has.
 template <scalar S>
@@ -171,8 +163,7 @@ class lorentz_pairs {
       root_p_[at.number] = bound ? S(sqrt(det)) : S(0);
       root_y_[at.number] = bound ? S(ϑ / root_p_[at.number]) : S(0);
       auto const p = block.lorentz_point(here);
-      constexpr int M = detail::entries_of<decltype(at)>;
-      for (int i = 0; i < M; ++i) {
+      for (int i = 0; i < at.M; ++i) {
         S const entry = bound ? S(ϑ * (p[i] / det)) : S(0);
         y_[at.first + std::size_t(i)] = i == 0 ? entry : S(-entry);
       }
@@ -189,18 +180,16 @@ class lorentz_pairs {
   void scale(C const& set, X const& x) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       using std::sqrt;
-      using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
+      using algebra = algebra_of<decltype(at)>;
       using part = typename algebra::part;
       auto const here = place.value(x);
       S const a = sqrt(S(-block.inequality(here)(0)));
       S const b = root_y_[at.number];
       root_p_[at.number] = a;
-      part const p = over<detail::entries_of<decltype(at)>>(block.lorentz_point(here), a);
-      part const y = over<detail::entries_of<decltype(at)>>(
-          detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]), b);
+      part const p = over(block.lorentz_point(here), a);
+      part const y = over(of(at, y_), b);
       S const γ = sqrt((S(1) + algebra::pairing(p, y)) / S(2));
-      detail::put_entries(over<detail::entries_of<decltype(at)>>(
-                              detail::combination(S(1), p, S(1), algebra::reflected(y)), S(2) * γ),
+      detail::put_entries(over(detail::combination(S(1), p, S(1), algebra::reflected(y)), S(2) * γ),
                           &frame_[at.first]);
       S const size = sqrt(a) * sqrt(b), sum = p[0] + y[0] + S(2) * γ;
       part λ = detail::combination(S((γ + y[0]) / sum), p, S((γ + p[0]) / sum), y);
@@ -214,7 +203,7 @@ class lorentz_pairs {
   [[nodiscard]] auto stiffness(Block const& block, At const& at) const {
     constexpr int n = static_dimension_of<Block>, M = At::M;
     auto const T = block.lorentz_matrix();
-    auto const w = detail::entries_at<M>(&frame_[at.first]);
+    auto const w = of(at, frame_);
     S const factor = root_y_[at.number] / root_p_[at.number];
     Eigen::Matrix<S, n, 1> along;  // Tᵀ J w̄
     for (int j = 0; j < n; ++j) {
@@ -235,22 +224,19 @@ class lorentz_pairs {
   template <class C, class V>
   void subtract_target(C const& set, S const& σμ, S const& corrected, V& rhs) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
-      using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
-      auto const λ = detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]);
+      using algebra = algebra_of<decltype(at)>;
+      auto const λ = of(at, λ_);
       S const det = root_p_[at.number] * root_y_[at.number];
       S const next = σμ / det;
       auto c = detail::multiple_of(next, algebra::reflected(λ));
       if (corrected > S(0)) {
-        auto const second = algebra::quotient(
-            algebra::product(detail::entries_at<detail::entries_of<decltype(at)>>(&dp_[at.first]),
-                             detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first])),
-            λ);
+        auto const second = algebra::quotient(algebra::product(of(at, dp_), of(at, dy_)), λ);
         c = detail::combination(S(1), c, S(-corrected), second);
       } else if (next < S(1)) {
         turn(at, S(S(1) - next), λ, c);
       }
       detail::put_entries(c, &step_[at.first]);
-      subtract(block, place, unscaled<detail::entries_of<decltype(at)>>(at, c), rhs);
+      subtract(block, place, unscaled(at, c), rhs);
     });
   }
 
@@ -258,14 +244,14 @@ class lorentz_pairs {
   template <class C, class X>
   void set_step(C const& set, X const& Δx) {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
-      constexpr int M = detail::entries_of<decltype(at)>;
+      constexpr int M = std::remove_cvref_t<decltype(at)>::M;
       auto const T = block.lorentz_matrix();
       auto const d = place.value(Δx);
       Eigen::Matrix<S, M, 1> Δp = Eigen::Matrix<S, M, 1>::Zero();
       for (int j = 0; j < static_dimension_of<std::remove_cvref_t<decltype(block)>>; ++j) {
         for (int i = 0; i < M; ++i) Δp[i] += T(i, j) * d[j];
       }
-      auto const dp = unscaled<M>(at, Δp);
+      auto const dp = unscaled(at, Δp);
       for (int i = 0; i < M; ++i) {
         auto const k = at.first + std::size_t(i);
         dp_[k] = dp[i];
@@ -279,11 +265,8 @@ class lorentz_pairs {
   [[nodiscard]] S way_out(C const& set) const {
     S most = std::numeric_limits<S>::infinity();
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      second_order_cone<detail::entries_of<decltype(at)>, S> const L(S(1));
-      most = std::min<S>(
-          most,
-          L.step_to_boundary(detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]),
-                             detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first])));
+      second_order_cone<std::remove_cvref_t<decltype(at)>::M, S> const L(S(1));
+      most = std::min<S>(most, L.step_to_boundary(of(at, λ_), of(at, dy_)));
     });
     return most;
   }
@@ -296,12 +279,10 @@ class lorentz_pairs {
     bool inside = true;
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       using std::sqrt;
-      using algebra = detail::lorentz_algebra<detail::entries_of<decltype(at)>, S>;
+      using algebra = algebra_of<decltype(at)>;
       auto const here = place.value(x);
       S const det_p = -block.inequality(here)(0);
-      auto const λ = detail::combination(
-          S(1), detail::entries_at<detail::entries_of<decltype(at)>>(&λ_[at.first]), α,
-          detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
+      auto const λ = detail::combination(S(1), of(at, λ_), α, of(at, dy_));
       S const det_λ = algebra::determinant(λ);
       if (!(det_p > S(0) && det_λ > S(0) && λ[0] > S(0))) {
         inside = false;
@@ -310,13 +291,9 @@ class lorentz_pairs {
       S const a = sqrt(det_p);
       S const b = sqrt(det_λ) * sqrt(S(root_y_[at.number] / root_p_[at.number]));
       trial_root_[at.number] = b;
-      auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
-          at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
-      auto const y = detail::combination(
-          S(1), detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]), α, Δy);
-      S const pairing =
-          algebra::pairing(over<detail::entries_of<decltype(at)>>(block.lorentz_point(here), a),
-                           over<detail::entries_of<decltype(at)>>(y, b));
+      auto const Δy = unscaled(at, of(at, dy_));
+      auto const y = detail::combination(S(1), of(at, y_), α, Δy);
+      S const pairing = algebra::pairing(over(block.lorentz_point(here), a), over(y, b));
       S const most =
           sqrt(S((pairing + S(1)) / S(2))) + sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
       out.coeffRef(at.row) = a * b * pairing;
@@ -329,10 +306,9 @@ class lorentz_pairs {
   template <class C, class V>
   void subtract_forces(C const& set, S const& α, V& lagrangian) const {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
-      auto y = detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]);
+      auto y = of(at, y_);
       if (α > S(0)) {
-        auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
-            at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
+        auto const Δy = unscaled(at, of(at, dy_));
         y = detail::combination(S(1), y, α, Δy);
       }
       subtract(block, place, y, lagrangian);
@@ -343,10 +319,8 @@ class lorentz_pairs {
   template <class C>
   void accept(C const& set, S const& α) {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
-          at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
-      for (int i = 0; i < detail::entries_of<decltype(at)>; ++i)
-        y_[at.first + std::size_t(i)] += α * Δy[i];
+      auto const Δy = unscaled(at, of(at, dy_));
+      for (int i = 0; i < at.M; ++i) y_[at.first + std::size_t(i)] += α * Δy[i];
     });
     root_y_ = trial_root_;
   }
@@ -361,9 +335,8 @@ class lorentz_pairs {
   template <class C, class F>
   void growth(C const& set, F const& f) const {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const y = detail::entries_at<detail::entries_of<decltype(at)>>(&y_[at.first]);
-      auto const Δy = unscaled<detail::entries_of<decltype(at)>>(
-          at, detail::entries_at<detail::entries_of<decltype(at)>>(&dy_[at.first]));
+      auto const y = of(at, y_);
+      auto const Δy = unscaled(at, of(at, dy_));
       f(at.row, S(y[0] + Δy[0]) / y[0]);
     });
   }
@@ -394,17 +367,26 @@ class lorentz_pairs {
   [[nodiscard]] bool empty() const { return root_y_.empty(); }
 
  private:
+  template <class At>
+  using algebra_of = detail::lorentz_algebra<std::remove_cvref_t<At>::M, S>;
+  template <class At>
+  using part_of = typename algebra_of<At>::part;
+
+  /// The entries of a block at its place.
+  template <class At>
+  [[nodiscard]] static part_of<At> of(At const& at, std::vector<S> const& data) {
+    return detail::entries_at<At::M>(&data[at.first]);
+  }
   template <int M>
   [[nodiscard]] static Eigen::Matrix<S, M, 1> over(Eigen::Matrix<S, M, 1> const& x, S const& a) {
     return detail::from_entries<Eigen::Matrix<S, M, 1>>([&](int i) -> S { return x[i] / a; });
   }
   /// W⁻¹x = β⁻¹ (2 (Jv)(Jv)ᵀ − J) x,  v = (w̄ + e)/√(2 (w̄_0 + 1)),  β² = √(det p / det y).
-  template <int M, class At>
-  [[nodiscard]] Eigen::Matrix<S, M, 1> unscaled(At const& at,
-                                                Eigen::Matrix<S, M, 1> const& x) const {
+  template <class At>
+  [[nodiscard]] part_of<At> unscaled(At const& at, part_of<At> const& x) const {
     using std::sqrt;
-    using algebra = detail::lorentz_algebra<M, S>;
-    auto v = algebra::reflected(detail::entries_at<M>(&frame_[at.first]));
+    using algebra = algebra_of<At>;
+    auto v = algebra::reflected(of(at, frame_));
     v[0] += S(1);
     S const along = detail::dot_of(v, x) / v[0];
     S const per_β = sqrt(S(root_y_[at.number] / root_p_[at.number]));
@@ -414,7 +396,7 @@ class lorentz_pairs {
   template <class At, class Part>
   void turn(At const& at, S const& f, Part const& λ, Part& c) const {
     constexpr int M = At::M;
-    auto const w = detail::entries_at<M>(&frame_[at.first]);
+    auto const w = of(at, frame_);
     S const along = detail::sum_of<M - 1>([&](int i) -> S { return (w[i + 1] / w[0]) * λ[i + 1]; });
     S const square = detail::sum_of<M - 1>([&](int i) -> S {
       S const ratio = w[i + 1] / w[0];
