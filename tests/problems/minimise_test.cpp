@@ -9,7 +9,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/SparseCore>
-#include <cmath>
 #include <sstream>
 #include <string>
 #include <type_traits>

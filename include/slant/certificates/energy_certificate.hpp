@@ -24,7 +24,6 @@
 #include <slant/sets/block_queries.hpp>
 
 #include <concepts>
-#include <limits>
 #include <optional>
 #include <type_traits>
 

@@ -29,10 +29,8 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <memory>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace slant {

@@ -42,7 +42,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <type_traits>

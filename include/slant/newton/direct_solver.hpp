@@ -19,7 +19,6 @@
 #include <slant/operators/matrix.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 

@@ -31,7 +31,6 @@
 
 #include <concepts>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace slant {

@@ -14,7 +14,6 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <string>
 #include <type_traits>
 #include <vector>
 

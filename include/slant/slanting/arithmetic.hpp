@@ -27,7 +27,6 @@
 #include <boost/hana/tuple.hpp>
 
 #include <ostream>
-#include <string>
 #include <type_traits>
 #include <utility>
 

@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>

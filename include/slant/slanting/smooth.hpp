@@ -12,7 +12,6 @@
 
 #include <concepts>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 namespace slant {
