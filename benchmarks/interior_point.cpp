@@ -185,17 +185,16 @@ bool conditions(char const* name, int size, matrix const& M, vector const& b, Se
     matrix J_AM = matrix::Zero(n + m, n + m);
     J_AM.topLeftCorner(n, n) = M;
     vector const ν = s.unit * s.multipliers.cwiseProduct(barrier.per_unit());
-    slant::visit_blocks(set, [&, row = Eigen::Index(0)](auto const& block, auto const& p) mutable {
-      constexpr int k = slant::detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
-      Eigen::Matrix<double, k, 1> const own = ν.template segment<k>(row);
-      auto const h = block.inequality_hessian(p.value(s.x), own);
-      for (Eigen::Index i = 0; i < p.size(); ++i) {
-        for (Eigen::Index j = 0; j < p.size(); ++j) {
-          J_AM(p.component(i), p.component(j)) += h(i, j);
-        }
-      }
-      row += k;
-    });
+    slant::detail::visit_inequalities(
+        set, [&](auto const& block, auto const& p, auto, auto k, Eigen::Index row) {
+          Eigen::Matrix<double, k, 1> const own = ν.template segment<k>(row);
+          auto const h = block.inequality_hessian(p.value(s.x), own);
+          for (Eigen::Index i = 0; i < p.size(); ++i) {
+            for (Eigen::Index j = 0; j < p.size(); ++j) {
+              J_AM(p.component(i), p.component(j)) += h(i, j);
+            }
+          }
+        });
     vector y(m), e = vector::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j) {
       e[j] = 1;

@@ -60,14 +60,13 @@ TEST_CASE("the spectrum of [K Theorem 4] at every iterate") {
     MatrixXd const P_SC_inverse = dense(barrier.preconditioner());
     MatrixXd const G = dense(barrier.jacobian()).transpose();
     MatrixXd H = MatrixXd::Zero(16, 16);
-    slant::visit_blocks(set, [&, row = Eigen::Index(0)](auto const& block, auto const& p) mutable {
-      constexpr int k = slant::detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
-      Eigen::Matrix<double, k, 1> const ν =
-          force.cwiseProduct(barrier.per_unit()).template segment<k>(row);
-      H.block(p.component(0), p.component(0), p.size(), p.size()) =
-          block.inequality_hessian(p.value(s.x), ν);
-      row += k;
-    });
+    slant::detail::visit_inequalities(
+        set, [&](auto const& block, auto const& p, auto, auto k, Eigen::Index row) {
+          Eigen::Matrix<double, k, 1> const ν =
+              force.cwiseProduct(barrier.per_unit()).template segment<k>(row);
+          H.block(p.component(0), p.component(0), p.size(), p.size()) =
+              block.inequality_hessian(p.value(s.x), ν);
+        });
     CHECK((J_SC - M - H - G * force.cwiseQuotient(s.slacks).asDiagonal() * G.transpose()).norm() <=
           1e-14 * J_SC.norm());
     MatrixXd const P_SC = J_SC - M + MatrixXd(M.diagonal().asDiagonal());

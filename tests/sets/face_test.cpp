@@ -114,15 +114,6 @@ TEST_CASE("face: a single block, and a point whose state differs only between sl
   CHECK(!(face == moving));
 }
 
-TEST_CASE("face: a rule of one's own") {
-  auto const set = slant::discs(vec<>(vec<>::Ones(3)));
-  slant::face<> face;
-  face.assign_by(set, [](auto const&, auto const& p) {
-    return p.index() == 1 ? block_state::free : block_state::fixed;
-  });
-  CHECK(face.components() == indices{2, 3});
-}
-
 TEST_CASE("face: the archetypes of a set and a vector") {
   slant::testing::archetype::separable_set const set(3);
   slant::testing::archetype::vector x(vec<>(Eigen::Vector3d(1, 2, 3)));

@@ -81,19 +81,16 @@ class barrier {
   template <class C, class X, class Z>
   [[nodiscard]] bool slacks(C const& set, X const& x, Z& z) const {
     auto& out = slant::local(z);
-    index row = 0;
     bool inside = true;
-    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
-      if constexpr (k > 0) {
-        auto const f = block.inequality(place.value(x));
-        for (index i = 0; i < k; ++i, ++row) {
-          bool const bound = per_unit_.coeff(row) > S(0);
-          out.coeffRef(row) = bound ? S(-f.coeff(i) * per_unit_.coeff(row)) : S(1);
-          inside = inside && out.coeff(row) > S(0);
-        }
-      }
-    });
+    detail::visit_inequalities(
+        set, [&](auto const& block, auto const& place, auto, auto k, index row) {
+          auto const f = block.inequality(place.value(x));
+          for (index i = 0; i < k; ++i, ++row) {
+            bool const bound = per_unit_.coeff(row) > S(0);
+            out.coeffRef(row) = bound ? S(-f.coeff(i) * per_unit_.coeff(row)) : S(1);
+            inside = inside && out.coeff(row) > S(0);
+          }
+        });
     return inside;
   }
 
@@ -113,38 +110,34 @@ class barrier {
     auto const& multipliers = slant::local(ν);
     auto const& slack = slant::local(z);
     auto const& diagonal = slant::local(d);
-    index row = 0, entry = 0, number = 0;
-    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr int n = static_dimension_of<block_type>;
-      constexpr int k = detail::inequalities_of<block_type>;
-      if constexpr (k > 0) {
-        using square = Eigen::Matrix<S, n, n>;
-        Eigen::Matrix<S, k, 1> forces, weights;
-        for (int i = 0; i < k; ++i) {
-          forces[i] = unit * multipliers.coeff(row + i);
-          weights[i] = forces[i] * per_unit_.coeff(row + i);
-        }
-        square w = block.inequality_hessian(place.value(x), weights);
-        for (int i = 0; i < k; ++i) {
-          S const stiff = forces[i] / slack.coeff(row + i);
-          S const* const g = jacobian_.entries().data() + entry + n * i;
-          for (int c = 0; c < n; ++c) {
-            for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
+    index entry = 0, number = 0;
+    detail::visit_inequalities(
+        set, [&](auto const& block, auto const& place, auto n, auto k, index row) {
+          using block_type = std::remove_cvref_t<decltype(block)>;
+          using square = Eigen::Matrix<S, n, n>;
+          Eigen::Matrix<S, k, 1> forces, weights;
+          for (int i = 0; i < k; ++i) {
+            forces[i] = unit * multipliers.coeff(row + i);
+            weights[i] = forces[i] * per_unit_.coeff(row + i);
           }
-        }
-        if constexpr (lorentz_block<block_type>) {
-          auto const at = of_pairs.template next<block_type>(row);
-          if (pairs.bound(at.number)) w = detail::multiple_of(unit, pairs.stiffness(block, at));
-        }
-        stiffness_.template block<n>(number) = w;
-        for (int j = 0; j < n; ++j) w.data()[j + n * j] += diagonal.coeff(place.component(j));
-        preconditioner_.template block<n>(number) = detail::definite_inverse(w);
-        row += k;
-        entry += k * n;
-        ++number;
-      }
-    });
+          square w = block.inequality_hessian(place.value(x), weights);
+          for (int i = 0; i < k; ++i) {
+            S const stiff = forces[i] / slack.coeff(row + i);
+            S const* const g = jacobian_.entries().data() + entry + n * i;
+            for (int c = 0; c < n; ++c) {
+              for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
+            }
+          }
+          if constexpr (lorentz_block<block_type>) {
+            auto const at = of_pairs.template next<block_type>(row);
+            if (pairs.bound(at.number)) w = detail::multiple_of(unit, pairs.stiffness(block, at));
+          }
+          stiffness_.template block<n>(number) = w;
+          for (int j = 0; j < n; ++j) w.data()[j + n * j] += diagonal.coeff(place.component(j));
+          preconditioner_.template block<n>(number) = detail::definite_inverse(w);
+          entry += k * n;
+          ++number;
+        });
     outside_ = diagonal.cwiseInverse();
     keep_fixed(outside_);
     preconditioner_.assign_outside(outside_);

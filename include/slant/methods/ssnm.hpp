@@ -173,29 +173,23 @@ template <class Set, class V, class Z>
 void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
   using S = scalar_t<V>;
   auto&& multipliers = slant::local(z);
-  index row = 0;
-  slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-    using block_type = std::remove_cvref_t<decltype(block)>;
-    constexpr int n = static_dimension_of<block_type>;
-    constexpr int k = detail::inequalities_of<block_type>;
-    if constexpr (k > 0) {
-      Eigen::Matrix<S, n, 1> const point = place.value(x);
-      Eigen::Matrix<S, n, 1> const force = place.value(r);
-      Eigen::Matrix<S, n, k> const gradients = block.inequality_gradient(point);
-      bool const inside = [&] {
-        if constexpr (has_state<block_type, Eigen::Matrix<S, n, 1>>) {
-          return block.state(point) == block_state::free;
+  detail::visit_inequalities(
+      set, [&](auto const& block, auto const& place, auto n, auto k, index row) {
+        Eigen::Matrix<S, n, 1> const point = place.value(x);
+        Eigen::Matrix<S, n, 1> const force = place.value(r);
+        Eigen::Matrix<S, n, k> const gradients = block.inequality_gradient(point);
+        bool inside = false;
+        if constexpr (has_state<std::remove_cvref_t<decltype(block)>, Eigen::Matrix<S, n, 1>>) {
+          inside = block.state(point) == block_state::free;
         } else {
-          return (block.inequality(point).array() < S(0)).all();
+          inside = (block.inequality(point).array() < S(0)).all();
         }
-      }();
-      for (int i = 0; i < k; ++i) {
-        S const slope = gradients.col(i).squaredNorm();
-        S const push = -gradients.col(i).dot(force);
-        multipliers[row++] = !inside && push > S(0) && slope > S(0) ? S(push / slope) : S(0);
-      }
-    }
-  });
+        for (int i = 0; i < k; ++i) {
+          S const slope = gradients.col(i).squaredNorm();
+          S const push = -gradients.col(i).dot(force);
+          multipliers[row + i] = !inside && push > S(0) && slope > S(0) ? S(push / slope) : S(0);
+        }
+      });
 }
 
 // --- method --------------------------------------------------------------------------------------

@@ -20,11 +20,14 @@
 #include <type_traits>
 #include <utility>
 
+namespace slant {
+template <class... Parts>
+class direct_sum_slant;
+}
+
 namespace slant::detail {
 
 // --- base ----------------------------------------------------------------------------------------
-//
-// What products of different sets share, whether their dimension is static or not.
 
 /// How a product keeps a part passed as T&&: blocks are small and copied, everything else follows
 /// the rule of base/held.hpp.
@@ -32,20 +35,15 @@ template <class T>
 using kept_part_t = std::conditional_t<has_static_dimension<std::remove_cvref_t<T>>,
                                        std::remove_cvref_t<T>, kept_t<T>>;
 
+/// Parts that follow one another in the vector: sets, or functions.
 template <class... Parts>
-class cartesian_base {
+class part_sequence {
  protected:
   template <std::size_t I>
   using part_type = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<Parts...>>>;
 
-  static constexpr bool all_slant = (has_slant<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
-  static constexpr bool all_step =
-      (has_step_to_boundary<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
-  static constexpr bool all_support =
-      (has_support<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
-
  public:
-  explicit cartesian_base(held<Parts>... parts) : parts_(std::move(parts)...) {}
+  explicit part_sequence(held<Parts>... parts) : parts_(std::move(parts)...) {}
 
   static constexpr std::size_t part_count = sizeof...(Parts);
 
@@ -85,31 +83,6 @@ class cartesian_base {
     return n;
   }
 
-  /// sup{α >= 0 : x + α d ∈ Λ} for x ∈ Λ. Looks no further once a step below `enough` is found, and
-  /// returns that: enough to know that a step of length `enough` would leave Λ.
-  template <class X, class D, class S = scalar_t<X>>
-  [[nodiscard]] S step_to_boundary(X const& x, D const& d,
-                                   std::type_identity_t<S> const& enough = S(0)) const
-    requires all_step
-  {
-    smallest_step<S> smallest(enough);
-    all_parts([&](auto const& part, auto const& p) {
-      return !smallest(step_of(part, argument_of(part, p, x), argument_of(part, p, d), enough));
-    });
-    return smallest.value();
-  }
-
-  /// sup{yᵀz : z ∈ Λ}, ∞ allowed.
-  template <class Y>
-  [[nodiscard]] scalar_t<Y> support(Y const& y) const
-    requires all_support
-  {
-    scalar_t<Y> sum(0);
-    for_each_part(
-        [&](auto const& part, auto const& p) { sum += part.support(argument_of(part, p, y)); });
-    return sum;
-  }
-
   /// f(block, place) for every innermost block.
   template <class F>
   void visit(F&& f) const {
@@ -145,6 +118,25 @@ class cartesian_base {
     }(std::index_sequence_for<Parts...>{});
   }
 
+  /// The slanting operators at x of the projections onto step(part), one after the other.
+  template <class X, class Step>
+  [[nodiscard]] auto slants_at(X const& x, Step const& step) const {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      auto const of = [](auto... g) { return direct_sum_slant<decltype(g)...>(std::move(g)...); };
+      return of(
+          slant::projection_slant(step(part<I>()), argument_of(part<I>(), place_of<I>(), x))...);
+    }(std::index_sequence_for<Parts...>{});
+  }
+  /// The same into an operator made earlier.
+  template <class X, class G, class Step>
+  void renew_slants(X const& x, G& g, Step const& step) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (slant::projection_slant(step(part<I>()), argument_of(part<I>(), place_of<I>(), x),
+                               g.template part<I>()),
+       ...);
+    }(std::index_sequence_for<Parts...>{});
+  }
+
   /// Whether f(part, place) holds for all parts; stops at the first for which it does not.
   template <class F>
   bool all_parts(F&& f) const {
@@ -155,6 +147,59 @@ class cartesian_base {
 
  private:
   boost::hana::basic_tuple<held<Parts>...> parts_;
+};
+
+/// What products of sets have, whether their dimension is static or not.
+template <class... Parts>
+class cartesian_base : public part_sequence<Parts...> {
+ protected:
+  static constexpr bool all_slant = (has_slant<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
+  static constexpr bool all_step =
+      (has_step_to_boundary<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
+  static constexpr bool all_support =
+      (has_support<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
+
+ public:
+  using part_sequence<Parts...>::part_sequence;
+
+  /// y = P(x); y may be x.
+  template <class X, class Y>
+  void project(X const& x, Y&& y) const {
+    this->for_each_part([&](auto const& part, auto const& p) { project_part(part, p, x, y); });
+  }
+
+  /// x ∈ Λ, up to rounding.
+  template <class X>
+  [[nodiscard]] bool contains(X const& x) const {
+    if (slant::local(x).size() != this->template offset<sizeof...(Parts)>()) return false;
+    return this->all_parts(
+        [&](auto const& part, auto const& p) { return part.contains(argument_of(part, p, x)); });
+  }
+
+  /// sup{α >= 0 : x + α d ∈ Λ} for x ∈ Λ. Looks no further once a step below `enough` is found, and
+  /// returns that: enough to know that a step of length `enough` would leave Λ.
+  template <class X, class D, class S = scalar_t<X>>
+  [[nodiscard]] S step_to_boundary(X const& x, D const& d,
+                                   std::type_identity_t<S> const& enough = S(0)) const
+    requires all_step
+  {
+    smallest_step<S> smallest(enough);
+    this->all_parts([&](auto const& part, auto const& p) {
+      return !smallest(step_of(part, argument_of(part, p, x), argument_of(part, p, d), enough));
+    });
+    return smallest.value();
+  }
+
+  /// sup{yᵀz : z ∈ Λ}, ∞ allowed.
+  template <class Y>
+  [[nodiscard]] scalar_t<Y> support(Y const& y) const
+    requires all_support
+  {
+    scalar_t<Y> sum(0);
+    this->for_each_part(
+        [&](auto const& part, auto const& p) { sum += part.support(argument_of(part, p, y)); });
+    return sum;
+  }
 };
 
 }  // namespace slant::detail
@@ -188,26 +233,13 @@ class block_product : public detail::cartesian_base<Parts...>,
 
   [[nodiscard]] static constexpr index size() { return dimension; }
 
+  using base::project;
   /// Nearest point of the set.
   template <class X>
   [[nodiscard]] auto project(X const& x) const {
     Eigen::Matrix<scalar_t<X>, dimension, 1> y;
     project(x, y);
     return y;
-  }
-  /// y = P(x); y may be x.
-  template <class X, class Y>
-  void project(X const& x, Y&& y) const {
-    this->for_each_part(
-        [&](auto const& part, auto const& p) { detail::project_part(part, p, x, y); });
-  }
-
-  /// x ∈ Λ, up to rounding.
-  template <class X>
-  [[nodiscard]] bool contains(X const& x) const {
-    return this->all_parts([&](auto const& part, auto const& p) {
-      return part.contains(detail::argument_of(part, p, x));
-    });
   }
 
   /// The slanting operator of the projection at x: block diagonal.
@@ -396,31 +428,12 @@ class cartesian_product : public detail::cartesian_base<Parts...> {
   /// Number of components.
   [[nodiscard]] index size() const { return this->template offset<sizeof...(Parts)>(); }
 
-  /// y = P(x); y may be x.
-  template <class X, class Y>
-  void project(X const& x, Y&& y) const {
-    eigen_assert(slant::local(x).size() == size() && slant::local(y).size() == size());
-    this->for_each_part(
-        [&](auto const& part, auto const& p) { detail::project_part(part, p, x, y); });
-  }
-
-  /// x ∈ Λ, up to rounding.
-  template <class X>
-  [[nodiscard]] bool contains(X const& x) const {
-    if (slant::local(x).size() != size()) return false;
-    return this->all_parts([&](auto const& part, auto const& p) {
-      return part.contains(detail::argument_of(part, p, x));
-    });
-  }
-
   /// The slanting operator of the projection at x.
   template <class X>
   [[nodiscard]] auto slant(X const& x) const
     requires base::all_slant
   {
-    return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return make_slant(slant::projection_slant(this->template part<I>(), argument<I>(x))...);
-    }(std::index_sequence_for<Parts...>{});
+    return this->slants_at(x, [](auto const& part) -> auto const& { return part; });
   }
 
   /// The same into an operator that slant(x) made earlier; does not allocate unless a part must.
@@ -428,20 +441,7 @@ class cartesian_product : public detail::cartesian_base<Parts...> {
   void slant(X const& x, direct_sum_slant<Slants...>& g) const
     requires base::all_slant
   {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (slant::projection_slant(this->template part<I>(), argument<I>(x), g.template part<I>()),
-       ...);
-    }(std::index_sequence_for<Parts...>{});
-  }
-
- private:
-  template <class... Slants>
-  static direct_sum_slant<Slants...> make_slant(Slants... slants) {
-    return direct_sum_slant<Slants...>(std::move(slants)...);
-  }
-  template <std::size_t I, class X>
-  [[nodiscard]] auto argument(X const& x) const {
-    return detail::argument_of(this->template part<I>(), this->template place_of<I>(), x);
+    this->renew_slants(x, g, [](auto const& part) -> auto const& { return part; });
   }
 };
 

@@ -57,19 +57,10 @@ class face {
   /// Becomes the face of x ∈ set; true if anything changed.
   template <class C, class X>
   bool assign(C const& set, X const& x) {
-    return assign_by(set, [&](auto const& block, auto const& p) {
-      return detail::state_of_block<C>(block, p, x);
-    });
-  }
-
-  /// Becomes what state_of(block, place) → block_state says of each block; true if anything
-  /// changed. For methods that classify by a rule of their own.
-  template <class C, class F>
-  bool assign_by(C const& set, F&& state_of) {
     bool changed = reshape(slant::block_count(set), slant::dimension_of(set));
     counts_ = {};
     slant::visit_blocks(set, [&](auto const& block, auto const& p) {
-      block_state const s = state_of(block, p);
+      block_state const s = detail::state_of_block<C>(block, p, x);
       auto& old = states_[static_cast<std::size_t>(p.index())];
       changed = changed || old != s;
       old = s;

@@ -25,8 +25,8 @@ namespace slant {
 
 /// φ₁ + … + φ_k. Made by `separable_sum`.
 template <class... Parts>
-class function_sum : public detail::cartesian_base<Parts...> {
-  using base = detail::cartesian_base<Parts...>;
+class function_sum : public detail::part_sequence<Parts...> {
+  using base = detail::part_sequence<Parts...>;
 
  public:
   using scalar = set_scalar_t<typename base::template part_type<0>>;
@@ -72,35 +72,20 @@ class function_sum : public detail::cartesian_base<Parts...> {
   /// The slanting operator of the proximal map at z, one part after the other.
   template <class S, class Z>
   [[nodiscard]] auto slant(S const& ρ, Z const& z) const {
-    return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      auto const of = [](auto... slants) {
-        return direct_sum_slant<decltype(slants)...>(std::move(slants)...);
-      };
-      return of(slant::projection_slant(slant::at_step(this->template part<I>(), ρ),
-                                        argument<I>(z))...);
-    }(std::index_sequence_for<Parts...>{});
+    return this->slants_at(
+        z, [&](auto const& part) -> decltype(auto) { return slant::at_step(part, ρ); });
   }
   /// The same into an operator made earlier.
   template <class S, class Z, class... Slants>
   void slant(S const& ρ, Z const& z, direct_sum_slant<Slants...>& g) const {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (slant::projection_slant(slant::at_step(this->template part<I>(), ρ), argument<I>(z),
-                               g.template part<I>()),
-       ...);
-    }(std::index_sequence_for<Parts...>{});
-  }
-
- private:
-  template <std::size_t I, class X>
-  [[nodiscard]] auto argument(X const& x) const {
-    return detail::argument_of(this->template part<I>(), this->template place_of<I>(), x);
+    this->renew_slants(z, g,
+                       [&](auto const& part) -> decltype(auto) { return slant::at_step(part, ρ); });
   }
 };
 
 /// φ₁(x₁) + … + φ_k(x_k) of functions and sets, which are kept as cartesian keeps its parts.
 template <class... Parts>
-  requires(sizeof...(Parts) > 0 &&
-           (proximable<std::remove_cvref_t<Parts>, point_t<Parts>> && ...))
+  requires(sizeof...(Parts) > 0 && (proximable<std::remove_cvref_t<Parts>, point_t<Parts>> && ...))
 [[nodiscard]] auto separable_sum(Parts&&... parts) {
   return function_sum<detail::kept_part_t<Parts>...>(
       held<detail::kept_part_t<Parts>>(std::forward<Parts>(parts))...);

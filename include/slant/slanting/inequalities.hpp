@@ -50,19 +50,13 @@ class inequality_curvature {
   void renew(Set const& set, X const& x, Z const& z) {
     jacobian_.renew(set, x);
     index at = 0;
-    index row = 0;
-    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr int n = static_dimension_of<block_type>;
-      constexpr int k = detail::inequalities_of<block_type>;
-      if constexpr (k > 0) {
-        Eigen::Matrix<S, k, 1> const own = slant::local(z).template segment<k>(row);
-        Eigen::Map<Eigen::Matrix<S, n, n>>(hessians_.data() + at) =
-            block.inequality_hessian(place.value(x), own);
-        at += n * n;
-        row += k;
-      }
-    });
+    detail::visit_inequalities(
+        set, [&](auto const& block, auto const& place, auto n, auto k, index row) {
+          Eigen::Matrix<S, k, 1> const own = slant::local(z).template segment<k>(row);
+          Eigen::Map<Eigen::Matrix<S, n, n>>(hessians_.data() + at) =
+              block.inequality_hessian(place.value(x), own);
+          at += n * n;
+        });
     classify();
   }
 
@@ -228,14 +222,10 @@ class inequality_map : public slanting_base {
   template <has_local X, class V>
   void value(X const& x, V& v) const {
     auto& f = slant::local(v);
-    index row = 0;
-    slant::visit_blocks(set_.get(), [&](auto const& block, auto const& place) {
-      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
-      if constexpr (k > 0) {
-        f.template segment<k>(row) = scalar_t<X>(c_) * block.inequality(place.value(x));
-        row += k;
-      }
-    });
+    detail::visit_inequalities(
+        set_.get(), [&](auto const& block, auto const& place, auto, auto k, index row) {
+          f.template segment<k>(row) = scalar_t<X>(c_) * block.inequality(place.value(x));
+        });
   }
   template <has_local X>
   [[nodiscard]] auto slant(X const& x) const {
@@ -273,15 +263,12 @@ class inequality_force_map : public slanting_base {
     auto& force = slant::local(v);
     force.setZero();
     auto const& z = slant::local(y);
-    index row = cols() - layout_->rows();
-    slant::visit_blocks(set_.get(), [&](auto const& block, auto const& place) {
-      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
-      if constexpr (k > 0) {
-        auto const g = block.inequality_gradient(place.value(y)).eval();
-        place.put(force, (g * z.template segment<k>(row)).eval());
-        row += k;
-      }
-    });
+    index const first = cols() - layout_->rows();
+    detail::visit_inequalities(set_.get(),
+                               [&](auto const& block, auto const& place, auto, auto k, index row) {
+                                 auto const g = block.inequality_gradient(place.value(y)).eval();
+                                 place.put(force, (g * z.template segment<k>(first + row)).eval());
+                               });
   }
   template <has_local Y>
   [[nodiscard]] auto slant(Y const& y) const {

@@ -48,18 +48,29 @@ inline constexpr int inequalities_of = [] {
   }
 }();
 
+/// f(block, place, n, k, row) for every block with inequalities: its dimension and their number as
+/// constants, and the row of the first of them.
+template <class Set, class F>
+void visit_inequalities(Set const& set, F const& f) {
+  index row = 0;
+  slant::visit_blocks(set, [&](auto const& block, auto const& place) {
+    using block_type = std::remove_cvref_t<decltype(block)>;
+    constexpr int k = inequalities_of<block_type>;
+    if constexpr (k > 0) {
+      constexpr int n = static_dimension_of<block_type>;
+      f(block, place, std::integral_constant<int, n>{}, std::integral_constant<int, k>{}, row);
+      row += k;
+    }
+  });
+}
+
 /// The runs of a set, in the order of its blocks.
 class inequality_layout {
  public:
   template <class Set>
   explicit inequality_layout(Set const& set) : cols_(slant::dimension_of(set)) {
-    slant::visit_blocks(set, [this](auto const& block, auto const& place) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr index n = static_dimension_of<block_type>;
-      constexpr index k = inequalities_of<block_type>;
-      if constexpr (k > 0) {
-        append(n, k, place.component(0), n > 1 ? place.component(1) - place.component(0) : 1);
-      }
+    visit_inequalities(set, [this](auto const&, auto const& place, auto n, auto k, index) {
+      append(n, k, place.component(0), n > 1 ? place.component(1) - place.component(0) : 1);
     });
   }
 
@@ -166,17 +177,13 @@ class inequality_jacobian {
   template <class Set, class X>
   void renew(Set const& set, X const& x, S const& c = S(1)) {
     index at = 0;
-    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      constexpr int n = static_dimension_of<block_type>;
-      constexpr int k = detail::inequalities_of<block_type>;
-      if constexpr (k > 0) {
-        Eigen::Matrix<S, n, k> const g = block.inequality_gradient(place.value(x));
-        for (int i = 0; i < k; ++i) {
-          for (int j = 0; j < n; ++j) gradients_[at++] = c * g.coeff(j, i);
-        }
-      }
-    });
+    detail::visit_inequalities(
+        set, [&](auto const& block, auto const& place, auto n, auto k, index) {
+          Eigen::Matrix<S, n, k> const g = block.inequality_gradient(place.value(x));
+          for (int i = 0; i < k; ++i) {
+            for (int j = 0; j < n; ++j) gradients_[at++] = c * g.coeff(j, i);
+          }
+        });
   }
 
   /// Row i times factors(i): other units of the inequalities.

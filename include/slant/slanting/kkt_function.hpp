@@ -39,32 +39,20 @@ inline constexpr bool is_kkt_operator<kkt_operator<Composed, S>> = true;
 
 namespace detail {
 
+/// What a factory is handed again so that it keeps it alike: the reference, or a copy.
+template <class T>
+[[nodiscard]] T again(held<T> const& part) {
+  return part.get();
+}
+
 /// F, made of A (or a reference), b and the set (or a reference).
 template <class A, class V, class C, class S>
 [[nodiscard]] auto compose_kkt(held<A> const& a, V const& b, held<C> const& set, S const& ρ) {
-  auto constraints = [&] {
-    if constexpr (std::is_reference_v<C>) {
-      return slant::inequalities(set.get(), S(-ρ));
-    } else {
-      return slant::inequalities(C(set.get()), S(-ρ));
-    }
-  }();
-  auto forces = [&] {
-    if constexpr (std::is_reference_v<C>) {
-      return slant::inequality_forces(set.get());
-    } else {
-      return slant::inequality_forces(C(set.get()));
-    }
-  }();
-  auto gradient = [&] {
-    auto c = slant::like(b, slant::local(b).size());
-    vectors::negate(b, c);
-    if constexpr (std::is_reference_v<A>) {
-      return slant::affine(a.get(), std::move(c));
-    } else {
-      return slant::affine(A(a.get()), std::move(c));
-    }
-  }();
+  auto constraints = slant::inequalities(again(set), S(-ρ));
+  auto forces = slant::inequality_forces(again(set));
+  auto c = slant::like(b, slant::local(b).size());
+  vectors::negate(b, c);
+  auto gradient = slant::affine(again(a), std::move(c));
   index const n = constraints.cols();
   index const p = constraints.rows();
   auto const x = [&] { return slant::linear(slant::slice(n + p, 0, n)); };  // to be owned twice
