@@ -6,6 +6,7 @@
 
 #include <slant/base/lu.hpp>
 #include <slant/base/vector_algebra.hpp>
+#include <slant/newton/direct_solver.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/parts/schur_reduction.hpp>
 #include <slant/operators/block.hpp>
@@ -153,15 +154,6 @@ struct schur_bicgstab : detail::schur_solver<schur_bicgstab, bicgstab_solver> {
 // [T]'s "algorithm as it is, without any adjustments", which needs neither definiteness nor an
 // inner iteration. For a matrix A with few entries.
 
-/// What saddle_direct keeps.
-template <class V, class W>
-struct saddle_direct_workspace {
-  detail::sparse_lu<scalar_t<V>> factors;
-  std::vector<Eigen::Triplet<scalar_t<V>>> entries;
-  V residual;     ///< F + G dy
-  W g_workspace;  ///< temporaries of G
-};
-
 /// Sparse LU of F°(y) of a kkt_function whose A is a matrix. Allocates in each solve.
 struct saddle_direct {
   [[gnu::cold]] void validate() const {}
@@ -170,8 +162,8 @@ struct saddle_direct {
     requires detail::factorable_saddle<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     auto w = slant::workspace(g, f);
-    return saddle_direct_workspace<V, decltype(w)>{
-        {}, {}, like(f, slant::local(f).size()), std::move(w)};
+    return detail::direct_workspace<V, detail::sparse_lu<scalar_t<V>>, decltype(w)>{
+        {}, like(f, slant::local(f).size()), std::move(w)};
   }
 
   template <class G, class V, class P>
@@ -179,23 +171,11 @@ struct saddle_direct {
   direction_report<scalar_t<V>> solve(G const& g, V const& f,
                                       direction_request<scalar_t<V>> const& request, V& dy,
                                       P& p) const {
-    using S = scalar_t<V>;
-    direction_report<S> report{status::breakdown, request.residual_norm, 0, 1, 1};
-    if (p.factors.factor(assembled<S>(g, p.entries))) {
-      p.factors.solve(f, dy);
-      vectors::negate(dy, dy);
-      slant::apply(g, dy, p.residual, p.g_workspace);
-      vectors::add(f, p.residual);
-      S const residual_norm = norm(p.residual);
-      if (detail::is_finite(residual_norm)) {
-        bool const enough = residual_norm <= request.tolerance * request.residual_norm;
-        report.residual_norm = residual_norm;
-        report.status = enough ? status::converged : status::stalled;
-        return report;
-      }
-    }
-    vectors::set_zero(dy);
-    return report;
+    return detail::direct_direction(g, f, request, dy, p, [&](V& x) {
+      if (!p.factors.factor(assembled<scalar_t<V>>(g))) return false;
+      p.factors.solve(f, x);
+      return true;
+    });
   }
 
   /// What is missing, in words.
@@ -207,11 +187,10 @@ struct saddle_direct {
 
  private:
   template <class S, class G>
-  [[nodiscard]] static Eigen::SparseMatrix<S> assembled(G const& g,
-                                                        std::vector<Eigen::Triplet<S>>& entries) {
+  [[nodiscard]] static Eigen::SparseMatrix<S> assembled(G const& g) {
     index const n = g.jacobian().cols();
     index const m = g.jacobian().rows();
-    entries.clear();
+    std::vector<Eigen::Triplet<S>> entries;
     auto const put = [&](index i, index j, S const& value) {
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
     };

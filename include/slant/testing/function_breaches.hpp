@@ -26,49 +26,20 @@ namespace slant::testing {
 
 namespace detail {
 
-/// The proximal map for one ρ as if it were a projection.
-template <class F, class S>
-[[nodiscard]] set_probe<S> probe_of_step(F const& φ, S const& ρ, set_options const& options) {
-  using dense = typename set_probe<S>::dense;
+/// The proximal map for one ρ, `step`, as if it were a projection; refers to both.
+template <class F, class S, class Step>
+[[nodiscard]] set_probe<S> probe_of_step(F const& φ, S const& ρ, Step const& step,
+                                         set_options const& options) {
   using point = point_t<F>;
-  index const n = slant::dimension_of(φ);
-  auto const in = [n](dense const& p) {
-    point v = point::Zero(n);
-    copy_entries(p, v);
-    return v;
-  };
-  set_probe<S> probe;
-  probe.size = n;
-  probe.options = options;
-  probe.project = [&φ, ρ, in](dense const& z) { return dense_of(slant::prox(φ, ρ, in(z))); };
-  probe.project_in_place = [&φ, ρ, in](dense const& z) {
-    auto x = in(z);
-    slant::prox(φ, ρ, x, x);
-    return dense_of(x);
-  };
-  probe.project_over_nan = [&φ, ρ, in](dense const& z) {
-    auto const from = in(z);
-    auto x = in(dense::Constant(z.size(), std::numeric_limits<S>::quiet_NaN()));
-    slant::prox(φ, ρ, from, x);
-    return dense_of(x);
-  };
-  if constexpr (has_prox_slant<F, point>) {
-    probe.slant = [&φ, ρ, in, n](dense const& z) {
-      return matrix_of(φ.slant(ρ, in(z)), in(z), n);
-    };
-    using G = decltype(φ.slant(ρ, point()));
-    if constexpr (requires(G& g, point const& z) { φ.slant(ρ, z, g); }) {
-      probe.renewed_slant = [&φ, ρ, in, n](dense const& z) {
-        auto g = φ.slant(ρ, in(dense::Zero(n)));
-        φ.slant(ρ, in(z), g);
-        return matrix_of(g, in(z), n);
-      };
-    }
-  }
+  point const origin = point::Zero(slant::dimension_of(φ));
+  auto probe = probe_of(step, origin, options);
   if constexpr (has_prox_state<F, point>) {
-    probe.state = [&φ, ρ, in](dense const& z) { return φ.state(ρ, in(z)); };
+    probe.state = [&φ, ρ, origin](typename set_probe<S>::dense const& z) {
+      point p = origin;
+      copy_entries(z, p);
+      return φ.state(ρ, p);
+    };
   }
-  probe.origin = slant::norm(probe.project(dense::Zero(n)));
   return probe;
 }
 
@@ -107,8 +78,8 @@ void check_subgradients(F const& φ, S const& ρ, set_probe<S> const& probe,
     if (conjugate < std::numeric_limits<S>::infinity()) {
       ++finite;
       if (!(std::abs(at_x + conjugate - v.dot(x)) <= allowed(x) + probe.rounding(conjugate))) {
-        log("Fenchel-Young", text_of(at_x) + " + " + text_of(conjugate) + " is not " +
-                                 text_of(S(v.dot(x))) + where);
+        log("Fenchel-Young",
+            text_of(at_x) + " + " + text_of(conjugate) + " is not " + text_of(S(v.dot(x))) + where);
       }
     }
     for (std::size_t j = 1; j <= 6; ++j) {
@@ -181,12 +152,14 @@ template <class F>
   using S = set_scalar_t<F>;
   breach_log log;
   for (S const& ρ : {S(1), S(1) / S(8), S(12)}) {
-    auto const probe = detail::probe_of_step(φ, ρ, options);
+    auto const step = slant::at_step(φ, ρ);
+    auto const probe = detail::probe_of_step(φ, ρ, step, options);
     auto const points = detail::set_sampler(probe).points();
     detail::check_subgradients(φ, ρ, probe, points, log);
     if (probe.slant) {
-      for (auto const& z : points) detail::check_slant_bounds(probe, z, log);
-      detail::check_slanting_limits(probe, points, log);
+      detail::set_laws<S> const laws{probe, log};
+      for (auto const& z : points) laws.check_slant_bounds(z);
+      laws.check_slanting_limits(points);
       if (probe.state) detail::check_prox_states(probe, points, log);
     }
     if constexpr (has_visit<F>) detail::check_function_blocks(φ, ρ, probe, points, log);

@@ -12,89 +12,65 @@
 
 #include <doctest/doctest.h>
 
+#include <vector>
+
 namespace slant::testing {
 
-// --- operator laws -------------------------------------------------------------------------------
-//
-// The laws of operators as a check for doctest suites:
-//
-//     TEST_CASE("my operator keeps its word") {
-//       slant::testing::check_operator_laws(my_laplacian(100));
-//     }
-//
-// See operator_breaches.hpp.
+namespace detail {
 
-/// One doctest CHECK, with each broken law and the numbers that show it. `prototype` is any vector
-/// of the kind the operator works on.
+/// One doctest CHECK, with each broken law and the numbers that show it.
+inline void expect_none(std::vector<breach> const& breaches) {
+  auto const text = listed(breaches);
+  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+}
+
+}  // namespace detail
+
+/// The laws of an operator: check_operator_laws(my_laplacian(100)). `prototype` is any vector of the
+/// kind the operator works on; see operator_breaches.hpp.
 template <class A, slant::vector V = Eigen::VectorXd>
   requires linear_operator<A, V>
 void check_operator_laws(A const& a, V const& prototype = V(),
                          operator_law_options const& options = {}) {
-  auto const text = listed(operator_breaches(a, prototype, options));
-  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+  detail::expect_none(operator_breaches(a, prototype, options));
 }
-
 /// As above, for operators on Eigen::VectorXd.
 template <class A>
   requires linear_operator<A, Eigen::VectorXd>
 void check_operator_laws(A const& a, operator_law_options const& options) {
-  slant::testing::check_operator_laws(a, Eigen::VectorXd(), options);
+  detail::expect_none(operator_breaches(a, Eigen::VectorXd(), options));
 }
 
-// --- conjugacy laws ------------------------------------------------------------------------------
-//
-//     slant::testing::check_operator_laws(Q);      // Q² = Q, the adjoint
-//     slant::testing::check_conjugacy_laws(Q, K);  // K Q = QᵀK Q = QᵀK
-
-/// The same for a conjugate projector.
+/// Those of a conjugate projector besides, K Q = QᵀK Q = QᵀK.
 template <class Q, class K, slant::vector V = Eigen::VectorXd>
   requires has_adjoint<Q, V> && linear_operator<Q, V> && linear_operator<K, V>
 void check_conjugacy_laws(Q const& q, K const& k, V const& prototype = V(),
                           operator_law_options const& options = {}) {
-  auto const text = listed(conjugacy_breaches(q, k, prototype, options));
-  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+  detail::expect_none(conjugacy_breaches(q, k, prototype, options));
 }
 
-// --- set laws ------------------------------------------------------------------------------------
-//
-// The laws of convex sets as a check for doctest suites:
-//
-//     TEST_CASE("my set keeps its word") { slant::testing::check_set_laws(my_set{…}); }
-//
-// See set_breaches.hpp.
-
-/// One doctest CHECK, with each broken law and the numbers that show it. Arguments as for
-/// set_breaches: the set, a vector of the kind it takes if that is no Eigen vector, options.
+/// The laws of a convex set. Arguments as for set_breaches: the set, a vector of the kind it takes if
+/// that is no Eigen vector, options; see set_breaches.hpp.
 template <class C, class... Rest>
 void check_set_laws(C const& set, Rest const&... rest) {
-  auto const text = listed(set_breaches(set, rest...));
-  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+  detail::expect_none(set_breaches(set, rest...));
 }
 
 /// The same for a function with a proximal map; see function_breaches.hpp.
 template <class F>
 void check_function_laws(F const& φ, set_options const& options = {}) {
-  auto const text = listed(function_breaches(φ, options));
-  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+  detail::expect_none(function_breaches(φ, options));
 }
 
 /// The same for a face that cuts down vectors like `prototype`.
 template <class F, class V>
 void check_face_laws(F const& face, V const& prototype) {
-  auto const text = listed(face_breaches(face, prototype));
-  CHECK_MESSAGE(text.empty(), "broken laws:\n", text);
+  detail::expect_none(face_breaches(face, prototype));
 }
 
-// --- slanting laws -------------------------------------------------------------------------------
-//
-// The laws of slanting functions as a check for doctest suites:
-//
-//     TEST_CASE("my function is slantly differentiable") {
-//       slant::testing::check_slanting_laws(my_function{…}, at_a_kink, somewhere_else);
-//     }
-//
-// What is sampled, and what no sample can see, is described in slanting_breaches.hpp.
-
+/// The laws of a slanting function at each of some points:
+/// check_slanting_laws(my_function{…}, at_a_kink, somewhere_else). What is sampled, and what no sample
+/// can see, is described in slanting_breaches.hpp.
 /// One doctest CHECK per point, with each broken law and the numbers that show it.
 template <class F, vector... V>
   requires(slanting_function<F, V> && ...)

@@ -127,164 +127,152 @@ template <class S>
   return a == b || (a - b <= allowed && b - a <= allowed);
 }
 
-template <class S>
-void check_blockwise(set_probe<S> const& probe, set_probe<S> const& blocks,
-                     typename set_probe<S>::dense const& x, typename set_probe<S>::dense const& d,
-                     breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  dense const p = probe.project(x);
-  S const size = probe.magnitude(x) + slant::norm(p);
-  if (!(slant::norm(dense(blocks.project(x) - p)) <= probe.rounding(size))) {
-    log("projection is blockwise", "at x = " + text_of(x));
-  }
-  if (probe.contains(x) != blocks.contains(x)) {
-    log("membership is blockwise", "at x = " + text_of(x));
-  }
-  if (probe.slant && !((probe.slant(x) - blocks.slant(x)).norm() <= probe.rounding(S(1)))) {
-    log("slant is blockwise", "at x = " + text_of(x));
-  }
-  if (probe.step) {
-    S const step = blocks.step(p, d);
-    if (!agree(probe.step(p, d), step, probe.rounding(step))) {
-      log("step is blockwise", "at x = " + text_of(p) + ", d = " + text_of(d));
-    }
-  }
-  if (probe.support) {
-    S const support = blocks.support(d);
-    if (!agree(probe.support(d), support, probe.rounding(slant::norm(d) * size + support))) {
-      log("support is blockwise", "at y = " + text_of(d));
-    }
-  }
-}
-
-// --- state breaches ------------------------------------------------------------------------------
-//
-// Laws of the state of a point x ∈ Λ, one block:
-//     free      in the interior; not for P(y), y outside
-//     sliding   P moves at every point near y, where x = P(y), y outside
-//     fixed     P is constant near some point next to y (y itself may be at a kink of P)
-// and a point with a whole neighbourhood in Λ is free: one that reaches 1/256 of the size of
-// things. So the band around the boundary that is not free may be as wide as that, and must be as
-// wide as the rounding error of P.
-
 [[nodiscard]] inline std::string name_of(block_state s) {
   return s == block_state::free ? "free" : s == block_state::sliding ? "sliding" : "fixed";
 }
 
-/// x ± ρ e_j all lie in the set: so does the neighbourhood they span.
+/// The laws of blocks, and that a product is what they are.
 template <class S>
-[[nodiscard]] bool has_neighbourhood(set_probe<S> const& probe,
-                                     typename set_probe<S>::dense const& x, S const& ρ) {
-  for (index j = 0; j < x.size(); ++j) {
-    auto moved = x;
-    moved[j] = x[j] + ρ;
-    if (!probe.contains(moved)) return false;
-    moved[j] = x[j] - ρ;
-    if (!probe.contains(moved)) return false;
-  }
-  return true;
-}
+struct block_laws : set_laws<S> {
+  using typename set_laws<S>::dense;
+  using set_laws<S>::probe;
+  using set_laws<S>::log;
 
-/// P is not constant, up to noise, within a distance of about `radius` of y.
-template <class S>
-[[nodiscard]] bool moves_near(set_probe<S> const& probe, typename set_probe<S>::dense const& y,
-                              S const& radius, S const& noise, set_sampler<S>& sample) {
-  auto const p = probe.project(y);
-  S farthest(0);
-  for (int k = 0; k < 4; ++k) {
-    auto const q = probe.project(y + radius * sample.box());
-    farthest = std::max(farthest, S((p - q).cwiseAbs().maxCoeff()));
-  }
-  return farthest > noise;
-}
-
-template <class S>
-void check_state(set_probe<S> const& probe, std::vector<typename set_probe<S>::dense> const& points,
-                 breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  set_sampler<S> sample(probe);
-  for (auto const& y : points) {
-    dense const x = probe.project(y);
-    block_state const state = probe.state(x);
-    std::string const claim = name_of(state) + " at x = P(y), y = " + text_of(y);
-    S const size = probe.extent(y) + slant::norm(x);
-    S const gap = slant::norm(dense(y - x));
-    S const noticeable = size / S(1 << 8);
-    if (gap <= noticeable) {
-      S const ρ = std::max(size, S(probe.options.size)) / S(1 << 8);
-      if (state != block_state::free && has_neighbourhood(probe, x, ρ)) {
-        log("free in the interior", claim);
+  void check_blockwise(set_probe<S> const& blocks, dense const& x, dense const& d) const {
+    dense const p = probe.project(x);
+    S const size = probe.magnitude(x) + slant::norm(p);
+    if (!(slant::norm(dense(blocks.project(x) - p)) <= probe.rounding(size))) {
+      log("projection is blockwise", "at x = " + text_of(x));
+    }
+    if (probe.contains(x) != blocks.contains(x)) {
+      log("membership is blockwise", "at x = " + text_of(x));
+    }
+    if (probe.slant && !((probe.slant(x) - blocks.slant(x)).norm() <= probe.rounding(S(1)))) {
+      log("slant is blockwise", "at x = " + text_of(x));
+    }
+    if (probe.step) {
+      S const step = blocks.step(p, d);
+      if (!agree(probe.step(p, d), step, probe.rounding(step))) {
+        log("step is blockwise", "at x = " + text_of(p) + ", d = " + text_of(d));
       }
-      continue;
     }
-    if (state == block_state::free) {
-      log("not free on the boundary", claim);
-      continue;
+    if (probe.support) {
+      S const support = blocks.support(d);
+      if (!agree(probe.support(d), support, probe.rounding(slant::norm(d) * size + support))) {
+        log("support is blockwise", "at y = " + text_of(d));
+      }
     }
-    using std::sqrt;
-    S const ε = S(4) * std::numeric_limits<S>::epsilon();
-    S const small = gap * S(8) * S(sqrt(std::numeric_limits<S>::epsilon()));
-    bool always = true;
-    bool ever = false;
-    for (int k = 0; k < 8 * probe.options.directions; ++k) {
-      dense const nearby = y + gap / S(64) * sample.box();
-      always = always && moves_near(probe, nearby, small, ε * probe.magnitude(x), sample);
-      ever = ever || moves_near(probe, nearby, S(gap / S(64)), ε * probe.extent(x), sample);
-    }
-    if (state == block_state::sliding && !ever) log("sliding leaves motion", claim);
-    if (state == block_state::fixed && always) log("fixed leaves no motion", claim);
   }
-}
+
+  // --- state breaches ------------------------------------------------------------------------------
+  //
+  // Laws of the state of a point x ∈ Λ, one block:
+  //     free      in the interior; not for P(y), y outside
+  //     sliding   P moves at every point near y, where x = P(y), y outside
+  //     fixed     P is constant near some point next to y (y itself may be at a kink of P)
+  // and a point with a whole neighbourhood in Λ is free: one that reaches 1/256 of the size of
+  // things. So the band around the boundary that is not free may be as wide as that, and must be as
+  // wide as the rounding error of P.
+
+  /// x ± ρ e_j all lie in the set: so does the neighbourhood they span.
+  [[nodiscard]] bool has_neighbourhood(dense const& x, S const& ρ) const {
+    for (index j = 0; j < x.size(); ++j) {
+      auto moved = x;
+      moved[j] = x[j] + ρ;
+      if (!probe.contains(moved)) return false;
+      moved[j] = x[j] - ρ;
+      if (!probe.contains(moved)) return false;
+    }
+    return true;
+  }
+
+  /// P is not constant, up to noise, within a distance of about `radius` of y.
+  [[nodiscard]] bool moves_near(dense const& y, S const& radius, S const& noise,
+                                set_sampler<S>& sample) const {
+    auto const p = probe.project(y);
+    S farthest(0);
+    for (int k = 0; k < 4; ++k) {
+      auto const q = probe.project(y + radius * sample.box());
+      farthest = std::max(farthest, S((p - q).cwiseAbs().maxCoeff()));
+    }
+    return farthest > noise;
+  }
+
+  void check_state(std::vector<dense> const& points) const {
+    set_sampler<S> sample(probe);
+    for (auto const& y : points) {
+      dense const x = probe.project(y);
+      block_state const state = probe.state(x);
+      std::string const claim = name_of(state) + " at x = P(y), y = " + text_of(y);
+      S const size = probe.extent(y) + slant::norm(x);
+      S const gap = slant::norm(dense(y - x));
+      S const noticeable = size / S(1 << 8);
+      if (gap <= noticeable) {
+        S const ρ = std::max(size, S(probe.options.size)) / S(1 << 8);
+        if (state != block_state::free && has_neighbourhood(x, ρ)) {
+          log("free in the interior", claim);
+        }
+        continue;
+      }
+      if (state == block_state::free) {
+        log("not free on the boundary", claim);
+        continue;
+      }
+      using std::sqrt;
+      S const ε = S(4) * std::numeric_limits<S>::epsilon();
+      S const small = gap * S(8) * S(sqrt(std::numeric_limits<S>::epsilon()));
+      bool always = true;
+      bool ever = false;
+      for (int k = 0; k < 8 * probe.options.directions; ++k) {
+        dense const nearby = y + gap / S(64) * sample.box();
+        always = always && moves_near(nearby, small, ε * probe.magnitude(x), sample);
+        ever = ever || moves_near(nearby, S(gap / S(64)), ε * probe.extent(x), sample);
+      }
+      if (state == block_state::sliding && !ever) log("sliding leaves motion", claim);
+      if (state == block_state::fixed && always) log("fixed leaves no motion", claim);
+    }
+  }
+
+  /// All laws but those of products, and those of points at which a single block has to be looked at:
+  /// kinks and states.
+  void check_set(std::vector<dense> const& points) const {
+    this->check_single_points(points);
+    this->check_pairs(points);
+    if (probe.slant) {
+      for (auto const& x : points) this->check_slant_bounds(x);
+    }
+    if (probe.step || probe.support) this->check_boundary(points);
+    if (probe.inequalities > 0 && probe.options.interior) this->check_inequality_form(points);
+  }
+
+  void check_block(std::vector<dense> const& points) const {
+    if (probe.slant) this->check_slanting_limits(points);
+    if (probe.state) check_state(points);
+  }
+
+  /// That a product is what its blocks are, and that they are what they say, each at its own scale.
+  template <class C>
+  void check_product(C const& set, std::vector<dense> const& points) const {
+    check_places(set, log);
+    auto const blocks = blockwise_probe(set, probe);
+    set_sampler<S> sample(probe);
+    for (auto const& x : points) {
+      for (int k = 0; k < 3; ++k) check_blockwise(blocks, x, sample.direction(k));
+    }
+    set.visit([&](auto const& block, auto const& place) {
+      auto const part = probe_of(block, place.value(points[0]), probe.options);
+      std::vector<dense> parts;
+      for (auto const& x : points) parts.push_back(place.value(x));
+      block_laws{{part, log}}.check_block(parts);
+    });
+  }
+};
 
 }  // namespace slant::testing::detail
 
 namespace slant::testing {
 
 // --- set breaches --------------------------------------------------------------------------------
-
-namespace detail {
-
-/// All laws but those of products, and those of points at which a single block has to be looked at:
-/// kinks and states.
-template <class S>
-void check_set(set_probe<S> const& probe, std::vector<typename set_probe<S>::dense> const& points,
-               breach_log& log) {
-  check_single_points(probe, points, log);
-  check_pairs(probe, points, log);
-  if (probe.slant) {
-    for (auto const& x : points) check_slant_bounds(probe, x, log);
-  }
-  if (probe.step || probe.support) check_boundary(probe, points, log);
-  if (probe.inequalities > 0 && probe.options.interior) check_inequality_form(probe, points, log);
-}
-
-template <class S>
-void check_block(set_probe<S> const& probe, std::vector<typename set_probe<S>::dense> const& points,
-                 breach_log& log) {
-  if (probe.slant) check_slanting_limits(probe, points, log);
-  if (probe.state) check_state(probe, points, log);
-}
-
-/// That a product is what its blocks are, and that they are what they say, each at its own scale.
-template <class C, class S>
-void check_product(C const& set, set_probe<S> const& probe,
-                   std::vector<typename set_probe<S>::dense> const& points, breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  check_places(set, log);
-  auto const blocks = blockwise_probe(set, probe);
-  set_sampler<S> sample(probe);
-  for (auto const& x : points) {
-    for (int k = 0; k < 3; ++k) check_blockwise(probe, blocks, x, sample.direction(k), log);
-  }
-  set.visit([&](auto const& block, auto const& place) {
-    auto const part = probe_of(block, place.value(points[0]), probe.options);
-    std::vector<dense> parts;
-    for (auto const& x : points) parts.push_back(place.value(x));
-    check_block(part, parts, log);
-  });
-}
-
-}  // namespace detail
 
 /// The laws that a set breaks, with evidence; empty if none was seen to break. `prototype` is any
 /// vector of the kind the set takes.
@@ -295,11 +283,12 @@ template <class C, vector V>
   auto const probe = detail::probe_of(set, prototype, options);
   auto const points = detail::set_sampler(probe).points();
   breach_log log;
-  detail::check_set(probe, points, log);
+  detail::block_laws<scalar_t<V>> const laws{{probe, log}};
+  laws.check_set(points);
   if constexpr (has_visit<C>) {
-    detail::check_product(set, probe, points, log);
+    laws.check_product(set, points);
   } else {
-    detail::check_block(probe, points, log);
+    laws.check_block(points);
   }
   return log.found();
 }

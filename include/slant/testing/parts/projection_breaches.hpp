@@ -21,79 +21,6 @@
 
 namespace slant::testing::detail {
 
-template <class S>
-void check_single_points(set_probe<S> const& probe,
-                         std::vector<typename set_probe<S>::dense> const& points, breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  for (auto const& x : points) {
-    dense const p = probe.project(x);
-    S const allowed = probe.rounding(probe.magnitude(x) + slant::norm(p));
-    if (!(slant::norm(dense(probe.project(p) - p)) <= allowed)) {
-      log("idempotence", "P(P(x)) is off P(x) by " +
-                             text_of(slant::norm(dense(probe.project(p) - p))) +
-                             " at x = " + text_of(x));
-    }
-    if (!probe.contains(p)) log("contains(P(x))", "false at x = " + text_of(x));
-    if (probe.contains(x) && !(slant::norm(dense(p - x)) <= allowed)) {
-      log("contains(x) implies P(x) = x",
-          "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
-    }
-    if (probe.unconstrained && !(slant::norm(dense(p - x)) <= allowed)) {
-      log("whole_space implies P(x) = x",
-          "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
-    }
-    if (probe.unconstrained && !probe.contains(x)) {
-      log("whole_space implies contains(x)", "false at x = " + text_of(x));
-    }
-    if (!(probe.project_in_place(x) == p)) log("in place", "differs at x = " + text_of(x));
-    if (!(probe.project_over_nan(x) == p)) log("overwriting", "differs at x = " + text_of(x));
-  }
-}
-
-template <class S>
-void check_pairs(set_probe<S> const& probe, std::vector<typename set_probe<S>::dense> const& points,
-                 breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  set_sampler<S> sample(probe);
-  for (auto const& x : points) {
-    dense const p = probe.project(x);
-    S const size = probe.magnitude(x) + slant::norm(p);
-    auto const check = [&](dense const& y) {
-      dense const q = probe.project(y);
-      S const scale = size + slant::norm(y) + slant::norm(q);
-      // Each of x, y, P(x), P(y) carries a rounding error relative to its size.
-      S const allowed = probe.rounding(scale) * (slant::norm(dense(x - y)) +
-                                                 slant::norm(dense(p - q)) + probe.rounding(scale));
-      if (!((p - q).squaredNorm() <= (x - y).dot(p - q) + allowed)) {
-        log("nonexpansiveness", "x = " + text_of(x) + ", y = " + text_of(y));
-      }
-      S const product = (x - p).dot(q - p);
-      S const slack = probe.rounding(scale) * (slant::norm(dense(x - p)) +
-                                               slant::norm(dense(q - p)) + probe.rounding(scale));
-      if (!(product <= slack)) {
-        log("variational inequality", "(x - P(x)).(z - P(x)) = " + text_of(product) +
-                                          " at x = " + text_of(x) + ", z = " + text_of(q));
-      }
-    };
-    for (int k = 0; k < 6; ++k) check(points[std::size_t(sample.below(index(points.size())))]);
-    for (S const& step : {S(1) / S(10), S(1) / S(1 << 14)}) {
-      check(x + step * size * sample.direction(0));
-      check(p + step * (x - p));
-    }
-  }
-}
-
-// --- slant breaches ------------------------------------------------------------------------------
-//
-// Laws of the slanting operator of a projection:
-//     G = Gᵀ,   0 ⪯ G ⪯ I,   ‖P(y+h) − P(y) − G(y+h) h‖ = o(‖h‖),   renewal in place = new.
-//
-// The limit is sampled at kinks, which are found by bisection for the largest jump of G between two
-// points, and along random, coordinate, normal and crossing directions. h shrinks from ε^¼ to √ε
-// times the size of y; the error relative to ‖h‖ must fall like ‖h‖^¼ at least, or the error reach
-// rounding. A G that is wrong within √ε of a kink only, or by less than √ε, passes; boundaries
-// curved more strongly than 1/(√ε ‖y‖) cannot be sampled.
-
 /// Cholesky's elimination meets positive pivots only. (Eigen's would double the time to compile.)
 template <class M>
 [[nodiscard]] bool is_definite(M m) {
@@ -105,26 +32,6 @@ template <class M>
     }
   }
   return true;
-}
-
-template <class S>
-void check_slant_bounds(set_probe<S> const& probe, typename set_probe<S>::dense const& x,
-                        breach_log& log) {
-  using matrix = typename set_probe<S>::matrix;
-  matrix const g = probe.slant(x);
-  S const ε = S(64) * S(int(g.rows()) + 1) * std::numeric_limits<S>::epsilon();
-  if (!((g - g.transpose()).cwiseAbs().maxCoeff() <= ε)) {
-    log("slant is symmetric", "at x = " + text_of(x));
-  }
-  // For symmetric G:  0 ⪯ G ⪯ I  ⟺  G − G² ⪰ 0.
-  matrix excess = (g + g.transpose()) / S(2) - g.transpose().lazyProduct(g);
-  excess.diagonal().array() += ε;
-  if (!is_definite(excess)) {
-    log("0 <= slant <= I", "an eigenvalue of G - G^2 is negative at x = " + text_of(x));
-  }
-  if (probe.renewed_slant && !(probe.renewed_slant(x) == g)) {
-    log("slant in place", "differs at x = " + text_of(x));
-  }
 }
 
 /// Lengths of h, longest first, and ‖P(y+h) − P(y) − G(y+h) h‖ for each.
@@ -149,317 +56,382 @@ struct limit_samples {
   }
 };
 
-/// The limit along one direction.
+/// Checks of what a set says of itself, at points that are handed in.
 template <class S>
-void check_slanting_limit(set_probe<S> const& probe, typename set_probe<S>::dense const& y,
-                          typename set_probe<S>::dense const& direction, breach_log& log) {
+struct set_laws {
   using dense = typename set_probe<S>::dense;
-  using std::pow;
-  S const length = slant::norm(direction);
-  if (!(length > S(0))) return;
-  S size = probe.extent(y);
-  if (!(size > S(0))) size = S(probe.options.size);
-  dense const p = probe.project(y);
-  limit_samples<S> samples;
-  std::string evidence;
-  for (std::size_t k = 0; k < samples.count; ++k) {
-    S const exponent = S(1) / S(4) + S(int(k)) / S(4 * int(samples.count - 1));
-    S const fraction = S(pow(std::numeric_limits<S>::epsilon(), exponent));
-    dense const moved = y + (fraction * size / length) * direction;
-    dense const h = moved - y;
-    samples.length[k] = slant::norm(h);
-    samples.error[k] =
-        slant::norm(dense(probe.project(moved) - p - probe.slant(moved).lazyProduct(h)));
-    evidence += (k == 0 ? "|h|, error: " : "; ") + text_of(samples.length[k]) + ", " +
-                text_of(samples.error[k]);
-  }
-  if (!samples.vanishes(S(4) * probe.rounding(probe.magnitude(y)))) {
-    log("slanting limit", evidence + " at y = " + text_of(y) + ", h ~ " + text_of(direction));
-  }
-}
+  using matrix = typename set_probe<S>::matrix;
 
-/// Moves a and b to neighbouring points between which G jumps, by bisection; false if it is smooth.
-template <class S>
-[[nodiscard]] bool bisect_for_kink(set_probe<S> const& probe, typename set_probe<S>::dense& a,
-                                   typename set_probe<S>::dense& b) {
-  using dense = typename set_probe<S>::dense;
-  auto at_a = probe.slant(a);
-  auto at_b = probe.slant(b);
-  for (int k = 0; k < 4 * std::numeric_limits<S>::digits; ++k) {
-    dense const middle = (a + b) / S(2);
-    auto const at_middle = probe.slant(middle);
-    bool const left = (at_middle - at_a).squaredNorm() >= (at_b - at_middle).squaredNorm();
-    (left ? b : a) = middle;
-    (left ? at_b : at_a) = at_middle;
-  }
-  // Without a jump the search ends anywhere, perhaps close to a kink but not at one.
-  using std::sqrt;
-  return (at_b - at_a).norm() > S(sqrt(std::numeric_limits<S>::epsilon()));
-}
+  set_probe<S> const& probe;
+  breach_log& log;
 
-template <class S>
-void check_slanting_limits(set_probe<S> const& probe,
-                           std::vector<typename set_probe<S>::dense> const& points,
-                           breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  set_sampler<S> sample(probe);
-  for (auto const& x : points) {
-    dense const p = probe.project(x);
-    for (auto const& y : {x, p}) {
-      for (int k = 0; k < probe.options.directions; ++k) {
-        check_slanting_limit(probe, y, sample.direction(k), log);
+  void check_single_points(std::vector<dense> const& points) const {
+    for (auto const& x : points) {
+      dense const p = probe.project(x);
+      S const allowed = probe.rounding(probe.magnitude(x) + slant::norm(p));
+      if (!(slant::norm(dense(probe.project(p) - p)) <= allowed)) {
+        log("idempotence", "P(P(x)) is off P(x) by " +
+                               text_of(slant::norm(dense(probe.project(p) - p))) +
+                               " at x = " + text_of(x));
       }
-      check_slanting_limit(probe, y, dense(x - p), log);
-      check_slanting_limit(probe, y, dense(p - x), log);
-    }
-    // Not the points themselves: a segment along a boundary has its kinks everywhere.
-    dense a = x + probe.extent(x) / S(64) * sample.box();
-    dense b = points[std::size_t(sample.below(index(points.size())))];
-    b += probe.extent(b) / S(64) * sample.box();
-    dense const across = b - a;
-    if (!bisect_for_kink(probe, a, b)) continue;
-    check_slant_bounds(probe, a, log);
-    for (auto const& y : {a, b}) {
-      check_slanting_limit(probe, y, across, log);
-      check_slanting_limit(probe, y, dense(S(-1) * across), log);
-      check_slanting_limit(probe, y, sample.direction(0), log);
+      if (!probe.contains(p)) log("contains(P(x))", "false at x = " + text_of(x));
+      if (probe.contains(x) && !(slant::norm(dense(p - x)) <= allowed)) {
+        log("contains(x) implies P(x) = x",
+            "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
+      }
+      if (probe.unconstrained && !(slant::norm(dense(p - x)) <= allowed)) {
+        log("whole_space implies P(x) = x",
+            "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
+      }
+      if (probe.unconstrained && !probe.contains(x)) {
+        log("whole_space implies contains(x)", "false at x = " + text_of(x));
+      }
+      if (!(probe.project_in_place(x) == p)) log("in place", "differs at x = " + text_of(x));
+      if (!(probe.project_over_nan(x) == p)) log("overwriting", "differs at x = " + text_of(x));
     }
   }
-}
 
-// --- boundary breaches ---------------------------------------------------------------------------
-//
-// Laws of step_to_boundary and support:
-//     x + α d ∈ Λ for α a little below the step, x + β d ∉ Λ for β a little above;
-//     yᵀz ≤ support(y) for z ∈ Λ, and points P(t y) come arbitrarily close to it;
-//     support(0) = 0.
-//
-// What sampling cannot see: a step that is too short by a few ε^¼ of the size of the set, or by a
-// thousandth, and a support that is too large by √(rounding ε), which is 1e-7 in double precision
-// with the usual set_options. From y far off, P(y) is known no better.
+  void check_pairs(std::vector<dense> const& points) const {
+    set_sampler<S> sample(probe);
+    for (auto const& x : points) {
+      dense const p = probe.project(x);
+      S const size = probe.magnitude(x) + slant::norm(p);
+      auto const check = [&](dense const& y) {
+        dense const q = probe.project(y);
+        S const scale = size + slant::norm(y) + slant::norm(q);
+        // Each of x, y, P(x), P(y) carries a rounding error relative to its size.
+        S const allowed =
+            probe.rounding(scale) *
+            (slant::norm(dense(x - y)) + slant::norm(dense(p - q)) + probe.rounding(scale));
+        if (!((p - q).squaredNorm() <= (x - y).dot(p - q) + allowed)) {
+          log("nonexpansiveness", "x = " + text_of(x) + ", y = " + text_of(y));
+        }
+        S const product = (x - p).dot(q - p);
+        S const slack = probe.rounding(scale) * (slant::norm(dense(x - p)) +
+                                                 slant::norm(dense(q - p)) + probe.rounding(scale));
+        if (!(product <= slack)) {
+          log("variational inequality", "(x - P(x)).(z - P(x)) = " + text_of(product) +
+                                            " at x = " + text_of(x) + ", z = " + text_of(q));
+        }
+      };
+      for (int k = 0; k < 6; ++k) check(points[std::size_t(sample.below(index(points.size())))]);
+      for (S const& step : {S(1) / S(10), S(1) / S(1 << 14)}) {
+        check(x + step * size * sample.direction(0));
+        check(p + step * (x - p));
+      }
+    }
+  }
 
-template <class S>
-void check_step(set_probe<S> const& probe, typename set_probe<S>::dense const& x,
-                typename set_probe<S>::dense const& d, breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  S const step = probe.step(x, d);
-  std::string const where = " at x = " + text_of(x) + ", d = " + text_of(d);
-  std::string const claim = "step " + text_of(step);
-  if (!(step >= S(0))) {
-    log("step_to_boundary >= 0", claim + where);
-    return;
-  }
-  S const length = slant::norm(d);
-  bool const finite = step < std::numeric_limits<S>::infinity();
-  if (!(length > S(0))) {
-    if (finite) log("step_to_boundary is infinite for d = 0", claim + where);
-    return;
-  }
-  S size = probe.extent(x);
-  if (!(size > S(0))) size = S(probe.options.size);
-  auto const outside_by = [&](S const& α) { return probe.distance(x + α * d); };
-  auto const accepted = [&](S const& α) { return probe.rounding(probe.magnitude(x) + α * length); };
-  if (!finite) {
-    for (S const& α : {size / length, S(1000) * size / length}) {
-      if (!(outside_by(α) <= accepted(α))) log("step_to_boundary stays inside", claim + where);
-    }
-    return;
-  }
-  if (!(outside_by(step) <= accepted(step))) log("step_to_boundary stays inside", claim + where);
-  // A ray that stays close to the boundary for ever leaves the set very far off or not at all.
-  if (!(S(1000) * step * length < size / probe.rounding(S(1)))) return;
-  using std::sqrt;
-  // Where d is tangential the set is left by the square of the way only.
-  S const margin = S(8) * S(sqrt(S(sqrt(std::numeric_limits<S>::epsilon()))));
-  S const beyond = S(1001) / S(1000) * step + margin * size / length;
-  dense const far = x + beyond * d;
-  if (probe.contains(far)) log("step_to_boundary reaches the boundary", claim + where);
-  if (!probe.early_step) return;
-  for (S const& enough : {S(step / S(2)), S(S(2) * step + size / length)}) {
-    S const early = probe.early_step(x, d, enough);
-    if (!(early >= step) || (early < enough) != (step < enough)) {
-      log("step_to_boundary with early exit", text_of(early) + " instead of " + claim + where);
-    }
-  }
-}
+  // --- slant breaches ------------------------------------------------------------------------------
+  //
+  // Laws of the slanting operator of a projection:
+  //     G = Gᵀ,   0 ⪯ G ⪯ I,   ‖P(y+h) − P(y) − G(y+h) h‖ = o(‖h‖),   renewal in place = new.
+  //
+  // The limit is sampled at kinks, which are found by bisection for the largest jump of G between two
+  // points, and along random, coordinate, normal and crossing directions. h shrinks from ε^¼ to √ε
+  // times the size of y; the error relative to ‖h‖ must fall like ‖h‖^¼ at least, or the error reach
+  // rounding. A G that is wrong within √ε of a kink only, or by less than √ε, passes; boundaries
+  // curved more strongly than 1/(√ε ‖y‖) cannot be sampled.
 
-template <class S>
-void check_support(set_probe<S> const& probe, typename set_probe<S>::dense const& y,
-                   std::vector<typename set_probe<S>::dense> const& members, set_sampler<S>& sample,
-                   breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  S const value = probe.support(y);
-  std::string const claim = "support " + text_of(value) + " at y = " + text_of(y);
-  S const length = slant::norm(y);
-  if (!(length > S(0))) {
-    if (!(value == S(0))) log("support(0) = 0", claim);
-    return;
-  }
-  for (auto const& z : members) {
-    if (!(y.dot(z) <= value + probe.rounding(length * probe.magnitude(z)))) {
-      log("support is a bound", claim + ", z = " + text_of(z));
+  void check_slant_bounds(dense const& x) const {
+    matrix const g = probe.slant(x);
+    S const ε = S(64) * S(int(g.rows()) + 1) * std::numeric_limits<S>::epsilon();
+    if (!((g - g.transpose()).cwiseAbs().maxCoeff() <= ε)) {
+      log("slant is symmetric", "at x = " + text_of(x));
+    }
+    // For symmetric G:  0 ⪯ G ⪯ I  ⟺  G − G² ⪰ 0.
+    matrix excess = (g + g.transpose()) / S(2) - g.transpose().lazyProduct(g);
+    excess.diagonal().array() += ε;
+    if (!is_definite(excess)) {
+      log("0 <= slant <= I", "an eigenvalue of G - G^2 is negative at x = " + text_of(x));
+    }
+    if (probe.renewed_slant && !(probe.renewed_slant(x) == g)) {
+      log("slant in place", "differs at x = " + text_of(x));
     }
   }
-  // P(t y) maximises yᵀz − ‖z‖²/(2 t): it falls short of the support by at most ‖z*‖²/(2 t).
-  auto const far = [&](S const& t) { return dense(probe.project((t / length) * y)); };
-  S const unit = probe.magnitude(dense::Zero(y.size()));
-  if (value < std::numeric_limits<S>::infinity()) {
+
+  /// The limit along one direction.
+  void check_slanting_limit(dense const& y, dense const& direction) const {
+    using std::pow;
+    S const length = slant::norm(direction);
+    if (!(length > S(0))) return;
+    S size = probe.extent(y);
+    if (!(size > S(0))) size = S(probe.options.size);
+    dense const p = probe.project(y);
+    limit_samples<S> samples;
+    std::string evidence;
+    for (std::size_t k = 0; k < samples.count; ++k) {
+      S const exponent = S(1) / S(4) + S(int(k)) / S(4 * int(samples.count - 1));
+      S const fraction = S(pow(std::numeric_limits<S>::epsilon(), exponent));
+      dense const moved = y + (fraction * size / length) * direction;
+      dense const h = moved - y;
+      samples.length[k] = slant::norm(h);
+      samples.error[k] =
+          slant::norm(dense(probe.project(moved) - p - probe.slant(moved).lazyProduct(h)));
+      evidence += (k == 0 ? "|h|, error: " : "; ") + text_of(samples.length[k]) + ", " +
+                  text_of(samples.error[k]);
+    }
+    if (!samples.vanishes(S(4) * probe.rounding(probe.magnitude(y)))) {
+      log("slanting limit", evidence + " at y = " + text_of(y) + ", h ~ " + text_of(direction));
+    }
+  }
+
+  /// Moves a and b to neighbouring points between which G jumps, by bisection; false if it is smooth.
+  [[nodiscard]] bool bisect_for_kink(dense& a, dense& b) const {
+    auto at_a = probe.slant(a);
+    auto at_b = probe.slant(b);
+    for (int k = 0; k < 4 * std::numeric_limits<S>::digits; ++k) {
+      dense const middle = (a + b) / S(2);
+      auto const at_middle = probe.slant(middle);
+      bool const left = (at_middle - at_a).squaredNorm() >= (at_b - at_middle).squaredNorm();
+      (left ? b : a) = middle;
+      (left ? at_b : at_a) = at_middle;
+    }
+    // Without a jump the search ends anywhere, perhaps close to a kink but not at one.
     using std::sqrt;
-    // From this many radii away, rounding of P(t y) is as large as what t y falls short by.
-    S const radii = S(1) / S(sqrt(probe.rounding(S(1))));
-    S radius = slant::norm(far(S(1000) * unit)) + unit;
-    for (int k = 0; k < 3; ++k) radius = slant::norm(far(radii * radius)) + unit;
-    S const reach = radii * radius;
-    S const missing = value - y.dot(far(reach));
-    S const allowed = length * radius * (radius / reach) + probe.rounding(reach * length);
-    if (!(missing <= allowed)) log("support is attained", claim + ", missing " + text_of(missing));
-  } else {
-    // Where an unbounded set begins to be unbounded in the direction y is a matter of rounding, so
-    // directions nearby may show it as well.
-    S const reach = S(1000) * (slant::norm(far(S(1000) * unit)) + unit);
-    S const farthest = slant::norm(far(reach)) + unit;
-    bool unbounded = false;
-    for (int k = 0; k < 24 && !unbounded; ++k) {
-      dense const v = y + S(k == 0 ? 0 : 1) / S(8) * length * sample.box();
-      auto const along = [&](S const& t) { return S(v.dot(probe.project((t / length) * v))); };
-      S const gain = along(S(1000) * reach) - along(reach);
-      unbounded = gain > length * farthest / S(100);
-    }
-    if (!unbounded) log("support is infinite only if unbounded", claim);
+    return (at_b - at_a).norm() > S(sqrt(std::numeric_limits<S>::epsilon()));
   }
-}
 
-/// Step and support, for directions of all kinds.
-template <class S>
-void check_boundary(set_probe<S> const& probe,
-                    std::vector<typename set_probe<S>::dense> const& points, breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  set_sampler<S> sample(probe);
-  std::vector<dense> members;
-  for (auto const& x : points) members.push_back(probe.project(x));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::vector<dense> directions{points[i] - members[i], members[i] - points[i],
-                                  dense::Zero(probe.size)};
-    for (int k = 0; k < probe.options.directions; ++k) directions.push_back(sample.direction(k));
-    for (auto const& d : directions) {
-      if (probe.step) check_step(probe, members[i], d, log);
-      if (probe.support) check_support(probe, d, members, sample, log);
-    }
-  }
-}
-
-// --- inequality breaches -------------------------------------------------------------------------
-//
-// Laws of the smooth inequality form f(x) ≤ 0 of a block:
-//     x ∈ Λ ⟺ f(x) ≤ 0 (away from the boundary),   gradient and Hessian against differences,
-//     Σ νᵢ ∇²fᵢ symmetric,   ∇fᵢ(x)ᵀ(z − x) ≤ 0 for z ∈ Λ where fᵢ(x) = 0.
-// The last is all that convexity of the set implies: ‖x_t‖² − μ²x_n² ≤ 0, x_n ≥ 0 describes a cone,
-// although the first function is not convex.
-
-template <class S>
-void check_inequality_sign(set_probe<S> const& probe, typename set_probe<S>::dense const& x,
-                           breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  using matrix = typename set_probe<S>::matrix;
-  dense const f = probe.inequality(x);
-  matrix const g = probe.inequality_gradient(x);
-  S const size = probe.magnitude(x);
-  if (probe.contains(x)) {
-    for (index i = 0; i < f.size(); ++i) {
-      S const allowed = probe.rounding(size) * (g.col(i).norm() + probe.rounding(size));
-      if (!(f[i] <= allowed)) {
-        log("f(x) <= 0 in the set", "f = " + text_of(f) + " at x = " + text_of(x));
+  void check_slanting_limits(std::vector<dense> const& points) const {
+    set_sampler<S> sample(probe);
+    for (auto const& x : points) {
+      dense const p = probe.project(x);
+      for (auto const& y : {x, p}) {
+        for (int k = 0; k < probe.options.directions; ++k) {
+          check_slanting_limit(y, sample.direction(k));
+        }
+        check_slanting_limit(y, dense(x - p));
+        check_slanting_limit(y, dense(p - x));
+      }
+      // Not the points themselves: a segment along a boundary has its kinks everywhere.
+      dense a = x + probe.extent(x) / S(64) * sample.box();
+      dense b = points[std::size_t(sample.below(index(points.size())))];
+      b += probe.extent(b) / S(64) * sample.box();
+      dense const across = b - a;
+      if (!bisect_for_kink(a, b)) continue;
+      check_slant_bounds(a);
+      for (auto const& y : {a, b}) {
+        check_slanting_limit(y, across);
+        check_slanting_limit(y, dense(S(-1) * across));
+        check_slanting_limit(y, sample.direction(0));
       }
     }
-  } else if (probe.distance(x) > S(1 << 10) * probe.rounding(size)) {
-    bool positive = false;
-    for (index i = 0; i < f.size(); ++i) positive = positive || f[i] > S(0);
-    if (!positive) log("f(x) > 0 outside", "f = " + text_of(f) + " at x = " + text_of(x));
   }
-}
 
-template <class S>
-void check_inequality_slopes(set_probe<S> const& probe, typename set_probe<S>::dense const& x,
-                             typename set_probe<S>::dense const& d,
-                             typename set_probe<S>::dense const& ν, breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  using matrix = typename set_probe<S>::matrix;
-  using std::abs;
-  using std::cbrt;
-  S const size = slant::norm(x);
-  S const length = slant::norm(d);
-  if (!(length > S(0)) || !(size > S(0))) return;
-  S const ε = std::numeric_limits<S>::epsilon();
-  S const t = S(cbrt(ε)) * size / length;
-  auto const value = [&](dense const& p) { return dense(probe.inequality(p)); };
-  auto const gradient = [&](dense const& p) { return matrix(probe.inequality_gradient(p)); };
-  dense const ahead = x + t * d;
-  dense const behind = x - t * d;
-  dense const f = value(x);
-  dense const f_ahead = value(ahead);
-  dense const f_behind = value(behind);
-  matrix const g = gradient(x);
-  matrix const g_ahead = gradient(ahead);
-  matrix const g_behind = gradient(behind);
-  S const tolerance = S(probe.options.rounding) * S(cbrt(ε)) * S(cbrt(ε));
-  for (index i = 0; i < f.size(); ++i) {
-    if (!(f_ahead[i] - f_behind[i] - (f_ahead[i] - f_behind[i]) == S(0)))
-      continue;  // an infinite bound
-    S const scale = S(abs(f[i])) + S(abs(f_ahead[i])) + S(abs(f_behind[i])) +
-                    (g.col(i).norm() + g_ahead.col(i).norm()) * size;
-    S const error = S(abs(S((f_ahead[i] - f_behind[i]) / S(2) - t * g.col(i).dot(d))));
-    if (!(error <= tolerance * S(cbrt(ε)) * scale)) {
-      log("gradient of the inequality", "f" + text_of(i) + " at x = " + text_of(x));
+  // --- boundary breaches ---------------------------------------------------------------------------
+  //
+  // Laws of step_to_boundary and support:
+  //     x + α d ∈ Λ for α a little below the step, x + β d ∉ Λ for β a little above;
+  //     yᵀz ≤ support(y) for z ∈ Λ, and points P(t y) come arbitrarily close to it;
+  //     support(0) = 0.
+  //
+  // What sampling cannot see: a step that is too short by a few ε^¼ of the size of the set, or by a
+  // thousandth, and a support that is too large by √(rounding ε), which is 1e-7 in double precision
+  // with the usual set_options. From y far off, P(y) is known no better.
+
+  void check_step(dense const& x, dense const& d) const {
+    S const step = probe.step(x, d);
+    std::string const where = " at x = " + text_of(x) + ", d = " + text_of(d);
+    std::string const claim = "step " + text_of(step);
+    if (!(step >= S(0))) {
+      log("step_to_boundary >= 0", claim + where);
+      return;
+    }
+    S const length = slant::norm(d);
+    bool const finite = step < std::numeric_limits<S>::infinity();
+    if (!(length > S(0))) {
+      if (finite) log("step_to_boundary is infinite for d = 0", claim + where);
+      return;
+    }
+    S size = probe.extent(x);
+    if (!(size > S(0))) size = S(probe.options.size);
+    auto const outside_by = [&](S const& α) { return probe.distance(x + α * d); };
+    auto const accepted = [&](S const& α) {
+      return probe.rounding(probe.magnitude(x) + α * length);
+    };
+    if (!finite) {
+      for (S const& α : {size / length, S(1000) * size / length}) {
+        if (!(outside_by(α) <= accepted(α))) log("step_to_boundary stays inside", claim + where);
+      }
+      return;
+    }
+    if (!(outside_by(step) <= accepted(step))) log("step_to_boundary stays inside", claim + where);
+    // A ray that stays close to the boundary for ever leaves the set very far off or not at all.
+    if (!(S(1000) * step * length < size / probe.rounding(S(1)))) return;
+    using std::sqrt;
+    // Where d is tangential the set is left by the square of the way only.
+    S const margin = S(8) * S(sqrt(S(sqrt(std::numeric_limits<S>::epsilon()))));
+    S const beyond = S(1001) / S(1000) * step + margin * size / length;
+    dense const far = x + beyond * d;
+    if (probe.contains(far)) log("step_to_boundary reaches the boundary", claim + where);
+    if (!probe.early_step) return;
+    for (S const& enough : {S(step / S(2)), S(S(2) * step + size / length)}) {
+      S const early = probe.early_step(x, d, enough);
+      if (!(early >= step) || (early < enough) != (step < enough)) {
+        log("step_to_boundary with early exit", text_of(early) + " instead of " + claim + where);
+      }
     }
   }
-  matrix const h = probe.inequality_hessian(x, ν);
-  dense const difference = (g_ahead - g_behind).lazyProduct(ν) / S(2);
-  S const scale = (g.norm() + g_ahead.norm()) * ν.norm() + h.norm() * size;
-  if (!(slant::norm(dense(difference - t * h.lazyProduct(d))) <= tolerance * S(cbrt(ε)) * scale)) {
-    log("Hessian of the inequality", "at x = " + text_of(x));
-  }
-  S const rounding = probe.rounding(h.norm());
-  if (!((h - h.transpose()).norm() <= rounding)) {
-    log("Hessian is symmetric", "at x = " + text_of(x));
-  }
-}
 
-/// Gradients on the boundary point out of the set.
-template <class S>
-void check_outward(set_probe<S> const& probe, typename set_probe<S>::dense const& x,
-                   std::vector<typename set_probe<S>::dense> const& members, breach_log& log) {
-  using std::abs;
-  auto const f = probe.inequality(x);
-  auto const g = probe.inequality_gradient(x);
-  for (index i = 0; i < f.size(); ++i) {
-    if (!(S(abs(f[i])) <= probe.rounding(probe.extent(x)) * g.col(i).norm())) continue;
+  void check_support(dense const& y, std::vector<dense> const& members,
+                     set_sampler<S>& sample) const {
+    S const value = probe.support(y);
+    std::string const claim = "support " + text_of(value) + " at y = " + text_of(y);
+    S const length = slant::norm(y);
+    if (!(length > S(0))) {
+      if (!(value == S(0))) log("support(0) = 0", claim);
+      return;
+    }
     for (auto const& z : members) {
-      S const slope = g.col(i).dot(z - x);
-      S const size = probe.magnitude(x) + slant::norm(z);
-      if (!(slope <= probe.rounding(size) * g.col(i).norm())) {
-        log("gradient points outwards", "at x = " + text_of(x) + ", z = " + text_of(z));
+      if (!(y.dot(z) <= value + probe.rounding(length * probe.magnitude(z)))) {
+        log("support is a bound", claim + ", z = " + text_of(z));
+      }
+    }
+    // P(t y) maximises yᵀz − ‖z‖²/(2 t): it falls short of the support by at most ‖z*‖²/(2 t).
+    auto const far = [&](S const& t) { return dense(probe.project((t / length) * y)); };
+    S const unit = probe.magnitude(dense::Zero(y.size()));
+    if (value < std::numeric_limits<S>::infinity()) {
+      using std::sqrt;
+      // From this many radii away, rounding of P(t y) is as large as what t y falls short by.
+      S const radii = S(1) / S(sqrt(probe.rounding(S(1))));
+      S radius = slant::norm(far(S(1000) * unit)) + unit;
+      for (int k = 0; k < 3; ++k) radius = slant::norm(far(radii * radius)) + unit;
+      S const reach = radii * radius;
+      S const missing = value - y.dot(far(reach));
+      S const allowed = length * radius * (radius / reach) + probe.rounding(reach * length);
+      if (!(missing <= allowed))
+        log("support is attained", claim + ", missing " + text_of(missing));
+    } else {
+      // Where an unbounded set begins to be unbounded in the direction y is a matter of rounding, so
+      // directions nearby may show it as well.
+      S const reach = S(1000) * (slant::norm(far(S(1000) * unit)) + unit);
+      S const farthest = slant::norm(far(reach)) + unit;
+      bool unbounded = false;
+      for (int k = 0; k < 24 && !unbounded; ++k) {
+        dense const v = y + S(k == 0 ? 0 : 1) / S(8) * length * sample.box();
+        auto const along = [&](S const& t) { return S(v.dot(probe.project((t / length) * v))); };
+        S const gain = along(S(1000) * reach) - along(reach);
+        unbounded = gain > length * farthest / S(100);
+      }
+      if (!unbounded) log("support is infinite only if unbounded", claim);
+    }
+  }
+
+  /// Step and support, for directions of all kinds.
+  void check_boundary(std::vector<dense> const& points) const {
+    set_sampler<S> sample(probe);
+    std::vector<dense> members;
+    for (auto const& x : points) members.push_back(probe.project(x));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::vector<dense> directions{points[i] - members[i], members[i] - points[i],
+                                    dense::Zero(probe.size)};
+      for (int k = 0; k < probe.options.directions; ++k) directions.push_back(sample.direction(k));
+      for (auto const& d : directions) {
+        if (probe.step) check_step(members[i], d);
+        if (probe.support) check_support(d, members, sample);
       }
     }
   }
-}
 
-template <class S>
-void check_inequality_form(set_probe<S> const& probe,
-                           std::vector<typename set_probe<S>::dense> const& points,
-                           breach_log& log) {
-  using dense = typename set_probe<S>::dense;
-  set_sampler<S> sample(probe);
-  std::vector<dense> members;
-  for (auto const& x : points) members.push_back(probe.project(x));
-  for (auto const& x : points) {
-    check_inequality_sign(probe, x, log);
-    check_outward(probe, probe.project(x), members, log);
-    for (int k = 0; k < probe.options.directions; ++k) {
-      dense ν(probe.inequalities);
-      for (index i = 0; i < ν.size(); ++i) ν[i] = S(1) + sample.number();
-      check_inequality_slopes(probe, x, sample.direction(k), ν, log);
+  // --- inequality breaches -------------------------------------------------------------------------
+  //
+  // Laws of the smooth inequality form f(x) ≤ 0 of a block:
+  //     x ∈ Λ ⟺ f(x) ≤ 0 (away from the boundary),   gradient and Hessian against differences,
+  //     Σ νᵢ ∇²fᵢ symmetric,   ∇fᵢ(x)ᵀ(z − x) ≤ 0 for z ∈ Λ where fᵢ(x) = 0.
+  // The last is all that convexity of the set implies: ‖x_t‖² − μ²x_n² ≤ 0, x_n ≥ 0 describes a cone,
+  // although the first function is not convex.
+
+  void check_inequality_sign(dense const& x) const {
+    dense const f = probe.inequality(x);
+    matrix const g = probe.inequality_gradient(x);
+    S const size = probe.magnitude(x);
+    if (probe.contains(x)) {
+      for (index i = 0; i < f.size(); ++i) {
+        S const allowed = probe.rounding(size) * (g.col(i).norm() + probe.rounding(size));
+        if (!(f[i] <= allowed)) {
+          log("f(x) <= 0 in the set", "f = " + text_of(f) + " at x = " + text_of(x));
+        }
+      }
+    } else if (probe.distance(x) > S(1 << 10) * probe.rounding(size)) {
+      bool positive = false;
+      for (index i = 0; i < f.size(); ++i) positive = positive || f[i] > S(0);
+      if (!positive) log("f(x) > 0 outside", "f = " + text_of(f) + " at x = " + text_of(x));
     }
   }
-}
+
+  void check_inequality_slopes(dense const& x, dense const& d, dense const& ν) const {
+    using std::abs;
+    using std::cbrt;
+    S const size = slant::norm(x);
+    S const length = slant::norm(d);
+    if (!(length > S(0)) || !(size > S(0))) return;
+    S const ε = std::numeric_limits<S>::epsilon();
+    S const t = S(cbrt(ε)) * size / length;
+    auto const value = [&](dense const& p) { return dense(probe.inequality(p)); };
+    auto const gradient = [&](dense const& p) { return matrix(probe.inequality_gradient(p)); };
+    dense const ahead = x + t * d;
+    dense const behind = x - t * d;
+    dense const f = value(x);
+    dense const f_ahead = value(ahead);
+    dense const f_behind = value(behind);
+    matrix const g = gradient(x);
+    matrix const g_ahead = gradient(ahead);
+    matrix const g_behind = gradient(behind);
+    S const tolerance = S(probe.options.rounding) * S(cbrt(ε)) * S(cbrt(ε));
+    for (index i = 0; i < f.size(); ++i) {
+      if (!(f_ahead[i] - f_behind[i] - (f_ahead[i] - f_behind[i]) == S(0)))
+        continue;  // an infinite bound
+      S const scale = S(abs(f[i])) + S(abs(f_ahead[i])) + S(abs(f_behind[i])) +
+                      (g.col(i).norm() + g_ahead.col(i).norm()) * size;
+      S const error = S(abs(S((f_ahead[i] - f_behind[i]) / S(2) - t * g.col(i).dot(d))));
+      if (!(error <= tolerance * S(cbrt(ε)) * scale)) {
+        log("gradient of the inequality", "f" + text_of(i) + " at x = " + text_of(x));
+      }
+    }
+    matrix const h = probe.inequality_hessian(x, ν);
+    dense const difference = (g_ahead - g_behind).lazyProduct(ν) / S(2);
+    S const scale = (g.norm() + g_ahead.norm()) * ν.norm() + h.norm() * size;
+    if (!(slant::norm(dense(difference - t * h.lazyProduct(d))) <=
+          tolerance * S(cbrt(ε)) * scale)) {
+      log("Hessian of the inequality", "at x = " + text_of(x));
+    }
+    S const rounding = probe.rounding(h.norm());
+    if (!((h - h.transpose()).norm() <= rounding)) {
+      log("Hessian is symmetric", "at x = " + text_of(x));
+    }
+  }
+
+  /// Gradients on the boundary point out of the set.
+  void check_outward(dense const& x, std::vector<dense> const& members) const {
+    using std::abs;
+    auto const f = probe.inequality(x);
+    auto const g = probe.inequality_gradient(x);
+    for (index i = 0; i < f.size(); ++i) {
+      if (!(S(abs(f[i])) <= probe.rounding(probe.extent(x)) * g.col(i).norm())) continue;
+      for (auto const& z : members) {
+        S const slope = g.col(i).dot(z - x);
+        S const size = probe.magnitude(x) + slant::norm(z);
+        if (!(slope <= probe.rounding(size) * g.col(i).norm())) {
+          log("gradient points outwards", "at x = " + text_of(x) + ", z = " + text_of(z));
+        }
+      }
+    }
+  }
+
+  void check_inequality_form(std::vector<dense> const& points) const {
+    set_sampler<S> sample(probe);
+    std::vector<dense> members;
+    for (auto const& x : points) members.push_back(probe.project(x));
+    for (auto const& x : points) {
+      check_inequality_sign(x);
+      check_outward(probe.project(x), members);
+      for (int k = 0; k < probe.options.directions; ++k) {
+        dense ν(probe.inequalities);
+        for (index i = 0; i < ν.size(); ++i) ν[i] = S(1) + sample.number();
+        check_inequality_slopes(x, sample.direction(k), ν);
+      }
+    }
+  }
+};
 
 }  // namespace slant::testing::detail

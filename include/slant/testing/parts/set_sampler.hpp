@@ -154,7 +154,9 @@ template <class C, class V>
     slant::project(set, x, y);
     return dense_of(y);
   };
-  probe.contains = [&set, in](dense const& p) { return bool(set.contains(in(p))); };
+  if constexpr (has_contains<C, V>) {
+    probe.contains = [&set, in](dense const& p) { return bool(set.contains(in(p))); };
+  }
   if constexpr (has_slant<C, V>) {
     probe.slant = [&set, in, prototype, n](dense const& p) {
       return matrix_of(set.slant(in(p)), prototype, n);
@@ -210,12 +212,6 @@ template <class T>
   }
 }
 
-}  // namespace detail
-
-}  // namespace slant::testing
-
-namespace slant::testing::detail {
-
 // --- set sampler ---------------------------------------------------------------------------------
 
 /// Random numbers and directions, the same on every platform.
@@ -256,20 +252,10 @@ class set_sampler {
     for (int k = 1; k < probe_.options.points; ++k) {
       dense const x = S(probe_.options.size) * scales[k % 5] * direction(k / 5 % 3);
       dense const y = probe_.project(x);
-      switch (k % 4) {
-        case 0:
-          list.push_back(y);
-          break;  // on the boundary
-        case 1:
-          list.push_back(y + (x - y) / S(1 << 12));
-          break;  // close to it
-        case 2:
-          list.push_back(y + (y - x) * S(number()));
-          break;  // on both sides
-        default:
-          list.push_back(x);
-          break;
-      }
+      if (k % 4 == 0) list.push_back(y);                          // on the boundary
+      if (k % 4 == 1) list.push_back(y + (x - y) / S(1 << 12));   // close to it
+      if (k % 4 == 2) list.push_back(y + (y - x) * S(number()));  // on both sides
+      if (k % 4 == 3) list.push_back(x);
     }
     return list;
   }
@@ -279,4 +265,6 @@ class set_sampler {
   std::mt19937 engine_;
 };
 
-}  // namespace slant::testing::detail
+}  // namespace detail
+
+}  // namespace slant::testing
