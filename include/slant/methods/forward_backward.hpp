@@ -87,19 +87,10 @@ struct forward_backward_state : gradient_point<QP> {
 
 // --- method --------------------------------------------------------------------------------------
 
-namespace detail {
-
-template <class QP>
-struct forward_backward_types {
-  using state = forward_backward_state<QP>;
-  using options = forward_backward_options<typename QP::scalar>;
-};
-
-}  // namespace detail
-
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP>
-class forward_backward : public detail::refused_program<QP, detail::forward_backward_types> {
+class forward_backward
+    : public detail::refused_program<QP, forward_backward_state, forward_backward_options> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
 
  public:

@@ -76,10 +76,9 @@ concept interior_point_problem =
 namespace detail {
 
 template <class QP>
-struct interior_point_types {
-  using state = interior_point_state<QP, identity_operator>;
-  using options = interior_point_options<typename QP::scalar>;
-};
+using plain_interior_point_state = interior_point_state<QP, identity_operator>;
+template <class S>
+using interior_point_options_of = interior_point_options<S>;
 
 template <class QP, class M>
 struct interior_point_demands {
@@ -103,7 +102,8 @@ struct interior_point_demands<QP, M> {
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class interior_point : public detail::refused_program<QP, detail::interior_point_types> {
+class interior_point : public detail::refused_program<QP, detail::plain_interior_point_state,
+                                                      detail::interior_point_options_of> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);

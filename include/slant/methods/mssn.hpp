@@ -248,19 +248,18 @@ namespace detail {
 template <class Inner, class Forcing>
 struct modified_newton_types {
   template <class QP>
-  struct of {
-    using state = modified_newton_state<QP, Inner>;
-    using options = modified_newton_options<typename QP::scalar, Forcing>;
-  };
+  using state = modified_newton_state<QP, Inner>;
+  template <class S>
+  using options = modified_newton_options<S, Forcing>;
 };
 
 }  // namespace detail
 
 /// A problem that lacks something ends here; mssn, imssn and gimssn say what it is.
 template <class QP, class Start, class Inner, class Forcing>
-class modified_newton
-    : public detail::refused_program<QP,
-                                     detail::modified_newton_types<Inner, Forcing>::template of> {
+class modified_newton : public detail::refused_program<
+                            QP, detail::modified_newton_types<Inner, Forcing>::template state,
+                            detail::modified_newton_types<Inner, Forcing>::template options> {
  public:
   using modified_newton::refused_method::refused_method;
 };

@@ -107,23 +107,9 @@ struct kprgp_state : gradient_point<QP> {
 
 // --- refusal -------------------------------------------------------------------------------------
 
-namespace detail {
-
-template <class Rule>
-struct proportioning_types {
-  template <class QP>
-  struct of {
-    using state = kprgp_state<QP>;
-    using options = typename Rule::template options<typename QP::scalar>;
-  };
-};
-
-}  // namespace detail
-
 /// A problem that lacks something ends here; kprgp, qpq and qpc say what it is.
 template <class QP, class Rule>
-class proportioning
-    : public detail::refused_program<QP, detail::proportioning_types<Rule>::template of> {
+class proportioning : public detail::refused_program<QP, kprgp_state, Rule::template options> {
  public:
   using proportioning::refused_method::refused_method;
 };

@@ -293,10 +293,9 @@ std::string symmetric_newton_state<QP, M>::reason() const {
 namespace detail {
 
 template <class QP>
-struct symmetric_newton_types {
-  using state = symmetric_newton_state<QP, identity_operator>;
-  using options = symmetric_newton_options<typename QP::scalar>;
-};
+using plain_symmetric_newton_state = symmetric_newton_state<QP, identity_operator>;
+template <class S>
+using symmetric_newton_options_of = symmetric_newton_options<S>;
 
 template <class QP, class M>
 struct symmetric_newton_demands {
@@ -319,7 +318,8 @@ struct symmetric_newton_demands<QP, M> {
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class symmetric_newton : public detail::refused_program<QP, detail::symmetric_newton_types> {
+class symmetric_newton : public detail::refused_program<QP, detail::plain_symmetric_newton_state,
+                                                        detail::symmetric_newton_options_of> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
   static_assert(

@@ -134,23 +134,22 @@ struct vector_of<QP> {
 
 /// State and options of a method of which only the vectors are known.
 template <class QP>
-struct refused_types {
-  using state = refused_state<typename QP::vector_type>;
-  using options = no_options;
-};
+using state_of_vectors = refused_state<typename QP::vector_type>;
+template <class S>
+using without_options = no_options;
 
-/// A method that refuses the program QP, with the state and the options that Types<QP> names.
-template <class QP, template <class> class Types>
+/// A method that refuses the program QP, with the state State<QP> and Options<scalar>.
+template <class QP, template <class> class State, template <class> class Options>
 struct refusal {
   using type = refused_method<void, void>;
 };
-template <class QP, template <class> class Types>
+template <class QP, template <class> class State, template <class> class Options>
   requires composite_problem<QP> || was_refused<QP>
-struct refusal<QP, Types> {
-  using type = refused_method<typename QP::vector_type, typename Types<QP>::state,
-                              typename Types<QP>::options>;
+struct refusal<QP, State, Options> {
+  using type = refused_method<typename QP::vector_type, State<QP>, Options<typename QP::scalar>>;
 };
-template <class QP, template <class> class Types = refused_types>
-using refused_program = typename refusal<std::remove_cvref_t<QP>, Types>::type;
+template <class QP, template <class> class State = state_of_vectors,
+          template <class> class Options = without_options>
+using refused_program = typename refusal<std::remove_cvref_t<QP>, State, Options>::type;
 
 }  // namespace slant::detail

@@ -291,8 +291,7 @@ class lorentz_pairs {
       S const a = sqrt(det_p);
       S const b = sqrt(det_λ) * sqrt(S(root_y_[at.number] / root_p_[at.number]));
       trial_root_[at.number] = b;
-      auto const Δy = unscaled(at, of(at, dy_));
-      auto const y = detail::combination(S(1), of(at, y_), α, Δy);
+      auto const y = detail::combination(S(1), of(at, y_), α, force_step(at));
       S const pairing = algebra::pairing(over(block.lorentz_point(here), a), over(y, b));
       S const most =
           sqrt(S((pairing + S(1)) / S(2))) + sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
@@ -307,10 +306,7 @@ class lorentz_pairs {
   void subtract_forces(C const& set, S const& α, V& lagrangian) const {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       auto y = of(at, y_);
-      if (α > S(0)) {
-        auto const Δy = unscaled(at, of(at, dy_));
-        y = detail::combination(S(1), y, α, Δy);
-      }
+      if (α > S(0)) y = detail::combination(S(1), y, α, force_step(at));
       subtract(block, place, y, lagrangian);
     });
   }
@@ -319,7 +315,7 @@ class lorentz_pairs {
   template <class C>
   void accept(C const& set, S const& α) {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const Δy = unscaled(at, of(at, dy_));
+      auto const Δy = force_step(at);
       for (int i = 0; i < at.M; ++i) y_[at.first + std::size_t(i)] += α * Δy[i];
     });
     root_y_ = trial_root_;
@@ -335,9 +331,8 @@ class lorentz_pairs {
   template <class C, class F>
   void growth(C const& set, F const& f) const {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const y = of(at, y_);
-      auto const Δy = unscaled(at, of(at, dy_));
-      f(at.row, S(y[0] + Δy[0]) / y[0]);
+      S const y = y_[at.first];
+      f(at.row, S(y + force_step(at)[0]) / y);
     });
   }
 
@@ -391,6 +386,11 @@ class lorentz_pairs {
     S const along = detail::dot_of(v, x) / v[0];
     S const per_β = sqrt(S(root_y_[at.number] / root_p_[at.number]));
     return detail::combination(S(per_β * along), v, S(-per_β), algebra::reflected(x));
+  }
+  /// Δy.
+  template <class At>
+  [[nodiscard]] part_of<At> force_step(At const& at) const {
+    return unscaled(at, of(at, dy_));
   }
   /// c ← c − f λ_⊥ |w̄_t|²/w̄_0², λ_⊥ the part of λ_t across w̄_t.
   template <class At, class Part>
