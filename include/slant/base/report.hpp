@@ -45,8 +45,8 @@ struct report {
 
 namespace detail {
 
-/// What the statuses of a method mean; empty: no more than their names say. The usual ones are those of
-/// descent by the reduced gradient.
+/// What the statuses of a method mean; empty: no more than their names say. The usual ones are
+/// those of descent by the reduced gradient.
 struct status_meanings {
   std::string converged = "the reduced gradient vanishes";
   std::string stalled{};

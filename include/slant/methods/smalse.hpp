@@ -90,8 +90,8 @@ struct smalse_options {
 
 namespace detail {
 
-/// What the statuses of methods for problems with equality constraints mean. `infeasible`: no point of
-/// Λ satisfies G x = e, which has been shown.
+/// What the statuses of methods for problems with equality constraints mean. `infeasible`: no point
+/// of Λ satisfies G x = e, which has been shown.
 [[nodiscard, gnu::cold]] inline std::string reason_with_equalities(slant::status end,
                                                                    bool infeasible) {
   return reason_of(

@@ -117,8 +117,8 @@ template <class QP>
 inline constexpr bool kprgp_told = program_demands<std::remove_cvref_t<QP>>::told &&
                                    active_set_demands<std::remove_cvref_t<QP>>::told;
 
-/// The scalar of a program, double of what is none: deduction does not fail there, so that it can be
-/// refused in words.
+/// The scalar of a program, double of what is none: deduction does not fail there, so that it can
+/// be refused in words.
 template <class QP>
 using program_scalar_t = set_scalar_t<QP>;
 

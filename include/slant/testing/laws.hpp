@@ -26,8 +26,8 @@ inline void expect_none(std::vector<breach> const& breaches) {
 
 }  // namespace detail
 
-/// The laws of an operator: check_operator_laws(my_laplacian(100)). `prototype` is any vector of the
-/// kind the operator works on; see operator_breaches.hpp.
+/// The laws of an operator: check_operator_laws(my_laplacian(100)). `prototype` is any vector of
+/// the kind the operator works on; see operator_breaches.hpp.
 template <class A, slant::vector V = Eigen::VectorXd>
   requires linear_operator<A, V>
 void check_operator_laws(A const& a, V const& prototype = V(),
@@ -49,8 +49,8 @@ void check_conjugacy_laws(Q const& q, K const& k, V const& prototype = V(),
   detail::expect_none(conjugacy_breaches(q, k, prototype, options));
 }
 
-/// The laws of a convex set. Arguments as for set_breaches: the set, a vector of the kind it takes if
-/// that is no Eigen vector, options; see set_breaches.hpp.
+/// The laws of a convex set. Arguments as for set_breaches: the set, a vector of the kind it takes
+/// if that is no Eigen vector, options; see set_breaches.hpp.
 template <class C, class... Rest>
 void check_set_laws(C const& set, Rest const&... rest) {
   detail::expect_none(set_breaches(set, rest...));
@@ -69,9 +69,9 @@ void check_face_laws(F const& face, V const& prototype) {
 }
 
 /// The laws of a slanting function at each of some points:
-/// check_slanting_laws(my_function{…}, at_a_kink, somewhere_else). What is sampled, and what no sample
-/// can see, is described in slanting_breaches.hpp.
-/// One doctest CHECK per point, with each broken law and the numbers that show it.
+/// check_slanting_laws(my_function{…}, at_a_kink, somewhere_else). What is sampled, and what no
+/// sample can see, is described in slanting_breaches.hpp. One doctest CHECK per point, with each
+/// broken law and the numbers that show it.
 template <class F, vector... V>
   requires(slanting_function<F, V> && ...)
 void check_slanting_laws(slanting_options const& options, F const& f, V const&... points) {

@@ -69,7 +69,7 @@ struct operator_laws {
   operator_sampler<V> sampler;
   S size{0};
 
-  // --- capability laws -----------------------------------------------------------------------------
+  // --- capability laws ---------------------------------------------------------------------------
   //
   // Checks that the capabilities which an operator has agree with its apply.
 
@@ -181,7 +181,7 @@ struct operator_laws {
     }
   }
 
-  // --- declared laws -------------------------------------------------------------------------------
+  // --- declared laws -----------------------------------------------------------------------------
   //
   // Samples the laws that an operator type declares.
 
@@ -270,10 +270,10 @@ struct operator_laws {
     }
   }
 
-  /// A x is the same while another thread applies A to something else. The two must meet, and often:
-  /// an application counts where one of the other thread's ended during it. On a busy machine with
-  /// one free core they meet only where the system interrupts one of them, so time is limited as
-  /// well.
+  /// A x is the same while another thread applies A to something else. The two must meet, and
+  /// often: an application counts where one of the other thread's ended during it. On a busy
+  /// machine with one free core they meet only where the system interrupts one of them, so time is
+  /// limited as well.
   void check_concurrency() {
     constexpr int meetings = 2000;
     constexpr std::chrono::milliseconds patience(50);

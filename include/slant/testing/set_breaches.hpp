@@ -164,7 +164,7 @@ struct block_laws : set_laws<S> {
     }
   }
 
-  // --- state breaches ------------------------------------------------------------------------------
+  // --- state breaches ----------------------------------------------------------------------------
   //
   // Laws of the state of a point x ∈ Λ, one block:
   //     free      in the interior; not for P(y), y outside
@@ -233,8 +233,8 @@ struct block_laws : set_laws<S> {
     }
   }
 
-  /// All laws but those of products, and those of points at which a single block has to be looked at:
-  /// kinks and states.
+  /// All laws but those of products, and those of points at which a single block has to be looked
+  /// at: kinks and states.
   void check_set(std::vector<dense> const& points) const {
     this->check_single_points(points);
     this->check_pairs(points);

@@ -97,8 +97,8 @@ struct gradient_point {
         trial(like(x0, qp.size())),
         a_workspace(workspace(qp.a(), x0)) {}
 
-  /// step_length as the options say, else `factor`/σ_max; σ_max to a few digits, 0 if it was not asked
-  /// for. Not inlined: g++ 12 would see *step_length read where there is none.
+  /// step_length as the options say, else `factor`/σ_max; σ_max to a few digits, 0 if it was not
+  /// asked for. Not inlined: g++ 12 would see *step_length read where there is none.
   template <class Options>
   [[nodiscard, gnu::noinline]] scalar set_step_length(QP const& qp, Options const& o,
                                                       scalar const& factor) {

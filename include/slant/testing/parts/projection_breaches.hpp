@@ -122,16 +122,16 @@ struct set_laws {
     }
   }
 
-  // --- slant breaches ------------------------------------------------------------------------------
+  // --- slant breaches ----------------------------------------------------------------------------
   //
   // Laws of the slanting operator of a projection:
   //     G = Gᵀ,   0 ⪯ G ⪯ I,   ‖P(y+h) − P(y) − G(y+h) h‖ = o(‖h‖),   renewal in place = new.
   //
-  // The limit is sampled at kinks, which are found by bisection for the largest jump of G between two
-  // points, and along random, coordinate, normal and crossing directions. h shrinks from ε^¼ to √ε
-  // times the size of y; the error relative to ‖h‖ must fall like ‖h‖^¼ at least, or the error reach
-  // rounding. A G that is wrong within √ε of a kink only, or by less than √ε, passes; boundaries
-  // curved more strongly than 1/(√ε ‖y‖) cannot be sampled.
+  // The limit is sampled at kinks, which are found by bisection for the largest jump of G between
+  // two points, and along random, coordinate, normal and crossing directions. h shrinks from ε^¼ to
+  // √ε times the size of y; the error relative to ‖h‖ must fall like ‖h‖^¼ at least, or the error
+  // reach rounding. A G that is wrong within √ε of a kink only, or by less than √ε, passes;
+  // boundaries curved more strongly than 1/(√ε ‖y‖) cannot be sampled.
 
   void check_slant_bounds(dense const& x) const {
     matrix const g = probe.slant(x);
@@ -176,7 +176,8 @@ struct set_laws {
     }
   }
 
-  /// Moves a and b to neighbouring points between which G jumps, by bisection; false if it is smooth.
+  /// Moves a and b to neighbouring points between which G jumps, by bisection; false if it is
+  /// smooth.
   [[nodiscard]] bool bisect_for_kink(dense& a, dense& b) const {
     auto at_a = probe.slant(a);
     auto at_b = probe.slant(b);
@@ -218,7 +219,7 @@ struct set_laws {
     }
   }
 
-  // --- boundary breaches ---------------------------------------------------------------------------
+  // --- boundary breaches -------------------------------------------------------------------------
   //
   // Laws of step_to_boundary and support:
   //     x + α d ∈ Λ for α a little below the step, x + β d ∉ Λ for β a little above;
@@ -302,8 +303,8 @@ struct set_laws {
       if (!(missing <= allowed))
         log("support is attained", claim + ", missing " + text_of(missing));
     } else {
-      // Where an unbounded set begins to be unbounded in the direction y is a matter of rounding, so
-      // directions nearby may show it as well.
+      // Where an unbounded set begins to be unbounded in the direction y is a matter of rounding,
+      // so directions nearby may show it as well.
       S const reach = S(1000) * (slant::norm(far(S(1000) * unit)) + unit);
       S const farthest = slant::norm(far(reach)) + unit;
       bool unbounded = false;
@@ -333,13 +334,13 @@ struct set_laws {
     }
   }
 
-  // --- inequality breaches -------------------------------------------------------------------------
+  // --- inequality breaches -----------------------------------------------------------------------
   //
   // Laws of the smooth inequality form f(x) ≤ 0 of a block:
   //     x ∈ Λ ⟺ f(x) ≤ 0 (away from the boundary),   gradient and Hessian against differences,
   //     Σ νᵢ ∇²fᵢ symmetric,   ∇fᵢ(x)ᵀ(z − x) ≤ 0 for z ∈ Λ where fᵢ(x) = 0.
-  // The last is all that convexity of the set implies: ‖x_t‖² − μ²x_n² ≤ 0, x_n ≥ 0 describes a cone,
-  // although the first function is not convex.
+  // The last is all that convexity of the set implies: ‖x_t‖² − μ²x_n² ≤ 0, x_n ≥ 0 describes a
+  // cone, although the first function is not convex.
 
   void check_inequality_sign(dense const& x) const {
     dense const f = probe.inequality(x);
