@@ -176,25 +176,13 @@ bool conditions(char const* name, int size, matrix const& M, vector const& b, Se
   while (s.status == slant::status::running && s.iteration <= 60 &&
          s.reduced_gradient_norm > 1e-8 * s.gradient_scale) {
     auto barrier = s.barrier;
-    barrier.assemble(set, s.x, s.multipliers, s.slacks, s.unit, s.diagonal,
-                     slant::lorentz_pairs<double>(set));
+    barrier.assemble(set, s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
     matrix const W = dense(barrier.stiffness()), J_SC = M + W;
     matrix P_SC = W;
     P_SC.diagonal() += M.diagonal();
     auto const n = M.rows(), m = barrier.rows();
     matrix J_AM = matrix::Zero(n + m, n + m);
-    J_AM.topLeftCorner(n, n) = M;
-    vector const ν = s.unit * s.multipliers.cwiseProduct(barrier.per_unit());
-    slant::detail::visit_inequalities(
-        set, [&](auto const& block, auto const& p, auto, auto k, Eigen::Index row) {
-          Eigen::Matrix<double, k, 1> const own = ν.template segment<k>(row);
-          auto const h = block.inequality_hessian(p.value(s.x), own);
-          for (Eigen::Index i = 0; i < p.size(); ++i) {
-            for (Eigen::Index j = 0; j < p.size(); ++j) {
-              J_AM(p.component(i), p.component(j)) += h(i, j);
-            }
-          }
-        });
+    J_AM.topLeftCorner(n, n) = M + dense(barrier.curvature());
     vector y(m), e = vector::Zero(n);
     for (Eigen::Index j = 0; j < n; ++j) {
       e[j] = 1;

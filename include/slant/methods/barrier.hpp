@@ -23,14 +23,21 @@
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/lorentz_pairs.hpp>
 #include <slant/methods/parts/recession.hpp>
+#include <slant/operators/block.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/letter.hpp>
 #include <slant/operators/small_blocks.hpp>
+#include <slant/operators/sum.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace slant {
@@ -43,13 +50,16 @@ template <scalar S = double>
 class barrier {
  public:
   using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using blocks_type = small_blocks<S, laws<positive_semidefinite>>;
+  using curvature_operator = small_blocks<S>;
+  using stiffness_operator = small_blocks<S, laws<positive_semidefinite>>;
+  using preconditioner_operator = small_blocks<S, laws<positive_semidefinite>>;
 
   /// Room for the blocks of a set; allocates.
   template <class C>
   explicit barrier(C const& set)
       : layout_(std::make_shared<detail::inequality_layout const>(set)),
         jacobian_(layout_),
+        curvature_(layout_->cols()),
         stiffness_(layout_->cols()),
         preconditioner_(layout_->cols()),
         per_unit_(column::Zero(layout_->rows())),
@@ -59,6 +69,7 @@ class barrier {
       if constexpr (single_point<block_type>) hold(place);
       if constexpr (detail::inequalities_of<block_type> > 0) {
         index const stride = place.size() > 1 ? place.component(1) - place.component(0) : 1;
+        curvature_.append(place.size(), place.component(0), stride);
         stiffness_.append(place.size(), place.component(0), stride);
         preconditioner_.append(place.size(), place.component(0), stride);
       }
@@ -72,25 +83,32 @@ class barrier {
   [[nodiscard]] column const& per_unit() const noexcept { return per_unit_; }
   /// G ᵀ, in units σ.
   [[nodiscard]] inequality_jacobian<S> const& jacobian() const noexcept { return jacobian_; }
+  /// Σ ν_i ∇²f_i.
+  [[nodiscard]] curvature_operator const& curvature() const noexcept { return curvature_; }
   /// W.
-  [[nodiscard]] blocks_type const& stiffness() const noexcept { return stiffness_; }
+  [[nodiscard]] stiffness_operator const& stiffness() const noexcept { return stiffness_; }
   /// P_SC⁻¹; 0 on components of single points.
-  [[nodiscard]] blocks_type const& preconditioner() const noexcept { return preconditioner_; }
+  [[nodiscard]] preconditioner_operator const& preconditioner() const noexcept {
+    return preconditioner_;
+  }
 
   /// z = −f(x)/σ, 1 where there is no bound; whether all are numbers > 0.
   template <class C, class X, class Z>
   [[nodiscard]] bool slacks(C const& set, X const& x, Z& z) const {
     auto& out = slant::local(z);
+    index row = 0;
     bool inside = true;
-    detail::visit_inequalities(
-        set, [&](auto const& block, auto const& place, auto, auto k, index row) {
-          auto const f = block.inequality(place.value(x));
-          for (index i = 0; i < k; ++i, ++row) {
-            bool const bound = per_unit_.coeff(row) > S(0);
-            out.coeffRef(row) = bound ? S(-f.coeff(i) * per_unit_.coeff(row)) : S(1);
-            inside = inside && out.coeff(row) > S(0);
-          }
-        });
+    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
+      constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
+      if constexpr (k > 0) {
+        auto const f = block.inequality(place.value(x));
+        for (index i = 0; i < k; ++i, ++row) {
+          bool const bound = per_unit_.coeff(row) > S(0);
+          out.coeffRef(row) = bound ? S(-f.coeff(i) * per_unit_.coeff(row)) : S(1);
+          inside = inside && out.coeff(row) > S(0);
+        }
+      }
+    });
     return inside;
   }
 
@@ -101,43 +119,49 @@ class barrier {
     jacobian_.scale_rows(per_unit_);
   }
 
-  /// W and P_SC⁻¹ at x, where G is, for the diagonal d of A. `unit` is that of ν. Sections of the
-  /// Lorentz cone that are bound in `pairs` have W from there.
+  /// Σ ν_i ∇²f_i, W and P_SC⁻¹ at x, where G is, for the diagonal d of A. `unit` is that of ν.
   template <class C, class X, class M, class Z, class D>
+  void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d) {
+    assemble(set, x, ν, z, unit, d, no_pairs{});
+  }
+  /// The same where bounded sections of the Lorentz cone have W from their pairs.
+  template <class C, class X, class M, class Z, class D, class Pairs>
   void assemble(C const& set, X const& x, M const& ν, Z const& z, S const& unit, D const& d,
-                lorentz_pairs<S> const& pairs) {
+                Pairs const& pairs) {
     lorentz_place of_pairs;
     auto const& multipliers = slant::local(ν);
     auto const& slack = slant::local(z);
     auto const& diagonal = slant::local(d);
-    index entry = 0, number = 0;
-    detail::visit_inequalities(
-        set, [&](auto const& block, auto const& place, auto n, auto k, index row) {
-          using block_type = std::remove_cvref_t<decltype(block)>;
-          using square = Eigen::Matrix<S, n, n>;
-          Eigen::Matrix<S, k, 1> forces, weights;
-          for (int i = 0; i < k; ++i) {
-            forces[i] = unit * multipliers.coeff(row + i);
-            weights[i] = forces[i] * per_unit_.coeff(row + i);
+    index row = 0, entry = 0, number = 0;
+    slant::visit_blocks(set, [&](auto const& block, auto const& place) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      constexpr int n = static_dimension_of<block_type>;
+      constexpr int k = detail::inequalities_of<block_type>;
+      if constexpr (k > 0) {
+        using square = Eigen::Matrix<S, n, n>;
+        Eigen::Matrix<S, k, 1> forces, weights;
+        for (int i = 0; i < k; ++i) {
+          forces[i] = unit * multipliers.coeff(row + i);
+          weights[i] = forces[i] * per_unit_.coeff(row + i);
+        }
+        square w = block.inequality_hessian(place.value(x), weights);
+        curvature_.template block<n>(number) = w;
+        for (int i = 0; i < k; ++i) {
+          S const stiff = forces[i] / slack.coeff(row + i);
+          S const* const g = jacobian_.entries().data() + entry + n * i;
+          for (int c = 0; c < n; ++c) {
+            for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
           }
-          square w = block.inequality_hessian(place.value(x), weights);
-          for (int i = 0; i < k; ++i) {
-            S const stiff = forces[i] / slack.coeff(row + i);
-            S const* const g = jacobian_.entries().data() + entry + n * i;
-            for (int c = 0; c < n; ++c) {
-              for (int r = 0; r < n; ++r) w.data()[r + n * c] += (stiff * g[r]) * g[c];
-            }
-          }
-          if constexpr (lorentz_block<block_type>) {
-            auto const at = of_pairs.template next<block_type>(row);
-            if (pairs.bound(at.number)) w = detail::multiple_of(unit, pairs.stiffness(block, at));
-          }
-          stiffness_.template block<n>(number) = w;
-          for (int j = 0; j < n; ++j) w.data()[j + n * j] += diagonal.coeff(place.component(j));
-          preconditioner_.template block<n>(number) = detail::definite_inverse(w);
-          entry += k * n;
-          ++number;
-        });
+        }
+        replace_by_pairs(block, pairs, of_pairs, row, unit, w);
+        stiffness_.template block<n>(number) = w;
+        for (int j = 0; j < n; ++j) w.data()[j + n * j] += diagonal.coeff(place.component(j));
+        preconditioner_.template block<n>(number) = detail::definite_inverse(w);
+        row += k;
+        entry += k * n;
+        ++number;
+      }
+    });
     outside_ = diagonal.cwiseInverse();
     keep_fixed(outside_);
     preconditioner_.assign_outside(outside_);
@@ -156,10 +180,23 @@ class barrier {
   }
 
  private:
+  struct no_pairs {};
+
+  /// W of a block from its pairs, where it has some.
+  template <class B, class Pairs, class W>
+  static void replace_by_pairs(B const& block, Pairs const& pairs, lorentz_place& of_pairs,
+                               index row, S const& unit, W& w) {
+    if constexpr (std::is_same_v<Pairs, lorentz_pairs<S>> && lorentz_block<B>) {
+      auto const at = of_pairs.template next<B>(row);
+      if (pairs.bound(at.number)) w = detail::multiple_of(unit, pairs.stiffness(block, at));
+    }
+  }
+
   std::shared_ptr<detail::inequality_layout const> layout_;
   inequality_jacobian<S> jacobian_;
-  blocks_type stiffness_;
-  blocks_type preconditioner_;
+  curvature_operator curvature_;
+  stiffness_operator stiffness_;
+  preconditioner_operator preconditioner_;
   column per_unit_;
   column outside_;
   std::vector<index> fixed_;
@@ -175,14 +212,6 @@ class barrier {
 // whoever takes the step knows the gradient at its end: one product by A a step of the iteration
 // and none besides, also for a start t₀ ≠ 0, whose image is known from the step that made it. Of
 // its multiples the one with the least energy is taken, which is never worse than 0.
-//
-// The spectrum of P_SC⁻¹J_SC lies in [σ_min(A)/max D, σ_max(A)/min D] at every iterate if D =
-// diag(A) [K Theorem 4]. Rejected: the system of Δx and Δν together,
-//
-//     J_AM = [ A + Σ ν_i ∇²f_i   G ; Gᵀ   −D₂₂ ],     P_AM alike with D for A       [K Theorem 3]
-//
-// Conjugate gradients preconditioned by P_AM, once they have solved the second block row, make the
-// steps on x that they make on J_SC: as many products, longer vectors, and P_AM is not definite.
 //
 // With M ≈ A⁻¹ at hand the preconditioner is, D ≈ diag(M)⁻¹,
 //
@@ -328,6 +357,93 @@ class barrier_minimum {
   V near_, far_;  // parts of the preconditioned g
   workspace_t<M, V> m_workspace_;
   bool known_ = false;
+};
+
+// --- reduced systems -----------------------------------------------------------------------------
+//
+// The two reduced systems of an interior-point step and their preconditioners [K §3.2.3], as
+// compositions of operators:
+//
+//     J_SC = J₁₁ + G D₂₂⁻¹ Gᵀ            P_SC = D₁₁ + G D₂₂⁻¹ Gᵀ          J₁₁ = A + Σ ν_i ∇²f_i
+//     J_AM = [ J₁₁   G  ]                P_AM = [ D₁₁   G  ]              D₁₁ = D + Σ ν_i ∇²f_i
+//            [ Gᵀ  −D₂₂ ]                       [ Gᵀ  −D₂₂ ]              D₂₂ = N⁻¹Z
+//
+// The spectrum of P_SC⁻¹J_SC lies in [σ_min(A)/max D, σ_max(A)/min D] at every iterate if D =
+// diag(A) [K Theorem 4]; that of P_AM⁻¹J_AM is the same and, besides, the number 1 [K Theorem 3].
+//
+// interior_point works with the first. Conjugate gradients preconditioned by P_AM, once they have
+// solved the second block row, make the steps on x that they make on J_SC: the number of products
+// is the same (tests/methods/reduced_systems_test.cpp), vectors are longer and P_AM is not
+// definite.
+
+/// J_SC = A + W; refers to the barrier, and to A if it is an lvalue.
+template <class A, class S>
+[[nodiscard]] auto schur_system(A&& a, barrier<S> const& b) {
+  return sum(std::forward<A>(a), b.stiffness());
+}
+template <class A, class S>
+void schur_system(A&& a, barrier<S> const&& b) = delete;
+
+/// D₂₂ = N⁻¹Z for multipliers > 0; `unit` is theirs.
+template <class M, class Z, class S>
+[[nodiscard]] auto complementarity_diagonal(M const& ν, Z const& z, S const& unit) {
+  using column = typename barrier<S>::column;
+  return column((slant::local(z).array() / slant::local(ν).array() / unit).matrix());
+}
+
+/// J_AM for D₂₂; refers to the barrier, and to A if it is an lvalue.
+template <class A, class S>
+[[nodiscard]] auto augmented_system(A&& a, barrier<S> const& b,
+                                    typename barrier<S>::column const& d22) {
+  using column = typename barrier<S>::column;
+  return declare<self_adjoint>(
+      block(block_row(sum(std::forward<A>(a), b.curvature()), adjoint(b.jacobian())),
+            block_row(b.jacobian(), slant::diagonal(column(-d22)))));
+}
+
+template <class A, class S>
+void augmented_system(A&& a, barrier<S> const&& b, typename barrier<S>::column const& d22) = delete;
+
+/// P_AM⁻¹ by elimination of the second row: x = P_SC⁻¹ (r₁ + G D₂₂⁻¹ r₂), ν = D₂₂⁻¹ (Gᵀ x − r₂).
+template <class S>
+class augmented_preconditioner {
+ public:
+  using column = typename barrier<S>::column;
+  static constexpr law_set laws = slant::laws<self_adjoint>;
+
+  struct temporaries {
+    column head, tail, gradient;
+  };
+
+  /// Refers to the barrier.
+  augmented_preconditioner(barrier<S> const& b, column d22) : barrier_(&b), d22_(std::move(d22)) {}
+  augmented_preconditioner(barrier<S> const&& b, column d22) = delete;
+
+  [[nodiscard]] index rows() const { return barrier_->stiffness().rows() + barrier_->rows(); }
+  [[nodiscard]] index cols() const { return rows(); }
+
+  template <class X>
+  [[nodiscard]] temporaries workspace(X const&) const {
+    index const n = barrier_->stiffness().rows();
+    return {column(n), column(barrier_->rows()), column(n)};
+  }
+  template <class X, class Y>
+  void apply(X const& x, Y& y, temporaries& w) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    index const n = w.head.size(), m = w.tail.size();
+    w.gradient = from.head(n);
+    w.tail = from.tail(m).cwiseQuotient(d22_);
+    barrier_->jacobian().apply_adjoint_add(S(1), w.tail, w.gradient);
+    barrier_->preconditioner().apply(w.gradient, w.head);
+    barrier_->jacobian().apply(w.head, w.tail);
+    to.head(n) = w.head;
+    to.tail(m) = (w.tail - from.tail(m)).cwiseQuotient(d22_);
+  }
+
+ private:
+  barrier<S> const* barrier_;
+  column d22_;
 };
 
 }  // namespace slant
