@@ -7,7 +7,7 @@
 // nearly incompressible, of long and of flat cells, of two materials in a chequerboard, with slip
 // bounds from 0 to a million times the pressure, with contact of a few nodes; and bodies of meshes
 // of tetrahedra by Gmsh (MSH 2.2, text), fixed where x is least, on a floor where z is least, under
-// a body force. Levels by aggregation, and by interpolation where meshes are nested.
+// a body force (holed_brick.geo). Levels by aggregation, and by interpolation where meshes are nested.
 //
 // It prints comma-separated values: scene, load, levels, unknowns, Newton steps, cycles, processor
 // seconds, status, the relative error in the energy norm as certified, and against the dual method
@@ -18,6 +18,7 @@
 
 #include <fem/box_prolongations.hpp>
 #include <fem/steel_brick.hpp>
+#include <support/chequered_brick.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -80,26 +81,6 @@ scene brick(std::string name, fem::steel_brick_options const& o) {
           {std::move(s.N), std::move(s.T), std::move(s.f), std::move(s.d), std::move(s.g)},
           contact::layout_of(s.mesh.nodes, s.unknowns.first),
           fem::box_prolongations(fem::make_brick_mesh(o.k, o.size), s.unknowns)};
-}
-
-/// Cubes of k/4 cells, every other of a material softer by that factor.
-sparse chequerboard(int k, double factor) {
-  auto const mesh = fem::make_brick_mesh(k, {3, 1, 1});
-  auto const unknowns = fem::make_steel_brick({.k = k}).unknowns;
-  std::vector<Eigen::Index> cells[2];
-  for (Eigen::Index c = 0; c < mesh.cell_count(); ++c) {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (Eigen::Index a = 0; a < 4; ++a) centre += mesh.nodes.col(mesh.cells(a, c)) / 4;
-    int sum = 0;
-    for (Eigen::Index a = 0; a < 3; ++a) sum += static_cast<int>(std::floor(4 * centre[a]));
-    cells[sum % 2].push_back(c);
-  }
-  sparse K(unknowns.count, unknowns.count);
-  for (int part = 0; part < 2; ++part) {
-    fem::simplex_mesh<3> const own{mesh.nodes, mesh.cells(Eigen::all, cells[part])};
-    K += fem::stiffness<3>(own, unknowns, fem::lame(2.119e5 * (part == 0 ? 1 : factor), 0.277));
-  }
-  return K;
 }
 
 [[noreturn]] void fail(std::string const& what) {
@@ -210,7 +191,7 @@ int main(int argc, char** argv) {
     good = measure(brick("cells 10:1:1", {.k = k, .load = load, .size = {30, 1, 1}})) && good;
     good = measure(brick("cells 1:10:10", {.k = k, .load = load, .size = {0.3, 1, 1}})) && good;
     scene s = brick("materials 1:1e-4", {.k = k, .load = load});
-    s.K = chequerboard(k, 1e-4);
+    s.K = test::chequered_stiffness(k, 1e-4);
     good = measure(s) && good;
     for (double const factor : {0.0, 1e-6, 1e6}) {
       s = brick("slip bounds x " + slant::detail::show(factor), {.k = k, .load = load});

@@ -34,6 +34,7 @@
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks with and without friction by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
+#   robustness          the same where multigrid has a hard time; with a mesh of Gmsh if that is found
 #   stability           every method on every adversity, judged in quadruple precision
 #   random_programs     every method on 3300 random programs, judged in quadruple precision
 #   active_sets         products of KPRGP, AS-S, QPQ, QPC, MSSN, IMSSN, GIMSSN on the brick
@@ -56,7 +57,7 @@ programs=$tree/benchmarks
 all=(composition slanting erased compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  certificates load_steps coulomb coulomb_models multilevel multilevel_large stability
+  certificates load_steps coulomb coulomb_models multilevel multilevel_large robustness stability
   random_programs friction friction_variants precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
@@ -139,6 +140,12 @@ run_load_steps() { "$(program load_steps)" >"$output/load_steps.csv"; }
 run_coulomb() { "$(program coulomb)" brick >"$output/coulomb.csv"; }
 run_coulomb_models() { "$(program coulomb)" models >"$output/coulomb_models.csv"; }
 run_total_feti() { "$(program total_feti)" >"$output/total_feti.csv"; }
+run_robustness() {
+  local mesh=$output/holed_brick.msh files=()
+  if gmsh -3 -format msh2 -setnumber h 0.08 -o "$mesh" "$here/holed_brick.geo" >"$mesh.log" 2>&1
+  then files=("$mesh"); fi
+  "$(program robustness)" 12 "${files[@]}" >"$output/robustness.csv"
+}
 # friction_problems NAME ARGUMENT…: NAME.csv of the folder $SLANT_FRICTION, and the page.
 friction_problems() {
   if [[ -z ${SLANT_FRICTION:-} ]]; then
@@ -359,6 +366,7 @@ write_summary() {
   section coulomb_models "The same on two bricks and two plates"
   section multilevel "Multigrid: bricks with and without friction, processor seconds, tolerance 1e-8"
   section multilevel_large "Multigrid: the same, where K is not factored"
+  section robustness "Multigrid: contact with friction where it has a hard time"
   section friction "Coulomb friction problems of other people's simulations, natural map over |q| at most 1e-8"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows
 }

@@ -19,6 +19,7 @@
 #include "loose_brick.hpp"
 #include "spring_scenes.hpp"
 #include "support/allocation_guard.hpp"
+#include "support/chequered_brick.hpp"
 #include "support/effort.hpp"
 #include "support/message.hpp"
 
@@ -345,6 +346,23 @@ TEST_CASE("nested meshes: prolongations of the user, their levels begun on the c
     CHECK(there.work.inner_iterations <= r.work.inner_iterations + 3);
     CHECK(contact::solve(s.K, s.data, {.multigrid = {.prolongations = s.prolongations}})
               .choice.reason.find("estimated") != std::string::npos);
+  }
+}
+
+TEST_CASE("two materials: contacts are scaled to one stiffness") {
+  int const k = 8;
+  for (auto const load : {fem::brick_load::press, fem::brick_load::lift}) {
+    auto const made = fem::make_steel_brick({.k = k, .load = load});
+    for (double const factor : {1e-4, 1e4}) {
+      CAPTURE(factor);
+      scene s = scene_of<3>(made);
+      s.K = test::chequered_stiffness(k, factor);
+      auto const by_aggregation = agree(s);
+      CHECK(by_aggregation.iterations <= 16);  // 102 and 230 with one scale for all
+      CHECK(by_aggregation.work.inner_iterations <= 50);
+      s.prolongations = fem::box_prolongations(fem::make_brick_mesh(k, {3, 1, 1}), made.unknowns);
+      CHECK(agree(s).iterations <= 16);  // thousands
+    }
   }
 }
 
