@@ -132,9 +132,7 @@ TEST_CASE("prescribed displacements: a brick whose end is moved, with no contact
   slant::contact::data<double> const data{sparse(0, n), sparse(0, n), VectorXd::Zero(n),
                                           VectorXd(0), VectorXd(0)};
   VectorXd entries = VectorXd::Zero(rows);
-  for (Eigen::Index j = 0; j < brick.bodies.B.outerSize(); ++j) {
-    for (sparse::InnerIterator e(brick.bodies.B, j); e; ++e) entries[e.row()] += 1;
-  }
+  slant::detail::for_each_entry(brick.bodies.B, [&](auto i, auto, double) { entries[i] += 1; });
   int axis = 0;
   for (Eigen::Index i = 0; i < rows; ++i) {
     if (entries[i] == 1) brick.bodies.c[i] = axis++ % 3 == 2 ? 0.25 : 0.0;
@@ -152,16 +150,11 @@ TEST_CASE("redundant gluing, a body with no constraint, loads that nothing bears
   auto const two = brick.parts.unknowns();
   auto const own = brick.bodies.K.front().rows();
   auto const rows = brick.bodies.B.rows();
-  std::vector<Eigen::Triplet<double>> entries;
-  slant::detail::for_each_entry(brick.bodies.B, [&](auto i, auto j, double value) {
-    entries.emplace_back(int(i), int(j), value);
-    entries.emplace_back(int(rows + i), int(j), -2 * value);
-  });
   slant::contact::floating_bodies<double> bodies = brick.bodies;
   bodies.K.push_back(brick.bodies.K.front());
   bodies.R.push_back(brick.bodies.R.front());
-  bodies.B = sparse(2 * rows, two + own);
-  bodies.B.setFromTriplets(entries.begin(), entries.end());
+  bodies.B = slant::contact::detail::stacked<double>(bodies.B, sparse(-2 * bodies.B));
+  bodies.B.conservativeResize(2 * rows, two + own);
   bodies.c = VectorXd::Zero(2 * rows);
   auto data = brick.data(true);
   data.N.conservativeResize(data.N.rows(), two + own);

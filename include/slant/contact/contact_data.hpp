@@ -9,7 +9,9 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -17,7 +19,7 @@ namespace slant::contact::detail {
 
 // --- contact checks ------------------------------------------------------------------------------
 //
-// The checks of gaps and slip bounds, whether they come with a scene or with a later load step.
+// The checks of gaps, slip bounds and coefficients, whenever they come.
 
 /// Throws bad_input unless d has m entries that are numbers or +∞.
 template <class V>
@@ -30,18 +32,26 @@ void check_gaps(V const& d, index m) {
   }
 }
 
+/// Throws bad_input unless all friction coefficients are finite and ≥ 0.
+template <class V>
+void check_coefficients(char const* name, V const& F) {
+  for (index i = 0; i < F.size(); ++i) {
+    if (!(F(i) >= scalar_t<V>(0)) || !slant::detail::is_finite(F(i))) {
+      throw bad_input(name, slant::detail::show(F(i)), "a finite number >= 0").at(i);
+    }
+  }
+}
+
 /// A row of zeros says 0 ≤ dᵢ, whatever u is. N may have more rows than d has entries. Throws
 /// bad_input for a gap that no displacement opens.
 template <class S, class V>
 void check_reach(Eigen::SparseMatrix<S> const& N, V const& d) {
-  std::vector<bool> is_zero(static_cast<std::size_t>(N.rows()), true);
-  for (index j = 0; j < N.outerSize(); ++j) {
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(N, j); e; ++e) {
-      if (e.value() != S(0)) is_zero[static_cast<std::size_t>(e.row())] = false;
-    }
-  }
+  std::vector<bool> is_zero(std::size_t(N.rows()), true);
+  slant::detail::for_each_entry(N, [&](index i, index, S const& value) {
+    if (value != S(0)) is_zero[std::size_t(i)] = false;
+  });
   for (index i = 0; i < d.size(); ++i) {
-    if (is_zero[static_cast<std::size_t>(i)] && d(i) < S(0)) {
+    if (is_zero[std::size_t(i)] && d(i) < S(0)) {
       throw bad_input("d", slant::detail::show(d(i)),
                       "a number >= 0, since row " + slant::detail::show(i) +
                           " of N is zero: no displacement opens this gap")
@@ -74,7 +84,7 @@ namespace slant::contact {
 /// Contact data of a body (or several) with n_u displacement unknowns and m contact nodes.
 template <class S = double>
 struct data {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   sparse_type N;  ///< m × n_u, normal displacement of each contact node
@@ -133,18 +143,14 @@ template <class M>
   return touched;
 }
 
-/// Those of N and T together. Throws bad_input as data::validate does.
+/// Those of N and T together, in order. Throws bad_input as data::validate does.
 template <class S>
 [[nodiscard]] std::vector<index> contact_unknowns(data<S> const& c) {
   c.validate();
-  std::vector<char> marked(static_cast<std::size_t>(c.N.cols()), 0);
-  for (index j : touched_unknowns(c.N)) marked[static_cast<std::size_t>(j)] = 1;
-  for (index j : touched_unknowns(c.T)) marked[static_cast<std::size_t>(j)] = 1;
-  std::vector<index> list;
-  for (std::size_t j = 0; j < marked.size(); ++j) {
-    if (marked[j] != 0) list.push_back(static_cast<index>(j));
-  }
-  return list;
+  std::vector<index> const of_N = touched_unknowns(c.N), of_T = touched_unknowns(c.T);
+  std::vector<index> both;
+  std::set_union(of_N.begin(), of_N.end(), of_T.begin(), of_T.end(), std::back_inserter(both));
+  return both;
 }
 
 }  // namespace slant::contact
@@ -160,7 +166,7 @@ namespace slant::contact::detail {
 /// small enough not to show in ‖b‖. Its size is that of the other entries, which are lengths too;
 /// without any, λ = 0 is the solution and no length is needed.
 template <class S, class B>
-void subtract_gaps(Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, B&& b) {
+void subtract_gaps(Eigen::VectorX<S> const& d, B&& b) {
   if (d.size() == 0) return;
   auto const closes = [&](index i) { return slant::detail::is_finite(d(i)); };
   for (index i = 0; i < d.size(); ++i) {
@@ -172,37 +178,55 @@ void subtract_gaps(Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, B&& b) {
     if (!closes(i)) b(i) = size > S(0) ? S(-size) : S(-1);
   }
 }
-template <class S, class B>
-void subtract_gaps(data<S> const& c, B&& b) {
-  detail::subtract_gaps(c.d, b);
-}
 
 // --- stacked constraints -------------------------------------------------------------------------
 //
-// B = [N; T] of contact data.
+// B = [N; T] of contact data, and the lengths of its rows.
+
+/// A above B.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> stacked(Eigen::SparseMatrix<S> const& A,
+                                             Eigen::SparseMatrix<S> const& B) {
+  std::vector<Eigen::Triplet<S>> entries;
+  entries.reserve(std::size_t(A.nonZeros() + B.nonZeros()));
+  for (auto const* m : {&A, &B}) {
+    index const first = m == &A ? 0 : A.rows();
+    slant::detail::for_each_entry(*m, [&](index i, index j, S const& value) {
+      entries.emplace_back(int(first + i), int(j), value);
+    });
+  }
+  Eigen::SparseMatrix<S> whole(A.rows() + B.rows(), A.cols());
+  whole.setFromTriplets(entries.begin(), entries.end());
+  return whole;
+}
 
 /// B = [N; T]. A node that never meets its obstacle (infinite gap) presses on nothing: its row is
 /// empty.
 template <class S>
 [[nodiscard]] Eigen::SparseMatrix<S> stacked_constraints(data<S> const& c) {
-  using sparse_type = Eigen::SparseMatrix<S>;
-  std::vector<Eigen::Triplet<S>> entries;
-  entries.reserve(static_cast<std::size_t>(c.N.nonZeros() + c.T.nonZeros()));
-  auto append = [&](sparse_type const& m, index first_row, auto wanted) {
-    for (index j = 0; j < m.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator e(m, j); e; ++e) {
-        if (wanted(e.row())) {
-          entries.emplace_back(static_cast<int>(first_row + e.row()), static_cast<int>(j),
-                               e.value());
-        }
-      }
-    }
-  };
-  append(c.N, 0, [&](index i) { return slant::detail::is_finite(c.d(i)); });
-  append(c.T, c.nodes(), [](index) { return true; });
-  sparse_type b(c.N.rows() + c.T.rows(), c.f.size());
-  b.setFromTriplets(entries.begin(), entries.end());
-  return b;
+  Eigen::SparseMatrix<S> N = c.N;
+  N.prune([&](index i, index, S const&) { return slant::detail::is_finite(c.d(i)); });
+  return stacked(N, c.T);
+}
+
+/// The columns of I ∈ ℝⁿˣⁿ with these numbers.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> columns_of_identity(index n,
+                                                         std::vector<index> const& numbers) {
+  Eigen::SparseMatrix<S> columns(n, index(numbers.size()));
+  columns.reserve(columns.cols());
+  for (index j = 0; j < columns.cols(); ++j) {
+    columns.startVec(j);
+    columns.insertBack(numbers[std::size_t(j)], j) = S(1);
+  }
+  columns.finalize();
+  return columns;
+}
+
+/// ‖row‖² of each row of B.
+template <class S>
+[[nodiscard]] Eigen::VectorX<S> row_squares(Eigen::SparseMatrix<S> const& B) {
+  return B.cwiseAbs2() * Eigen::VectorX<S>::Ones(B.cols());
 }
 
 }  // namespace slant::contact::detail

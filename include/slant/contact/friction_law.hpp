@@ -108,16 +108,6 @@ data<S> const& validated(Friction friction, data<S> const& c, index unknowns) {
 // Slip: f should be continuous, and where it falls with the slip, slowly: uniqueness is lost where
 // its slope exceeds the stiffness of the bodies, and with it the convergence of whatever iterates.
 
-/// Throws bad_input unless all entries are finite and ≥ 0.
-template <class V>
-void check_coefficients(char const* name, V const& F) {
-  for (index i = 0; i < F.size(); ++i) {
-    if (!(F(i) >= scalar_t<V>(0)) || !slant::detail::is_finite(F(i))) {
-      throw bad_input(name, slant::detail::show(F(i)), "a finite number >= 0").at(i);
-    }
-  }
-}
-
 /// The coefficients of as many contacts as there are; else bad_input.
 template <class Coefficient>
 [[nodiscard]] Coefficient one_per_contact(Coefficient F, index contacts) {

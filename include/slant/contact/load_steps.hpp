@@ -20,7 +20,6 @@
 
 #include <memory>
 #include <ranges>
-#include <type_traits>
 #include <utility>
 
 namespace slant::contact {

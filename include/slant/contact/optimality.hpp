@@ -53,7 +53,7 @@ template <class S, class Matrix>
 [[nodiscard]] S largest_stiffness(Matrix const& K, index n) {
   slant::detail::check_size("rows of K", K.rows(), n, "the size of f,");
   slant::detail::check_size("columns of K", K.cols(), n, "the size of f,");
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const diagonal = K.diagonal();
+  Eigen::VectorX<S> const diagonal = K.diagonal();
   S const κ = n > 0 ? diagonal.maxCoeff() : S(0);
   if (!(κ > S(0) && slant::detail::is_finite(κ))) {
     throw bad_input("largest diagonal entry of K", slant::detail::show(κ), "a finite number > 0");
@@ -69,7 +69,7 @@ template <class S, class Matrix>
 template <class S, class Matrix, class V>
 [[nodiscard]] optimality<S> check_optimality(Matrix const& K, data<S> const& c, V const& u,
                                              V const& λ) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   c.validate();
   S const κ = detail::largest_stiffness<S>(K, c.f.size());
   slant::detail::check_size("u", u.size(), c.f.size());

@@ -5,6 +5,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
+#include <slant/contact/contact_data.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/inverse.hpp>
@@ -14,14 +15,15 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <utility>
 #include <vector>
 
-namespace slant::contact::detail {
+namespace slant::contact {
 
-// --- scaled constraints --------------------------------------------------------------------------
-//
-// The constraints that both preconditioners of the dual operator are made of.
+namespace detail {
 
 /// D B with D = diag(B Bᵀ)⁻¹, so that D B Bᵀ = I where rows of B are orthogonal. Empty rows stay
 /// empty. Throws bad_input if K is not square or B has not as many columns.
@@ -30,19 +32,12 @@ template <class S>
                                                         Eigen::SparseMatrix<S> const& B) {
   slant::detail::check_size("columns of K", K.cols(), K.rows(), "as many as rows,");
   slant::detail::check_size("columns of B", B.cols(), K.rows(), "the size of K,");
-  Eigen::Matrix<S, Eigen::Dynamic, 1> D = Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(B.rows());
-  for (index j = 0; j < B.outerSize(); ++j) {
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(B, j); e; ++e) {
-      D(e.row()) += e.value() * e.value();
-    }
-  }
+  Eigen::VectorX<S> D = row_squares(B);
   for (S& d : D) d = d > S(0) ? S(S(1) / d) : S(0);
   return D.asDiagonal() * B;
 }
 
-}  // namespace slant::contact::detail
-
-namespace slant::contact {
+}  // namespace detail
 
 // --- preconditioner ------------------------------------------------------------------------------
 //
@@ -79,38 +74,6 @@ template <class S>
 // It costs a factorisation of K_ii and a solve with it an application, as much as a product by A:
 // worth while where it saves more than half of the products.
 
-namespace detail {
-
-/// Selections of the unknowns that B touches and of the others: C x = x_c, I x = x_i.
-template <class S>
-struct touched_unknowns {
-  Eigen::SparseMatrix<S> C;
-  Eigen::SparseMatrix<S> I;
-
-  explicit touched_unknowns(Eigen::SparseMatrix<S> const& B) {
-    std::vector<Eigen::Triplet<S>> contact, interior;
-    for (index j = 0; j < B.cols(); ++j) {
-      bool touched = false;
-      for (typename Eigen::SparseMatrix<S>::InnerIterator e(B, j); e && !touched; ++e) {
-        touched = e.value() != S(0);
-      }
-      auto& list = touched ? contact : interior;
-      list.emplace_back(static_cast<int>(list.size()), static_cast<int>(j), S(1));
-    }
-    C = selection(contact, B.cols());
-    I = selection(interior, B.cols());
-  }
-
- private:
-  static Eigen::SparseMatrix<S> selection(std::vector<Eigen::Triplet<S>> const& entries, index n) {
-    Eigen::SparseMatrix<S> m(static_cast<index>(entries.size()), n);
-    m.setFromTriplets(entries.begin(), entries.end());
-    return m;
-  }
-};
-
-}  // namespace detail
-
 /// M for a stiffness matrix K (n_u × n_u, positive definite, both triangles) and constraints B
 /// (n × n_u), for example dual::constraints(). The result owns all it needs. Throws bad_input if
 /// sizes do not match or K_ii is not positive definite.
@@ -119,12 +82,18 @@ template <class S>
                                             Eigen::SparseMatrix<S> const& B) {
   using matrix_type = Eigen::SparseMatrix<S>;
   matrix_type const scaled = detail::scaled_constraints(K, B);
-  detail::touched_unknowns<S> const select(B);
-  matrix_type const rows = select.C * K, interior_rows = select.I * K;
-  matrix_type K_cc = rows * matrix_type(select.C.transpose());
-  matrix_type K_ci = rows * matrix_type(select.I.transpose());
-  matrix_type const K_ii = interior_rows * matrix_type(select.I.transpose());
-  matrix_type B_c = scaled * matrix_type(select.C.transpose());
+  auto const contact = touched_unknowns(B);
+  std::vector<index> all(std::size_t(B.cols())), interior;
+  std::iota(all.begin(), all.end(), index(0));
+  std::set_difference(all.begin(), all.end(), contact.begin(), contact.end(),
+                      std::back_inserter(interior));
+  // Cᵀx = x_c, Iᵀx = x_i.
+  matrix_type const C = detail::columns_of_identity<S>(B.cols(), contact);
+  matrix_type const I = detail::columns_of_identity<S>(B.cols(), interior);
+  matrix_type const rows = C.transpose() * K, interior_rows = I.transpose() * K;
+  matrix_type K_cc = rows * C, K_ci = rows * I;
+  matrix_type const K_ii = interior_rows * I;
+  matrix_type B_c = scaled * C;
   auto complement = declare<self_adjoint, positive_semidefinite>(
       difference(matrix<self_adjoint>(std::move(K_cc)),
                  congruence(matrix(std::move(K_ci)), inverse(factorize(K_ii)))));

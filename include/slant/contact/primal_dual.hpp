@@ -35,7 +35,7 @@ namespace slant::contact {
 template <class Friction, class K, class S>
 class primal_dual {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// Throws bad_input if the data do not fit (see contact::data::validate) or K is not square.

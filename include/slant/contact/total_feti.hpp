@@ -36,27 +36,29 @@
 
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-namespace slant::contact::detail {
+namespace slant::contact {
+
+namespace detail {
 
 // --- feti constraints ----------------------------------------------------------------------------
 //
 // The sparse matrices of Total-FETI: blocks of bodies side by side, gluing above contact, and the
 // resultants of the constraints without their rounding errors.
 
-/// Matrices as blocks on the diagonal of a sparse one, `of(block)` of each.
-template <class S, class Blocks, class F>
-[[nodiscard]] Eigen::SparseMatrix<S> diagonal_of(Blocks const& blocks, F of) {
+/// Matrices as blocks on the diagonal of a sparse one.
+template <class S, class Blocks>
+[[nodiscard]] Eigen::SparseMatrix<S> diagonal_of(Blocks const& blocks) {
   std::vector<Eigen::Triplet<S>> entries;
   index rows = 0, cols = 0;
-  for (auto const& block : blocks) {
-    auto const& m = of(block);
+  for (auto const& m : blocks) {
     slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
-      entries.emplace_back(static_cast<int>(rows + i), static_cast<int>(cols + j), value);
+      entries.emplace_back(int(rows + i), int(cols + j), value);
     });
     rows += m.rows();
     cols += m.cols();
@@ -70,25 +72,13 @@ template <class S, class Blocks, class F>
 /// numbers are not finite.
 template <class S>
 [[nodiscard]] Eigen::SparseMatrix<S> all_constraints(Eigen::SparseMatrix<S> const& B,
-                                                     Eigen::Matrix<S, Eigen::Dynamic, 1> const& c,
+                                                     Eigen::VectorX<S> const& c,
                                                      data<S> const& of_contact) {
   slant::detail::check_size("columns of B", B.cols(), of_contact.f.size(), "the size of f,");
   slant::detail::check_size("c", c.size(), B.rows(), "the rows of B,");
   slant::detail::require_finite_entries("B", B);
   slant::detail::check_finite("c", c);
-  Eigen::SparseMatrix<S> const contact = stacked_constraints(of_contact);
-  std::vector<Eigen::Triplet<S>> entries;
-  entries.reserve(static_cast<std::size_t>(B.nonZeros() + contact.nonZeros()));
-  auto const append = [&](Eigen::SparseMatrix<S> const& m, index first) {
-    slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
-      entries.emplace_back(static_cast<int>(first + i), static_cast<int>(j), value);
-    });
-  };
-  append(B, 0);
-  append(contact, B.rows());
-  Eigen::SparseMatrix<S> whole(B.rows() + contact.rows(), of_contact.f.size());
-  whole.setFromTriplets(entries.begin(), entries.end());
-  return whole;
+  return stacked(B, stacked_constraints(of_contact));
 }
 
 /// G without entries that are rounding errors of their terms: a motion that B does not see would
@@ -103,17 +93,15 @@ template <class S>
   return G;
 }
 
-}  // namespace slant::contact::detail
-
-namespace slant::contact {
+}  // namespace detail
 
 // --- total feti ----------------------------------------------------------------------------------
 
 /// Bodies that float, and what holds them together.
 template <class S = double>
 struct floating_bodies {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::VectorX<S>;
+  using dense_type = Eigen::MatrixX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   std::vector<sparse_type> K;  ///< n_i × n_i, positive semidefinite
@@ -125,7 +113,7 @@ struct floating_bodies {
 /// diag(K₁ … K_p), for preconditioners.
 template <class S>
 [[nodiscard]] Eigen::SparseMatrix<S> block_stiffness(floating_bodies<S> const& bodies) {
-  return detail::diagonal_of<S>(bodies.K, [](auto const& K) -> auto const& { return K; });
+  return detail::diagonal_of<S>(bodies.K);
 }
 
 /// The dual problem of decomposed contact. Holds all it needs. Not movable: its operators refer to
@@ -139,7 +127,7 @@ template <class S>
 template <class Friction, class S>
 class total_feti {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// One factorisation for each body (two, if its kernel is not given). The data are for the
@@ -148,8 +136,7 @@ class total_feti {
   /// the load moves a body in a way that no constraint opposes.
   total_feti(Friction friction, floating_bodies<S> const& bodies, data<S> const& c)
       : inverse_(generalized_inverses(bodies)),
-        R_(detail::diagonal_of<S>(bodies_of(inverse_),
-                                  [](auto const* body) -> auto const& { return body->kernel(); })),
+        R_(detail::diagonal_of<S>(kernels_of(inverse_))),
         f_(checked_load(friction, c, inverse_.rows())),
         B_(detail::all_constraints(bodies.B, bodies.c, c)),
         set_(cartesian(free_components<S>(bodies.B.rows()), detail::feasible_set(friction, c))),
@@ -159,7 +146,7 @@ class total_feti {
     slant::apply(inverse_, f_, u);
     b_.noalias() = B_ * u;
     b_.head(bodies.c.size()) -= bodies.c;
-    detail::subtract_gaps(c, b_.tail(b_.size() - bodies.c.size()));
+    detail::subtract_gaps(c.d, b_.tail(b_.size() - bodies.c.size()));
   }
   total_feti(total_feti const&) = delete;
   total_feti& operator=(total_feti const&) = delete;
@@ -203,8 +190,8 @@ class total_feti {
   static inverse_type generalized_inverses(floating_bodies<S> const& bodies) {
     if (bodies.K.empty()) throw bad_input("K", "no bodies", "at least one");
     if (!bodies.R.empty()) {
-      slant::detail::check_size("R", static_cast<index>(bodies.R.size()),
-                                static_cast<index>(bodies.K.size()), "one kernel per body,");
+      slant::detail::check_size("R", index(bodies.R.size()), index(bodies.K.size()),
+                                "one kernel per body,");
     }
     std::vector<generalized_inverse<S>> inverses;
     inverses.reserve(bodies.K.size());
@@ -218,10 +205,10 @@ class total_feti {
     return diagonal_blocks(std::move(inverses));
   }
 
-  static std::vector<generalized_inverse<S> const*> bodies_of(inverse_type const& inverse) {
-    std::vector<generalized_inverse<S> const*> list;
-    for (index i = 0; i < inverse.block_count(); ++i) list.push_back(&inverse.block(i));
-    return list;
+  static auto kernels_of(inverse_type const& inverse) {
+    return std::views::iota(index(0), inverse.block_count()) |
+           std::views::transform(
+               [&inverse](index i) -> auto const& { return inverse.block(i).kernel(); });
   }
 
   /// f of valid data; without contact nodes the problem is one of gluing alone, and linear.
@@ -257,8 +244,7 @@ class total_feti {
 
   /// The body with the largest part of the resultants that is not in the range of G.
   [[nodiscard]] index moving_body(sparse_type const& G, vector_type const& resultants) const {
-    using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-    dense_type const gram = dense_type(G * sparse_type(G.transpose()));
+    Eigen::MatrixX<S> const gram = G * sparse_type(G.transpose());
     vector_type const rest = resultants - gram * gram.colPivHouseholderQr().solve(resultants);
     index row = 0, body = 0;
     rest.cwiseAbs().maxCoeff(&row);
