@@ -3,7 +3,6 @@
 #include <slant/contact/friction/verify.hpp>
 
 #include "contact/friction_scenes.hpp"
-#include "oracle/naive_friction.hpp"
 #include "support/allocation_guard.hpp"
 
 #include <doctest/doctest.h>
@@ -17,14 +16,8 @@ using blocks = slant::contact::friction_blocks<N, double>;
 
 /// ‖natural map‖ / ‖q‖ in long double.
 double naive_error(test::friction_problem const& p, Eigen::VectorXd const& r) {
-  using oracle::friction_real;
-  auto const all =
-      oracle::naive_friction(oracle::friction_matrix(Eigen::MatrixXd(p.W).cast<friction_real>()),
-                             oracle::friction_vector(p.q.cast<friction_real>()),
-                             oracle::friction_vector(p.mu.cast<friction_real>()),
-                             oracle::friction_vector(r.cast<friction_real>()));
-  friction_real sum = 0;
-  for (auto const& c : all) sum += c.natural_map * c.natural_map;
+  oracle::friction_real sum = 0;
+  for (auto const& c : test::naive(p, r)) sum += c.natural_map * c.natural_map;
   return double(std::sqrt(sum)) / p.q.norm();
 }
 

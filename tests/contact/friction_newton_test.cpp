@@ -7,7 +7,6 @@
 
 #include <Eigen/Dense>
 #include "contact/friction_scenes.hpp"
-#include "oracle/naive_friction.hpp"
 
 #include <cmath>
 #include <random>
@@ -66,13 +65,7 @@ TEST_CASE("maps of one contact: the natural map is that of the oracle") {
   Eigen::Vector3d const u = p.W * r + p.q;
   slant::contact::detail::friction_map<3, double> f;
   f.look(friction_equations::natural_map, 0.6, 1., r, u, false);
-  using oracle::friction_real;
-  auto const naive =
-      oracle::naive_friction(oracle::friction_matrix(Eigen::MatrixXd(p.W).cast<friction_real>()),
-                             oracle::friction_vector(p.q.cast<friction_real>()),
-                             oracle::friction_vector(p.mu.cast<friction_real>()),
-                             oracle::friction_vector(r.cast<friction_real>()));
-  CHECK(f.F.norm() == doctest::Approx(double(naive[0].natural_map)).epsilon(1e-12));
+  CHECK(f.F.norm() == doctest::Approx(double(test::naive(p, r)[0].natural_map)).epsilon(1e-12));
 }
 
 TEST_CASE("Newton: few steps near a solution, sparse or dense") {

@@ -4,6 +4,7 @@
 // definite, and the same with every contact twice.
 #pragma once
 
+#include "oracle/naive_friction.hpp"
 #include "support/friction_cases.hpp"
 
 #include <slant/contact/solve_friction.hpp>
@@ -59,6 +60,14 @@ namespace test {
   Eigen::SparseMatrix<double> W(3 * contacts, 3 * contacts);
   W.setFromTriplets(entries.begin(), entries.end());
   return {.W = W, .q = q, .mu = Eigen::VectorXd::Constant(contacts, 0.3)};
+}
+
+/// The law at r, contact by contact, as the oracle finds it.
+[[nodiscard]] inline std::vector<oracle::naive_contact> naive(friction_problem const& p,
+                                                              Eigen::VectorXd const& r) {
+  using real = oracle::friction_real;
+  return oracle::naive_friction(Eigen::MatrixXd(p.W).cast<real>(), p.q.cast<real>(),
+                                p.mu.cast<real>(), r.cast<real>());
 }
 
 inline constexpr slant::contact::friction_method all_methods[] = {

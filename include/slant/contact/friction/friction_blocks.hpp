@@ -17,7 +17,6 @@
 
 #include <slant/base/entries.hpp>
 #include <slant/base/scaling.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/friction/friction_problem.hpp>
 #include <slant/sets/second_order_cone.hpp>
 
@@ -60,7 +59,7 @@ class friction_blocks {
  public:
   static constexpr int dimension = N;
   using scalar = S;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using block_type = Eigen::Matrix<S, N, N>;
   using part_type = Eigen::Matrix<S, N, 1>;
   using cone_type = second_order_cone<N, S>;
@@ -239,27 +238,13 @@ class friction_blocks {
     }
   }
 
-  /// D = 2^half, and w of the contacts in its units. Where W_ii = 0 as in verify.hpp.
+  /// D = 2^half, and w of the contacts in its units.
   void measure_units(Eigen::SparseMatrix<S> const& W) {
-    unit_ = vector_type::Zero(contacts());
-    vector_type column = unit_;
-    for (index j = 0; j < W.outerSize(); ++j) {
-      for (typename Eigen::SparseMatrix<S>::InnerIterator e(W, j); e; ++e) {
-        S const size = e.value() < S(0) ? -e.value() : e.value();
-        S& most = e.row() / N == j / N ? unit_[j / N] : column[j / N];
-        most = std::max(most, size);
-      }
-    }
-    S largest(0);
-    for (index i = 0; i < contacts(); ++i) {
-      if (unit_[i] == S(0)) unit_[i] = column[i];
-      largest = std::max(largest, unit_[i]);
-    }
+    unit_ = detail::compliances(W, contacts());
     half_.assign(std::size_t(contacts()), 0);
     highest_ = contacts() > 0 ? -std::numeric_limits<S>::max_exponent : 0;
     for (index i = 0; i < contacts(); ++i) {
       S& w = unit_[i];
-      if (w == S(0)) w = largest > S(0) ? largest : S(1);
       int const e = exponent_of(w);
       int& h = half_[std::size_t(i)];
       h = e >= 0 ? e / 2 : -((1 - e) / 2);

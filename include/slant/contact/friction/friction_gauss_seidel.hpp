@@ -247,24 +247,14 @@ class friction_sweeps {
 template <class S>
 struct gauss_seidel_options {
   index sweeps = 10;      ///< of one step, before and after the extrapolation
-  index full_every = 10;  ///< every which sweep looks at all contacts
-  S growth = S(2);        ///< of the extrapolation when it is accepted
-  S shrink = S(0.25);     ///< when not
-  S slack = S(1.02);      ///< accepted if the error is at most that multiple
+  S shrink = S(0.25);     ///< of the extrapolation when it is not accepted; else it is doubled
   index patience = 3000;  ///< steps without a new smallest error that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using slant::detail::show;
     if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
-    if (full_every < 1) throw bad_input("full_every", show(full_every), "at least 1");
-    if (!(growth >= S(1)) || !slant::detail::is_finite(growth)) {
-      throw bad_input("growth", show(growth), "a finite number >= 1");
-    }
     slant::detail::check_fraction("shrink", shrink);
-    if (!(slack >= S(1)) || !slant::detail::is_finite(slack)) {
-      throw bad_input("slack", show(slack), "a finite number >= 1");
-    }
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
   }
 };
@@ -272,7 +262,7 @@ struct gauss_seidel_options {
 /// State of friction_gauss_seidel.
 template <class S>
 struct gauss_seidel_state {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   vector_type x{};            ///< forces, in the units of the blocks
   vector_type u{};            ///< W x + q
   friction_error<S> error{};  ///< of x
@@ -329,18 +319,21 @@ class friction_gauss_seidel {
   }
 
  private:
+  static constexpr index full_every = 10;  // every which sweep looks at all contacts
+
   void extrapolate(state_type& s, index most) const {
     for (index k = 0; k < s.x.size(); ++k) s.trial[k] = s.x[k] + s.length * (s.x[k] - s.trial[k]);
     for (index i = 0; i < blocks_->contacts(); ++i) {
       blocks_->put(blocks_->cone(i).project(blocks_->part_of(s.trial, i)), i, s.trial);
     }
     pass(s, s.trial, most);
+    S const slack(1.02);  // accepted if the error is at most that multiple
     auto const extrapolated = measure(s, s.trial, s.trial_u);
-    if (extrapolated.worst() <= options_.slack * s.error.worst()) {
+    if (extrapolated.worst() <= slack * s.error.worst()) {
       s.x.swap(s.trial);
       s.u.swap(s.trial_u);
       s.error = extrapolated;
-      s.length = std::min(S(s.length * options_.growth), S(1) / std::numeric_limits<S>::epsilon());
+      s.length = std::min(S(S(2) * s.length), S(1) / std::numeric_limits<S>::epsilon());
     } else {
       s.length = std::max(S(1), S(s.length * options_.shrink));
     }
@@ -363,7 +356,7 @@ class friction_gauss_seidel {
   }
   void pass(state_type& s, vector_type& x, index most) const {
     for (index k = 0; k < std::min(options_.sweeps, most); ++k) {
-      s.block_products += sweeps_.sweep(x, s.memory, s.sweeps % options_.full_every == 0);
+      s.block_products += sweeps_.sweep(x, s.memory, s.sweeps % full_every == 0);
       ++s.sweeps;
     }
   }

@@ -334,7 +334,7 @@ struct friction_interior_options {
 /// State of friction_interior_point.
 template <int N, class S>
 struct friction_interior_state {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   vector_type x{};            ///< forces, inside of their cones, in the units of the blocks
   vector_type u{};            ///< W x + q
   friction_error<S> error{};  ///< of x

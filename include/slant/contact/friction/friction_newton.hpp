@@ -14,7 +14,6 @@
 
 #include <slant/base/entries.hpp>
 #include <slant/base/lu.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/friction/friction_blocks.hpp>
 #include <slant/sets/second_order_cone.hpp>
 #include <slant/slanting/coulomb_law.hpp>
@@ -23,9 +22,7 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace slant::contact {
@@ -89,12 +86,6 @@ struct friction_map {
   }
 };
 
-}  // namespace detail
-
-}  // namespace slant::contact
-
-namespace slant::contact::detail {
-
 // --- block lu ------------------------------------------------------------------------------------
 //
 // LU factors of a matrix of N × N blocks that is assembled anew at every Newton step: a sparse LU,
@@ -105,7 +96,7 @@ namespace slant::contact::detail {
 template <int N, class S>
 class block_lu {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using block_type = Eigen::Matrix<S, N, N>;
 
   /// assemble(put) calls put(i, j, block) for each of `count` blocks of a matrix of `rows` rows of
@@ -162,16 +153,14 @@ class block_lu {
   }
 
   bool sparse_ = false;
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> dense_;
-  Eigen::PartialPivLU<Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>> dense_lu_;
+  Eigen::MatrixX<S> dense_;
+  Eigen::PartialPivLU<Eigen::MatrixX<S>> dense_lu_;
   std::vector<Eigen::Triplet<S>> triplets_;
   Eigen::SparseMatrix<S> matrix_;
   slant::detail::sparse_lu<S> sparse_lu_;
 };
 
-}  // namespace slant::contact::detail
-
-namespace slant::contact {
+}  // namespace detail
 
 // --- friction newton -----------------------------------------------------------------------------
 

@@ -11,6 +11,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/contact/contact_data.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -24,7 +25,7 @@ namespace slant::contact {
 template <scalar S = double>
 struct friction_problem {
   using scalar = S;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   Eigen::SparseMatrix<S> W{};  ///< n × n, n = contacts · dimension
   vector_type q{};             ///< n: velocities without contact forces
@@ -44,21 +45,8 @@ struct friction_problem {
     slant::detail::check_size("rows of W", index(W.rows()), index(q.size()), "as q,");
     slant::detail::check_size("columns of W", index(W.cols()), index(q.size()), "as q,");
     slant::detail::check_finite("q", q);
-    for (index i = 0; i < mu.size(); ++i) {
-      if (!(mu[i] >= S(0) && slant::detail::is_finite(mu[i]))) {
-        throw bad_input("mu[" + slant::detail::show(i) + "]", slant::detail::show(mu[i]),
-                        "a finite number >= 0");
-      }
-    }
-    for (index j = 0; j < W.outerSize(); ++j) {
-      for (typename Eigen::SparseMatrix<S>::InnerIterator e(W, j); e; ++e) {
-        if (!slant::detail::is_finite(e.value())) {
-          throw bad_input(
-              "W(" + slant::detail::show(index(e.row())) + ", " + slant::detail::show(j) + ")",
-              slant::detail::show(e.value()), "a finite number");
-        }
-      }
-    }
+    detail::check_coefficients("mu", mu);
+    slant::detail::require_finite_entries("W", W);
   }
 };
 
@@ -81,13 +69,10 @@ template <class S>
   slant::detail::check_size("columns of W", index(W.cols()), index(W.rows()), "as many as rows,");
   auto const largest = [](Eigen::SparseMatrix<S> const& A) {
     S most = S(0);
-    for (index j = 0; j < A.outerSize(); ++j) {
-      for (typename Eigen::SparseMatrix<S>::InnerIterator e(A, j); e; ++e) {
-        S const size = e.value() < S(0) ? S(-e.value()) : S(e.value());
-        if (size > most || size != size) most = size;
-        if (most != most) return most;
-      }
-    }
+    slant::detail::for_each_entry(A, [&](index, index, S const& value) {
+      S const size = value < S(0) ? S(-value) : value;
+      if (most == most && (size > most || size != size)) most = size;
+    });
     return most;
   };
   S const scale = largest(W);
@@ -111,5 +96,31 @@ void require_symmetric(std::string_view name, Eigen::SparseMatrix<S> const& W) {
   throw bad_input(name, "a matrix of asymmetry " + slant::detail::show(found),
                   "a symmetric one, max |W - W^T| <= " + slant::detail::show(allowed) + " max |W|");
 }
+
+namespace detail {
+
+/// w of each contact: the largest |entry| of W_ii; where that is 0 the largest of its columns, or
+/// what the most compliant contact has, or 1. Such a contact cannot be moved by its own force.
+template <class S>
+[[nodiscard]] Eigen::VectorX<S> compliances(Eigen::SparseMatrix<S> const& W, index contacts) {
+  index const d = contacts > 0 ? W.rows() / contacts : 1;
+  Eigen::VectorX<S> w = Eigen::VectorX<S>::Zero(contacts), column = w;
+  slant::detail::for_each_entry(W, [&](index i, index j, S const& value) {
+    S const size = value < S(0) ? S(-value) : value;
+    S& most = i / d == j / d ? w[j / d] : column[j / d];
+    if (size > most) most = size;
+  });
+  S largest(0);
+  for (index i = 0; i < contacts; ++i) {
+    if (w[i] == S(0)) w[i] = column[i];
+    if (w[i] > largest) largest = w[i];
+  }
+  for (S& entry : w) {
+    if (!(entry > S(0))) entry = largest > S(0) ? largest : S(1);
+  }
+  return w;
+}
+
+}  // namespace detail
 
 }  // namespace slant::contact

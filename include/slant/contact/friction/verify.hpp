@@ -101,13 +101,6 @@ template <class S>
   return μ <= S(1) ? S(sqrt(S(1) + μ * μ)) : S(μ * sqrt(S(1) + S(1) / μ / μ));
 }
 
-/// Whether the components are finite.
-template <class S>
-[[nodiscard]] bool is_force(contact_vector<S> const& r) {
-  using slant::detail::is_finite;
-  return is_finite(r[0]) && is_finite(r[1]) && is_finite(r[2]);
-}
-
 /// r − P_K(r − v) of one contact, and which of the three faces of K the projection is on.
 template <class S>
 [[nodiscard]] contact_vector<S> natural_map(contact_vector<S> const& r, contact_vector<S> const& v,
@@ -162,40 +155,9 @@ template <class S>
 template <class S>
 [[nodiscard]] typename friction_problem<S>::vector_type sum_of_sizes(
     friction_problem<S> const& p, typename friction_problem<S>::vector_type const& r) {
-  auto sum = p.q;
-  for (S& entry : sum) entry = detail::size_of(entry);
-  for (index j = 0; j < p.W.outerSize(); ++j) {
-    S const size = detail::size_of(r[j]);
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(p.W, j); e; ++e) {
-      sum[e.row()] += detail::size_of(S(e.value())) * size;
-    }
-  }
+  typename friction_problem<S>::vector_type sum = p.q.cwiseAbs();
+  sum.noalias() += p.W.cwiseAbs() * r.cwiseAbs();
   return sum;
-}
-
-/// √w of each contact. Where W_ii = 0 the largest |entry| of its columns takes the place, or what
-/// the most compliant contact has; 1 without any. Such a contact cannot be moved by its own force.
-template <class S>
-[[nodiscard]] typename friction_problem<S>::vector_type compliance_roots(
-    friction_problem<S> const& p) {
-  using vector_type = typename friction_problem<S>::vector_type;
-  using std::sqrt;
-  index const d = p.dimension();
-  vector_type own = vector_type::Zero(p.contacts()), column = own;
-  for (index j = 0; j < p.W.outerSize(); ++j) {
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(p.W, j); e; ++e) {
-      S const size = detail::size_of(S(e.value()));
-      S& most = e.row() / d == j / d ? own[j / d] : column[j / d];
-      if (size > most) most = size;
-    }
-  }
-  S largest(0);
-  for (index i = 0; i < own.size(); ++i) {
-    if (own[i] == S(0)) own[i] = column[i];
-    if (own[i] > largest) largest = own[i];
-  }
-  for (S& w : own) w = w > S(0) ? S(sqrt(w)) : largest > S(0) ? S(sqrt(largest)) : S(1);
-  return own;
 }
 
 /// x / y where 0 / 0 is 0.
@@ -238,25 +200,28 @@ template <class S>
 
   friction_check<S> all;
   index const d = p.dimension();
-  all.contacts.resize(static_cast<std::size_t>(p.contacts()));
+  all.contacts.resize(std::size_t(p.contacts()));
   vector_type residual(r.size()), unit_free(r.size()), size_in_units(r.size());
   vector_type penetrations = vector_type::Zero(p.contacts()), loads(r.size());
-  vector_type const root = detail::compliance_roots(p);
+  vector_type const root = detail::compliances(p.W, p.contacts()).cwiseSqrt();
   S dissipation = S(0);
   for (index i = 0; i < p.contacts(); ++i) {
     S const μ = p.mu[i];
     auto const part_of = [&](vector_type const& x) {
       return slant::detail::from_entries<block>([&](int k) { return k < d ? x[i * d + k] : S(0); });
     };
+    auto const over = [](block const& x, S const& unit) {
+      return slant::detail::from_entries<block>([&](int k) -> S { return x[k] / unit; });
+    };
     block const ri = part_of(r), ui = part_of(u);
     block v = slant::detail::multiple_of(ρ, ui);
     v[0] += μ * detail::tangential_length(v);
-    auto& c = all.contacts[static_cast<std::size_t>(i)];
+    auto& c = all.contacts[std::size_t(i)];
     block F = detail::natural_map(ri, v, μ, c.state);
     // The same in units of the contact: forces times √w, velocities over it.
     contact_state ignored{};
     block const own = slant::detail::multiple_of(root[i], ri);
-    block y = slant::detail::from_entries<block>([&](int k) -> S { return ui[k] / root[i]; });
+    block y = over(ui, root[i]);
     penetrations[i] = y[0] >= S(0) ? S(0) : S(-y[0]);
     // Sliding slower than the rounding of u is none: times a large μ it would hide all the rest.
     block const sizes = part_of(magnitude);
@@ -264,11 +229,11 @@ template <class S>
                                                              detail::tangential_length(sizes)
                             ? S(0)
                             : μ;
-    bool const forceless = own[0] == S(0) && own[1] == S(0) && own[2] == S(0);
+    bool const forceless = slant::detail::all_zero(own);
     y[0] += sliding_μ * detail::tangential_length(y);
     block E = detail::natural_map(own, y, μ, ignored);
     // Where nothing depends on a force (W = 0, say) an infinite one would pass.
-    if (!detail::is_force(ri)) {
+    if (!slant::detail::all_finite(ri)) {
       F.setConstant(std::numeric_limits<S>::quiet_NaN());
       E = F;
     }
@@ -290,9 +255,6 @@ template <class S>
     c.outside_dual = detail::distance_from_dual(ui, μ);
     c.penetration = ui[0] >= S(0) ? S(0) : S(-ui[0]);
 
-    auto const over = [](block const& x, S const& unit) {
-      return slant::detail::from_entries<block>([&](int k) -> S { return x[k] / unit; });
-    };
     block const f = over(ri, force), w = over(ui, velocity);
     S const tangential = f[1] * w[1] + f[2] * w[2];
     S const friction = μ * detail::tangential_length(w);
