@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fem/stacked_bricks.hpp>
 #include <string>
@@ -24,18 +25,15 @@ struct body {
   node_layout<double> layout;
 
   void hold(std::vector<Eigen::Index> const& unknowns) {
-    std::vector<Eigen::Triplet<double>> kept;
+    std::vector<Eigen::Index> kept;
     node_layout<double> rest{layout.x, {}, {}};
     for (Eigen::Index j = 0; j < K.rows(); ++j) {
-      bool held = false;
-      for (Eigen::Index const i : unknowns) held = held || i == j;
-      if (held) continue;
-      kept.emplace_back(int(j), int(rest.node.size()), 1);
+      if (std::find(unknowns.begin(), unknowns.end(), j) != unknowns.end()) continue;
+      kept.push_back(j);
       rest.node.push_back(layout.node[std::size_t(j)]);
       rest.axis.push_back(layout.axis[std::size_t(j)]);
     }
-    sparse P(K.rows(), Eigen::Index(kept.size()));
-    P.setFromTriplets(kept.begin(), kept.end());
+    auto const P = slant::contact::detail::columns_of_identity<double>(K.rows(), kept);
     K = sparse(P.transpose() * K * P);
     layout = rest;
   }

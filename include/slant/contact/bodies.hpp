@@ -45,7 +45,7 @@ namespace slant::contact {
 template <class S, class Factor = factor_by_ldlt>
 class bodies {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
   using factors = std::remove_cvref_t<decltype(std::declval<Factor const&>()(
       std::declval<sparse_type const&>()))>;
@@ -67,7 +67,7 @@ class bodies {
     slant::detail::require_symmetric_entries("K", stiffness);
     slant::detail::require_semidefinite_diagonal("K", stiffness);
     split(stiffness, f, constraint_rows<S>(b, c), factor);
-    sparse_type const live = injection(live_);
+    sparse_type const live = detail::columns_of_identity<S>(size_, live_);
     f_ = live.transpose() * f;
     k_ = sparse_type(live.transpose() * stiffness * live);
     rows_.emplace(sparse_type(b.derived() * live), c);
@@ -87,7 +87,7 @@ class bodies {
   [[nodiscard]] vector_type displacement(vector_type const& u) const {
     slant::detail::check_size("u", u.size(), live_size());
     vector_type all = idle_displacement_;
-    for (std::size_t i = 0; i < live_.size(); ++i) all[live_[i]] = u[static_cast<index>(i)];
+    all(live_) = u;
     return all;
   }
   /// The same for a direction, in which idle bodies do not move.
@@ -103,42 +103,35 @@ class bodies {
   /// singular: to find the kernel, and without the fixing rows.
   [[nodiscard]] index factorizations() const noexcept { return factorizations_; }
   /// Unknowns of qp(), and those of them in U.
-  [[nodiscard]] index live_size() const noexcept { return static_cast<index>(live_.size()); }
+  [[nodiscard]] index live_size() const noexcept { return index(live_.size()); }
   [[nodiscard]] index inside_size() const noexcept { return inside_size_; }
 
  private:
   using part = slant::detail::conjugate_part<S, factors>;
   using list = std::vector<index>;
-  using entry = typename sparse_type::InnerIterator;
-
   using outcome = detail::prepared_body<S, factors>;
 
   void split(sparse_type const& k, vector_type const& f, constraint_rows<S> const& rows,
              Factor const& factor) {
-    std::vector<unsigned char> touched(static_cast<std::size_t>(size_), 0);
+    std::vector<unsigned char> touched(std::size_t(size_), 0);
     for (auto const& cluster : rows.clusters()) {
-      for (index const i : cluster.unknowns) touched[static_cast<std::size_t>(i)] = 1;
+      for (index const i : cluster.unknowns) touched[std::size_t(i)] = 1;
     }
     auto const found = detail::bodies_of(k);
-    list number(static_cast<std::size_t>(size_));  // of an unknown among those of its body
-    for (list const& body : found) {
-      for (std::size_t i = 0; i < body.size(); ++i) {
-        number[static_cast<std::size_t>(body[i])] = static_cast<index>(i);
-      }
-    }
+    list const number = detail::numbers_within(found, size_);
     std::vector<outcome> outcomes(found.size());
     slant::detail::parallel_for(
-        static_cast<index>(found.size()), std::numeric_limits<index>::max(), [&](index i) {
-          auto const at = static_cast<std::size_t>(i);
+        index(found.size()), std::numeric_limits<index>::max(), [&](index i) {
+          auto const at = std::size_t(i);
           outcomes[at] = detail::prepare_body<factors>(k, f, found[at], number, touched, factor);
         });
-    count_ = static_cast<index>(found.size());
+    count_ = index(found.size());
     idle_displacement_ = vector_type::Zero(size_);
     list begins;  // of the parts, among the unknowns of qp()
     for (std::size_t i = 0; i < found.size(); ++i) note(found[i], outcomes[i], begins);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      parts_[i].u = moved_down(parts_[i].u, begins[i]);
-      parts_[i].ku = moved_down(parts_[i].ku, begins[i]);
+      move_down(parts_[i].u, begins[i]);
+      move_down(parts_[i].ku, begins[i]);
     }
   }
 
@@ -146,9 +139,7 @@ class bodies {
     factorizations_ += result.attempts;
     if (result.idle) {
       ++idle_;
-      for (std::size_t i = 0; i < body.size(); ++i) {
-        idle_displacement_[body[i]] = result.displacement[static_cast<index>(i)];
-      }
+      idle_displacement_(body) = result.displacement;
       return;
     }
     fixed_ += result.fixed ? 1 : 0;
@@ -160,28 +151,10 @@ class bodies {
     live_.insert(live_.end(), body.begin(), body.end());
   }
 
-  /// Rows of a body as rows of qp(), where they begin with this one.
-  [[nodiscard]] sparse_type moved_down(sparse_type const& m, index begin) const {
-    sparse_type moved(live_size(), m.cols());
-    moved.reserve(m.nonZeros());
-    for (index j = 0; j < m.cols(); ++j) {
-      moved.startVec(j);
-      for (entry e(m, j); e; ++e) moved.insertBack(begin + e.row(), j) = e.value();
-    }
-    moved.finalize();
-    return moved;
-  }
-
-  /// The columns of I with these numbers.
-  [[nodiscard]] sparse_type injection(list const& unknowns) const {
-    sparse_type u(size_, static_cast<index>(unknowns.size()));
-    u.reserve(static_cast<index>(unknowns.size()));
-    for (std::size_t j = 0; j < unknowns.size(); ++j) {
-      u.startVec(static_cast<index>(j));
-      u.insertBack(unknowns[j], static_cast<index>(j)) = S(1);
-    }
-    u.finalize();
-    return u;
+  /// Rows of a body become rows of qp(), where they begin with this one.
+  void move_down(sparse_type& m, index begin) const {
+    m.conservativeResize(live_size(), m.cols());
+    Eigen::Map<Eigen::VectorXi>(m.innerIndexPtr(), m.nonZeros()).array() += int(begin);
   }
 
   index size_;

@@ -27,7 +27,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,7 +42,7 @@ namespace slant::contact::detail {
 [[nodiscard, gnu::cold]] inline std::string body_text(index number,
                                                       std::vector<index> const& unknowns) {
   using slant::detail::show;
-  auto const count = static_cast<index>(unknowns.size());
+  auto const count = index(unknowns.size());
   std::string text = "body " + show(number);
   if (count == 0) return text;
   if (count == 1) return text + " (unknown " + show(unknowns.front()) + ")";
@@ -86,8 +85,8 @@ template <class V>
 /// unknowns: D translations, then one rotation in the plane, three about x, y and z in space.
 template <class S>
 struct rigid_frame {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::MatrixX<S>;
+  using vector_type = Eigen::VectorX<S>;
 
   index D = 0;
   vector_type centre{};
@@ -96,23 +95,17 @@ struct rigid_frame {
 
   rigid_frame(node_layout<S> const& layout, std::vector<index> const& unknowns)
       : D(layout.dimension()) {
-    auto const n = static_cast<index>(unknowns.size());
-    auto const place = [&](index j) -> vector_type {
-      return layout.x.col(layout.node[static_cast<std::size_t>(unknowns[std::size_t(j)])]);
-    };
-    vector_type low = place(0), high = low;
-    for (index j = 1; j < n; ++j) {
-      low = low.cwiseMin(place(j)).eval();
-      high = high.cwiseMax(place(j)).eval();
-    }
+    auto const n = index(unknowns.size());
+    auto const [low, high] = layout.box(unknowns);
     centre = (low + high) / S(2);
     size = (high - low).maxCoeff();
     S const length = size > S(0) ? size : S(1);
     index const rotations = D == 2 ? 1 : 3;
     Φ = matrix_type::Zero(n, D + rotations);
     for (index j = 0; j < n; ++j) {
-      index const a = layout.axis[static_cast<std::size_t>(unknowns[std::size_t(j)])];
-      vector_type const r = (place(j) - centre) / length;
+      index const unknown = unknowns[std::size_t(j)];
+      index const a = layout.axis[std::size_t(unknown)];
+      vector_type const r = (layout.place(unknown) - centre) / length;
       Φ(j, a) = S(1);
       for (index about = D == 2 ? 2 : 0; about < 3; ++about) {  // ω × r, ω the unit vector
         index const b = (about + 1) % 3, c = (about + 2) % 3, column = D == 2 ? D : D + about;
@@ -126,7 +119,7 @@ struct rigid_frame {
 /// What a few motions R of a body are made of. Not rigid: neither translations nor rotations.
 template <class S>
 struct rigid_parts {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix_type = Eigen::MatrixX<S>;
   bool rigid = false;
   matrix_type translations{};  ///< orthonormal columns
   matrix_type rotations{};     ///< orthonormal columns: directions of the axes
@@ -137,9 +130,9 @@ struct rigid_parts {
 /// errors of `size`, and the combinations of columns: m V = U diag(σ), first those, then the rest.
 template <class S>
 struct column_space {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix_type = Eigen::MatrixX<S>;
   matrix_type U{}, V{};
-  Eigen::Matrix<S, Eigen::Dynamic, 1> σ{};
+  Eigen::VectorX<S> σ{};
   index rank = 0;
 
   column_space(matrix_type const& m, S const& size) {
@@ -160,9 +153,8 @@ struct column_space {
 };
 
 template <class S>
-[[nodiscard]] rigid_parts<S> parts_of(rigid_frame<S> const& frame,
-                                      Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R) {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+[[nodiscard]] rigid_parts<S> parts_of(rigid_frame<S> const& frame, Eigen::MatrixX<S> const& R) {
+  using matrix_type = Eigen::MatrixX<S>;
   rigid_parts<S> parts;
   matrix_type const C = frame.Φ.colPivHouseholderQr().solve(R);
   // Rigid up to the rounding errors of K and of coordinates that were written with seven digits.
@@ -188,7 +180,7 @@ template <class M>
   for (index a = 0; a < W.rows(); ++a) {
     if (W.row(a).norm() >= S(1) - S(1e-5)) names.emplace_back(1, "xyz"[a]);
   }
-  if (static_cast<index>(names.size()) == W.cols()) return names;
+  if (index(names.size()) == W.cols()) return names;
   names.clear();
   for (index k = 0; k < W.cols(); ++k) {
     index largest = 0;
@@ -203,8 +195,8 @@ template <class M>
 template <class S>
 [[nodiscard]] std::vector<std::string> rotation_names(rigid_frame<S> const& frame,
                                                       rigid_parts<S> const& parts) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::VectorX<S>;
+  using matrix_type = Eigen::MatrixX<S>;
   index const D = frame.D, count = parts.rotations.cols();
   if (D == 2) {
     if (parts.translations.cols() > 0) return {"z"};
@@ -220,10 +212,10 @@ template <class S>
   for (index k = 0; k < count; ++k) {
     vector_type ω = parts.rotations.col(k), v = parts.moved.col(k);
     if (axes) {  // the combination that turns about this axis
-      ω = vector_type::Unit(3, names[static_cast<std::size_t>(k)][0] - 'x');
+      ω = vector_type::Unit(3, names[std::size_t(k)][0] - 'x');
       v = parts.moved * vector_type(parts.rotations.transpose() * ω);
     }
-    std::string const& name = names[static_cast<std::size_t>(k)];
+    std::string const& name = names[std::size_t(k)];
     // A translation across the axis that is free as well leaves the axis anywhere.
     matrix_type across = parts.translations;
     for (index j = 0; j < across.cols(); ++j) across.col(j) -= ω * ω.dot(across.col(j));
@@ -245,9 +237,9 @@ template <class S>
 
 /// " can move along x and turn about z"; " has 3 free motions" where places are not known.
 template <class S>
-[[nodiscard, gnu::cold]] std::string motions_text(
-    node_layout<S> const& layout, std::vector<index> const& unknowns,
-    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& R) {
+[[nodiscard, gnu::cold]] std::string motions_text(node_layout<S> const& layout,
+                                                  std::vector<index> const& unknowns,
+                                                  Eigen::MatrixX<S> const& R) {
   using slant::detail::show;
   std::string const number =
       " has " + show(index(R.cols())) + (R.cols() == 1 ? " free motion" : " free motions");
@@ -267,9 +259,9 @@ template <class S>
 
 /// " moves along x", " turns about z", or only " moves".
 template <class S>
-[[nodiscard, gnu::cold]] std::string motion_text(
-    node_layout<S> const& layout, std::vector<index> const& unknowns,
-    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& direction) {
+[[nodiscard, gnu::cold]] std::string motion_text(node_layout<S> const& layout,
+                                                 std::vector<index> const& unknowns,
+                                                 Eigen::MatrixX<S> const& direction) {
   if (!layout.is_known()) return " moves";
   rigid_frame<S> const frame(layout, unknowns);
   auto const parts = parts_of<S>(frame, direction);
@@ -277,8 +269,7 @@ template <class S>
   if (parts.rotations.cols() > 0) return " turns about " + rotation_names(frame, parts).front();
   if (parts.translations.cols() == 0) return " moves";
   // With the sign that it has.
-  Eigen::Matrix<S, Eigen::Dynamic, 1> way =
-      (frame.Φ.colPivHouseholderQr().solve(direction)).col(0).head(frame.D);
+  Eigen::VectorX<S> way = (frame.Φ.colPivHouseholderQr().solve(direction)).col(0).head(frame.D);
   way /= way.norm();
   for (index a = 0; a < frame.D; ++a) {
     using std::abs;
@@ -297,10 +288,10 @@ namespace slant::contact {
 /// A body that K does not hold.
 template <class S = double>
 struct free_body {
-  index number = 0;                                          ///< among all bodies, from 0
-  std::vector<index> unknowns;                               ///< in increasing order
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> motions;  ///< R, unknowns × dimension
-  std::string text;                                          ///< "body 2 can move along x"
+  index number = 0;             ///< among all bodies, from 0
+  std::vector<index> unknowns;  ///< in increasing order
+  Eigen::MatrixX<S> motions;    ///< R, unknowns × dimension
+  std::string text;             ///< "body 2 can move along x"
 };
 
 /// All bodies that K does not hold.
@@ -324,7 +315,7 @@ struct free_motions {
     }
     if (free.size() > 4) {
       text.append("; and ")
-          .append(slant::detail::show(static_cast<index>(free.size()) - 4))
+          .append(slant::detail::show(index(free.size()) - 4))
           .append(" other bodies");
     }
     return text;
@@ -339,13 +330,10 @@ template <class S>
   layout.validate(K.rows());
   free_motions<S> result;
   auto bodies = detail::bodies_of(K);
-  result.bodies = static_cast<index>(bodies.size());
-  std::vector<index> number(static_cast<std::size_t>(K.rows()));
+  result.bodies = index(bodies.size());
+  auto const number = detail::numbers_within(bodies, K.rows());
   for (index i = 0; i < result.bodies; ++i) {
-    auto& body = bodies[static_cast<std::size_t>(i)];
-    for (std::size_t j = 0; j < body.size(); ++j) {
-      number[static_cast<std::size_t>(body[j])] = static_cast<index>(j);
-    }
+    auto& body = bodies[std::size_t(i)];
     try {
       auto R = computed_kernel(detail::columns_of_body(K, number, body, body, true));
       if (R.cols() == 0) continue;
@@ -374,10 +362,8 @@ template <class S, class V>
     largest = i;
   }
   auto const& body = bodies[largest];
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> own(static_cast<index>(body.size()), 1);
-  for (std::size_t j = 0; j < body.size(); ++j) own(static_cast<index>(j), 0) = d[body[j]];
-  return detail::body_text(static_cast<index>(largest), body) +
-         detail::motion_text(layout, body, own);
+  Eigen::MatrixX<S> const own = d(body);
+  return detail::body_text(index(largest), body) + detail::motion_text(layout, body, own);
 }
 
 /// The free motions that made a factorisation refuse K; none if that has another reason.

@@ -30,7 +30,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -48,25 +47,21 @@ namespace slant::contact::detail {
 template <class S>
 void find_inward_normals(Eigen::SparseMatrix<S> const& K, node_layout<S> const& layout,
                          contact_rows<S> const& rows, warnings& found) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  auto const place = [&](index j) -> vector_type {
-    return layout.x.col(layout.node[static_cast<std::size_t>(j)]);
-  };
   suspects s;
   for (index i = 0; i < rows.m; ++i) {
     S before(0), behind(0);
     for (auto const& e : rows.N[i]) {
       // The part of the row at this node, looked at once.
-      vector_type n = vector_type::Zero(layout.x.rows());
+      Eigen::VectorX<S> n = Eigen::VectorX<S>::Zero(layout.x.rows());
       bool seen = false;
       for (auto const& other : rows.N[i]) {
         if (rows.classes.of(other.unknown) != rows.classes.of(e.unknown)) continue;
         seen = seen || other.unknown < e.unknown;
-        n[layout.axis[static_cast<std::size_t>(other.unknown)]] = other.value;
+        n[layout.axis[std::size_t(other.unknown)]] = other.value;
       }
       if (seen) continue;
       for (typename Eigen::SparseMatrix<S>::InnerIterator k(K, e.unknown); k; ++k) {
-        S const height = n.dot(place(k.row()) - place(e.unknown));
+        S const height = n.dot(layout.place(k.row()) - layout.place(e.unknown));
         (height > S(0) ? before : behind) += height;
       }
     }
@@ -102,8 +97,7 @@ template <class S>
       auto at = std::find_if(of_row.begin(), of_row.end(),
                              [&](normal_at<S> const& n) { return n.node == node; });
       if (at == of_row.end()) at = of_row.insert(at, normal_at<S>{i, node, e.unknown});
-      at->n[static_cast<std::size_t>(rows.classes.rank[static_cast<std::size_t>(e.unknown)])] =
-          e.value / unit;
+      at->n[std::size_t(rows.classes.rank[std::size_t(e.unknown)])] = e.value / unit;
     }
     S longest(0);
     for (auto& n : of_row) {
@@ -125,7 +119,7 @@ void find_opposed_normals(Eigen::SparseMatrix<S> const& K, contact_rows<S> const
   auto const normals = main_normals(rows);
   std::unordered_map<index, std::vector<std::size_t>> at_node;
   for (std::size_t k = 0; k < normals.size(); ++k) at_node[normals[k].node].push_back(k);
-  std::vector<std::pair<index, index>> votes(static_cast<std::size_t>(rows.m));
+  std::vector<std::pair<index, index>> votes(std::size_t(rows.m));
   std::vector<index> beside;
   for (auto const& own : normals) {
     beside.clear();
@@ -143,14 +137,14 @@ void find_opposed_normals(Eigen::SparseMatrix<S> const& K, contact_rows<S> const
             rows.classes.size_at(other.unknown) == rows.classes.size_at(own.unknown);
         S const product = own.n[0] * other.n[0] + own.n[1] * other.n[1] + own.n[2] * other.n[2];
         bool const against = comparable && S(2) * product < -own.length * other.length;
-        auto& [opposed, rest] = votes[static_cast<std::size_t>(own.row)];
+        auto& [opposed, rest] = votes[std::size_t(own.row)];
         ++(against ? opposed : rest);
       }
     }
   }
   suspects s;
   for (index i = 0; i < rows.m; ++i) {
-    auto const& [opposed, rest] = votes[static_cast<std::size_t>(i)];
+    auto const& [opposed, rest] = votes[std::size_t(i)];
     if (opposed < 2 || rest > 0) continue;
     s.add(i, [&] {
       return row_text(i, "N") + " points against those of all " + slant::detail::show(opposed) +
@@ -168,9 +162,7 @@ inline constexpr char const* about_no_contact =
 
 template <class S>
 void find_no_contact(data<S> const& c, warnings& found) {
-  for (index i = 0; i < c.nodes(); ++i) {
-    if (slant::detail::is_finite(c.d[i])) return;
-  }
+  if (c.d.array().isFinite().any()) return;
   suspects s;
   s.add(0, [] { return "all gaps in d are infinite: no node can touch"; });
   s.report(suspicion::no_contact, "contact nodes", "", about_no_contact, found);
@@ -180,7 +172,7 @@ void find_no_contact(data<S> const& c, warnings& found) {
 template <class S, class V>
 void find_no_contact(data<S> const& c, V const& u, V const& λ, warnings& found) {
   using std::abs;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const moved = c.N * u;
+  Eigen::VectorX<S> const moved = c.N * u;
   S const small = S(1e-6) * c.f.stableNorm();
   bool possible = false;
   for (index i = 0; i < c.nodes(); ++i) {
@@ -199,31 +191,24 @@ void find_no_contact(data<S> const& c, V const& u, V const& λ, warnings& found)
 template <class S, class V>
 void find_large_displacements(Eigen::SparseMatrix<S> const& K, node_layout<S> const& layout,
                               V const& u, warnings& found) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using std::abs;
   suspects s;
   auto const bodies = bodies_of(K);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    auto const place = [&](index j) -> vector_type {
-      return layout.x.col(layout.node[static_cast<std::size_t>(j)]);
-    };
-    vector_type low = place(bodies[b].front()), high = low;
+    auto const [low, high] = layout.box(bodies[b]);
     S largest(0);
     index at = bodies[b].front();
     for (index const j : bodies[b]) {
-      low = low.cwiseMin(place(j)).eval();
-      high = high.cwiseMax(place(j)).eval();
       if (!(abs(u[j]) > largest)) continue;
       largest = abs(u[j]);
       at = j;
     }
     S const length = (high - low).norm();
     if (!(largest > length && length > S(0))) continue;
-    s.add(static_cast<index>(b), [&] {
-      return "unknown " + slant::detail::show(at) + " of body " +
-             slant::detail::show(static_cast<index>(b)) + " moves by " +
-             slant::detail::show(static_cast<float>(largest)) + ", but the body is " +
-             slant::detail::show(static_cast<float>(length)) + " long";
+    s.add(index(b), [&] {
+      return "unknown " + slant::detail::show(at) + " of body " + slant::detail::show(index(b)) +
+             " moves by " + slant::detail::show(static_cast<float>(largest)) +
+             ", but the body is " + slant::detail::show(static_cast<float>(length)) + " long";
     });
   }
   s.report(suspicion::large_displacement, "bodies", "bodies",

@@ -23,20 +23,15 @@ namespace detail {
 /// they differ by no more than its rounding errors are left out: a line must not become a rotation,
 /// wherever it lies.
 template <class S, class M>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> about_centre(M const& nodes) {
+[[nodiscard]] Eigen::MatrixX<S> about_centre(M const& nodes) {
   using std::sqrt;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix_type = Eigen::MatrixX<S>;
   auto const n = static_cast<S>(static_cast<double>(nodes.cols()));
   matrix_type x = nodes;
   S const factor = S(1) / unit_near(slant::detail::largest_of(x));
   for (index i = 0; i < x.rows(); ++i) {
-    S sum(0);
-    for (index j = 0; j < x.cols(); ++j) {
-      x(i, j) *= factor;
-      sum += x(i, j);
-    }
-    S const mean = sum / n;
-    for (index j = 0; j < x.cols(); ++j) x(i, j) -= mean;
+    x.row(i) *= factor;
+    x.row(i).array() -= x.row(i).sum() / n;
   }
   Eigen::JacobiSVD<matrix_type> const svd(x, Eigen::ComputeThinU);
   S const rounding = S(16) * sqrt(n) * std::numeric_limits<S>::epsilon();
@@ -56,7 +51,7 @@ template <class M>
 [[nodiscard]] auto rigid_body_modes(Eigen::MatrixBase<M> const& nodes)
     -> Eigen::Matrix<typename M::Scalar, Eigen::Dynamic, Eigen::Dynamic> {
   using S = typename M::Scalar;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix_type = Eigen::MatrixX<S>;
   index const D = nodes.rows(), n = nodes.cols();
   if (D != 2 && D != 3) {
     throw bad_input("rows of nodes", slant::detail::show(D), "2 or 3 coordinates");

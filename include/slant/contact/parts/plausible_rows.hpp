@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -27,7 +28,7 @@ namespace slant::contact {
 //
 // Warnings about contact data: kinds, and their text. See contact/plausibility.hpp.
 
-/// What looks like a mistake.
+/// What looks like a mistake; to_string names them in this order.
 enum class suspicion : unsigned char {
   different_nodes,     ///< the rows of N and T of a contact node touch different nodes of the body
   grouped_tangents,    ///< first all rows of t₁ in T, then all of t₂
@@ -42,32 +43,14 @@ enum class suspicion : unsigned char {
   large_displacement,  ///< a body that moves farther than it is long
 };
 
+/// The kind in words.
 [[nodiscard]] constexpr std::string_view to_string(suspicion kind) {
-  switch (kind) {
-    case suspicion::different_nodes:
-      return "different_nodes";
-    case suspicion::grouped_tangents:
-      return "grouped_tangents";
-    case suspicion::missing_tangents:
-      return "missing_tangents";
-    case suspicion::zero_row:
-      return "zero_row";
-    case suspicion::duplicate_row:
-      return "duplicate_row";
-    case suspicion::oblique_frame:
-      return "oblique_frame";
-    case suspicion::other_units:
-      return "other_units";
-    case suspicion::inward_normal:
-      return "inward_normal";
-    case suspicion::opposed_normal:
-      return "opposed_normal";
-    case suspicion::no_contact:
-      return "no_contact";
-    case suspicion::large_displacement:
-      return "large_displacement";
-  }
-  return "";
+  constexpr std::string_view names[] = {"different_nodes", "grouped_tangents",  "missing_tangents",
+                                        "zero_row",        "duplicate_row",     "oblique_frame",
+                                        "other_units",     "inward_normal",     "opposed_normal",
+                                        "no_contact",      "large_displacement"};
+  auto const k = std::size_t(kind);
+  return k < std::size(names) ? names[k] : "";
 }
 
 /// What looks odd, where first, how often, and what to do about it. Numbers count from 0.
@@ -113,12 +96,6 @@ class suspects {
   std::string text_{};
 };
 
-}  // namespace detail
-
-}  // namespace slant::contact
-
-namespace slant::contact::detail {
-
 // --- contact rows --------------------------------------------------------------------------------
 //
 // The rows of N and T as a check of their plausibility sees them: their entries, and the nodes of
@@ -143,15 +120,15 @@ class row_entries {
   explicit row_entries(Eigen::SparseMatrix<S> const& m) : rows_(std::size_t(m.rows())) {
     using std::abs;
     slant::detail::for_each_entry(m, [&](index i, index j, S const& value) {
-      if (value != S(0)) rows_[static_cast<std::size_t>(i)].push_back({j, value});
+      if (value != S(0)) rows_[std::size_t(i)].push_back({j, value});
     });
     for (row& r : rows_) {
       S const small = S(64) * std::numeric_limits<S>::epsilon() * largest(r);
       std::erase_if(r, [&](entry const& e) { return !(abs(e.value) > small); });
     }
   }
-  [[nodiscard]] index size() const { return static_cast<index>(rows_.size()); }
-  [[nodiscard]] row const& operator[](index i) const { return rows_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] index size() const { return index(rows_.size()); }
+  [[nodiscard]] row const& operator[](index i) const { return rows_[std::size_t(i)]; }
 
   [[nodiscard]] static S largest(row const& r) {
     using std::abs;
@@ -204,27 +181,25 @@ struct node_classes {
     node_classes c;
     std::unordered_map<std::uint64_t, index> found;
     for (index j = 0; j < unknowns; ++j) {
-      auto const at = found.try_emplace(key(j), static_cast<index>(c.size.size())).first->second;
-      if (at == static_cast<index>(c.size.size())) c.size.push_back(0);
+      auto const at = found.try_emplace(key(j), index(c.size.size())).first->second;
+      if (at == index(c.size.size())) c.size.push_back(0);
       c.node.push_back(at);
-      c.rank.push_back(c.size[static_cast<std::size_t>(at)]++);
+      c.rank.push_back(c.size[std::size_t(at)]++);
     }
     return c;
   }
-  [[nodiscard]] index of(index unknown) const { return node[static_cast<std::size_t>(unknown)]; }
-  [[nodiscard]] index size_at(index unknown) const {
-    return size[static_cast<std::size_t>(of(unknown))];
-  }
+  [[nodiscard]] index of(index unknown) const { return node[std::size_t(unknown)]; }
+  [[nodiscard]] index size_at(index unknown) const { return size[std::size_t(of(unknown))]; }
 };
 
 /// Unknowns with the same neighbours in the graph of K.
 template <class S>
 [[nodiscard]] node_classes classes_of_graph(Eigen::SparseMatrix<S> const& K) {
-  std::vector<std::uint64_t> keys(static_cast<std::size_t>(K.cols()), 0);
+  std::vector<std::uint64_t> keys(std::size_t(K.cols()), 0);
   slant::detail::for_each_entry(K, [&](index i, index j, S const&) {
-    keys[static_cast<std::size_t>(j)] += mixed(static_cast<std::uint64_t>(i));
+    keys[std::size_t(j)] += mixed(static_cast<std::uint64_t>(i));
   });
-  return node_classes::by(K.cols(), [&](index j) { return keys[static_cast<std::size_t>(j)]; });
+  return node_classes::by(K.cols(), [&](index j) { return keys[std::size_t(j)]; });
 }
 
 /// The nodes that a row touches, as one number; 0 for an empty row.
@@ -253,8 +228,7 @@ struct contact_rows {
     index const n = K.cols();
     auto const number = [](index i) { return static_cast<std::uint64_t>(i); };
     if (layout.is_known()) {
-      if (take(node_classes::by(
-              n, [&](index j) { return number(layout.node[static_cast<std::size_t>(j)]); })))
+      if (take(node_classes::by(n, [&](index j) { return number(layout.node[std::size_t(j)]); })))
         return;
     }
     if (take(classes_of_graph(K)) || tangents == 0) return;
@@ -269,12 +243,8 @@ struct contact_rows {
 
   /// Row k of T of a node.
   [[nodiscard]] index tangent(index i, index k) const { return tangents * i + k; }
-  [[nodiscard]] std::uint64_t nodes_of_N(index i) const {
-    return of_N[static_cast<std::size_t>(i)];
-  }
-  [[nodiscard]] std::uint64_t nodes_of_T(index r) const {
-    return of_T[static_cast<std::size_t>(r)];
-  }
+  [[nodiscard]] std::uint64_t nodes_of_N(index i) const { return of_N[std::size_t(i)]; }
+  [[nodiscard]] std::uint64_t nodes_of_T(index r) const { return of_T[std::size_t(r)]; }
   /// Unknowns of a complete node: the most common number of those that N and T touch.
   [[nodiscard]] index usual_size() const {
     std::unordered_map<index, index> counts;
@@ -350,14 +320,12 @@ template <class S>
 [[nodiscard]] bool moves_in_space(Eigen::SparseMatrix<S> const& K, node_classes const& classes,
                                   std::vector<std::vector<index>> const& unknowns, index node) {
   using std::abs;
-  auto const& own = unknowns[static_cast<std::size_t>(node)];
+  auto const& own = unknowns[std::size_t(node)];
   for (index const j : own) {
     S sum(0), size(0);
     for (typename Eigen::SparseMatrix<S>::InnerIterator e(K, j); e; ++e) {
       if (classes.size_at(e.row()) != 3) return false;
-      if (classes.rank[static_cast<std::size_t>(e.row())] !=
-          classes.rank[static_cast<std::size_t>(j)])
-        continue;
+      if (classes.rank[std::size_t(e.row())] != classes.rank[std::size_t(j)]) continue;
       sum += e.value();
       size += abs(e.value());
     }
@@ -372,8 +340,7 @@ template <class S>
 [[nodiscard]] bool is_in_space(Eigen::SparseMatrix<S> const& K, contact_rows<S> const& rows,
                                node_classes const& classes) {
   std::vector<std::vector<index>> unknowns(classes.size.size());
-  for (index j = 0; j < K.cols(); ++j)
-    unknowns[static_cast<std::size_t>(classes.of(j))].push_back(j);
+  for (index j = 0; j < K.cols(); ++j) unknowns[std::size_t(classes.of(j))].push_back(j);
   for (index i = 0; i < rows.m; ++i) {
     for (auto const& e : rows.N[i]) {
       if (classes.size_at(e.unknown) == 3 &&
@@ -645,4 +612,6 @@ void find_other_units(contact_rows<S> const& rows, warnings& found) {
   s.report(suspicion::other_units, "T", "rows of T", mend, found);
 }
 
-}  // namespace slant::contact::detail
+}  // namespace detail
+
+}  // namespace slant::contact

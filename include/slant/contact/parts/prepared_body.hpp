@@ -6,6 +6,7 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
+#include <slant/contact/contact_data.hpp>
 #include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
 
@@ -22,8 +23,8 @@ namespace slant::contact::detail {
 template <class S, class F>
 struct prepared_body {
   std::optional<slant::detail::conjugate_part<S, F>>
-      inside;  // rows numbered as in the body; none if U is empty
-  Eigen::Matrix<S, Eigen::Dynamic, 1> displacement;  // if idle
+      inside;                      // rows numbered as in the body; none if U is empty
+  Eigen::VectorX<S> displacement;  // if idle
   index attempts = 0;
   bool idle = false;
   bool fixed = false;
@@ -39,18 +40,16 @@ template <class S>
   auto const& rows = square ? inside : body;
   std::vector<index> row(body.size(), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    row[static_cast<std::size_t>(number[static_cast<std::size_t>(rows[i])])] =
-        static_cast<index>(i);
+    row[std::size_t(number[std::size_t(rows[i])])] = index(i);
   }
   index entries = 0;
   for (index const j : inside) entries += k.col(j).nonZeros();
-  Eigen::SparseMatrix<S> m(static_cast<index>(rows.size()), static_cast<index>(inside.size()));
+  Eigen::SparseMatrix<S> m(index(rows.size()), index(inside.size()));
   m.reserve(entries);
   for (index j = 0; j < m.cols(); ++j) {
     m.startVec(j);
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(k, inside[static_cast<std::size_t>(j)]);
-         e; ++e) {
-      index const i = row[static_cast<std::size_t>(number[static_cast<std::size_t>(e.row())])];
+    for (typename Eigen::SparseMatrix<S>::InnerIterator e(k, inside[std::size_t(j)]); e; ++e) {
+      index const i = row[std::size_t(number[std::size_t(e.row())])];
       if (i >= 0) m.insertBack(i, j) = e.value();
     }
   }
@@ -67,16 +66,11 @@ template <class S, class F, class Factor>
   ++result.attempts;
   try {
     auto factors_of_block = factor(block);
-    Eigen::SparseMatrix<S> u(static_cast<index>(body.size()), block.cols());
-    u.reserve(block.cols());
-    for (index j = 0; j < u.cols(); ++j) {
-      u.startVec(j);
-      u.insertBack(number[static_cast<std::size_t>(inside[static_cast<std::size_t>(j)])], j) = S(1);
-    }
-    u.finalize();
+    std::vector<index> rows;
+    for (index const i : inside) rows.push_back(number[std::size_t(i)]);
     result.inside.emplace(slant::detail::conjugate_part<S, F>{
-        std::move(u), columns_of_body(k, number, body, inside, false),
-        std::move(factors_of_block)});
+        columns_of_identity<S>(index(body.size()), rows),
+        columns_of_body(k, number, body, inside, false), std::move(factors_of_block)});
     return true;
   } catch (bad_input const&) {
     return false;
@@ -90,12 +84,10 @@ template <class F, class S, class V, class Factor>
                                                std::vector<index> const& number,
                                                std::vector<unsigned char> const& touched,
                                                Factor const& factor) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using list = std::vector<index>;
   prepared_body<S, F> result;
-  list inside;
+  std::vector<index> inside;
   for (index const i : body) {
-    if (touched[static_cast<std::size_t>(i)] == 0) inside.push_back(i);
+    if (touched[std::size_t(i)] == 0) inside.push_back(i);
   }
   bool const free = inside.size() == body.size();
   if (inside.empty()) return result;
@@ -104,7 +96,7 @@ template <class F, class S, class V, class Factor>
     result.fixed = true;
     try {
       ++result.attempts;
-      list const fixing = fixing_rows(computed_kernel(block));
+      std::vector<index> const fixing = fixing_rows(computed_kernel(block));
       for (std::size_t j = fixing.size(); j-- > 0;) {
         inside.erase(inside.begin() + static_cast<std::ptrdiff_t>(fixing[j]));
       }
@@ -114,8 +106,7 @@ template <class F, class S, class V, class Factor>
     } catch (bad_input const&) {  // no kernel that can be told from the rest
     }
   } else if (free) {
-    vector_type load(static_cast<index>(body.size()));
-    for (std::size_t i = 0; i < body.size(); ++i) load[static_cast<index>(i)] = f[body[i]];
+    Eigen::VectorX<S> const load = f(body);
     result.displacement.resize(load.size());
     auto w = slant::workspace(result.inside->factors, load);
     if constexpr (requires { result.inside->factors.solve(load, result.displacement, w); }) {
