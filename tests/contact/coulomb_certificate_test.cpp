@@ -191,7 +191,7 @@ TEST_CASE("dual::openings: A λ − b, from the displacements") {
   data.d[1] = std::numeric_limits<double>::infinity();
   test::counting_factor const factor{s.K};
   contact::dual problem(contact::friction_disc{}, factor, data);
-  problem.update_positions(VectorXd::Constant(s.T.rows(), 1e-6));
+  problem.update({.w = VectorXd::Constant(s.T.rows(), 1e-6)});
   VectorXd const λ = VectorXd::LinSpaced(problem.b().size(), -1, 2);
   VectorXd image(λ.size());
   slant::apply(problem.a(), λ, image);

@@ -104,7 +104,7 @@ TEST_CASE("new tangential positions: no solve, and data that do not fit are refu
   contact::dual problem(contact::friction_disc{}, factor, c);
   auto const solves = factor.solves;
   VectorXd const b = problem.b(), w = VectorXd::LinSpaced(c.T.rows(), -1e-3, 2e-3);
-  problem.update_positions(w);
+  problem.update({.w = w});
   CHECK(factor.solves == solves);
   CHECK((problem.b().tail(w.size()) - (b.tail(w.size()) - w)).norm() <= 1e-15);
   CHECK(problem.b().head(c.d.size()) == b.head(c.d.size()));
@@ -112,7 +112,7 @@ TEST_CASE("new tangential positions: no solve, and data that do not fit are refu
   CHECK((problem.b().tail(w.size()) - (2 * b.tail(w.size()) - w)).norm() <= 1e-15);
   VectorXd const before = problem.b();
   auto const message = [&](VectorXd const& bad) -> std::string {
-    return test::complaint([&] { problem.update_positions(bad); });
+    return test::complaint([&] { problem.update({.w = bad}); });
   };
   CHECK(message(VectorXd::Zero(3)).starts_with("w: got 3, expected"));
   CHECK(message(VectorXd::Constant(w.size(), NAN)).starts_with("w[0]: got nan"));

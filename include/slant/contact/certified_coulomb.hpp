@@ -41,6 +41,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -124,9 +125,7 @@ namespace detail {
 //
 // The residuals are relative to those at λ = 0, which bodies that nearly move rigidly make as large
 // as their motion: relative to it any forces are a solution. So what has converged is judged by the
-// check, of (λ, u). Where that contradicts the method goes on with a tolerance that is smaller by
-// as much, as long as this helps; where it does not, the run ends `stalled` with what the check
-// finds.
+// check, of (λ, u).
 
 /// How far a run goes.
 struct coulomb_limits {
@@ -153,34 +152,16 @@ struct coulomb_result {
   [[nodiscard]] bool converged() const { return status == slant::status::converged; }
 };
 
-template <class V, class Report>
-void add_work(coulomb_result<V>& r, Report const& report) {
-  r.work.operator_applications += report.state.work.operator_applications;
-  r.work.setup_applications += report.state.work.setup_applications;
-  r.work.inner_iterations += report.state.work.inner_iterations;
-  r.work.factorizations += report.state.work.factorizations;
+/// Runs of `settle` by successive approximations over a family.
+template <class Family>
+[[nodiscard]] auto approximations(Family& family) {
+  using S = typename Family::scalar;
+  return [&family, I = identity_operator(family.b().size())](typename Family::vector_type const& x,
+                                                             double goal, index steps) {
+    return slant::solve(coulomb(family, I, {.goal = goal}), x,
+                        reduced_gradient_below(S(goal)) || at_most(steps));
+  };
 }
-
-template <class V, class Report>
-void take_answer(coulomb_result<V>& r, Report const& report, std::string_view method, V λ) {
-  r.λ = std::move(λ);
-  r.status = report.status;
-  r.reason = report.reason;
-  r.method = method;
-  r.steps = report.iterations();
-}
-
-/// Successive approximations from x0.
-template <class Radii>
-[[nodiscard]] auto approximate(Radii& radii, typename Radii::vector_type const& x0,
-                               double tolerance, index steps) {
-  identity_operator const I(radii.b().size());
-  return slant::solve(coulomb(radii, I, {.goal = tolerance}), x0,
-                      reduced_gradient_below(typename Radii::scalar(tolerance)) || at_most(steps));
-}
-
-/// How often the tolerance is made smaller at most: it falls by orders of magnitude each time.
-inline constexpr index coulomb_rounds = 8;
 
 /// Judges r.λ: one solve with K.
 template <class Dual, class V, class Check>
@@ -191,13 +172,14 @@ void judge(Dual const& problem, V const& F, Check const& check, coulomb_result<V
   r.error = check(r.λ, r.u);
 }
 
-/// The answer of run(x, tolerance, steps) → report, again from where it ended with a smaller
-/// tolerance while the check contradicts that it has converged.
-template <class V, class Run, class Take, class Judge>
-void settle(coulomb_result<V>& r, V x, double tolerance, index steps, Run const& run,
-            Take const& take, Judge const& judged) {
+/// The answer of run(x, tolerance, steps) → report, whose x is `to_λ` of λ, again from where it
+/// ended with a smaller tolerance while the check contradicts that it has converged.
+template <class V, class Judge, class Run, class Map>
+void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance, index steps,
+            Judge const& judged, Run const& run, Map const& to_λ) {
   using S = scalar_t<V>;
   using slant::detail::show;
+  constexpr index rounds = 8;  // the tolerance falls by orders of magnitude in each
   S const allowed = S(100) * S(tolerance);
   S before = std::numeric_limits<S>::infinity();
   index done = 0;
@@ -205,18 +187,21 @@ void settle(coulomb_result<V>& r, V x, double tolerance, index steps, Run const&
   for (index round = 0;; ++round) {
     auto report = run(x, tolerance, steps - done);
     done += report.iterations();
-    detail::add_work(r, report);
-    take(report);
+    r.work += report.state.work;
+    r.λ = to_λ(report.x());
+    r.status = report.status;
+    r.reason = report.reason;
+    r.method = method;
     r.steps = done;
     if (round == 0 && !r.converged()) return;
-    judged();
+    judged(r);
     if (r.error <= allowed) {  // also where the smaller tolerance of this round was out of reach
       r.status = slant::status::converged;
       r.reason += "; the check finds " + show(r.error);
       return;
     }
     bool const helps = round == 0 || r.error <= S(0.5) * before;
-    if (!r.converged() || !helps || round == coulomb_rounds || done >= steps) {
+    if (!r.converged() || !helps || round == rounds || done >= steps) {
       if (r.converged()) r.status = slant::status::stalled;
       if (!(r.error <= before)) {  // the round before was nearer
         r.λ.swap(last.λ);
@@ -249,21 +234,14 @@ template <class Dual, class Check>
   // Every contact sticks still, so that the start keeps its tangential forces.
   auto start = unconstrained_start(radii.qp());
   r.work.setup_applications = start.applications;
-  auto const judged = [&] { detail::judge(problem, F, check, r); };
+  auto const judged = [&](auto& of) { detail::judge(problem, F, check, of); };
   auto const approximate = [&](coulomb_result<vector_type>& into) {
-    detail::settle(
-        into, start.x, o.tolerance, o.outer_steps,
-        [&](vector_type const& x, double tolerance, index steps) {
-          return detail::approximate(radii, x, tolerance, steps);
-        },
-        [&](auto const& report) {
-          detail::take_answer(into, report, "successive approximations", report.x());
-        },
-        [&] { detail::judge(problem, F, check, into); });
+    detail::settle(into, "successive approximations", start.x, o.tolerance, o.outer_steps, judged,
+                   detail::approximations(radii), std::identity{});
   };
   if (o.newton_steps == 0) {
     approximate(r);
-    if (r.u.size() == 0) judged();
+    if (r.u.size() == 0) judged(r);
     return r;
   }
   coulomb_cones const cones(problem, F);
@@ -272,16 +250,14 @@ template <class Dual, class Check>
   auto const residual = coulomb_residual(cones, ρ.length);
   S newton_residual(0);
   detail::settle(
-      r, cones.by_contacts(start.x), o.tolerance, o.newton_steps,
+      r, "Newton", cones.by_contacts(start.x), o.tolerance, o.newton_steps, judged,
       [&](vector_type const& x, double tolerance, index steps) {
-        return slant::solve(contact::coulomb_newton(residual, tolerance), x,
-                            residual_below(S(tolerance)) || at_most(steps));
-      },
-      [&](auto const& report) {
-        detail::take_answer(r, report, "Newton", cones.by_directions(report.x()));
+        auto report = slant::solve(contact::coulomb_newton(residual, tolerance), x,
+                                   residual_below(S(tolerance)) || at_most(steps));
         newton_residual = report.state.residual_norm;
+        return report;
       },
-      judged);
+      [&](vector_type const& x) { return cones.by_directions(x); });
   if (r.converged()) return r;
   if (o.outer_steps > 0) {
     coulomb_result<vector_type> other{problem.zero()};
@@ -298,7 +274,7 @@ template <class Dual, class Check>
     r.work = other.work;
     if (better) r = std::move(other);
   }
-  if (r.u.size() == 0) judged();
+  if (r.u.size() == 0) judged(r);
   return r;
 }
 
@@ -310,19 +286,10 @@ template <class Dual, class V, class Check>
   coulomb_cones cones(problem, F);
   auto const start = unconstrained_start(cones.qp());
   r.work.setup_applications = start.applications;
-  identity_operator const I(problem.b().size());
-  auto const judged = [&] { detail::judge(problem, F, check, r); };
-  detail::settle(
-      r, start.x, tolerance, steps,
-      [&](V const& x, double goal, index most) {
-        return slant::solve(coulomb(cones, I, {.goal = goal}), x,
-                            reduced_gradient_below(scalar_t<V>(goal)) || at_most(most));
-      },
-      [&](auto const& report) {
-        detail::take_answer(r, report, "cones", cones.by_directions(report.x()));
-      },
-      judged);
-  if (r.u.size() == 0) judged();
+  auto const judged = [&](auto& of) { detail::judge(problem, F, check, of); };
+  detail::settle(r, "cones", start.x, tolerance, steps, judged, detail::approximations(cones),
+                 [&](V const& x) { return cones.by_directions(x); });
+  if (r.u.size() == 0) judged(r);
   return r;
 }
 
@@ -364,14 +331,13 @@ template <class V>
 
 template <class Friction, class S>
 [[nodiscard]] auto iterated_certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K,
-                                              data<S> const& c,
-                                              Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
+                                              data<S> const& c, Eigen::VectorX<S> const& F,
                                               free_motions<S> const& floating,
                                               certified_coulomb_options<S> const& o)
-    -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
+    -> certified_coulomb_result<Eigen::VectorX<S>> {
   auto found = detail::iterated_coulomb(friction, K, c, F, o.layout, floating, o.multigrid,
                                         S(o.tolerance), o.outer_steps);
-  certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> result{std::move(found.λ)};
+  certified_coulomb_result<Eigen::VectorX<S>> result{std::move(found.λ)};
   result.u = std::move(found.u);
   result.error = found.error;
   result.status = found.status;
@@ -396,10 +362,10 @@ template <class Friction, class S>
 /// range.
 template <class Friction, class S>
 [[nodiscard]] auto certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c,
-                                     Eigen::Matrix<S, Eigen::Dynamic, 1> const& F,
+                                     Eigen::VectorX<S> const& F,
                                      certified_coulomb_options<S> const& o = {})
-    -> certified_coulomb_result<Eigen::Matrix<S, Eigen::Dynamic, 1>> {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+    -> certified_coulomb_result<Eigen::VectorX<S>> {
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
   o.validate();
   c.g = vector_type::Zero(c.nodes());

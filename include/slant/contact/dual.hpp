@@ -52,41 +52,34 @@ class known_loads {
     pairs_.emplace_back(std::move(f), std::move(u));
   }
 
-  /// u = K⁻¹f if f is such a combination up to rounding in each component; else false. Coefficients
-  /// beyond 64, which would multiply the errors of the displacements, are none.
+  /// After `add`: u = K⁻¹f if f is such a combination up to rounding in each component; else
+  /// false. Coefficients beyond 64, which would multiply the errors of the displacements, are none.
   [[nodiscard]] bool combine(V const& f, V& u) const {
     scalar α(0), β(0);
+    auto const& [f1, u1] = pairs_.front();
+    auto const& [f2, u2] = pairs_.back();  // the same if there is only one
     V rest = f;
-    if (!pairs_.empty()) {
-      V const& f1 = pairs_.front().first;
-      V const& f2 = pairs_.back().first;
-      scalar const length = f1.squaredNorm();
-      scalar const shared = length > scalar(0) ? scalar(f1.dot(f2) / length) : scalar(0);
-      V const across = f2 - shared * f1;  // 0 if there is only one
-      scalar const width = across.squaredNorm();
-      scalar const least = std::numeric_limits<scalar>::epsilon() * f2.squaredNorm();
-      for (int pass = 0; pass < 2; ++pass) {  // the second one mends rounding errors of the first
-        scalar const δ = width > least ? scalar(across.dot(rest) / width) : scalar(0);
-        scalar const γ =
-            length > scalar(0) ? scalar(f1.dot(rest) / length - δ * shared) : scalar(0);
-        α += γ;
-        β += δ;
-        rest = f - α * f1 - β * f2;
-      }
+    scalar const length = f1.squaredNorm();
+    scalar const shared = length > scalar(0) ? scalar(f1.dot(f2) / length) : scalar(0);
+    V const across = f2 - shared * f1;
+    scalar const width = across.squaredNorm();
+    scalar const least = std::numeric_limits<scalar>::epsilon() * f2.squaredNorm();
+    for (int pass = 0; pass < 2; ++pass) {  // the second one mends rounding errors of the first
+      scalar const δ = width > least ? scalar(across.dot(rest) / width) : scalar(0);
+      scalar const γ = length > scalar(0) ? scalar(f1.dot(rest) / length - δ * shared) : scalar(0);
+      α += γ;
+      β += δ;
+      rest = f - α * f1 - β * f2;
     }
     using std::abs;
     if (!(abs(α) + abs(β) <= scalar(64))) return false;  // also if it is a NaN
     // Component by component: beside a large one, such as that of a penalty, others matter too.
     scalar const rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
     for (Eigen::Index i = 0; i < f.size(); ++i) {
-      scalar size = abs(f[i]);
-      if (!pairs_.empty()) {
-        size += abs(α * pairs_.front().first[i]) + abs(β * pairs_.back().first[i]);
-      }
+      scalar const size = abs(f[i]) + (abs(α * f1[i]) + abs(β * f2[i]));
       if (!(abs(rest[i]) <= rounding * size)) return false;
     }
-    u.setZero();
-    if (!pairs_.empty()) u = α * pairs_.front().second + β * pairs_.back().second;
+    u = α * u1 + β * u2;
     return true;
   }
 
@@ -108,10 +101,10 @@ namespace slant::contact {
 ///     auto r = slant::solve(slant::kprgp{problem.qp()}, problem.zero(), …);
 ///     auto u = problem.displacement(r.x());
 template <class Friction, class Factorization, class S>
-  requires factorization<std::remove_cvref_t<Factorization>, Eigen::Matrix<S, Eigen::Dynamic, 1>>
+  requires factorization<std::remove_cvref_t<Factorization>, Eigen::VectorX<S>>
 class dual {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
   using friction_type = Friction;
 
@@ -227,8 +220,6 @@ class dual {
   void update_gaps(vector_type d) { update({.d = std::move(d)}); }
   /// update with new slip bounds alone: no solve.
   void update_bounds(vector_type g) { update({.g = std::move(g)}); }
-  /// update with new tangential positions alone, see load_step: no solve.
-  void update_positions(vector_type w) { update({.w = std::move(w)}); }
 
  private:
   void solve_once(vector_type const& load, vector_type& u) const {

@@ -55,7 +55,7 @@ namespace slant::contact {
 /// What is not given stays: load_step<>{.f = 2 * f}.
 template <class S = double>
 struct load_step {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   std::optional<vector_type> f{};  ///< load
   std::optional<vector_type> d{};  ///< gaps; infinite exactly where they have been
@@ -68,8 +68,8 @@ namespace detail {
 /// Throws bad_input, as contact::data::validate does, unless the step fits a problem of n_u
 /// unknowns with the gaps d and B = [N; T].
 template <class S>
-void check_step(load_step<S> const& step, index unknowns,
-                Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, Eigen::SparseMatrix<S> const& B) {
+void check_step(load_step<S> const& step, index unknowns, Eigen::VectorX<S> const& d,
+                Eigen::SparseMatrix<S> const& B) {
   if (step.f) {
     slant::detail::check_size("f", step.f->size(), unknowns, "one load per unknown,");
     slant::detail::check_finite("f", *step.f);
@@ -92,12 +92,6 @@ void check_step(load_step<S> const& step, index unknowns,
     slant::detail::check_finite("w", *step.w);
   }
 }
-
-}  // namespace detail
-
-}  // namespace slant::contact
-
-namespace slant::contact::detail {
 
 // --- solution line -------------------------------------------------------------------------------
 //
@@ -159,14 +153,6 @@ class solution_line {
   V last_, before_, A_last_, A_before_;
 };
 
-}  // namespace slant::contact::detail
-
-namespace slant::contact {
-
-// --- load stepper --------------------------------------------------------------------------------
-
-namespace detail {
-
 /// The state keeps its gradient as methods/parts/gradient_point.hpp does.
 template <class State, class V>
 concept keeps_gradient = requires(State const& s, V const& v) {
@@ -176,6 +162,8 @@ concept keeps_gradient = requires(State const& s, V const& v) {
 };
 
 }  // namespace detail
+
+// --- load stepper --------------------------------------------------------------------------------
 
 /// One step of load_stepper. Refers to its state: what is to be kept beyond the next step has to be
 /// copied.
@@ -240,12 +228,7 @@ class load_stepper {
     report_.status = end.how;
     report_.reason = std::move(end.why);
     report_.state = &*state_;
-    if constexpr (requires { state_->work; }) {
-      report_.work.operator_applications += state_->work.operator_applications;
-      report_.work.setup_applications = state_->work.setup_applications;
-      report_.work.inner_iterations = state_->work.inner_iterations;
-      report_.work.factorizations = state_->work.factorizations;
-    }
+    if constexpr (requires { state_->work; }) report_.work += state_->work;
     if (report_.converged()) remember();
     return report_;
   }

@@ -22,7 +22,6 @@
 //     auto const& step = stepper.advance({.f = f, .w = w});      // w: T u of the step before
 #pragma once
 
-#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/dual.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/load_stepper.hpp>
@@ -51,7 +50,6 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace slant::contact {
 
@@ -215,7 +213,8 @@ class coulomb_cones {
       : problem_(&problem),
         μ_(detail::one_per_contact(std::move(μ), problem.b().size() / dimension)),
         shift_(vector_type::Zero(μ_.size())),
-        C_(by_contacts(problem.constraints(), μ_.size())),
+        P_(order_of(μ_.size())),
+        C_(P_ * problem.constraints()),
         q_(-by_contacts(problem.b())),
         b_(-q_),
         set_(power(second_order_cone<dimension, scalar>{}, μ_)),
@@ -235,17 +234,9 @@ class coulomb_cones {
   [[nodiscard]] vector_type zero() const { return problem_->zero(); }
 
   /// λ = (λ_ν, λ_t) of the dual problem, contact by contact.
-  [[nodiscard]] vector_type by_contacts(vector_type const& λ) const {
-    vector_type x(λ.size());
-    for (index row = 0; row < λ.size(); ++row) x(place_of(row, μ_.size())) = λ(row);
-    return x;
-  }
+  [[nodiscard]] vector_type by_contacts(vector_type const& λ) const { return P_ * λ; }
   /// And back.
-  [[nodiscard]] vector_type by_directions(vector_type const& x) const {
-    vector_type λ(x.size());
-    for (index row = 0; row < x.size(); ++row) λ(row) = x(place_of(row, μ_.size()));
-    return λ;
-  }
+  [[nodiscard]] vector_type by_directions(vector_type const& x) const { return P_.transpose() * x; }
 
   /// New data, as dual::update; slip bounds among them are without effect.
   void update(load_step<scalar> step) {
@@ -275,24 +266,17 @@ class coulomb_cones {
   }
 
  private:
-  /// Where row `row` of m nodes stands contact by contact.
-  static index place_of(index row, index m) {
-    constexpr index t = dimension - 1;
-    if (row < m) return dimension * row;
-    return dimension * ((row - m) / t) + 1 + (row - m) % t;
-  }
-  static sparse_type by_contacts(sparse_type const& B, index m) {
-    std::vector<Eigen::Triplet<scalar>> entries;
-    entries.reserve(static_cast<std::size_t>(B.nonZeros()));
-    for (index j = 0; j < B.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator e(B, j); e; ++e) {
-        entries.emplace_back(static_cast<int>(place_of(e.row(), m)), static_cast<int>(j),
-                             e.value());
+  using permutation = Eigen::PermutationMatrix<Eigen::Dynamic>;
+  /// From (λ_ν, λ_t) of m nodes to contact by contact.
+  static permutation order_of(index m) {
+    permutation P(dimension * m);
+    for (index i = 0; i < m; ++i) {
+      P.indices()(i) = int(dimension * i);
+      for (index k = 1; k < dimension; ++k) {
+        P.indices()(m + (dimension - 1) * i + k - 1) = int(dimension * i + k);
       }
     }
-    sparse_type C(B.rows(), B.cols());
-    C.setFromTriplets(entries.begin(), entries.end());
-    return C;
+    return P;
   }
 
   using set_type =
@@ -304,6 +288,7 @@ class coulomb_cones {
   Dual* problem_;
   vector_type μ_;
   vector_type shift_;
+  permutation P_;
   sparse_type C_;
   vector_type q_;
   vector_type b_;
@@ -324,33 +309,18 @@ struct coulomb_options {
       .forcing = {.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1}};
 };
 
-namespace detail {
-
-/// Makes the inner methods of `coulomb`; refers to family and preconditioner.
-template <class Family, class M>
-struct coulomb_newton {
-  Family const* family;
-  M const* m;
-  symmetric_newton_options<typename Family::scalar> options;
-
-  [[nodiscard]] auto operator()(typename Family::scalar goal) const {
-    auto o = options;
-    o.forcing.goal = static_cast<double>(goal);
-    return symmetric_newton{family->qp(), *m, o};
-  }
-};
-
-}  // namespace detail
-
 /// The method at the top of this file, with a preconditioner M ≈ A⁻¹ of family.qp(). Refers to
 /// both. Throws bad_input for options out of range.
 template <class Family, class M>
 [[nodiscard]] auto coulomb(Family& family, M const& m,
                            coulomb_options<typename Family::scalar> o = {}) {
   o.outer.forcing.goal = o.goal;
-  return successive_approximations(
-      family, detail::coulomb_newton<Family, M>{&family, &m, std::move(o.newton)},
-      std::move(o.outer));
+  auto const newton = [&family, &m, options = std::move(o.newton)](typename Family::scalar goal) {
+    auto with_goal = options;
+    with_goal.forcing.goal = static_cast<double>(goal);
+    return symmetric_newton{family.qp(), m, with_goal};
+  };
+  return successive_approximations(family, newton, std::move(o.outer));
 }
 template <class Family, class M>
 auto coulomb(Family&, M const&&, coulomb_options<typename Family::scalar> = {}) = delete;

@@ -278,12 +278,7 @@ class coulomb_certificate {
     shift_.resize(0);
     scalar const size = c.size() > 0 ? scalar(c.cwiseAbs().maxCoeff()) : scalar(0);
     if (!(size > scalar(0))) return true;
-    vector_type y = c, squares = vector_type::Zero(c.size());
-    for (index j = 0; j < B.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator e(B, j); e; ++e) {
-        squares(e.row()) += e.value() * e.value();
-      }
-    }
+    vector_type y = c, squares = detail::row_squares(B);
     for (index i = 0; i < y.size(); ++i)
       y(i) = y(i) == scalar(0) ? y(i) : scalar(y(i) / squares(i));
     shift_ = B.transpose() * y;

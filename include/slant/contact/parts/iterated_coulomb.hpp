@@ -31,7 +31,6 @@
 #include <algorithm>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace slant::contact::detail {
 
@@ -39,7 +38,7 @@ namespace slant::contact::detail {
 template <class S>
 class checked_rows {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   explicit checked_rows(data<S> const& c)
@@ -61,7 +60,7 @@ class checked_rows {
 /// What a run of iterated_coulomb found.
 template <class S>
 struct iterated_coulomb_result {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   vector_type u, λ;
   coulomb_error<S> error{};
@@ -76,11 +75,10 @@ struct iterated_coulomb_result {
 /// Throws bad_input where K is found not to be definite or does not fit the nodes.
 template <class Friction, class S>
 [[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
-    Friction law, Eigen::SparseMatrix<S> const& K, data<S> c,
-    Eigen::Matrix<S, Eigen::Dynamic, 1> const& F, node_layout<S> const& layout,
-    free_motions<S> const& floating, multigrid_options const& levels, S const& tolerance,
-    index most) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+    Friction law, Eigen::SparseMatrix<S> const& K, data<S> c, Eigen::VectorX<S> const& F,
+    node_layout<S> const& layout, free_motions<S> const& floating, multigrid_options const& levels,
+    S const& tolerance, index most) {
+  using vector_type = Eigen::VectorX<S>;
   constexpr index patience = 15, rounds = 12, steps_for_bounds = 40;
   iterated_coulomb_result<S> result;
   c.g = vector_type::Zero(c.nodes());
