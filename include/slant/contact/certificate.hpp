@@ -64,7 +64,6 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace slant::contact {
 
@@ -109,7 +108,7 @@ template <class S, class Factor>
 template <class S = double>
 class certificate {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// Throws bad_input if sizes do not match.

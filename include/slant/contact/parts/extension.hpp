@@ -69,7 +69,7 @@ template <class S>
 template <class S>
 class scene_matrices {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   scene_matrices(sparse_type const& K, data<S> const& c)
@@ -139,36 +139,18 @@ class scene_matrices {
     return root(S(q.sum + q.lost), q);
   }
 
-  /// v ← v + Bᵀf.
-  void add_forces(vector_type const& f, vector_type& v) const {
-    for (index i = 0; i < f.size(); ++i) {
-      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) v(e.row()) += f(i) * e.value();
-    }
-  }
-
  private:
   void prepare() {
     index const n = B.rows(), m = K().rows();
     vector_type v = vector_type::Zero(m);
     inverse_squares.setZero(n);
     stiffness.setConstant(n, std::numeric_limits<S>::infinity());
-    vector_type squares = vector_type::Zero(n);
+    vector_type const squares = row_squares(B);
+    touched = touched_unknowns(B);
     for (index j = 0; j < m; ++j) {
-      S sum(0);
-      index entries = 0;
-      for (typename sparse_type::InnerIterator e(K(), j); e; ++e, ++entries) {
-        using std::abs;
-        sum += abs(e.value());
-      }
       all.push_back(j);
-      longest = std::max<index>(longest, entries);
-      largest = std::max<S>(largest, sum);
-      bool is_touched = false;
-      for (typename sparse_type::InnerIterator e(B, j); e; ++e) {
-        squares(e.row()) += e.value() * e.value();
-        is_touched = is_touched || e.value() != S(0);
-      }
-      if (is_touched) touched.push_back(j);
+      longest = std::max<index>(longest, K().col(j).nonZeros());
+      largest = std::max<S>(largest, K().col(j).cwiseAbs().sum());
     }
     for (index i = 0; i < n; ++i) {
       if (squares(i) > S(0)) inverse_squares(i) = S(1) / squares(i);
@@ -183,15 +165,11 @@ class scene_matrices {
     size_of_B = S(2) * sqrt(size_of_B);
     // BBᵀ: orthogonal rows have nothing but rounding off the diagonal.
     sparse_type const gram = B * rows;
-    for (index j = 0; j < gram.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator e(gram, j); e; ++e) {
-        using std::abs;
-        S const cosine = abs(e.value()) * sqrt(inverse_squares(j)) * sqrt(inverse_squares(e.row()));
-        if (e.row() != j && cosine > S(8) * std::numeric_limits<S>::epsilon()) {
-          is_orthogonal = false;
-        }
-      }
-    }
+    slant::detail::for_each_entry(gram, [&](index i, index j, S const& value) {
+      using std::abs;
+      S const cosine = abs(value) * sqrt(inverse_squares(j)) * sqrt(inverse_squares(i));
+      if (i != j && cosine > S(8) * eps) is_orthogonal = false;
+    });
     // m_i = diag of D B K BᵀD.
     for (index i = 0; i < n; ++i) {
       if (!(inverse_squares(i) > S(0))) continue;
@@ -227,9 +205,8 @@ class extension {
     for (index i = 0; i < d.size(); ++i) {
       if (m.inverse_squares(i) == S(0) && d(i) != S(0)) return energy_;
     }
-    v_.setZero(m.K().rows());
     if (m.is_orthogonal) {
-      m.add_forces(vector_type(m.inverse_squares.cwiseProduct(d)), v_);
+      v_ = m.rows * m.inverse_squares.cwiseProduct(d);
     } else {
       least_squares(m, d);
     }
@@ -251,17 +228,20 @@ class extension {
     S const limit = enough / unit * sqrt(scale), goal = limit > S(0) ? S(limit * limit) : S(0);
     auto const& K = m.K();
     // r = −P K v, z = P diag(K)⁻¹r, P the projector onto ker B.
-    r_.resize(v_.size());
-    weight_.resize(v_.size());
-    for (index j = 0; j < v_.size(); ++j) {
-      S sum(0);
-      weight_(j) = S(1);
-      for (typename sparse_type::InnerIterator e(K, j); e; ++e) {
-        sum -= (e.value() * scale) * v_(e.row());
-        if (e.row() == j && e.value() > S(0)) weight_(j) = S(1) / (e.value() * scale);
+    auto const multiply = [&](vector_type const& x, vector_type& y) {  // y = scale K x
+      y.resize(x.size());
+      for (index j = 0; j < x.size(); ++j) {
+        S sum(0);
+        for (typename sparse_type::InnerIterator e(K, j); e; ++e) {
+          sum += (e.value() * scale) * x(e.row());
+        }
+        y(j) = sum;
       }
-      r_(j) = sum;
-    }
+    };
+    multiply(v_, r_);
+    r_ = -r_;
+    weight_ = K.diagonal();
+    for (S& own : weight_) own = own > S(0) ? S(S(1) / (own * scale)) : S(1);
     S energy = -v_.dot(r_), rz(0);
     keep_in_kernel(m, r_);
     for (index k = 0; k < most; ++k) {
@@ -271,13 +251,7 @@ class extension {
       if (!(next > S(0))) break;
       p_ = k == 0 ? z_ : vector_type(z_ + (next / rz) * p_);
       rz = next;
-      for (index j = 0; j < v_.size(); ++j) {
-        S sum(0);
-        for (typename sparse_type::InnerIterator e(K, j); e; ++e) {
-          sum += (e.value() * scale) * p_(e.row());
-        }
-        z_(j) = sum;
-      }
+      multiply(p_, z_);
       S const bend = p_.dot(z_);
       if (!(bend > S(0))) break;
       S const α = rz / bend, gain = α * rz;
@@ -330,27 +304,19 @@ class extension {
   void least_squares(matrices const& m, vector_type const& d) {
     vector_type const scale = m.inverse_squares.cwiseSqrt();
     S const unit = unit_near(S(d.stableNorm()));
-    vector_type r = (d / unit).cwiseProduct(scale), q(d.size());
-    vector_type s = vector_type::Zero(v_.size()), p;
-    m.add_forces(vector_type(r.cwiseProduct(scale)), s);
-    p = s;
+    vector_type r = (d / unit).cwiseProduct(scale), q;
+    vector_type s = m.rows * r.cwiseProduct(scale), p = s;
+    v_.setZero(s.size());
     S size = s.squaredNorm();
     S const enough = S(1e-16) * size;
     for (index k = 0; k < 200 && size > enough; ++k) {
-      for (index i = 0; i < q.size(); ++i) {
-        S sum(0);
-        for (typename sparse_type::InnerIterator e(m.rows, i); e; ++e) {
-          sum += e.value() * p(e.row());
-        }
-        q(i) = scale(i) * sum;
-      }
+      q = scale.cwiseProduct(m.B * p);
       S const bend = q.squaredNorm();
       if (!(bend > S(0))) break;
       S const α = size / bend;
       v_ += α * p;
       r -= α * q;
-      s.setZero();
-      m.add_forces(vector_type(r.cwiseProduct(scale)), s);
+      s = m.rows * r.cwiseProduct(scale);
       S const next = s.squaredNorm();
       p = s + (next / size) * p;
       size = next;

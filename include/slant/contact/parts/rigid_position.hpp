@@ -48,7 +48,7 @@ namespace slant::contact::detail {
 /// after all would add up to a million times as much as that.
 template <class S, class V>
 [[nodiscard]] bool falls_for_ever(data<S> const& c, V const& w) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   S const size = w.norm(), load = c.f.norm();
   vector_type const normal = c.N * w, slip = c.T * w;
   index const k = c.tangents();
@@ -69,7 +69,7 @@ template <class S, class V>
 
 /// The nearest forces of Λ: λ_ν ≥ 0, and 0 where the gap is infinite; ‖λ_t,i‖ ≤ gᵢ/unit.
 template <class S>
-void project_forces(data<S> const& c, S const& unit, Eigen::Matrix<S, Eigen::Dynamic, 1>& λ) {
+void project_forces(data<S> const& c, S const& unit, Eigen::VectorX<S>& λ) {
   index const k = c.tangents(), m = c.nodes();
   for (index i = 0; i < m; ++i) {
     if (!(λ[i] > S(0)) || !slant::detail::is_finite(c.d[i])) λ[i] = S(0);
@@ -84,11 +84,10 @@ void project_forces(data<S> const& c, S const& unit, Eigen::Matrix<S, Eigen::Dyn
 /// gradient method with restarts [O'Donoghue, Candès 2015]. By the optimality of λ it is αᵀ(G μ − G
 /// λ) ≤ 0 for all μ ∈ Λ, so N w ≤ 0 and fᵀw − Σ gᵢ‖(T w)ᵢ‖ = ‖α‖². Ends as soon as w proves that.
 template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> falling_motion(data<S> const& c,
-                                                                 Eigen::SparseMatrix<S> const& R,
-                                                                 index steps) {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+[[nodiscard]] Eigen::VectorX<S> falling_motion(data<S> const& c, Eigen::SparseMatrix<S> const& R,
+                                               index steps) {
+  using vector_type = Eigen::VectorX<S>;
+  using dense_type = Eigen::MatrixX<S>;
   Eigen::SparseMatrix<S> const Gt = stacked_constraints(c) * R, G = Gt.transpose();
   vector_type e = R.transpose() * c.f;
   S const unit = e.norm();
@@ -126,8 +125,7 @@ template <class S>
   for (auto const& body : motions.free) {
     for (index k = 0; k < body.motions.cols(); ++k, ++column) {
       for (std::size_t j = 0; j < body.unknowns.size(); ++j) {
-        entries.emplace_back(static_cast<int>(body.unknowns[j]), static_cast<int>(column),
-                             body.motions(static_cast<index>(j), k));
+        entries.emplace_back(int(body.unknowns[j]), int(column), body.motions(index(j), k));
       }
     }
   }
@@ -139,8 +137,7 @@ template <class S>
 /// Sets the claim that there is no solution, with its proof w; or that it could not be proven.
 template <class S>
 void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
-                        node_layout<S> const& layout, Eigen::Matrix<S, Eigen::Dynamic, 1> w,
-                        solution<S>& r) {
+                        node_layout<S> const& layout, Eigen::VectorX<S> w, solution<S>& r) {
   S const size = w.norm();
   if (size > S(0) && slant::detail::is_finite(size)) {
     w /= size;
@@ -182,7 +179,7 @@ template <class S, class V>
 template <class S>
 class rigid_position {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// Refers to the data and to R, which has orthonormal columns.
@@ -295,7 +292,7 @@ class rigid_position {
     index const m = data_->nodes(), k = data_->tangents(), p = α_.size();
     entries_.clear();
     auto const put = [&](index i, index j, S const& value) {
-      entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+      entries_.emplace_back(int(i), int(j), value);
     };
     for (index i = 0; i < m; ++i) {
       if (y_(i) > d_(i)) put(i, i, κ_(i));

@@ -60,7 +60,7 @@ template <class S>
   std::vector<index> list;
   for (auto const& body : motions.free) {
     for (index const row : fixing_rows(body.motions)) {
-      list.push_back(body.unknowns[static_cast<std::size_t>(row)]);
+      list.push_back(body.unknowns[std::size_t(row)]);
     }
   }
   return list;
@@ -82,7 +82,7 @@ template <class S, class V>
 template <class S>
 class supported_problem {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   supported_problem() = default;
   supported_problem(supported_problem const&) = delete;
@@ -124,7 +124,7 @@ class observed_run final : public supported_problem<S> {
 template <class S>
 class spring_supports {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
   using maker = std::function<std::unique_ptr<supported_problem<S>>(
       sparse_type const&, data<S> const&, solve_options<S> const&)>;
@@ -137,7 +137,7 @@ class spring_supports {
         options_(o),
         make_(std::move(make)),
         R_(kernel_of(motions, K.rows())) {
-    for (index const j : fixing_unknowns(motions)) places_.push_back(j);
+    places_ = fixing_unknowns(motions);
     sum_.motions = std::move(motions);
     origin_.setZero(K.rows());
     rest_.setZero(K.rows());
@@ -168,26 +168,19 @@ class spring_supports {
  private:
   void set_springs(S const& σ) {
     S const typical = slant::detail::largest_row_sum(*K_);
-    sparse_type springs(K_->rows(), K_->cols());
-    std::vector<Eigen::Triplet<S>> entries;
-    stiffness_.clear();
+    D_.setZero(K_->rows());
+    supported_ = *K_;
     for (index const j : places_) {
       S const own = K_->coeff(j, j);
-      stiffness_.push_back(σ * (own > S(0) ? own : typical > S(0) ? typical : S(1)));
-      entries.emplace_back(static_cast<int>(j), static_cast<int>(j), stiffness_.back());
+      D_(j) = σ * (own > S(0) ? own : typical > S(0) ? typical : S(1));
+      supported_.coeffRef(j, j) += D_(j);
     }
-    springs.setFromTriplets(entries.begin(), entries.end());
-    supported_ = *K_ + springs;
     supported_.makeCompressed();
   }
 
   /// ‖v‖_D.
   [[nodiscard]] S spring_norm(vector_type const& v) const {
-    using std::sqrt;
-    vector_type part(static_cast<index>(places_.size()));
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      part(static_cast<index>(i)) = sqrt(stiffness_[i]) * v(places_[i]);
-    }
+    vector_type const part = D_(places_).cwiseSqrt().cwiseProduct(v(places_));
     return part.stableNorm();
   }
 
@@ -204,9 +197,7 @@ class spring_supports {
       S const own = K_->coeff(j, j);
       if (own > S(0)) lost_ = hypot(lost_, S(image(j) / sqrt(own)));
     }
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      data_.f(places_[i]) += stiffness_[i] * rest_(places_[i]);
-    }
+    data_.f += D_.cwiseProduct(rest_);
     data_.d = original_->d - original_->N * origin_;
     positions_ = -(original_->T * origin_);
   }
@@ -282,7 +273,7 @@ class spring_supports {
       sum_.error.proven = false;
       // A motion that is hardly held moves little in a step and has far to go; θ is not its rate.
       if (sum_.error.relative() <= S(100) * options_.tolerance) {
-        S const held = way_of_forces(moved_springs(v));
+        S const held = way_of_forces(D_.cwiseProduct(v - rest_));
         sum_.error.bound = inner + std::max<S>(spring, held) + rounded;
         if (step > 0) keep_best();
       }
@@ -327,44 +318,29 @@ class spring_supports {
     sum_.reason = sum_.error.sentence() + ": no springs around the bodies lead further";
   }
 
-  /// D (v − rest): the forces of the springs.
-  [[nodiscard]] vector_type moved_springs(vector_type const& v) const {
-    vector_type force = vector_type::Zero(v.size());
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      force(places_[i]) = stiffness_[i] * (v(places_[i]) - rest_(places_[i]));
-    }
-    return force;
-  }
-
   /// How far, in energy, those forces would move the bodies as rigid ones on the contacts that
   /// press or stick now: √(dᵀG⁻¹d), d = Rᵀp, G = Rᵀ B_aᵀ κ B_a R. κ is the stiffness of the nodes
   /// alone, which is some ten times that of the bodies behind them: the factor 4.
   [[nodiscard]] S way_of_forces(vector_type const& p) const {
     index const m = original_->nodes(), k = original_->tangents();
-    sparse_type B = stacked_constraints(*original_);
-    vector_type squares = vector_type::Zero(B.rows()), κ = squares;
-    for (index j = 0; j < B.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator b(B, j); b; ++b) {
-        squares(b.row()) += b.value() * b.value();
-      }
-    }
+    sparse_type const B = stacked_constraints(*original_);
+    vector_type const squares = row_squares(B);
+    vector_type κ = vector_type::Zero(B.rows());
     auto const holds = [&](index i) {
       if (i < m) return λ_(i) > S(0);
       index const node = (i - m) / k;
       return λ_.segment(m + k * node, k).stableNorm() < (S(1) - S(1e-9)) * original_->g(node);
     };
-    for (index j = 0; j < B.outerSize(); ++j) {
-      for (typename sparse_type::InnerIterator b(B, j); b; ++b) {
-        S const part = b.value() / squares(b.row());
-        if (holds(b.row())) κ(b.row()) += part * part * K_->coeff(j, j);
-      }
-    }
+    slant::detail::for_each_entry(B, [&](index i, index j, S const& value) {
+      S const part = value / squares(i);
+      if (holds(i)) κ(i) += part * part * K_->coeff(j, j);
+    });
     sparse_type const BR = B * R_;
     sparse_type const weighted = κ.asDiagonal() * BR;
     sparse_type const G = sparse_type(BR.transpose()) * weighted;
     vector_type const d = R_.transpose() * p;
     // Motions that no contact resists belong to no force but rounding.
-    using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+    using dense_type = Eigen::MatrixX<S>;
     Eigen::SelfAdjointEigenSolver<dense_type> const modes{dense_type(G)};
     S const largest = modes.eigenvalues().size() > 0 ? S(modes.eigenvalues().maxCoeff()) : S(0);
     S way(0);
@@ -380,9 +356,8 @@ class spring_supports {
 
   /// (origin + v) − u, exactly.
   [[nodiscard]] vector_type lost_digits(vector_type const& v) const {
-    vector_type lost(v.size());
-    for (index j = 0; j < v.size(); ++j) lost(j) = slant::detail::exact_sum<S>(origin_(j), v(j)).lo;
-    return lost;
+    return origin_.binaryExpr(
+        v, [](S const& a, S const& b) { return slant::detail::exact_sum<S>(a, b).lo; });
   }
 
   void take(solution<S>& found) {
@@ -394,9 +369,8 @@ class spring_supports {
     sum_.error = found.error;
     sum_.condition = found.condition;
     sum_.iterations += found.iterations;
-    sum_.work.operator_applications += found.work.operator_applications;
-    sum_.work.setup_applications += found.work.setup_applications;
-    sum_.work.inner_iterations += found.work.inner_iterations;
+    found.work.factorizations = 0;  // counted where it was made
+    sum_.work += found.work;
     sum_.solves += found.solves;
     sum_.corrections += found.corrections;
     sum_.scaled = found.scaled;
@@ -429,7 +403,7 @@ class spring_supports {
   maker make_;
   sparse_type R_, supported_{};
   std::vector<index> places_{};
-  std::vector<S> stiffness_{};
+  vector_type D_{};                // diagonal, 0 but at the places
   vector_type origin_{}, rest_{};  // of the anchor
   vector_type positions_{}, λ_{};
   S lost_{0};              // to rounding, of the origin
