@@ -112,12 +112,9 @@ struct held_chain {
 
 held_chain make_held_chain() {
   Eigen::Index const n = 9;
-  Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(n, n);
-  K.diagonal(1).setConstant(-1);
-  K.diagonal(-1).setConstant(-1);
   Eigen::SparseMatrix<double> N(n, n);
   N.setIdentity();
-  return {K.sparseView(),
+  return {test::springs_between_walls(n),
           {N, Eigen::SparseMatrix<double>(0, n), VectorXd::LinSpaced(n, 0.1, 0.2),
            VectorXd::Zero(n), VectorXd(0)}};
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
+#include <vector>
 
 namespace test {
 
@@ -23,13 +24,19 @@ inline slant::contact::data<double> frictionless_data(fem::contact_scene<3> cons
 
 /// A body of the plane: the brick's degrees of freedom with its first tangent only.
 inline slant::contact::data<double> one_tangent(fem::contact_scene<3> const& s) {
-  Eigen::SparseMatrix<double> T(s.d.size(), s.f.size());
-  for (Eigen::Index i = 0; i < s.d.size(); ++i) {
-    for (Eigen::Index j = 0; j < s.f.size(); ++j) {
-      if (s.T.coeff(2 * i, j) != 0) T.insert(i, j) = s.T.coeff(2 * i, j);
-    }
-  }
+  std::vector<slant::index> first;
+  for (Eigen::Index i = 0; i < s.d.size(); ++i) first.push_back(2 * i);
+  Eigen::SparseMatrix<double> const T =
+      slant::contact::detail::columns_of_identity<double>(s.T.rows(), first).transpose() * s.T;
   return {s.N, T, s.f, s.d, s.g};
+}
+
+/// n nodes in a row between two walls, springs of stiffness 1.
+inline Eigen::SparseMatrix<double> springs_between_walls(Eigen::Index n) {
+  Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(n, n);
+  K.diagonal(1).setConstant(-1);
+  K.diagonal(-1).setConstant(-1);
+  return K.sparseView();
 }
 
 inline oracle::contact_reference reference(Eigen::SparseMatrix<double> const& K,
