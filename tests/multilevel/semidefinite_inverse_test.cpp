@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/multilevel/parts/semidefinite_inverse.hpp>
+#include <slant/multilevel/parts/dense_factor.hpp>
 
 #include <doctest/doctest.h>
 

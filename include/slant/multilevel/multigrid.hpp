@@ -39,7 +39,6 @@
 #include <slant/multilevel/parts/galerkin.hpp>
 #include <slant/multilevel/parts/node_face.hpp>
 #include <slant/multilevel/parts/prolongation.hpp>
-#include <slant/multilevel/parts/semidefinite_inverse.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

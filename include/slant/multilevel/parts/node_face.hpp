@@ -24,8 +24,8 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/multilevel/parts/dense_factor.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
-#include <slant/multilevel/parts/semidefinite_inverse.hpp>
 
 #include <Eigen/Core>
 
