@@ -468,6 +468,10 @@ class primal {
       if (force > S(0)) λ[c.number] = force;
     }
   }
+  /// G, without rows where it is the identity.
+  [[nodiscard]] typename detail::local_coordinates<S>::rows_type const& turning() const& {
+    return local_.G;
+  }
   /// Whether G is not the identity.
   [[nodiscard]] bool turns() const { return local_.G.rows() > 0; }
   /// Multigrid for matrix(), from candidates of the near kernel of K (n × r, or without columns).

@@ -232,11 +232,10 @@ class hierarchy {
     auto below = aggregate_below(apart, B, next, o);
     if (!below) return;
     apart = {};
-    bool within = true;  // nodes
-    auto P = mixed_prolongation(below->P, g, within);
+    auto P = mixed_prolongation(below->P, g);
     auto C = galerkin_pattern(fine.A, P, fine.longest);
     append(fine, std::move(P), std::move(C));
-    if (within) aggregates = std::move(below->nodes);
+    aggregates = std::move(below->nodes);
     kernel = next;
     aggregate_rest(std::move(next), o);
   }
@@ -251,10 +250,8 @@ class hierarchy {
       auto P = prolongation_from<N, T>(o.prolongations[l], above.A.nodes(),
                                        "prolongation " + show(static_cast<index>(l)));
       if (l == 0) {
-        bool within = true;
         aggregates = heaviest_parents(P);
-        if (g) P = mixed_prolongation(P, *g, within);
-        if (!within) aggregates = {};
+        if (g) P = mixed_prolongation(P, *g);
         kernel = constants<M, M>(P.coarse_nodes);
       }
       auto C = galerkin_pattern(above.A, P, above.longest);
@@ -652,7 +649,7 @@ class multigrid {
   // --- the next coarser level, for problems that are solved there first ---------------------------
 
   /// Which node of level 1 each node of K belongs to, with prolongations of the user the one of the
-  /// greatest weight; empty if there is no such level, or where G mixes nodes.
+  /// greatest weight; empty if there is no such level.
   [[nodiscard]] aggregation const& aggregates() const {
     return std::visit([](auto const& h) -> aggregation const& { return h.aggregates; }, *levels_);
   }

@@ -249,10 +249,10 @@ class primal_run {
   [[nodiscard]] state_type begin(index tangents, multigrid_options const& o, vector_type const& w) {
     if (w.size() > 0) problem_.set_positions(w);
     // What level 1 stands for: rigid motions of aggregates, or translations.
-    matrix_type motions =
+    matrix_type const motions =
         o.prolongations.empty() ? motions_ : translations<S>(qp_.b().size(), M_.node_size());
-    if (motions.cols() > 0) motions = problem_.coordinates(motions);
-    nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions, o);
+    nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions,
+                                 problem_.turning(), o);
     if (!coarse.found()) return method(S(0)).start(problem_.zero());
     return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
   }

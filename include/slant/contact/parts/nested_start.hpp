@@ -11,7 +11,9 @@
 //
 //     minimise  ½ w'ᵀ(EᵀPᵀK P E)w' − (EᵀPᵀf)ᵀw' + φ'(w'),      gaps the least ones, slip bounds added up,
 //
-// and that problem starts from its own next level. What has come of it is prolonged; a node is held
+// and that problem starts from its own next level. Between two bodies the motion is that of the one
+// less that of the other: ū = T w_I + Σ T_J w_J with aggregates J of the other body, and E of w' in
+// place of w_I takes T_J w_J away.  What has come of it is prolonged; a node is held
 // as its aggregate is, and the first step does not ask whether that is right. With prolongations of
 // the user the aggregate of a coarse node are those that owe it most, and Q R translations.
 #pragma once
@@ -31,6 +33,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -44,12 +47,14 @@ class nested_start {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using sparse_type = Eigen::SparseMatrix<S>;
+  using rows_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
   using contact = typename surface_function<S>::contact;
 
-  /// Solves the coarse problem of min ½ uᵀK u − fᵀu + φ(u), M of K with these candidates of the
-  /// near kernel; nothing if there is none worth it.
+  /// Solves the coarse problem of min ½ vᵀK v − fᵀv + φ(v), v = G u, with the multigrid M of these
+  /// candidates of the near kernel in u; without rows G is the identity. Nothing if there is none
+  /// worth it.
   nested_start(vector_type const& f, surface_function<S> const& φ, index tangents,
-               slant::multigrid<S> const& M, matrix_type const& candidates,
+               slant::multigrid<S> const& M, matrix_type const& candidates, rows_type const& G,
                multigrid_options const& o)
       : φ_(&φ), tangents_(tangents) {
     aggregation const& a = M.aggregates();
@@ -59,16 +64,21 @@ class nested_start {
     if (R.rows() != a.count * width_ || width_ < 1 + tangents) return;
     of_ = a.of;
     node_size_ = M.node_size();
-    choose_frames(candidates, R, a.count);
-    if (list_.empty()) return;
+    choose_frames(candidates, G, R, a.count);
+    if (list_.empty() || are_entangled()) return;
     sparse_type K = M.coarse_matrix();
-    turn(K);
     vector_type g = M.restricted(f);
-    for (auto const& [node, own] : frames_) {
-      auto part = g.segment(node * width_, width_);
-      part = vector_type(own.E.transpose() * part);
-      auto rows = R.middleRows(node * width_, width_);
-      rows = matrix_type(own.inverse * rows);
+    if (has_pairs()) {
+      mix(K.rows());
+      g = vector_type(from_mixed_.transpose() * g);
+    } else {
+      turn(K);
+      for (auto const& [node, own] : frames_) {
+        auto part = g.segment(node * width_, width_);
+        part = vector_type(own.E.transpose() * part);
+        auto rows = R.middleRows(node * width_, width_);
+        rows = matrix_type(own.inverse * rows);
+      }
     }
     surface_function<S> const surface(K.rows(), tangents, list_);
     try {
@@ -111,9 +121,10 @@ class nested_start {
  private:
   static constexpr index smallest = 2000;  // unknowns: fewer are solved as fast from zero
 
-  /// E of a node and its inverse.
+  /// E of a node and its inverse, and T_J of nodes of another body.
   struct frame {
     matrix_type E, inverse;
+    std::map<index, matrix_type> others{};
   };
 
   void hold_normal(contact const& c, int k, S const& beyond, S& z) const {
@@ -130,8 +141,9 @@ class nested_start {
   }
 
   /// The frames of aggregates with contacts, and their contacts.
-  void choose_frames(matrix_type const& B, matrix_type const& R, index count) {
-    std::vector<matrix_type> mean(static_cast<std::size_t>(count));
+  void choose_frames(matrix_type const& B, rows_type const& G, matrix_type const& R, index count) {
+    // What the motions of each node of level 1 move the contacts of an aggregate by.
+    std::vector<std::map<index, matrix_type>> mean(static_cast<std::size_t>(count));
     std::vector<index> members(static_cast<std::size_t>(count), 0);
     std::vector<contact> sums(static_cast<std::size_t>(count));
     constexpr S infinity = std::numeric_limits<S>::infinity();
@@ -139,12 +151,22 @@ class nested_start {
       int const owner = of_[static_cast<std::size_t>(c.p / node_size_)];
       if (owner < 0) continue;
       auto const g = static_cast<std::size_t>(owner);
-      if (members[g]++ == 0) {
-        mean[g] = matrix_type::Zero(1 + tangents_, width_);
-        sums[g].gap = interval<S>(-infinity, infinity);
+      if (members[g]++ == 0) sums[g].gap = interval<S>(-infinity, infinity);
+      auto const add = [&](index row, index unknown, S const& weight) {
+        int const node = of_[static_cast<std::size_t>(unknown / node_size_)];
+        if (node < 0) return;
+        matrix_type& T = mean[g][node];
+        if (T.size() == 0) T = matrix_type::Zero(1 + tangents_, width_);
+        T.row(row) += weight * B.row(unknown).head(width_);
+      };
+      for (index r = 0; r <= tangents_; ++r) {
+        index const unknown = r == 0 ? c.p : c.q + (r - 1) * c.stride;
+        if (G.rows() == 0) {
+          add(r, unknown, S(1));
+        } else {
+          for (typename rows_type::InnerIterator e(G, unknown); e; ++e) add(r, e.col(), e.value());
+        }
       }
-      mean[g].row(0) += B.row(c.p).head(width_);
-      for (index j = 0; j < tangents_; ++j) mean[g].row(1 + j) += B.row(c.q + j * c.stride);
       S const l = std::max<S>(sums[g].gap.lower(), c.gap.lower());
       S const h = std::min<S>(sums[g].gap.upper(), c.gap.upper());
       if (l <= h) sums[g].gap = interval<S>(l, h);
@@ -154,12 +176,17 @@ class nested_start {
     for (index i = 0; i < count; ++i) {
       auto const g = static_cast<std::size_t>(i);
       if (members[g] == 0) continue;
-      matrix_type const T =
-          times_inverse(mean[g] / S(members[g]), R.middleRows(i * width_, width_));
+      for (auto& [node, T] : mean[g]) {
+        T = times_inverse(T / S(members[g]), R.middleRows(node * width_, width_));
+      }
+      matrix_type const T = std::move(mean[g][i]);
+      mean[g].erase(i);
       contact c = sums[g];
-      if (!is_placed(T, i * width_, c)) {
+      if (T.size() == 0) continue;
+      if (!mean[g].empty() || !is_placed(T, i * width_, c)) {
         auto E = frame_of(T);
         if (!E) continue;
+        E->others = std::move(mean[g]);
         c.p = i * width_;
         c.q = c.p + 1;
         c.stride = 1;
@@ -222,7 +249,7 @@ class nested_start {
     }
     for (index j = 0; j < w && next < w; ++j) add(vector_type::Unit(w, j), S(1), -1);
     if (next < w) return std::nullopt;
-    frame f{Q, Q.transpose()};
+    frame f{Q, Q.transpose(), {}};
     f.inverse.topRows(m) = T;
     // T⁺ = Q₁ L⁻¹
     for (index c = m - 1; c >= 0; --c) {
@@ -230,6 +257,56 @@ class nested_start {
       for (index k = 0; k < c; ++k) f.E.col(k) -= L(c, k) * f.E.col(c);
     }
     return f;
+  }
+
+  [[nodiscard]] bool has_pairs() const {
+    return std::any_of(frames_.begin(), frames_.end(),
+                       [](auto const& f) { return !f.second.others.empty(); });
+  }
+
+  /// Whether contacts are with aggregates that have contacts of their own, as in the middle of a
+  /// stack of bodies.
+  [[nodiscard]] bool are_entangled() const {
+    return std::any_of(frames_.begin(), frames_.end(), [&](auto const& f) {
+      return std::any_of(f.second.others.begin(), f.second.others.end(), [&](auto const& T) {
+        return number_[static_cast<std::size_t>(T.first)] >= 0;
+      });
+    });
+  }
+
+  /// w = E w' and w' = E⁻¹w as matrices of n unknowns, where contacts are of two aggregates.
+  void mix(index n) {
+    index const m = 1 + tangents_;
+    std::vector<Eigen::Triplet<S>> from, to;
+    std::vector<bool> is_own(static_cast<std::size_t>(n / width_), false);
+    auto const put = [&](auto& list, index I, index J, matrix_type const& A) {
+      for (index q = 0; q < A.rows(); ++q) {
+        for (index c = 0; c < A.cols(); ++c) {
+          list.emplace_back(int(I * width_ + q), int(J * width_ + c), A(q, c));
+        }
+      }
+    };
+    for (auto const& [I, f] : frames_) {
+      is_own[static_cast<std::size_t>(I)] = true;
+      put(from, I, I, f.E);
+      put(to, I, I, f.inverse);
+    }
+    for (auto const& [I, f] : frames_) {
+      for (auto const& [J, T] : f.others) {
+        put(from, I, J, matrix_type(-f.E.leftCols(m) * T));
+        put(to, I, J, T);
+      }
+    }
+    matrix_type const one = matrix_type::Identity(width_, width_);
+    for (index J = 0; J < n / width_; ++J) {
+      if (is_own[static_cast<std::size_t>(J)]) continue;
+      put(from, J, J, one);
+      put(to, J, J, one);
+    }
+    from_mixed_.resize(n, n);
+    to_mixed_.resize(n, n);
+    from_mixed_.setFromTriplets(from.begin(), from.end());
+    to_mixed_.setFromTriplets(to.begin(), to.end());
   }
 
   /// K ← EᵀK E, and 1 where an unknown stands for nothing.
@@ -305,13 +382,19 @@ class nested_start {
     o.block_size = width_ == 6 ? 3 : width_ == 3 ? 3 : index(width_);
     if (!o.prolongations.empty()) {
       o.prolongations.erase(o.prolongations.begin());
-      if (!o.prolongations.empty()) turn_rows(o.prolongations.front(), K.rows());
+      if (!o.prolongations.empty() && !has_pairs()) turn_rows(o.prolongations.front(), K.rows());
     }
-    slant::multigrid<S> const M(K, candidates, o);
-    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(K), f, surface};
+    sparse_type const mixed =
+        has_pairs() ? sparse_type(from_mixed_.transpose() * sparse_type(K * from_mixed_))
+                    : sparse_type();
+    sparse_type const& A = has_pairs() ? mixed : K;
+    auto const M = has_pairs()
+                       ? slant::multigrid<S>(A, mixed_unknowns<S>{K, to_mixed_}, candidates, o)
+                       : slant::multigrid<S>(A, candidates, o);
+    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(A), f, surface};
     symmetric_newton_options<S> newton;
     newton.energy_goal = std::numeric_limits<S>::min();
-    nested_start const coarser(f, surface, tangents_, M, candidates, o);
+    nested_start const coarser(f, surface, tangents_, M, candidates, to_mixed_, o);
     auto const method = [&] { return envelope_newton{qp, M, newton}; };
     auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
                                  : method().start(vector_type::Zero(f.size()));
@@ -336,6 +419,7 @@ class nested_start {
 
   /// w from w'.
   [[nodiscard]] vector_type back(vector_type w) const {
+    if (has_pairs()) return vector_type(from_mixed_ * w);
     for (auto const& [node, f] : frames_) {
       auto part = w.segment(node * width_, width_);
       part = vector_type(f.E * part);
@@ -349,6 +433,8 @@ class nested_start {
   std::vector<int> of_, number_;  // the aggregate of a node, and the contact of an aggregate
   std::vector<contact> list_;     // of level 1
   std::vector<std::pair<index, frame>> frames_;
+  sparse_type from_mixed_;  // E between two bodies, else without rows
+  rows_type to_mixed_;      // E⁻¹
   std::vector<bool> touches_, sticks_;
   vector_type coarse_, displacement_;
   bool found_ = false;

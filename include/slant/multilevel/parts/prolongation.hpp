@@ -87,11 +87,10 @@ struct prolongation {
   }
 };
 
-/// G P for a matrix G of unknowns; within ← whether no row of G reaches beyond its node.
+/// G P for a matrix G of unknowns.
 template <int N, int M, class T, class S>
 [[nodiscard]] prolongation<N, M, T> mixed_prolongation(
-    prolongation<N, M, T> const& P, Eigen::SparseMatrix<S, Eigen::RowMajor> const& G,
-    bool& within) {
+    prolongation<N, M, T> const& P, Eigen::SparseMatrix<S, Eigen::RowMajor> const& G) {
   constexpr std::size_t block = static_cast<std::size_t>(N * M);
   using row = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
   prolongation<N, M, T> mixed;
@@ -105,7 +104,6 @@ template <int N, int M, class T, class S>
     for (int a = 0; a < N; ++a) {
       for (row e(G, N * i + a); e; ++e) {
         int const j = static_cast<int>(e.col()) / N;
-        within = within && j == i;
         columns.insert(columns.end(), P.column.begin() + P.begin(j), P.column.begin() + P.end(j));
       }
     }
