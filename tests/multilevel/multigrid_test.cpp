@@ -618,7 +618,7 @@ TEST_CASE("what cannot be used is named") {
   CHECK_THROWS_AS(multigrid(K, MatrixXd::Constant(100, 1, std::nan(""))), slant::bad_input);
   CHECK_THROWS_AS(multigrid(K, {.damping = 3}), slant::bad_input);
   CHECK_THROWS_AS(multigrid(K, {.coordinates = MatrixXd::Ones(2, 49)}), slant::bad_input);
-  CHECK_THROWS_AS(multigrid(K, std::vector<sparse>{sparse(99, 50)}), slant::bad_input);
+  CHECK_THROWS_AS(multigrid(K, {.prolongations = {sparse(99, 50)}}), slant::bad_input);
   sparse negative = K;
   negative.coeffRef(7, 7) = -4;
   CHECK_THROWS_WITH_AS(
