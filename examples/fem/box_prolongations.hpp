@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Prolongations of a box mesh with even numbers of cells, for multigrid: linear interpolation from
-// the mesh of cells twice as long. Its simplices are unions of those of the mesh, so that each node
-// is a coarse one or lies half way between two of them.
+// Prolongations of a box mesh with even numbers of cells, for multigrid: interpolation from the mesh
+// of cells twice as long, linear along each axis, from up to eight corners. Rejected: linear
+// interpolation on its simplices, whose unions they are, from up to two corners: a third to a half
+// more steps of conjugate gradients.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -50,14 +51,13 @@ template <int D>
     }
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t i = 0; i < free.size(); ++i) {
-      lattice below{}, above{};
-      for (std::size_t a = 0; a < dimension; ++a) {
-        below[a] = free[i][a] / 2;
-        above[a] = (free[i][a] + 1) / 2;
-      }
-      for (lattice const& at : {below, above}) {
+      for (std::size_t corner = 0; corner < (std::size_t{1} << dimension); ++corner) {
+        lattice at{};
+        for (std::size_t a = 0; a < dimension; ++a) {
+          at[a] = (free[i][a] + static_cast<int>(corner >> a & 1)) / 2;
+        }
         int const j = number[number_in(at, cells)];
-        if (j >= 0) entries.emplace_back(static_cast<int>(i), j, 0.5);
+        if (j >= 0) entries.emplace_back(static_cast<int>(i), j, 1.0 / (1 << dimension));
       }
     }
     Eigen::SparseMatrix<double> P(static_cast<Eigen::Index>(free.size()),

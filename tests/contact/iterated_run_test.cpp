@@ -342,8 +342,8 @@ TEST_CASE("nested meshes: prolongations of the user, their levels begun on the c
     CHECK(r.work.inner_iterations <= 30);
     if (load != fem::brick_load::lift) continue;
     auto const there = agree(turned(s));
-    CHECK(there.iterations <= r.iterations + 1);
-    CHECK(there.work.inner_iterations <= r.work.inner_iterations + 3);
+    CHECK(there.iterations <= 11);
+    CHECK(there.work.inner_iterations <= 30);
     CHECK(contact::solve(s.K, s.data, {.multigrid = {.prolongations = s.prolongations}})
               .choice.reason.find("estimated") != std::string::npos);
   }

@@ -127,7 +127,7 @@ template <int N, class T>
         T const entry = P.weights ? P.weight(e) : P.block(e)[k];
         size += entry * entry;
       }
-      if (!(size > most)) continue;
+      if (!(size > T(1.001) * most)) continue;  // rounding breaks no ties
       most = size;
       a.of[static_cast<std::size_t>(i)] = P.at(e);
     }
