@@ -67,7 +67,7 @@ struct certified_coulomb_options {
   index outer_steps = 300;  ///< of successive approximations at most
   bool scale = true;        ///< whether rows of B may be scaled
   /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored, unless
-  /// multigrid.prolongations are given or `route` says otherwise.
+  /// `route` says otherwise: bodies without supports are not known as such then.
   node_layout<S> layout{};
   /// Factors of K, or multigrid and no factors, which the method has to be `automatic` for.
   solution_route route = solution_route::automatic;

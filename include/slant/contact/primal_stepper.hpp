@@ -40,7 +40,8 @@ class primal_stepper {
   /// K: n × n, both triangles. Of the options `route`, `costs`, `scale`, `condensation` and `start`
   /// have no part. Throws bad_input for data that do not fit or options out of range; where
   /// displacements cannot be solved for, for the reason that contact::solve would give for factors;
-  /// and for bodies that K leaves free.
+  /// and for bodies that K leaves free,
+  /// which options.layout tells.
   primal_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, solve_options<S> options)
       : K_(&K), c_(std::move(c)), options_(std::move(options)) {
     options_.validate();

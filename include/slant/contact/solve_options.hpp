@@ -41,8 +41,8 @@ struct solve_options {
   /// λ to start from; none: conjugate gradients without the constraints.
   std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
   /// Where the unknowns are. Gives motions of bodies without supports their names, and multigrid the
-  /// rigid-body modes. Without it K is factored, unless multigrid.prolongations are given or `route`
-  /// says otherwise.
+  /// rigid-body modes. Without it K is factored, unless `route` says otherwise: bodies without supports
+  /// are not known as such then.
   node_layout<S> layout{};
   /// Factors of K, or multigrid and no factors.
   solution_route route = solution_route::automatic;

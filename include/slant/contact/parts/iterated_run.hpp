@@ -140,13 +140,13 @@ struct iteration_outlook {
   free_motions<S> floating{};
 };
 
-/// Of options with layout, route and multigrid. Throws bad_input for sizes that do not fit.
+/// Of options with layout and route. Coordinates tell whether a body floats. Throws bad_input for
+/// sizes that do not fit.
 template <class S, class Options>
 [[nodiscard]] iteration_outlook<S> outlook_of_iteration(Eigen::SparseMatrix<S> const& K,
                                                         data<S> const& c, Options const& o) {
   node_layout<S> const& layout = o.layout;
-  bool const is_served = layout.is_known() || !o.multigrid.prolongations.empty();
-  if (!is_served && o.route != solution_route::iterate) {
+  if (!layout.is_known() && o.route != solution_route::iterate) {
     return {"no coordinates of nodes are given"};
   }
   if (auto why = primal_refusal(c)) return {std::move(why)};

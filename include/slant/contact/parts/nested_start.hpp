@@ -11,11 +11,12 @@
 //
 //     minimise  ½ w'ᵀ(EᵀPᵀK P E)w' − (EᵀPᵀf)ᵀw' + φ'(w'),      gaps the least ones, slip bounds added up,
 //
-// and that problem starts from its own next level. Between two bodies the motion is that of the one
-// less that of the other: ū = T w_I + Σ T_J w_J with aggregates J of the other body, and E of w' in
-// place of w_I takes T_J w_J away.  What has come of it is prolonged; a node is held
-// as its aggregate is, and the first step does not ask whether that is right. With prolongations of
-// the user the aggregate of a coarse node are those that owe it most, and Q R translations.
+// and that problem starts from its own next level. What has come of it is prolonged; a node is held
+// as its aggregate is, and the first step does not ask whether that is right.
+//
+// Between two bodies the motion is that of the one less that of the other: ū = T w_I + Σ T_J w_J with
+// aggregates J of the other body, and E of w' in place of w_I takes T_J w_J away. With prolongations
+// of the user the aggregate of a coarse node are the nodes that owe it most, and Q R translations.
 #pragma once
 
 #include <slant/base/scaling.hpp>
