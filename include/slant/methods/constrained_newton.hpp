@@ -186,7 +186,8 @@ template <class QP, class C, class M>
 class constrained_newton : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
 
-  static_assert(detail::kprgp_told<problem>);
+  static_assert(detail::program_demands<problem>::told);
+  static_assert(detail::active_set_demands<problem>::told);
   static_assert(detail::symmetric_newton_demands<problem, std::remove_cvref_t<M>>::told);
   static_assert(
       !symmetric_newton_problem<problem> ||

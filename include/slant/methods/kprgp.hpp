@@ -234,7 +234,8 @@ struct face_minimum_release : kkt_release {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
-  static_assert(detail::kprgp_told<QP>);
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
   using kprgp::proportioning::proportioning;
@@ -291,7 +292,8 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_proportioning> {
-  static_assert(detail::kprgp_told<QP>);
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
   using qpq::proportioning::proportioning;
@@ -311,7 +313,8 @@ qpq(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpq<kept_t<QP>>;
 /// Requirements, statuses and cost are those of qpq.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
-  static_assert(detail::kprgp_told<QP>);
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
   using qpc::proportioning::proportioning;

@@ -112,11 +112,6 @@ struct active_set_demands<QP> {
   static constexpr bool told = true;
 };
 
-/// Both, of what kprgp_problem is asked of.
-template <class QP>
-inline constexpr bool kprgp_told = program_demands<std::remove_cvref_t<QP>>::told &&
-                                   active_set_demands<std::remove_cvref_t<QP>>::told;
-
 /// The scalar of a program, double of what is none: deduction does not fail there, so that it can
 /// be refused in words.
 template <class QP>
