@@ -8,6 +8,7 @@
 #include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
+#include <slant/multilevel/aggregation.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>
@@ -51,7 +52,6 @@ template <class M>
 [[nodiscard]] auto rigid_body_modes(Eigen::MatrixBase<M> const& nodes)
     -> Eigen::Matrix<typename M::Scalar, Eigen::Dynamic, Eigen::Dynamic> {
   using S = typename M::Scalar;
-  using matrix_type = Eigen::MatrixX<S>;
   index const D = nodes.rows(), n = nodes.cols();
   if (D != 2 && D != 3) {
     throw bad_input("rows of nodes", slant::detail::show(D), "2 or 3 coordinates");
@@ -59,20 +59,9 @@ template <class M>
   if (n < 1) throw bad_input("columns of nodes", slant::detail::show(n), "at least one node");
   slant::detail::require_finite_entries("nodes", nodes.derived());
 
-  matrix_type const x = detail::about_centre<S>(nodes);
-  matrix_type R = matrix_type::Zero(D * n, D == 2 ? 3 : 6);
-  for (index i = 0; i < n; ++i) {
-    index const row = D * i;
-    for (index axis = 0; axis < D; ++axis) R(row + axis, axis) = S(1);
-    index mode = D;
-    for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
-      for (index b = a + 1; b < D; ++b, ++mode) {
-        R(row + a, mode) = -x(b, i);
-        R(row + b, mode) = x(a, i);
-      }
-    }
-  }
-  return slant::detail::orthonormal_basis<S>(std::move(R));
+  return slant::detail::orthonormal_basis<S>(slant::detail::rigid_motions<S>(
+      detail::about_centre<S>(nodes), D * n, [D](index j) { return j / D; },
+      [D](index j) { return j % D; }));
 }
 
 }  // namespace slant::contact

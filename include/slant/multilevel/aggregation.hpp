@@ -19,10 +19,13 @@
 // coarse level, because sweeps of Gauss–Seidel reach it.
 #pragma once
 
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 #include <slant/multilevel/parts/prolongation.hpp>
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +136,34 @@ template <int N, class T>
     }
   }
   return a;
+}
+
+/// The motions of rigid bodies, n × 3 in the plane and n × 6 in space, of unknowns that are
+/// components axis(j) of the nodes node(j), columns of `nodes`: translations, and rotations about the
+/// centre of the nodes in units of their extent.
+template <class S, class M, class Node, class Axis>
+[[nodiscard]] Eigen::MatrixX<S> rigid_motions(Eigen::MatrixBase<M> const& nodes, index n, Node node,
+                                              Axis axis) {
+  using scalar = typename M::Scalar;
+  index const D = nodes.rows();
+  Eigen::VectorX<scalar> const most = nodes.rowwise().maxCoeff();
+  Eigen::VectorX<scalar> const least = nodes.rowwise().minCoeff();
+  scalar const extent = unit_near((most / 2 - least / 2).maxCoeff());
+  Eigen::MatrixX<S> R = Eigen::MatrixX<S>::Zero(n, D == 2 ? 3 : 6);
+  for (index j = 0; j < n; ++j) {
+    auto const x = [&](index c) {
+      return S(scalar(scalar(nodes(c, node(j)) - least[c] / 2 - most[c] / 2) / extent));
+    };
+    R(j, axis(j)) = S(1);
+    index mode = D;
+    for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
+      for (index b = a + 1; b < D; ++b, ++mode) {
+        if (axis(j) == a) R(j, mode) = -x(b);
+        if (axis(j) == b) R(j, mode) = x(a);
+      }
+    }
+  }
+  return R;
 }
 
 /// Candidates of the near kernel: M motions of nodes of N unknowns, an N × M block by rows for each

@@ -598,18 +598,7 @@ class multigrid {
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, Eigen::MatrixBase<B> const& candidates,
             multigrid_options const& o = {})
-      : sweeps_(o.sweeps) {
-    o.validate();
-    auto const& K = compressed(k.derived());
-    prepare(K);
-    matrix_type const modes = candidates_for(candidates, o);
-    if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
-    index const b = block_size(K, modes.cols(), o);
-    build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
-      h.begin(K, factor_);
-      if (!interpolates(h, o, nullptr)) h.aggregate_all(kernel<N, W>(modes), o);
-    });
-  }
+      : multigrid(k, nullptr, candidates, o) {}
   /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides
   /// of a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with
   /// its candidates, or the first of options.prolongations. Throws bad_input as above, also where
@@ -617,23 +606,7 @@ class multigrid {
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const& mixed,
             Eigen::MatrixBase<B> const& candidates, multigrid_options const& o = {})
-      : sweeps_(o.sweeps) {
-    o.validate();
-    auto const& A = compressed(k.derived());
-    prepare(A);
-    detail::check_size("rows of K", mixed.K.rows(), rows_, "the size of k,");
-    detail::check_size("columns of K", mixed.K.cols(), rows_, "the size of k,");
-    detail::check_size("rows of G", mixed.G.rows(), rows_, "the size of k,");
-    detail::check_size("columns of G", mixed.G.cols(), rows_, "the size of k,");
-    matrix_type const modes = candidates_for(candidates, o);
-    if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
-    index const b = block_size(mixed.K, modes.cols(), o);
-    build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
-      h.begin(A, factor_);
-      if (interpolates(h, o, &mixed.G)) return;
-      h.aggregate_mixed(mixed.K, factor_, mixed.G, kernel<N, W>(modes), o);
-    });
-  }
+      : multigrid(k, &mixed, candidates, o) {}
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
   /// Unknowns of each level, the finest first.
@@ -703,21 +676,12 @@ class multigrid {
   [[nodiscard]] vector_type restricted(vector_type const& x) const {
     return std::visit(
         [&]<int N, int M>(levels<N, M> const& h) {
-          constexpr std::size_t stride = block_matrix<N, T>::stride;
-          constexpr std::size_t coarse_stride = block_matrix<M, T>::stride;
           auto const& A = h.coarse.front().A;
-          S const unit = unit_near(x.size() > 0 ? S(x.cwiseAbs().maxCoeff()) : S(1));
           std::vector<T> from(h.fine.A.padded_size(), T(0)), to(A.padded_size(), T(0));
-          for (index i = 0; i < x.size(); ++i) {
-            from[static_cast<std::size_t>(i / N) * stride + static_cast<std::size_t>(i % N)] =
-                T(S(x[i] / unit));
-          }
-          h.fine.P.restrict_to(from.data(), to.data());
           vector_type y(A.rows());
-          for (index i = 0; i < y.size(); ++i) {
-            y[i] = unit * S(to[static_cast<std::size_t>(i / M) * coarse_stride +
-                               static_cast<std::size_t>(i % M)]);
-          }
+          S const unit = shorten<N>(x, from);
+          h.fine.P.restrict_to(from.data(), to.data());
+          lengthen<M>(to, unit, y);
           return y;
         },
         *levels_);
@@ -726,22 +690,12 @@ class multigrid {
   [[nodiscard]] vector_type prolonged(vector_type const& x) const {
     return std::visit(
         [&]<int N, int M>(levels<N, M> const& h) {
-          constexpr std::size_t stride = block_matrix<N, T>::stride;
-          constexpr std::size_t coarse_stride = block_matrix<M, T>::stride;
-          S const unit = unit_near(x.size() > 0 ? S(x.cwiseAbs().maxCoeff()) : S(1));
-          std::vector<T> from(h.coarse.front().A.padded_size(), T(0));
-          std::vector<T> to(h.fine.A.padded_size(), T(0));
-          for (index i = 0; i < x.size(); ++i) {
-            from[static_cast<std::size_t>(i / M) * coarse_stride +
-                 static_cast<std::size_t>(i % M)] = T(S(x[i] / unit));
-          }
-          h.fine.P.add_to(from.data(), to.data());
+          auto const& A = h.coarse.front().A;
+          std::vector<T> from(A.padded_size(), T(0)), to(h.fine.A.padded_size(), T(0));
           vector_type y(rows_);
-          for (index i = 0; i < rows_; ++i) {
-            y[i] =
-                unit *
-                S(to[static_cast<std::size_t>(i / N) * stride + static_cast<std::size_t>(i % N)]);
-          }
+          S const unit = shorten<M>(x, from);
+          h.fine.P.add_to(from.data(), to.data());
+          lengthen<N>(to, unit, y);
           return y;
         },
         *levels_);
@@ -810,6 +764,33 @@ class multigrid {
   }
 
  private:
+  template <class M, class B>
+  multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const* mixed,
+            Eigen::MatrixBase<B> const& candidates, multigrid_options const& o)
+      : sweeps_(o.sweeps) {
+    o.validate();
+    auto const& A = compressed(k.derived());
+    prepare(A);
+    if (mixed) {
+      detail::check_size("rows of K", mixed->K.rows(), rows_, "the size of k,");
+      detail::check_size("columns of K", mixed->K.cols(), rows_, "the size of k,");
+      detail::check_size("rows of G", mixed->G.rows(), rows_, "the size of k,");
+      detail::check_size("columns of G", mixed->G.cols(), rows_, "the size of k,");
+    }
+    matrix_type const modes = candidates_for(candidates, o);
+    if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
+    index const b = mixed ? block_size(mixed->K, modes.cols(), o) : block_size(A, modes.cols(), o);
+    build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
+      h.begin(A, factor_);
+      if (interpolates(h, o, mixed ? &mixed->G : nullptr)) return;
+      if (mixed) {
+        h.aggregate_mixed(mixed->K, factor_, mixed->G, kernel<N, W>(modes), o);
+      } else {
+        h.aggregate_all(kernel<N, W>(modes), o);
+      }
+    });
+  }
+
   template <int N, int M>
   static detail::cycle_workspace<N, M, T, vector_type> workspace_of(levels<N, M> const& h) {
     return detail::cycle_workspace<N, M, T, vector_type>(h);
@@ -849,28 +830,8 @@ class multigrid {
     if (o.coordinates.size() == 0) return matrix_type(0, 0);
     index const D = o.coordinates.rows();
     detail::check_size("coordinates", o.coordinates.size(), rows_, "a column for each node of K,");
-    return rigid_motions(o.coordinates, D);
-  }
-
-  /// Translations, and rotations about the mean of the nodes in units of their extent.
-  static matrix_type rigid_motions(Eigen::MatrixXd const& nodes, index D) {
-    Eigen::VectorXd const largest = nodes.rowwise().maxCoeff();
-    Eigen::VectorXd const least = nodes.rowwise().minCoeff();
-    Eigen::VectorXd const centre = least / 2 + largest / 2;
-    double const extent = unit_near((largest / 2 - least / 2).maxCoeff());
-    matrix_type R = matrix_type::Zero(nodes.size(), D == 2 ? 3 : 6);
-    for (index i = 0; i < nodes.cols(); ++i) {
-      Eigen::VectorXd const x = (nodes.col(i) - centre) / extent;
-      for (index a = 0; a < D; ++a) R(D * i + a, a) = S(1);
-      index mode = D;
-      for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
-        for (index b = a + 1; b < D; ++b, ++mode) {
-          R(D * i + a, mode) = S(-x[b]);
-          R(D * i + b, mode) = S(x[a]);
-        }
-      }
-    }
-    return R;
+    return detail::rigid_motions<S>(
+        o.coordinates, rows_, [D](index j) { return j / D; }, [D](index j) { return j % D; });
   }
 
   /// Unknowns of a node for so many candidates.
@@ -998,13 +959,14 @@ class multigrid {
   S shorten(X const& x, std::vector<T>& b) const {
     constexpr std::size_t stride = block_matrix<N, T>::stride;
     S const* const from = slant::local(x).data();
+    index const n = slant::local(x).size();
     S most(0);
-    for (index i = 0; i < rows_; ++i) {
+    for (index i = 0; i < n; ++i) {
       S const size = from[i] < S(0) ? S(-from[i]) : from[i];
       if (!(size <= most)) most = size;
     }
     S const unit = unit_near(most), inverse = S(1) / unit;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rows_) / N; ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n) / N; ++i) {
       for (std::size_t c = 0; c < N; ++c) b[i * stride + c] = T(S(from[i * N + c] * inverse));
     }
     return unit;
@@ -1014,7 +976,8 @@ class multigrid {
   void lengthen(std::vector<T> const& x, S const& factor, Y& y) const {
     constexpr std::size_t stride = block_matrix<N, T>::stride;
     S* const to = slant::local(y).data();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rows_) / N; ++i) {
+    std::size_t const nodes = static_cast<std::size_t>(slant::local(y).size()) / N;
+    for (std::size_t i = 0; i < nodes; ++i) {
       for (std::size_t c = 0; c < N; ++c) to[i * N + c] = S(x[i * stride + c]) * factor;
     }
   }

@@ -38,33 +38,14 @@
 
 namespace slant::contact::detail {
 
-/// The rigid-body motions of a layout: n × 3 in the plane, n × 6 in space, about the centre of the
-/// nodes and in units of their extent.
+/// The rigid-body motions of a layout.
 template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> rigid_motions(
-    node_layout<S> const& layout) {
-  index const D = layout.dimension(), n = static_cast<index>(layout.node.size());
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const most = layout.x.rowwise().maxCoeff();
-  Eigen::Matrix<S, Eigen::Dynamic, 1> const least = layout.x.rowwise().minCoeff();
-  S const extent = unit_near(S((most / 2 - least / 2).maxCoeff()));
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> R;
-  R.setZero(n, D == 2 ? 3 : 6);
-  for (index j = 0; j < n; ++j) {
-    index const node = layout.node[static_cast<std::size_t>(j)];
-    index const axis = layout.axis[static_cast<std::size_t>(j)];
-    R(j, axis) = S(1);
-    index mode = D;
-    for (index a = 0; a < D; ++a) {  // the rotation in the plane of the axes a and b
-      for (index b = a + 1; b < D; ++b, ++mode) {
-        auto const x = [&](index c) {
-          return S((layout.x(c, node) - least[c] / 2 - most[c] / 2) / extent);
-        };
-        if (axis == a) R(j, mode) = -x(b);
-        if (axis == b) R(j, mode) = x(a);
-      }
-    }
-  }
-  return R;
+[[nodiscard]] Eigen::MatrixX<S> rigid_motions(node_layout<S> const& layout) {
+  auto const of = [](auto const& list) {
+    return [&list](index j) { return index(list[static_cast<std::size_t>(j)]); };
+  };
+  return slant::detail::rigid_motions<S>(layout.x, static_cast<index>(layout.node.size()),
+                                         of(layout.node), of(layout.axis));
 }
 
 /// The motions of n unknowns, so many of a node, that move all nodes alike.
