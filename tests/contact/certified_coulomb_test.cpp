@@ -151,8 +151,9 @@ TEST_CASE("certified_coulomb: options and coefficients that do not fit are refus
   auto const s = fem::make_steel_brick({.k = 1});
   auto const c = test::contact_data(s);
   VectorXd const F = VectorXd::Constant(c.nodes(), 0.3);
-  auto const message = [&](VectorXd const& coefficients,
-                           contact::certified_coulomb_options<double> const& o = {}) -> std::string {
+  auto const message =
+      [&](VectorXd const& coefficients,
+          contact::certified_coulomb_options<double> const& o = {}) -> std::string {
     return test::complaint([&] { static_cast<void>(solve(s.K, c, coefficients, o)); });
   };
   CHECK(message(-F) == "F[0]: got -0.3, expected a finite number >= 0");
@@ -167,8 +168,7 @@ TEST_CASE("certified_coulomb: a body without supports is refused by the name of 
   auto const s = test::spring_block<2>(2, 0);
   VectorXd const F = VectorXd::Constant(s.contact.nodes(), 0.3);
   std::string const said = test::complaint([&] {
-    static_cast<void>(
-        contact::certified_coulomb(contact::friction_line{}, s.K, s.contact, F));
+    static_cast<void>(contact::certified_coulomb(contact::friction_line{}, s.K, s.contact, F));
   });
   CHECK(said.starts_with("K: got pivot "));
   CHECK(said.find("body 0 (unknowns 0 to 29) has 3 free motions") != said.npos);
@@ -314,7 +314,8 @@ int judge_on_springs(Friction friction, double spring, double tolerance) {
   return converged;
 }
 
-TEST_CASE("a block that hardly anything holds: forces right to 1e-6, or no verdict of success") {
+TEST_CASE("a block that hardly anything holds: forces right to 1e-6, or no verdict of success" *
+          doctest::skip(!test::is_optimised)) {
   using line = contact::friction_line;
   CHECK(judge_on_springs<2>(line{}, 1e-2, 1e-10) == 2);
   CHECK(judge_on_springs<2>(line{}, 1e-4, 1e-10) == 2);

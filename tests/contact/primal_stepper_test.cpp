@@ -87,7 +87,7 @@ std::vector<contact::solution<double>> agree(scene const& s, std::vector<step> c
 
 TEST_CASE("loads, gaps, slip bounds, and friction on increments") {
   for (auto const load : fem::brick_loads) {
-    scene const s(test::effort(5, 3), load);
+    scene const s(test::effort(5, 2), load);
     auto const& c = s.data;
     VectorXd const w = VectorXd::LinSpaced(c.T.rows(), -2e-5, 3e-5);
     VectorXd gaps = c.d;
@@ -107,7 +107,7 @@ TEST_CASE("loads, gaps, slip bounds, and friction on increments") {
 }
 
 TEST_CASE("a path costs a part of as many problems: steps start at the last solutions") {
-  scene const s(test::effort(10, 7), fem::brick_load::lift, 1e-8);
+  scene const s(test::effort(10, 4), fem::brick_load::lift, 1e-8);
   contact::primal_stepper stepper(s.K, s.data, s.o);
   slant::index steps = 0, cycles = 0;
   VectorXd w = VectorXd::Zero(s.data.T.rows());
@@ -123,7 +123,7 @@ TEST_CASE("a path costs a part of as many problems: steps start at the last solu
 }
 
 TEST_CASE("loads of any size after each other") {
-  scene const s(3, fem::brick_load::pull);
+  scene const s(2, fem::brick_load::pull);
   auto const& c = s.data;
   std::vector<step> steps;
   for (double const unit : {1.0, 1e12, 1e-12, 1.0}) {
@@ -133,7 +133,7 @@ TEST_CASE("loads of any size after each other") {
 }
 
 TEST_CASE("tangential positions in the first step") {
-  scene const s(3, fem::brick_load::lift);
+  scene const s(2, fem::brick_load::lift);
   agree(s, {{.w = VectorXd::Constant(s.data.T.rows(), 1e-4)}, {.f = VectorXd(2 * s.data.f)}});
 }
 
