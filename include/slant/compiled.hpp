@@ -9,6 +9,7 @@
 //     dense_ldlt                    also for float
 //     contact::solve                Tresca friction, each law and the choice by the data
 //     contact::certified_coulomb    Coulomb friction
+//     multigrid                     and what contact without factors has in common
 //     contact::solve_friction       Coulomb friction from W, q, μ
 //     contact::find_free_motions    and name_motion; computed_kernel, fixing_rows
 //     contact::check_optimality     and verify, check_plausibility

@@ -29,6 +29,7 @@
 #include <slant/base/matrix_entries.hpp>
 #include <slant/base/partitions.hpp>
 #include <slant/base/scaling.hpp>
+#include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/concepts/scalar.hpp>
@@ -510,13 +511,11 @@ void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, bool on_
   for (index k = 0; k < sweeps; ++k) h.fine.A.backwards(inverses, v.b.data(), v.x.data());
 }
 
-/// The coarse levels follow the face. Returns how many of their rows were formed anew.
-template <int N, int M, class T, class V, class Face>
-index enter_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, Face const& face,
-                 double weight) {
-  if (!w.on_face) w.on_face.emplace(h, V(h.fine.A.rows()));
+/// The coarse levels follow a face of which w.on_face->moved are the nodes that have changed. Returns
+/// how many of their rows were formed anew.
+template <int N, int M, class T, class V>
+index follow_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w) {
   auto& f = *w.on_face;
-  f.face.assign(face, weight, h.diagonal, f.probe, f.image, f.moved);
   if (f.moved.empty()) return 0;
   auto const blocks = f.face.formed_blocks();
   if (h.coarse.empty()) {
@@ -570,6 +569,7 @@ namespace slant {
 /// never change.
 template <class S = double, class T = float>
 class multigrid {
+  using sparse_view = Eigen::Ref<Eigen::SparseMatrix<S> const>;
   template <int N, int M>
   using levels = detail::hierarchy<N, M, T>;
   using all_levels =
@@ -598,7 +598,7 @@ class multigrid {
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, Eigen::MatrixBase<B> const& candidates,
             multigrid_options const& o = {})
-      : multigrid(k, nullptr, candidates, o) {}
+      : multigrid(sparse_view(k.derived()), nullptr, matrix_type(candidates.derived()), o) {}
   /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides
   /// of a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with
   /// its candidates, or the first of options.prolongations. Throws bad_input as above, also where
@@ -606,7 +606,7 @@ class multigrid {
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const& mixed,
             Eigen::MatrixBase<B> const& candidates, multigrid_options const& o = {})
-      : multigrid(k, &mixed, candidates, o) {}
+      : multigrid(sparse_view(k.derived()), &mixed, matrix_type(candidates.derived()), o) {}
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
   /// Unknowns of each level, the finest first.
@@ -634,72 +634,13 @@ class multigrid {
   /// The near kernel of level 1, n₁ × r for nodes of r unknowns, upper triangular blocks R: on an
   /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing. With
   /// prolongations of the user R = I, for constants as candidates.
-  [[nodiscard]] matrix_type coarse_kernel() const {
-    return std::visit(
-        []<int N, int M>(levels<N, M> const& h) {
-          auto const n = static_cast<index>(h.kernel.blocks.size()) / M;
-          matrix_type R(n, M);
-          for (index i = 0; i < n; ++i) {
-            for (index c = 0; c < M; ++c) {
-              R(i, c) = S(h.kernel.blocks[static_cast<std::size_t>(i * M + c)]);
-            }
-          }
-          return R;
-        },
-        *levels_);
-  }
+  [[nodiscard]] matrix_type coarse_kernel() const;
   /// PᵀK P, of full blocks.
-  [[nodiscard]] Eigen::SparseMatrix<S> coarse_matrix() const {
-    return std::visit(
-        [&]<int N, int M>(levels<N, M> const& h) {
-          auto const& A = h.coarse.front().A;
-          Eigen::SparseMatrix<S> C(A.rows(), A.rows());
-          C.resizeNonZeros(A.blocks() * M * M);
-          index at = 0;
-          for (int j = 0; j < A.nodes(); ++j) {  // columns are rows
-            for (int c = 0; c < M; ++c) {
-              C.outerIndexPtr()[index(j) * M + c] = static_cast<int>(at);
-              A.for_each_in_row(j, [&](int i, T const* block) {
-                for (int q = 0; q < M; ++q, ++at) {
-                  C.innerIndexPtr()[at] = i * M + q;
-                  C.valuePtr()[at] = S(block[M * q + c]) / factor_;
-                }
-              });
-            }
-          }
-          C.outerIndexPtr()[A.rows()] = static_cast<int>(at);
-          return C;
-        },
-        *levels_);
-  }
+  [[nodiscard]] Eigen::SparseMatrix<S> coarse_matrix() const;
   /// Pᵀx.
-  [[nodiscard]] vector_type restricted(vector_type const& x) const {
-    return std::visit(
-        [&]<int N, int M>(levels<N, M> const& h) {
-          auto const& A = h.coarse.front().A;
-          std::vector<T> from(h.fine.A.padded_size(), T(0)), to(A.padded_size(), T(0));
-          vector_type y(A.rows());
-          S const unit = shorten<N>(x, from);
-          h.fine.P.restrict_to(from.data(), to.data());
-          lengthen<M>(to, unit, y);
-          return y;
-        },
-        *levels_);
-  }
+  [[nodiscard]] vector_type restricted(vector_type const& x) const;
   /// P x.
-  [[nodiscard]] vector_type prolonged(vector_type const& x) const {
-    return std::visit(
-        [&]<int N, int M>(levels<N, M> const& h) {
-          auto const& A = h.coarse.front().A;
-          std::vector<T> from(A.padded_size(), T(0)), to(h.fine.A.padded_size(), T(0));
-          vector_type y(rows_);
-          S const unit = shorten<M>(x, from);
-          h.fine.P.add_to(from.data(), to.data());
-          lengthen<N>(to, unit, y);
-          return y;
-        },
-        *levels_);
-  }
+  [[nodiscard]] vector_type prolonged(vector_type const& x) const;
 
   /// Vectors of all levels, and the face entered last with the coarse levels that follow it.
   struct workspace_type {
@@ -714,14 +655,14 @@ class multigrid {
   template <class X>
     requires column<X>
   [[nodiscard]] workspace_type workspace(X const&) const {
-    return std::visit([](auto const& h) { return workspace_type{workspace_of(h), 0}; }, *levels_);
+    return make_workspace();
   }
 
   /// y = M x.
   template <class X, class Y>
     requires column<X>
   void apply(X const& x, Y& y, workspace_type& w) const {
-    run(x, y, w, false);
+    run(slant::local(x).data(), slant::local(y).data(), w, false);
   }
 
   /// y ≈ K x by the finest level, in numbers T.
@@ -729,13 +670,7 @@ class multigrid {
   template <class X, class Y>
     requires column<X>
   void multiply_roughly(X const& x, Y& y, workspace_type& w) const {
-    if (rows_ == 0) return;
-    with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
-                                        detail::cycle_workspace<N, M, T, vector_type>& v) {
-      S const unit = shorten<N>(x, v.fine.b);
-      h.fine.A.multiply(v.fine.b.data(), v.fine.r.data());
-      lengthen<N>(v.fine.r, unit / factor_, y);
-    });
+    rough(slant::local(x).data(), slant::local(y).data(), w);
   }
 
   /// From now on apply_on_face is for H = Π K Π + weight · C, where face.keep(x, y) is y = Π x and
@@ -746,10 +681,13 @@ class multigrid {
   template <class Face>
   void enter(Face const& face, S const& weight, workspace_type& w) const {
     if (rows_ == 0) return;
+    prepare_face(w);
     with_workspace(w, [&](auto const& h, auto& v) {
       double const κ = static_cast<double>(S(weight * factor_));
-      w.rows_formed += detail::enter_face(h, v, face, κ);
+      auto& f = *v.on_face;
+      f.face.assign(face, κ, h.diagonal, f.probe, f.image, f.moved);
     });
+    follow_face(w);
   }
   /// The same without curvature.
   template <class Face>
@@ -760,54 +698,22 @@ class multigrid {
   template <class X, class Y>
     requires column<X>
   void apply_on_face(X const& x, Y& y, workspace_type& w) const {
-    run(x, y, w, true);
+    run(slant::local(x).data(), slant::local(y).data(), w, true);
   }
 
  private:
-  template <class M, class B>
-  multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const* mixed,
-            Eigen::MatrixBase<B> const& candidates, multigrid_options const& o)
-      : sweeps_(o.sweeps) {
-    o.validate();
-    auto const& A = compressed(k.derived());
-    prepare(A);
-    if (mixed) {
-      detail::check_size("rows of K", mixed->K.rows(), rows_, "the size of k,");
-      detail::check_size("columns of K", mixed->K.cols(), rows_, "the size of k,");
-      detail::check_size("rows of G", mixed->G.rows(), rows_, "the size of k,");
-      detail::check_size("columns of G", mixed->G.cols(), rows_, "the size of k,");
-    }
-    matrix_type const modes = candidates_for(candidates, o);
-    if (modes.cols() > 0) detail::require_finite_entries("candidates", modes);
-    index const b = mixed ? block_size(mixed->K, modes.cols(), o) : block_size(A, modes.cols(), o);
-    build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
-      h.begin(A, factor_);
-      if (interpolates(h, o, mixed ? &mixed->G : nullptr)) return;
-      if (mixed) {
-        h.aggregate_mixed(mixed->K, factor_, mixed->G, kernel<N, W>(modes), o);
-      } else {
-        h.aggregate_all(kernel<N, W>(modes), o);
-      }
-    });
-  }
-
-  template <int N, int M>
-  static detail::cycle_workspace<N, M, T, vector_type> workspace_of(levels<N, M> const& h) {
-    return detail::cycle_workspace<N, M, T, vector_type>(h);
-  }
-
-  template <class M>
-  static decltype(auto) compressed(M const& k) {
-    if constexpr (std::derived_from<M, Eigen::SparseCompressedBase<M>>) {
-      return (k);
-    } else {
-      return Eigen::SparseMatrix<S>(k);
-    }
-  }
+  multigrid(sparse_view const& K, mixed_unknowns<S> const* mixed, matrix_type candidates,
+            multigrid_options const& o);
+  [[nodiscard]] workspace_type make_workspace() const;
+  /// y = M x, or on the face.
+  void run(S const* x, S* y, workspace_type& w, bool on_face) const;
+  void rough(S const* x, S* y, workspace_type& w) const;
+  /// Memory for a face, once.
+  void prepare_face(workspace_type& w) const;
+  void follow_face(workspace_type& w) const;
 
   /// Size and unit of K.
-  template <class M>
-  void prepare(M const& K) {
+  void prepare(sparse_view const& K) {
     detail::require_square("K", K);
     rows_ = K.rows();
     S most(0);
@@ -820,11 +726,10 @@ class multigrid {
     factor_ = S(1) / unit_near(most);
   }
 
-  template <class B>
-  [[nodiscard]] matrix_type candidates_for(Eigen::MatrixBase<B> const& given,
-                                           multigrid_options const& o) const {
+  [[nodiscard]] matrix_type candidates_for(matrix_type given, multigrid_options const& o) const {
     if (given.cols() > 0) {
       detail::check_size("rows of the candidates", given.rows(), rows_, "the size of K,");
+      detail::require_finite_entries("candidates", given);
       return given;
     }
     if (o.coordinates.size() == 0) return matrix_type(0, 0);
@@ -835,8 +740,8 @@ class multigrid {
   }
 
   /// Unknowns of a node for so many candidates.
-  template <class M>
-  [[nodiscard]] index block_size(M const& K, index candidates, multigrid_options const& o) const {
+  [[nodiscard]] index block_size(sparse_view const& K, index candidates,
+                                 multigrid_options const& o) const {
     index b = o.block_size;
     if (b == 0 && o.coordinates.size() > 0) b = o.coordinates.rows();
     if (b == 0) {
@@ -940,45 +845,27 @@ class multigrid {
     if (!smoothed) description_ += "; not smoothed where that would exceed the limit of complexity";
   }
 
-  template <class X, class Y>
-  void run(X const& x, Y& y, workspace_type& w, bool on_face) const {
-    if (rows_ == 0) return;
-    with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
-                                        detail::cycle_workspace<N, M, T, vector_type>& v) {
-      S const unit = shorten<N>(x, v.fine.b);
-      bool const faced = on_face && v.on_face.has_value();
-      detail::cycle(h, v, faced, sweeps_);
-      lengthen<N>(v.fine.x, unit * factor_, y);
-      if (faced) {
-        v.on_face->face.complete(slant::local(x).data(), slant::local(y).data(), factor_);
-      }
-    });
-  }
-  /// b ← x in units of which the power of two is returned.
-  template <int N, class X>
-  S shorten(X const& x, std::vector<T>& b) const {
+  /// b ← x, n numbers, in units of which the power of two is returned.
+  template <int N>
+  static S shorten(S const* x, index n, std::vector<T>& b) {
     constexpr std::size_t stride = block_matrix<N, T>::stride;
-    S const* const from = slant::local(x).data();
-    index const n = slant::local(x).size();
     S most(0);
     for (index i = 0; i < n; ++i) {
-      S const size = from[i] < S(0) ? S(-from[i]) : from[i];
+      S const size = x[i] < S(0) ? S(-x[i]) : x[i];
       if (!(size <= most)) most = size;
     }
     S const unit = unit_near(most), inverse = S(1) / unit;
     for (std::size_t i = 0; i < static_cast<std::size_t>(n) / N; ++i) {
-      for (std::size_t c = 0; c < N; ++c) b[i * stride + c] = T(S(from[i * N + c] * inverse));
+      for (std::size_t c = 0; c < N; ++c) b[i * stride + c] = T(S(x[i * N + c] * inverse));
     }
     return unit;
   }
-  /// y ← factor · x.
-  template <int N, class Y>
-  void lengthen(std::vector<T> const& x, S const& factor, Y& y) const {
+  /// y ← factor · x, n numbers.
+  template <int N>
+  static void lengthen(std::vector<T> const& x, S const& factor, S* y, index n) {
     constexpr std::size_t stride = block_matrix<N, T>::stride;
-    S* const to = slant::local(y).data();
-    std::size_t const nodes = static_cast<std::size_t>(slant::local(y).size()) / N;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      for (std::size_t c = 0; c < N; ++c) to[i * N + c] = S(x[i * stride + c]) * factor;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n) / N; ++i) {
+      for (std::size_t c = 0; c < N; ++c) y[i * N + c] = S(x[i * stride + c]) * factor;
     }
   }
 
@@ -988,6 +875,154 @@ class multigrid {
   S factor_{1};  // a power of two; the levels are those of factor · K
   std::string description_;
 };
+
+// --- what does not depend on types of vectors and faces -----------------------------------------
+
+template <class S, class T>
+multigrid<S, T>::multigrid(sparse_view const& K, mixed_unknowns<S> const* mixed,
+                           matrix_type candidates, multigrid_options const& o)
+    : sweeps_(o.sweeps) {
+  o.validate();
+  prepare(K);
+  if (mixed) {
+    detail::check_size("rows of K", mixed->K.rows(), rows_, "the size of k,");
+    detail::check_size("columns of K", mixed->K.cols(), rows_, "the size of k,");
+    detail::check_size("rows of G", mixed->G.rows(), rows_, "the size of k,");
+    detail::check_size("columns of G", mixed->G.cols(), rows_, "the size of k,");
+  }
+  matrix_type const modes = candidates_for(std::move(candidates), o);
+  sparse_view const given = mixed ? sparse_view(mixed->K) : sparse_view(K);
+  index const b = block_size(given, modes.cols(), o);
+  build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
+    h.begin(K, factor_);
+    if (interpolates(h, o, mixed ? &mixed->G : nullptr)) return;
+    if (mixed) {
+      h.aggregate_mixed(given, factor_, mixed->G, kernel<N, W>(modes), o);
+    } else {
+      h.aggregate_all(kernel<N, W>(modes), o);
+    }
+  });
+}
+
+template <class S, class T>
+auto multigrid<S, T>::coarse_kernel() const -> matrix_type {
+  return std::visit(
+      []<int N, int M>(levels<N, M> const& h) {
+        auto const n = static_cast<index>(h.kernel.blocks.size()) / M;
+        matrix_type R(n, M);
+        for (index i = 0; i < n; ++i) {
+          for (index c = 0; c < M; ++c) {
+            R(i, c) = S(h.kernel.blocks[static_cast<std::size_t>(i * M + c)]);
+          }
+        }
+        return R;
+      },
+      *levels_);
+}
+
+template <class S, class T>
+Eigen::SparseMatrix<S> multigrid<S, T>::coarse_matrix() const {
+  return std::visit(
+      [&]<int N, int M>(levels<N, M> const& h) {
+        auto const& A = h.coarse.front().A;
+        Eigen::SparseMatrix<S> C(A.rows(), A.rows());
+        C.resizeNonZeros(A.blocks() * M * M);
+        index at = 0;
+        for (int j = 0; j < A.nodes(); ++j) {  // columns are rows
+          for (int c = 0; c < M; ++c) {
+            C.outerIndexPtr()[index(j) * M + c] = static_cast<int>(at);
+            A.for_each_in_row(j, [&](int i, T const* block) {
+              for (int q = 0; q < M; ++q, ++at) {
+                C.innerIndexPtr()[at] = i * M + q;
+                C.valuePtr()[at] = S(block[M * q + c]) / factor_;
+              }
+            });
+          }
+        }
+        C.outerIndexPtr()[A.rows()] = static_cast<int>(at);
+        return C;
+      },
+      *levels_);
+}
+
+template <class S, class T>
+auto multigrid<S, T>::restricted(vector_type const& x) const -> vector_type {
+  return std::visit(
+      [&]<int N, int M>(levels<N, M> const& h) {
+        auto const& A = h.coarse.front().A;
+        std::vector<T> from(h.fine.A.padded_size(), T(0)), to(A.padded_size(), T(0));
+        vector_type y(A.rows());
+        S const unit = shorten<N>(x.data(), x.size(), from);
+        h.fine.P.restrict_to(from.data(), to.data());
+        lengthen<M>(to, unit, y.data(), y.size());
+        return y;
+      },
+      *levels_);
+}
+
+template <class S, class T>
+auto multigrid<S, T>::prolonged(vector_type const& x) const -> vector_type {
+  return std::visit(
+      [&]<int N, int M>(levels<N, M> const& h) {
+        auto const& A = h.coarse.front().A;
+        std::vector<T> from(A.padded_size(), T(0)), to(h.fine.A.padded_size(), T(0));
+        vector_type y(rows_);
+        S const unit = shorten<M>(x.data(), x.size(), from);
+        h.fine.P.add_to(from.data(), to.data());
+        lengthen<N>(to, unit, y.data(), y.size());
+        return y;
+      },
+      *levels_);
+}
+
+template <class S, class T>
+auto multigrid<S, T>::make_workspace() const -> workspace_type {
+  return std::visit(
+      []<int N, int M>(levels<N, M> const& h) {
+        return workspace_type{detail::cycle_workspace<N, M, T, vector_type>(h), 0};
+      },
+      *levels_);
+}
+
+template <class S, class T>
+void multigrid<S, T>::run(S const* x, S* y, workspace_type& w, bool on_face) const {
+  if (rows_ == 0) return;
+  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
+                                      detail::cycle_workspace<N, M, T, vector_type>& v) {
+    S const unit = shorten<N>(x, rows_, v.fine.b);
+    bool const faced = on_face && v.on_face.has_value();
+    detail::cycle(h, v, faced, sweeps_);
+    lengthen<N>(v.fine.x, unit * factor_, y, rows_);
+    if (faced) v.on_face->face.complete(x, y, factor_);
+  });
+}
+
+template <class S, class T>
+void multigrid<S, T>::rough(S const* x, S* y, workspace_type& w) const {
+  if (rows_ == 0) return;
+  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
+                                      detail::cycle_workspace<N, M, T, vector_type>& v) {
+    S const unit = shorten<N>(x, rows_, v.fine.b);
+    h.fine.A.multiply(v.fine.b.data(), v.fine.r.data());
+    lengthen<N>(v.fine.r, unit / factor_, y, rows_);
+  });
+}
+
+template <class S, class T>
+void multigrid<S, T>::prepare_face(workspace_type& w) const {
+  with_workspace(w, [](auto const& h, auto& v) {
+    if (!v.on_face) v.on_face.emplace(h, vector_type(h.fine.A.rows()));
+  });
+}
+
+template <class S, class T>
+void multigrid<S, T>::follow_face(workspace_type& w) const {
+  with_workspace(w, [&](auto const& h, auto& v) { w.rows_formed += detail::follow_face(h, v); });
+}
+
+#if SLANT_USES_COMPILED
+extern template class multigrid<double, float>;
+#endif
 
 template <class M>
 multigrid(Eigen::SparseMatrixBase<M> const&, multigrid_options const& = {})

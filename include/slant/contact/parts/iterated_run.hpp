@@ -11,6 +11,7 @@
 #pragma once
 
 #include <slant/certificates/energy_certificate.hpp>
+#include <slant/compiled.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/friction_law.hpp>
@@ -152,13 +153,7 @@ class primal_run {
   /// At most `most` steps; with tangential positions w, none: 0. Throws bad_input where K is found
   /// not to be definite or does not fit the nodes.
   primal_run(Eigen::SparseMatrix<S> const& K, data<S> const& c, node_layout<S> const& layout,
-             multigrid_options const& o, index most, vector_type const& w = {})
-      : problem_(K, c),
-        motions_(layout.is_known() ? rigid_motions(layout) : matrix_type(0, 0)),
-        M_(problem_.levels(motions_, o)),
-        qp_(problem_.qp()),
-        most_(most),
-        state_(begin(c.tangents(), o, w)) {}
+             multigrid_options const& o, index most, vector_type const& w = {});
   primal_run(primal_run const&) = delete;
   primal_run& operator=(primal_run const&) = delete;
 
@@ -180,13 +175,7 @@ class primal_run {
   }
   /// A step while one is left, unless the energy error is estimated to be at most `goal`: the run
   /// is converged then.
-  void step(S const& goal) {
-    if (state_.iteration < most_) {
-      method(goal).step(state_);
-    } else if (state_.status == status::running) {
-      state_.status = status::iteration_limit;
-    }
-  }
+  void step(S const& goal);
   void go_on() { state_.status = status::running; }
   /// λ_ν of all contacts, as x and its gradient have it.
   void pressures(vector_type& λ) const {
@@ -202,15 +191,9 @@ class primal_run {
     return λ;
   }
   /// Goes on from x with another load.
-  void set_load(vector_type const& f) {
-    problem_.set_load(f);
-    method(S(0)).resume(state_);
-  }
+  void set_load(vector_type const& f);
   /// Goes on from x with other slip bounds.
-  void set_slip_bounds(vector_type const& g) {
-    problem_.set_slip_bounds(g);
-    method(S(0)).adopt_function(state_);
-  }
+  void set_slip_bounds(vector_type const& g);
   /// change(problem, x) of its data and of the point, from which steps begin anew. One product.
   template <class Change>
   void restart(Change change) {
@@ -227,16 +210,7 @@ class primal_run {
     o.energy_goal = std::max<S>(goal, std::numeric_limits<S>::min());
     return method_type(qp_, M_, o);
   }
-  [[nodiscard]] state_type begin(index tangents, multigrid_options const& o, vector_type const& w) {
-    if (w.size() > 0) problem_.set_positions(w);
-    // What level 1 stands for: rigid motions of aggregates, or translations.
-    matrix_type const motions =
-        o.prolongations.empty() ? motions_ : translations<S>(qp_.b().size(), M_.node_size());
-    nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions,
-                                 problem_.turning(), o);
-    if (!coarse.found()) return method(S(0)).start(problem_.zero());
-    return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
-  }
+  [[nodiscard]] state_type begin(index tangents, multigrid_options const& o, vector_type const& w);
 
   primal<S> problem_;
   matrix_type motions_;
@@ -245,6 +219,58 @@ class primal_run {
   index most_;
   state_type state_;
 };
+
+template <class S>
+primal_run<S>::primal_run(Eigen::SparseMatrix<S> const& K, data<S> const& c,
+                          node_layout<S> const& layout, multigrid_options const& o, index most,
+                          vector_type const& w)
+    : problem_(K, c),
+      motions_(layout.is_known() ? rigid_motions(layout) : matrix_type(0, 0)),
+      M_(problem_.levels(motions_, o)),
+      qp_(problem_.qp()),
+      most_(most),
+      state_(begin(c.tangents(), o, w)) {}
+
+template <class S>
+auto primal_run<S>::begin(index tangents, multigrid_options const& o, vector_type const& w)
+    -> state_type {
+  if (w.size() > 0) problem_.set_positions(w);
+  // What level 1 stands for: rigid motions of aggregates, or translations.
+  matrix_type const motions =
+      o.prolongations.empty() ? motions_ : translations<S>(qp_.b().size(), M_.node_size());
+  nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions,
+                               problem_.turning(), o);
+  if (!coarse.found()) return method(S(0)).start(problem_.zero());
+  return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
+}
+
+template <class S>
+void primal_run<S>::step(S const& goal) {
+  if (state_.iteration < most_) {
+    method(goal).step(state_);
+  } else if (state_.status == status::running) {
+    state_.status = status::iteration_limit;
+  }
+}
+
+template <class S>
+void primal_run<S>::set_load(vector_type const& f) {
+  problem_.set_load(f);
+  method(S(0)).resume(state_);
+}
+
+template <class S>
+void primal_run<S>::set_slip_bounds(vector_type const& g) {
+  problem_.set_slip_bounds(g);
+  method(S(0)).adopt_function(state_);
+}
+
+#if SLANT_USES_COMPILED
+extern template free_motions<double> floating_bodies<double>(Eigen::SparseMatrix<double> const&,
+                                                             node_layout<double> const&,
+                                                             double const&);
+extern template class primal_run<double>;
+#endif
 
 /// What tells options.progress of a state.
 template <class S, class State>
