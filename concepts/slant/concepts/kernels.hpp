@@ -47,7 +47,7 @@ struct pack_of {
 
 /// y[i] = f(x[i]…); f takes packs and scalars. y may be one of the x.
 template <class S, class F, class... X>
-[[gnu::always_inline]] inline void each(index n, F const& f, S* y, X const*... x) {
+[[gnu::always_inline]] inline void each(F const& f, index n, S* y, X const*... x) {
   index i = 0;
   if constexpr (has_packs<S>) {
     using pack = pack_of<S>;
@@ -58,7 +58,7 @@ template <class S, class F, class... X>
 
 /// Σ f(x[i]…), added as Eigen adds: two packs in turn, then their entries by halves, then the rest.
 template <class S, class F, class... X>
-[[gnu::always_inline]] inline S sum_of(index n, F const& f, X const*... x) {
+[[gnu::always_inline]] inline S sum_of(F const& f, index n, X const*... x) {
   index i = 0;
   S sum(0);
   if constexpr (has_packs<S>) {
@@ -91,15 +91,13 @@ template <class S, class F, class... X>
 /// Σ x[i] y[i].
 template <class S>
 [[nodiscard, gnu::noinline]] S dot(index n, S const* x, S const* y) {
-  return sum_of<S>(
-      n, [](auto const& a, auto const& b) { return a * b; }, x, y);
+  return sum_of<S>([](auto const& a, auto const& b) { return a * b; }, n, x, y);
 }
 
 /// Σ (α x[i])².
 template <class S>
 [[nodiscard, gnu::noinline]] S scaled_square(index n, S const& α, S const* x) {
-  return sum_of<S>(
-      n, [&](auto const& a) { return (α * a) * (α * a); }, x);
+  return sum_of<S>([&](auto const& a) { return (α * a) * (α * a); }, n, x);
 }
 
 /// The largest |x[i]|, or NaN if there is one among them; 0 for no entries.
@@ -122,54 +120,45 @@ template <class S>
 /// y ← x.
 template <class S>
 [[gnu::noinline]] void copy(index n, S const* x, S* y) {
-  each(
-      n, [](auto const& a) { return a; }, y, x);
+  each([](auto const& a) { return a; }, n, y, x);
 }
 
 /// y ← α x; y may be x.
 template <class S>
 [[gnu::noinline]] void scale(index n, S const& α, S const* x, S* y) {
-  each(
-      n, [&](auto const& a) { return α * a; }, y, x);
+  each([&](auto const& a) { return α * a; }, n, y, x);
 }
 
 /// y ← x / α; y may be x.
 template <class S>
 [[gnu::noinline]] void divide(index n, S const& α, S const* x, S* y) {
-  each(
-      n, [&](auto const& a) { return a / α; }, y, x);
+  each([&](auto const& a) { return a / α; }, n, y, x);
 }
 
 /// w ← α x + β y; w may be x or y. A factor of ±1 is not multiplied with.
 template <class S>
 [[gnu::noinline]] void waxpby(index n, S const& α, S const* x, S const& β, S const* y, S* w) {
   if (α == S(1) && β == S(1)) {
-    each(
-        n, [](auto const& a, auto const& b) { return a + b; }, w, x, y);
+    each([](auto const& a, auto const& b) { return a + b; }, n, w, x, y);
   } else if (α == S(1) && β == S(-1)) {
-    each(
-        n, [](auto const& a, auto const& b) { return a - b; }, w, x, y);
+    each([](auto const& a, auto const& b) { return a - b; }, n, w, x, y);
   } else if (α == S(1)) {
-    each(
-        n, [&](auto const& a, auto const& b) { return a + β * b; }, w, x, y);
+    each([&](auto const& a, auto const& b) { return a + β * b; }, n, w, x, y);
   } else {
-    each(
-        n, [&](auto const& a, auto const& b) { return α * a + β * b; }, w, x, y);
+    each([&](auto const& a, auto const& b) { return α * a + β * b; }, n, w, x, y);
   }
 }
 
 /// z ← x y, entry by entry; z may be x or y.
 template <class S>
 [[gnu::noinline]] void multiply(index n, S const* x, S const* y, S* z) {
-  each(
-      n, [](auto const& a, auto const& b) { return a * b; }, z, x, y);
+  each([](auto const& a, auto const& b) { return a * b; }, n, z, x, y);
 }
 
 /// z ← x / y, entry by entry; z may be x or y.
 template <class S>
 [[gnu::noinline]] void quotient(index n, S const* x, S const* y, S* z) {
-  each(
-      n, [](auto const& a, auto const& b) { return a / b; }, z, x, y);
+  each([](auto const& a, auto const& b) { return a / b; }, n, z, x, y);
 }
 
 /// 0, or a pack of zeros.
@@ -186,16 +175,14 @@ template <class S, class T>
 /// x.
 template <class S>
 [[gnu::noinline]] void keep(index n, S const* mask, S const* x, S* y) {
-  each(
-      n, [](auto const& m, auto const& a) { return m == zero_of<S>(a) ? zero_of<S>(a) : a; }, y,
-      mask, x);
+  each([](auto const& m, auto const& a) { return m == zero_of<S>(a) ? zero_of<S>(a) : a; }, n, y,
+       mask, x);
 }
 /// y ← x where the mask is 0, and 0 elsewhere; y may be x.
 template <class S>
 [[gnu::noinline]] void keep_complement(index n, S const* mask, S const* x, S* y) {
-  each(
-      n, [](auto const& m, auto const& a) { return m == zero_of<S>(a) ? a : zero_of<S>(a); }, y,
-      mask, x);
+  each([](auto const& m, auto const& a) { return m == zero_of<S>(a) ? a : zero_of<S>(a); }, n, y,
+       mask, x);
 }
 
 /// x[i] == y[i] for all i.

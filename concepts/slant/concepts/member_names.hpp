@@ -16,60 +16,41 @@ namespace slant {
 
 namespace detail {
 
-template <class A, class Other>
-struct beside : A, Other {};
+struct other_members {
+  int apply, apply_adjoint, solve, value, slant, laws;
+};
+template <class A>
+struct beside : A, other_members {};
 
 template <class A> concept can_be_base = std::is_class_v<A> && !std::is_final_v<A>;
 
-struct other_apply {
-  int apply;
-};
 template <class A>
 inline constexpr bool names_apply = !requires {
   requires can_be_base<A>;
-  &beside<A, other_apply>::apply;
-};
-
-struct other_apply_adjoint {
-  int apply_adjoint;
+  &beside<A>::apply;
 };
 template <class A>
 inline constexpr bool names_apply_adjoint = !requires {
   requires can_be_base<A>;
-  &beside<A, other_apply_adjoint>::apply_adjoint;
-};
-
-struct other_solve {
-  int solve;
+  &beside<A>::apply_adjoint;
 };
 template <class A>
 inline constexpr bool names_solve = !requires {
   requires can_be_base<A>;
-  &beside<A, other_solve>::solve;
-};
-
-struct other_value {
-  int value;
+  &beside<A>::solve;
 };
 template <class A>
 inline constexpr bool names_value = !requires {
   requires can_be_base<A>;
-  &beside<A, other_value>::value;
-};
-
-struct other_slant {
-  int slant;
+  &beside<A>::value;
 };
 template <class A>
 inline constexpr bool names_slant = !requires {
   requires can_be_base<A>;
-  &beside<A, other_slant>::slant;
+  &beside<A>::slant;
 };
 
-struct other_laws {
-  int laws;
-};
-template <class A> concept lacks_laws = requires { &beside<A, other_laws>::laws; };
+template <class A> concept lacks_laws = requires { &beside<A>::laws; };
 /// Not believed of a final class: there are no laws of its own unless it shows them.
 template <class A> concept names_laws = requires { A::laws; } || (can_be_base<A> && !lacks_laws<A>);
 

@@ -124,6 +124,22 @@ template <class S>
   return S(x - x) == S(0);
 }
 
+/// e with 2^(e-1) <= |v| < 2^e for finite v != 0, and 0 for v = 0.
+template <class S>
+[[nodiscard]] int binary_exponent(S const& v) {
+  using std::frexp;
+  int e = 0;
+  static_cast<void>(frexp(v, &e));
+  return e;
+}
+
+/// 2^e.
+template <class S>
+[[nodiscard]] S power_of_two(int e) {
+  using std::ldexp;
+  return ldexp(S(1), e);
+}
+
 }  // namespace detail
 
 }  // namespace slant

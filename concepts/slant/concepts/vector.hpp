@@ -158,7 +158,7 @@ struct norm_fn {
   template <class S>
   static bool in_range(S const& square) {
     using limits = std::numeric_limits<S>;
-    return square > limits::min() * pow2<S>(2 * limits::digits) && square < limits::max();
+    return square > limits::min() * power_of_two<S>(2 * limits::digits) && square < limits::max();
   }
   /// For a vector of which only the inner product is known: scaled by powers of two until it fits.
   template <class X, class S>
@@ -172,28 +172,21 @@ struct norm_fn {
     for (int attempt = 0; attempt < 3 && !in_range(square); ++attempt) {
       int const shift = square < S(1) ? stride : -stride;
       e += shift;
-      slant::local(y) *= pow2<S>(shift);
+      slant::local(y) *= power_of_two<S>(shift);
       square = slant::inner_product(y, y);
     }
     return ldexp(S(sqrt(square)), -e);
   }
-  template <class S>
-  static S pow2(int e) {
-    using std::ldexp;
-    return ldexp(S(1), e);
-  }
   /// Scaled by a power of two, which is exact: the same bits in all units 2^k (stableNorm rounds).
   template <class S, class L>
   static S scaled_norm(L const& v) {
-    using std::frexp;
     using std::ldexp;
     using std::sqrt;
     S const largest = largest_entry<S>(v);
     if (!(largest > S(0)) || !(largest <= std::numeric_limits<S>::max())) return largest;
-    int e = 0;
-    static_cast<void>(frexp(largest, &e));
-    if (e < 3 - std::numeric_limits<S>::max_exponent) e = 3 - std::numeric_limits<S>::max_exponent;
-    return ldexp(S(sqrt(scaled_square(v, pow2<S>(-e)))), e);
+    constexpr int least = 3 - std::numeric_limits<S>::max_exponent;
+    int const e = binary_exponent(largest) < least ? least : binary_exponent(largest);
+    return ldexp(S(sqrt(scaled_square(v, power_of_two<S>(-e)))), e);
   }
   /// max |v_i|, or NaN.
   template <class S, class L>

@@ -59,8 +59,7 @@ template <class S>
 /// Upper half of the digits of a (Veltkamp's splitting).
 template <class S>
 [[nodiscard]] S upper_half(S const& a) {
-  using std::ldexp;
-  S const factor = S(ldexp(S(1), (std::numeric_limits<S>::digits + 1) / 2)) + S(1);
+  S const factor = power_of_two<S>((std::numeric_limits<S>::digits + 1) / 2) + S(1);
   S const c = factor * a;
   return c - (c - a);
 }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -79,24 +80,15 @@ template <class M>
 }
 template <class S, int R, int C>
 [[nodiscard]] bool all_zero(Eigen::Matrix<S, R, C> const& m) {
-  for (index i = 0; i < m.size(); ++i) {
-    if (!(m.data()[i] == S(0))) return false;
-  }
-  return true;
+  return std::all_of(m.data(), m.data() + m.size(), [](S const& x) { return x == S(0); });
 }
 template <class S, int R, int C>
 [[nodiscard]] bool all_finite(Eigen::Matrix<S, R, C> const& m) {
-  for (index i = 0; i < m.size(); ++i) {
-    if (!is_finite(m.data()[i])) return false;
-  }
-  return true;
+  return std::all_of(m.data(), m.data() + m.size(), is_finite<S>);
 }
 template <class S, int R, int C>
 [[nodiscard]] bool has_nan(Eigen::Matrix<S, R, C> const& m) {
-  for (index i = 0; i < m.size(); ++i) {
-    if (m.data()[i] != m.data()[i]) return true;
-  }
-  return false;
+  return std::any_of(m.data(), m.data() + m.size(), [](S const& x) { return x != x; });
 }
 
 /// aᵀb.

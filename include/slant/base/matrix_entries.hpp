@@ -73,25 +73,12 @@ template <class M>
 /// so that what is computed from m / 2^e is bit for bit the same in all units 2^k.
 template <class M>
 [[nodiscard]] int scale_exponent(M const& m) {
-  using std::frexp;
   using S = typename M::Scalar;
   S const largest = largest_entry(m);
-  int e = 0;
-  if (largest > S(0)) {
-    (void)frexp(largest, &e);
-    --e;
-    // 2^e and 2^-e must both be numbers; denormal matrices are scaled as far as that allows.
-    constexpr int limit = std::numeric_limits<S>::max_exponent - 2;
-    if (e < -limit) e = -limit;
-  }
-  return e;
-}
-
-/// 2^e.
-template <class S>
-[[nodiscard]] S power_of_two(int e) {
-  using std::ldexp;
-  return ldexp(S(1), e);
+  // 2^e and 2^-e must both be numbers; denormal matrices are scaled as far as that allows.
+  return largest > S(0)
+             ? std::max(binary_exponent(largest) - 1, 2 - std::numeric_limits<S>::max_exponent)
+             : 0;
 }
 
 /// Throws bad_input for a diagonal entry that no positive semidefinite matrix has: a negative one,
@@ -130,8 +117,7 @@ void require_symmetric_entries(std::string_view name, M const& m) {
   for (index i = 0; i < root.size(); ++i) root[i] = sqrt(S(abs(root[i]) * unit));
   S const tolerance = S(1024) * std::numeric_limits<S>::epsilon();
   S worst(0);
-  index row = -1;
-  index col = -1;
+  index row = -1, col = -1;
   auto const compare = [&](index i, index j, S const& upper, S const& lower) {
     S const difference = abs(S(upper * unit - lower * unit));
     S const allowed = tolerance * root[i] * root[j];

@@ -18,15 +18,6 @@
 
 namespace slant::detail {
 
-/// e with 2^(e-1) <= |v| < 2^e for finite v != 0, and 0 for v = 0.
-template <class S>
-[[nodiscard]] int binary_exponent(S const& v) {
-  using std::frexp;
-  int e = 0;
-  static_cast<void>(frexp(v, &e));
-  return e;
-}
-
 /// v · 2^e, exact unless the result leaves the range of normal numbers.
 template <class S>
 [[nodiscard]] S times_power_of_two(S const& v, int e) {
@@ -72,12 +63,8 @@ namespace slant {
 template <class S>
 [[nodiscard]] S unit_near(S const& size) {
   if (!(size > S(0)) || !detail::is_finite(size)) return S(1);
-  using std::frexp;
-  using std::ldexp;
-  int exponent = 0;
-  static_cast<void>(frexp(size, &exponent));
   constexpr int most = std::numeric_limits<S>::max_exponent - 2;
-  return ldexp(S(1), std::clamp(exponent, -most, most));
+  return detail::power_of_two<S>(std::clamp(detail::binary_exponent(size), -most, most));
 }
 
 }  // namespace slant

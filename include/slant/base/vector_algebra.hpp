@@ -61,10 +61,13 @@ void run(F const& f, Y& y, X const&... x) {
   }
 }
 
-/// y takes the size of x, if it is not its own.
-template <class X, class Y>
-void resize_like(X const& x, Y& y) {
-  if (y.rows() != x.rows() || y.cols() != x.cols()) y.resize(x.rows(), x.cols());
+/// The same on the local parts of vectors, y with the size of the x.
+template <class F, class Y, class X, class... Others>
+void assign(F const& f, Y& y, X const& x, Others const&... others) {
+  auto&& to = slant::local(y);
+  auto const& from = slant::local(x);
+  if (to.rows() != from.rows() || to.cols() != from.cols()) to.resize(from.rows(), from.cols());
+  detail::run(f, to, from, slant::local(others)...);
 }
 
 template <class X>
@@ -89,10 +92,7 @@ void set_zero(Y&& y) {
 /// y ← x; y takes the size of x.
 template <class X, class Y>
 void copy(X const& x, Y&& y) {
-  using S = scalar_t<X>;
-  auto&& to = slant::local(y);
-  detail::resize_like(slant::local(x), to);
-  detail::run([](index n, S const* a, S* t) { kernels::copy(n, a, t); }, to, slant::local(x));
+  detail::assign(kernels::copy<scalar_t<X>>, y, x);
 }
 
 /// y ← α y.
@@ -106,9 +106,7 @@ void scale(detail::factor<Y> const& α, Y&& y) {
 template <class X, class Y>
 void scale(detail::factor<X> const& α, X const& x, Y&& y) {
   using S = scalar_t<X>;
-  auto&& to = slant::local(y);
-  detail::resize_like(slant::local(x), to);
-  detail::run([&](index n, S const* a, S* t) { kernels::scale(n, α, a, t); }, to, slant::local(x));
+  detail::assign([&](index n, S const* a, S* t) { kernels::scale(n, α, a, t); }, y, x);
 }
 
 /// y ← −x; y takes the size of x.
@@ -138,10 +136,8 @@ void axpy(detail::factor<X> const& α, X const& x, Y&& y) {
 template <class X, class Y, class W>
 void waxpby(detail::factor<X> const& α, X const& x, detail::factor<X> const& β, Y const& y, W&& w) {
   using S = scalar_t<X>;
-  auto&& to = slant::local(w);
-  detail::resize_like(slant::local(x), to);
-  detail::run([&](index n, S const* a, S const* b, S* t) { kernels::waxpby(n, α, a, β, b, t); }, to,
-              slant::local(x), slant::local(y));
+  detail::assign([&](index n, S const* a, S const* b, S* t) { kernels::waxpby(n, α, a, β, b, t); },
+                 w, x, y);
 }
 
 /// w ← α x + y; w takes their size, and may be one of them.
@@ -173,40 +169,24 @@ void subtract(X const& x, Y&& y) {
 /// z ← x y, entry by entry; z takes their size, and may be one of them.
 template <class X, class Y, class Z>
 void multiply(X const& x, Y const& y, Z&& z) {
-  using S = scalar_t<X>;
-  auto&& to = slant::local(z);
-  detail::resize_like(slant::local(x), to);
-  detail::run([](index n, S const* a, S const* b, S* t) { kernels::multiply(n, a, b, t); }, to,
-              slant::local(x), slant::local(y));
+  detail::assign(kernels::multiply<scalar_t<X>>, z, x, y);
 }
 
 /// z ← x / y, entry by entry; z takes their size, and may be one of them.
 template <class X, class Y, class Z>
 void quotient(X const& x, Y const& y, Z&& z) {
-  using S = scalar_t<X>;
-  auto&& to = slant::local(z);
-  detail::resize_like(slant::local(x), to);
-  detail::run([](index n, S const* a, S const* b, S* t) { kernels::quotient(n, a, b, t); }, to,
-              slant::local(x), slant::local(y));
+  detail::assign(kernels::quotient<scalar_t<X>>, z, x, y);
 }
 
 /// y ← x where the mask is not 0 and 0 elsewhere; y takes the size of x, and may be x.
 template <class M, class X, class Y>
 void keep(M const& mask, X const& x, Y&& y) {
-  using S = scalar_t<X>;
-  auto&& to = slant::local(y);
-  detail::resize_like(slant::local(x), to);
-  detail::run([](index n, S const* m, S const* a, S* t) { kernels::keep(n, m, a, t); }, to,
-              slant::local(mask), slant::local(x));
+  detail::assign(kernels::keep<scalar_t<X>>, y, mask, x);
 }
 /// y ← x where the mask is 0 and 0 elsewhere; y takes the size of x, and may be x.
 template <class M, class X, class Y>
 void keep_complement(M const& mask, X const& x, Y&& y) {
-  using S = scalar_t<X>;
-  auto&& to = slant::local(y);
-  detail::resize_like(slant::local(x), to);
-  detail::run([](index n, S const* m, S const* a, S* t) { kernels::keep_complement(n, m, a, t); },
-              to, slant::local(mask), slant::local(x));
+  detail::assign(kernels::keep_complement<scalar_t<X>>, y, mask, x);
 }
 
 /// x == y, in the entries that live here.

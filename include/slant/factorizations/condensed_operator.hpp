@@ -163,10 +163,8 @@ class condensed_operator {
   }
   template <class V>
   static int exponent(V const& v) {
-    int e = 0;
     double const largest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
-    if (std::isfinite(largest)) std::frexp(largest, &e);
-    return -std::clamp(e, -1000, 1000);
+    return std::isfinite(largest) ? -std::clamp(detail::binary_exponent(largest), -1000, 1000) : 0;
   }
 
   std::shared_ptr<sparse_type const> b_;

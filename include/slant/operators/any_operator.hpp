@@ -11,6 +11,7 @@
 
 #include <slant/operators/matrix.hpp>
 
+#include <any>
 #include <memory>
 #include <utility>
 
@@ -20,42 +21,16 @@ namespace slant {
 class any_workspace {
  public:
   template <class W>
-  explicit any_workspace(std::in_place_t, W w)
-      : content_(std::make_unique<holder<W>>(std::move(w))) {}
-
-  any_workspace(any_workspace const& other)
-      : content_(other.content_ ? other.content_->clone() : nullptr) {}
-  any_workspace(any_workspace&&) noexcept = default;
-  any_workspace& operator=(any_workspace other) noexcept {
-    content_ = std::move(other.content_);
-    return *this;
-  }
-  ~any_workspace() = default;
+  explicit any_workspace(std::in_place_t, W w) : content_(std::move(w)) {}
 
   /// The content, which has the type W.
   template <class W>
   [[nodiscard]] W& get() noexcept {
-    return static_cast<holder<W>&>(*content_).value;
+    return *std::any_cast<W>(&content_);
   }
 
  private:
-  struct base {
-    base() = default;
-    base(base const&) = delete;
-    base& operator=(base const&) = delete;
-    virtual ~base() = default;
-    [[nodiscard]] virtual std::unique_ptr<base> clone() const = 0;
-  };
-  template <class W>
-  struct holder final : base {
-    explicit holder(W w) : value(std::move(w)) {}
-    [[nodiscard]] std::unique_ptr<base> clone() const override {
-      return std::make_unique<holder>(value);
-    }
-    W value;
-  };
-
-  std::unique_ptr<base> content_;
+  std::any content_;
 };
 
 /// Any operator on vectors of type V that declares at least the laws L. Copies share the operator.

@@ -28,45 +28,26 @@ class application_counter {
   struct nothing {};
 
   nothing enter(application_kind kind, index columns) const noexcept {
-    auto const add = [](std::atomic<index>& count, index n) {
-      count.fetch_add(n, std::memory_order_relaxed);
-    };
     auto& n = *counts_;
-    switch (kind) {
-      case application_kind::forward:
-        add(n.applications, columns);
-        add(n.calls, 1);
-        break;
-      case application_kind::adjoint:
-        add(n.adjoint_applications, columns);
-        add(n.calls, 1);
-        break;
-      case application_kind::columns:
-        add(n.columns, columns);
-        break;
-    }
+    (kind == application_kind::forward   ? n.applications
+     : kind == application_kind::adjoint ? n.adjoint_applications
+                                         : n.columns) += columns;
+    if (kind != application_kind::columns) ++n.calls;
     return {};
   }
 
   [[nodiscard]] application_counts read() const noexcept {
     auto const& n = *counts_;
-    return {n.applications.load(std::memory_order_relaxed),
-            n.adjoint_applications.load(std::memory_order_relaxed),
-            n.calls.load(std::memory_order_relaxed), n.columns.load(std::memory_order_relaxed)};
+    return {n.applications, n.adjoint_applications, n.calls, n.columns};
   }
   void reset() const noexcept {
-    for (auto* count : {&counts_->applications, &counts_->adjoint_applications, &counts_->calls,
-                        &counts_->columns}) {
-      count->store(0, std::memory_order_relaxed);
-    }
+    auto& n = *counts_;
+    n.applications = n.adjoint_applications = n.calls = n.columns = 0;
   }
 
  private:
   struct counts {
-    std::atomic<index> applications{0};
-    std::atomic<index> adjoint_applications{0};
-    std::atomic<index> calls{0};
-    std::atomic<index> columns{0};
+    std::atomic<index> applications{0}, adjoint_applications{0}, calls{0}, columns{0};
   };
   std::shared_ptr<counts> counts_ = std::make_shared<counts>();
 };
