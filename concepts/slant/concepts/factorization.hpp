@@ -33,4 +33,18 @@ template <class F, class V>
 concept factorization = has_rows<F> && has_copyable_workspace<F, V> &&
                         (has_plain_solve<F, V> || has_workspace_solve<F, V>);
 
+namespace detail {
+
+/// x = A⁻¹ b with w made by workspace(f, b), whether f needs it or not.
+template <class F, class B, class X, class W>
+void solve_with(F const& f, B const& b, X& x, W& w) {
+  if constexpr (requires { f.solve(b, x, w); }) {
+    f.solve(b, x, w);
+  } else {
+    f.solve(b, x);
+  }
+}
+
+}  // namespace detail
+
 }  // namespace slant

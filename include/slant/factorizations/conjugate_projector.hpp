@@ -55,21 +55,18 @@ void check_parts(index n, std::vector<conjugate_part<S, F>> const& parts) {
     auto const number = static_cast<index>(i);
     auto const check = [&](char const* what, Eigen::SparseMatrix<S> const& m) {
       if (m.rows() != n || m.cols() != parts[i].u.cols()) {
-        throw bad_input(what, show(index(m.rows())) + " x " + show(index(m.cols())),
-                        show(n) + " x " + show(index(parts[i].u.cols())))
+        throw bad_input(what, size_text(m.rows(), m.cols()), size_text(n, parts[i].u.cols()))
             .at(number);
       }
-      for (index j = 0; j < m.cols(); ++j) {
-        for (typename Eigen::SparseMatrix<S>::InnerIterator e(m, j); e; ++e) {
-          index& of_row = owner[static_cast<std::size_t>(e.row())];
-          if (of_row >= 0 && of_row != number) {
-            throw bad_input("parts", "row " + show(index(e.row())) + " of " + show(of_row),
-                            "parts without common rows")
-                .at(number);
-          }
-          of_row = number;
+      for_each_entry(m, [&](index row, index, S const&) {
+        index& of_row = owner[static_cast<std::size_t>(row)];
+        if (of_row >= 0 && of_row != number) {
+          throw bad_input("parts", "row " + show(row) + " of " + show(of_row),
+                          "parts without common rows")
+              .at(number);
         }
-      }
+        of_row = number;
+      });
     };
     check("U", parts[i].u);
     check("K U", parts[i].ku);
@@ -256,11 +253,7 @@ class conjugate_projector_operator {
       part const& b = at(i);
       room& r = w[static_cast<std::size_t>(i)];
       r.before.noalias() = (b.*right).transpose() * from;
-      if constexpr (requires { b.factors.solve(r.before, r.after, r.factors); }) {
-        b.factors.solve(r.before, r.after, r.factors);
-      } else {
-        b.factors.solve(r.before, r.after);
-      }
+      detail::solve_with(b.factors, r.before, r.after, r.factors);
       matrix_type const& columns = b.*left;
       for (index j = 0; j < columns.cols(); ++j) {
         S const t = α * r.after[j];

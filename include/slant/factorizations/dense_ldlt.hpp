@@ -78,9 +78,7 @@ class dense_ldlt {
 
   /// Rows `first`, `first` + 1, … of eight columns of L.
   static detail::panel_columns<S> panel(matrix_type const& l, index first, index column) {
-    detail::panel_columns<S> r{{}, detail::tile_rows<S>};
-    for (auto& place : r.column) place = l.data() + column++ * l.rows() + first;
-    return r;
+    return detail::panel_from(l.data() + column * l.rows() + first, l.rows(), detail::tile_rows<S>);
   }
 
   /// y ← y − R p, with eight numbers of p for each of the vectors y.

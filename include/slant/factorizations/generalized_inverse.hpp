@@ -80,7 +80,7 @@ class generalized_inverse {
       index i = 0;
       for (index const k : kept_) w.right.coeffRef(i++, j) = from.coeff(k, j);
     }
-    solve(w);
+    detail::solve_with(factors_, w.right, w.solution, w.inner);
     to.setZero();
     for (index j = 0; j < from.cols(); ++j) {
       index i = 0;
@@ -105,15 +105,6 @@ class generalized_inverse {
         fixing_(fixing != nullptr ? *fixing : fixing_rows(kernel_)),
         kept_(complement(kernel_, fixing_)),
         factors_(factored(K, kept_, kernel_.cols())) {}
-
-  template <class W>
-  void solve(W& w) const {
-    if constexpr (requires { factors_.solve(w.right, w.solution, w.inner); }) {
-      factors_.solve(w.right, w.solution, w.inner);
-    } else {
-      factors_.solve(w.right, w.solution);
-    }
-  }
 
   /// Orthonormal columns, after a look at K and R.
   static dense_type basis(sparse_type const& K, dense_type const& R) {

@@ -165,11 +165,7 @@ void inverse_iteration(Eigen::SparseMatrix<S> const& K, Factors const& shifted,
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   matrix_type Y(X.rows(), X.cols());
   auto w = slant::workspace(shifted, X);
-  if constexpr (requires { shifted.solve(X, Y, w); }) {
-    shifted.solve(X, Y, w);
-  } else {
-    shifted.solve(X, Y);
-  }
+  solve_with(shifted, X, Y, w);
   matrix_type const Q = orthonormal_basis<S>(std::move(Y));
   matrix_type const image = K * Q, projected = Q.transpose() * image;
   Eigen::SelfAdjointEigenSolver<matrix_type> const ritz(projected);

@@ -148,10 +148,7 @@ class static_condensation {
 };
 
 template <class M>
-static_condensation(Eigen::SparseMatrixBase<M> const&, std::vector<index> const&)
-    -> static_condensation<typename M::Scalar>;
-template <class M>
 static_condensation(Eigen::SparseMatrixBase<M> const&, std::vector<index> const&,
-                    condensation_options const&) -> static_condensation<typename M::Scalar>;
+                    condensation_options const& = {}) -> static_condensation<typename M::Scalar>;
 
 }  // namespace slant

@@ -166,7 +166,6 @@ class block_operator {
   static constexpr std::size_t height = Adjoint ? n : m;
   template <bool Adjoint>
   static constexpr std::size_t width = Adjoint ? m : n;
-  template <bool Adjoint>
   using places = std::make_index_sequence<m * n>;  // row by row
 
   template <bool Adjoint, std::size_t I, std::size_t J>
@@ -177,37 +176,28 @@ class block_operator {
       return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
     }
   }
-  template <bool Adjoint, std::size_t I, std::size_t J>
-  struct typed {
-    using type = block_type<I, J>;
-    static constexpr bool is_zero = detail::is_zero_operator<type>;
-  };
-  template <std::size_t I, std::size_t J>
-  struct typed<true, I, J> {
-    using type = expr::adjoint_view<block_type<J, I>>;
-    static constexpr bool is_zero = detail::is_zero_operator<block_type<J, I>>;
-  };
+  template <bool Adjoint, std::size_t I, std::size_t J,
+            class B = block_type<Adjoint ? J : I, Adjoint ? I : J>>
+  using part_type = std::conditional_t<Adjoint, expr::adjoint_view<B>, B>;
 
   /// The column of the first nonzero block of a row; it overwrites, the others add. width if none.
   template <bool Adjoint, std::size_t I>
   static constexpr std::size_t first_block = []<std::size_t... J>(std::index_sequence<J...>) {
     std::size_t first = 0;
-    (void)((typed<Adjoint, I, J>::is_zero ? (++first, true) : false) && ...);
+    (void)((detail::is_zero_operator<part_type<Adjoint, I, J>> ? (++first, true) : false) && ...);
     return first;
   }(std::make_index_sequence<width<Adjoint>>{});
 
   template <bool Adjoint, class X>
   static constexpr bool applicable = []<std::size_t... P>(std::index_sequence<P...>) {
     constexpr std::size_t k = width<Adjoint>;
-    return ((typed<Adjoint, P / k, P % k>::is_zero ||
-             detail::block_part<typename typed<Adjoint, P / k, P % k>::type, X>)&&...);
-  }(places<Adjoint>{});
+    return (detail::block_part<part_type<Adjoint, P / k, P % k>, X> && ...);
+  }(places{});
   template <bool Adjoint, class X>
   static constexpr bool accumulating = []<std::size_t... P>(std::index_sequence<P...>) {
     constexpr std::size_t k = width<Adjoint>;
-    return ((typed<Adjoint, P / k, P % k>::is_zero ||
-             detail::accumulating_block_part<typename typed<Adjoint, P / k, P % k>::type, X>)&&...);
-  }(places<Adjoint>{});
+    return (detail::accumulating_block_part<part_type<Adjoint, P / k, P % k>, X> && ...);
+  }(places{});
 
  public:
   static constexpr law_set laws{};
@@ -274,7 +264,7 @@ class block_operator {
   static void for_each_block(F f) {
     [&]<std::size_t... P>(std::index_sequence<P...>) {
       (f.template operator()<P / n, P % n>(), ...);
-    }(places<false>{});
+    }(places{});
   }
 
   template <bool Adjoint, class X>
@@ -283,14 +273,14 @@ class block_operator {
       return boost::hana::make_tuple(
           detail::part_workspace<P % width<Adjoint> == first_block<Adjoint, P / width<Adjoint>>>(
               part<Adjoint, P / width<Adjoint>, P % width<Adjoint>>(), x)...);
-    }(places<Adjoint>{});
+    }(places{});
   }
 
   /// y = A x, or y ← y + α A x if Add; with Aᵀ for A if Adjoint.
   template <bool Adjoint, bool Add, class S, class X, class Y, class W>
   void run(S const& α, X const& x, Y& y, W& w) const {
-    auto const& row_begin = begins<Adjoint>();
-    auto const& col_begin = begins<!Adjoint>();
+    index const* const row_begin = Adjoint ? col_begin_.data() : row_begin_.data();
+    index const* const col_begin = Adjoint ? row_begin_.data() : col_begin_.data();
     auto row = [&]<std::size_t I, std::size_t... J>(std::index_sequence<J...>) {
       constexpr std::size_t first = first_block<Adjoint, I>;
       if constexpr (!Add && first == width<Adjoint>) {
@@ -304,14 +294,6 @@ class block_operator {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (row.template operator()<I>(std::make_index_sequence<width<Adjoint>>{}), ...);
     }(std::make_index_sequence<height<Adjoint>>{});
-  }
-  template <bool Adjoint>
-  [[nodiscard]] auto const& begins() const noexcept {
-    if constexpr (Adjoint) {
-      return col_begin_;
-    } else {
-      return row_begin_;
-    }
   }
 
   boost::hana::tuple<Rows...> rows_;

@@ -82,10 +82,42 @@ template <class Y>
   return unit;
 }
 
+// --- oriented ------------------------------------------------------------------------------------
+//
+// What is the same for A and for Aᵀ is written once.
+
+template <bool Adjoint, class A, class X>
+[[nodiscard]] auto oriented_workspace(A const& a, X const& x) {
+  if constexpr (Adjoint) {
+    return slant::adjoint_workspace(a, x);
+  } else {
+    return slant::workspace(a, x);
+  }
+}
+template <bool Adjoint, class A, class X, class Y, class W>
+void apply_oriented(A const& a, X const& x, Y& y, W& w) {
+  if constexpr (Adjoint) {
+    slant::apply_adjoint(a, x, y, w);
+  } else {
+    slant::apply(a, x, y, w);
+  }
+}
+template <bool Adjoint, class A, class S, class X, class Y, class W>
+void apply_add_oriented(A const& a, S const& α, X const& x, Y& y, W& w) {
+  if constexpr (Adjoint) {
+    slant::apply_adjoint_add(a, α, x, y, w);
+  } else {
+    slant::apply_add(a, α, x, y, w);
+  }
+}
+
 // --- accumulate ----------------------------------------------------------------------------------
 //
 // y ← y + α A x for every operator: by its own apply_add where it has one, else through a
 // temporary that belongs to the workspace. The choice is made by the compiler.
+
+template <bool Adjoint, class A, class V>
+inline constexpr bool can_add = Adjoint ? has_adjoint_accumulate<A, V> : has_accumulate<A, V>;
 
 template <class Inner, class Product>
 struct buffered_workspace {
@@ -93,45 +125,26 @@ struct buffered_workspace {
   Product product;
 };
 
-/// What accumulate(a, α, x, y, ·) needs. For operators with apply_add it is their own workspace.
-template <class A, class X>
+/// What accumulate<Adjoint>(a, α, x, y, ·) needs. For operators that can add it is their own
+/// workspace.
+template <bool Adjoint = false, class A, class X>
 [[nodiscard]] auto accumulate_workspace(A const& a, X const& x) {
-  if constexpr (has_accumulate<A, plain_t<X>>) {
-    return slant::workspace(a, x);
+  auto inner = oriented_workspace<Adjoint>(a, x);
+  if constexpr (can_add<Adjoint, A, plain_t<X>>) {
+    return inner;
   } else {
-    return buffered_workspace<decltype(slant::workspace(a, x)), plain_t<X>>{
-        slant::workspace(a, x), slant::like(x, a.rows())};
+    return buffered_workspace<decltype(inner), plain_t<X>>{
+        std::move(inner), slant::like(x, Adjoint ? a.cols() : a.rows())};
   }
 }
 
-template <class A, class S, class X, class Y, class W>
+/// y ← y + α A x, or y + α Aᵀx.
+template <bool Adjoint = false, class A, class S, class X, class Y, class W>
 void accumulate(A const& a, S const& α, X const& x, Y& y, W& w) {
-  if constexpr (has_accumulate<A, plain_t<X>>) {
-    slant::apply_add(a, α, x, y, w);
+  if constexpr (can_add<Adjoint, A, plain_t<X>>) {
+    apply_add_oriented<Adjoint>(a, α, x, y, w);
   } else {
-    slant::apply(a, x, w.product, w.inner);
-    vectors::axpy(α, w.product, y);
-  }
-}
-
-/// What accumulate_adjoint(a, α, x, y, ·) needs.
-template <class A, class X>
-[[nodiscard]] auto accumulate_adjoint_workspace(A const& a, X const& x) {
-  if constexpr (has_adjoint_accumulate<A, plain_t<X>>) {
-    return slant::adjoint_workspace(a, x);
-  } else {
-    return buffered_workspace<decltype(slant::adjoint_workspace(a, x)), plain_t<X>>{
-        slant::adjoint_workspace(a, x), slant::like(x, a.cols())};
-  }
-}
-
-/// y ← y + α Aᵀx.
-template <class A, class S, class X, class Y, class W>
-void accumulate_adjoint(A const& a, S const& α, X const& x, Y& y, W& w) {
-  if constexpr (has_adjoint_accumulate<A, plain_t<X>>) {
-    slant::apply_adjoint_add(a, α, x, y, w);
-  } else {
-    slant::apply_adjoint(a, x, w.product, w.inner);
+    apply_oriented<Adjoint>(a, x, w.product, w.inner);
     vectors::axpy(α, w.product, y);
   }
 }

@@ -16,11 +16,15 @@ namespace slant {
 
 namespace expr {
 
+template <std::size_t>
 struct anything {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor)
 };
-template <class W, class... Field> concept has_fields = requires { W{std::declval<Field>()...}; };
+template <class W, std::size_t N>
+inline constexpr bool has_fields = []<std::size_t... I>(std::index_sequence<I...>) {
+  return requires { W{anything<I>()...}; };
+}(std::make_index_sequence<N>{});
 
 template <class T>
 inline constexpr bool is_hana_tuple = false;
@@ -44,30 +48,27 @@ template <class W>
     return std::apply(all, w);
   } else if constexpr (std::is_empty_v<W> || !std::is_aggregate_v<W>) {
     return 0;
-  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything,
-                                  anything, anything, anything>) {
+  } else if constexpr (has_fields<W, 9>) {
     return 0;
-  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything,
-                                  anything, anything>) {
+  } else if constexpr (has_fields<W, 8>) {
     auto const& [a, b, c, d, e, f, g, h] = w;
     return all(a, b, c, d, e, f, g, h);
-  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything,
-                                  anything>) {
+  } else if constexpr (has_fields<W, 7>) {
     auto const& [a, b, c, d, e, f, g] = w;
     return all(a, b, c, d, e, f, g);
-  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything, anything>) {
+  } else if constexpr (has_fields<W, 6>) {
     auto const& [a, b, c, d, e, f] = w;
     return all(a, b, c, d, e, f);
-  } else if constexpr (has_fields<W, anything, anything, anything, anything, anything>) {
+  } else if constexpr (has_fields<W, 5>) {
     auto const& [a, b, c, d, e] = w;
     return all(a, b, c, d, e);
-  } else if constexpr (has_fields<W, anything, anything, anything, anything>) {
+  } else if constexpr (has_fields<W, 4>) {
     auto const& [a, b, c, d] = w;
     return all(a, b, c, d);
-  } else if constexpr (has_fields<W, anything, anything, anything>) {
+  } else if constexpr (has_fields<W, 3>) {
     auto const& [a, b, c] = w;
     return all(a, b, c);
-  } else if constexpr (has_fields<W, anything, anything>) {
+  } else if constexpr (has_fields<W, 2>) {
     auto const& [a, b] = w;
     return all(a, b);
   } else {

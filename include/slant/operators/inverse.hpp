@@ -43,11 +43,7 @@ class inverse_operator {
   template <class X, class Y, class W>
     requires solves<X, Y>
   void apply(X const& x, Y& y, W& w) const {
-    if constexpr (requires { f_.get().solve(x, y, w); }) {
-      f_.get().solve(x, y, w);
-    } else {
-      f_.get().solve(x, y);
-    }
+    detail::solve_with(f_.get(), x, y, w);
   }
   template <class X, class Y, class W>
     requires factorization<part, plain_t<X>> &&

@@ -39,8 +39,8 @@ struct kronecker_workspace {
 
 }  // namespace detail
 
-/// y = (A ⊗ B) x on Eigen vectors, also several side by side. A and B are `Operator const&` (referenced) or operator types
-/// (owned), which are applied to matrices.
+/// y = (A ⊗ B) x on Eigen vectors, also several side by side. A and B are `Operator const&`
+/// (referenced) or operator types (owned), which are applied to matrices.
 template <class A, class B>
 class kronecker_operator {
   using left = std::remove_cvref_t<A>;
@@ -107,35 +107,21 @@ class kronecker_operator {
     index const from_a = Adjoint ? a.rows() : a.cols(), to_a = Adjoint ? a.cols() : a.rows();
     index const from_b = Adjoint ? b.rows() : b.cols(), to_b = Adjoint ? b.cols() : b.rows();
     many<X> x(from_b, from_a), xb(from_a, to_b);
-    auto const temporaries = [](auto const& part, many<X> const& argument) {
-      if constexpr (Adjoint) {
-        return slant::adjoint_workspace(part, argument);
-      } else {
-        return slant::workspace(part, argument);
-      }
-    };
-    auto of_a = temporaries(a, xb);
-    auto of_b = temporaries(b, x);
+    auto of_a = detail::oriented_workspace<Adjoint>(a, xb);
+    auto of_b = detail::oriented_workspace<Adjoint>(b, x);
     return detail::kronecker_workspace<many<X>, decltype(of_a), decltype(of_b)>{
         std::move(x),        many<X>(to_b, from_a), std::move(xb),
         many<X>(to_a, to_b), std::move(of_a),       std::move(of_b)};
   }
   template <bool Adjoint, class X, class Y, class W>
   void run(X const& x, Y& y, W& w) const {
-    auto const multiply = [](auto const& part, auto const& from, auto& to, auto& workspace) {
-      if constexpr (Adjoint) {
-        slant::apply_adjoint(part, from, to, workspace);
-      } else {
-        slant::apply(part, from, to, workspace);
-      }
-    };
     for (index c = 0; c < index(x.cols()); ++c) {
       for (index j = 0; j < index(w.x.cols()); ++j) {
         w.x.col(j) = x.col(c).segment(j * w.x.rows(), w.x.rows());
       }
-      multiply(b_.get(), w.x, w.bx, w.b);
+      detail::apply_oriented<Adjoint>(b_.get(), w.x, w.bx, w.b);
       w.xb = w.bx.transpose();
-      multiply(a_.get(), w.xb, w.yt, w.a);
+      detail::apply_oriented<Adjoint>(a_.get(), w.xb, w.yt, w.a);
       for (index i = 0; i < index(w.yt.rows()); ++i) {
         y.col(c).segment(i * w.yt.cols(), w.yt.cols()) = w.yt.row(i).transpose();
       }

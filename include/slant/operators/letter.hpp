@@ -218,7 +218,7 @@ class letter : public expression_base {
   template <class X>
     requires(is_adjoint ? has_adjoint<target, plain_t<X>> : linear_operator<target, plain_t<X>>)
   [[nodiscard]] auto workspace(X const& x) const {
-    return workspace_for<is_adjoint>(x);
+    return slant::detail::oriented_workspace<is_adjoint>(get(), x);
   }
   template <class X, class Y, class W>
     requires(is_adjoint ? slant::detail::applies_adjoint<target, X, Y>
@@ -230,13 +230,13 @@ class letter : public expression_base {
     requires(is_adjoint ? slant::detail::accumulates_adjoint<target, X, Y>
                         : slant::detail::accumulates<target, X, Y>)
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    run_add<is_adjoint>(α, x, y, w);
+    slant::detail::apply_add_oriented<is_adjoint>(get(), α, x, y, w);
   }
 
   template <class X>
     requires(is_adjoint ? linear_operator<target, plain_t<X>> : has_adjoint<target, plain_t<X>>)
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return workspace_for<!is_adjoint>(x);
+    return slant::detail::oriented_workspace<!is_adjoint>(get(), x);
   }
   template <class X, class Y, class W>
     requires(is_adjoint ? slant::detail::applies<target, X, Y>
@@ -248,7 +248,7 @@ class letter : public expression_base {
     requires(is_adjoint ? slant::detail::accumulates<target, X, Y>
                         : slant::detail::accumulates_adjoint<target, X, Y>)
   void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    run_add<!is_adjoint>(α, x, y, w);
+    slant::detail::apply_add_oriented<!is_adjoint>(get(), α, x, y, w);
   }
 
   template <class D>
@@ -321,14 +321,6 @@ class letter : public expression_base {
 
  private:
   // Sizes were checked by whoever applies the expression, and letters before and after this one fit.
-  template <bool Adjoint, class X>
-  [[nodiscard]] auto workspace_for(X const& x) const {
-    if constexpr (Adjoint) {
-      return slant::adjoint_workspace(get(), x);
-    } else {
-      return slant::workspace(get(), x);
-    }
-  }
   template <bool Adjoint, class X, class Y, class W>
   void run(X const& x, Y& y, W& w) const {
     auto const& a = get();
@@ -340,14 +332,6 @@ class letter : public expression_base {
       a.apply_adjoint(x, y);
     } else {
       run<false>(x, y, w);
-    }
-  }
-  template <bool Adjoint, class X, class Y, class W>
-  void run_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    if constexpr (Adjoint) {
-      slant::apply_adjoint_add(get(), α, x, y, w);
-    } else {
-      slant::apply_add(get(), α, x, y, w);
     }
   }
 

@@ -246,17 +246,12 @@ class product : public base_of_node<F...> {
   [[nodiscard]] auto make_workspace(X const& x) const {
     // The argument of factor J (of its adjoint) has the size of its columns (rows).
     auto const part = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
-      auto const inner = [&](auto const& argument) {
-        if constexpr (Adjoint) {
-          return slant::adjoint_workspace(factor<J>(), argument);
-        } else {
-          return slant::workspace(factor<J>(), argument);
-        }
-      };
+      auto const& f = factor<J>();
       if constexpr (J == (Adjoint ? 0 : n - 1)) {
-        return inner(x);
+        return slant::detail::oriented_workspace<Adjoint>(f, x);
       } else {
-        return inner(slant::like(x, Adjoint ? factor<J>().rows() : factor<J>().cols()));
+        return slant::detail::oriented_workspace<Adjoint>(
+            f, slant::like(x, Adjoint ? f.rows() : f.cols()));
       }
     };
     return [&]<std::size_t... I, std::size_t... B>(std::index_sequence<I...>,

@@ -39,36 +39,30 @@ class range_sum_operator {
   template <class X>
     requires linear_operator<part, plain_t<X>>
   [[nodiscard]] auto workspace(X const& x) const {
-    return workspaces([&](part const& a) { return detail::accumulate_workspace(a, x); });
+    return workspaces<false>(x);
   }
   template <class X, class Y, class W>
     requires detail::adds<part, X, Y>
   void apply(X const& x, Y& y, W& w) const {
     vectors::set_zero(y);
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      detail::accumulate(terms_[i].get(), scalar_t<X>(1), x, y, w[i]);
-    }
+    add<false>(scalar_t<X>(1), x, y, w);
   }
   template <class X, class Y, class W>
     requires detail::adds<part, X, Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      detail::accumulate(terms_[i].get(), α, x, y, w[i]);
-    }
+    add<false>(α, x, y, w);
   }
 
   template <class X>
     requires has_adjoint<part, plain_t<X>>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return workspaces([&](part const& a) { return detail::accumulate_adjoint_workspace(a, x); });
+    return workspaces<true>(x);
   }
   template <class X, class Y, class W>
     requires detail::adds_adjoint<part, X, Y>
   void apply_adjoint(X const& x, Y& y, W& w) const {
     vectors::set_zero(y);
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      detail::accumulate_adjoint(terms_[i].get(), scalar_t<X>(1), x, y, w[i]);
-    }
+    add<true>(scalar_t<X>(1), x, y, w);
   }
 
   template <class D>
@@ -83,12 +77,21 @@ class range_sum_operator {
   }
 
  private:
-  template <class F>
-  [[nodiscard]] auto workspaces(F const& workspace_of) const {
-    std::vector<decltype(workspace_of(term(0)))> w;
+  template <bool Adjoint, class X>
+  [[nodiscard]] auto workspaces(X const& x) const {
+    std::vector<decltype(detail::accumulate_workspace<Adjoint>(term(0), x))> w;
     w.reserve(terms_.size());
-    for (auto const& kept : terms_) w.push_back(workspace_of(kept.get()));
+    for (auto const& kept : terms_) {
+      w.push_back(detail::accumulate_workspace<Adjoint>(kept.get(), x));
+    }
     return w;
+  }
+  /// y ← y + α A x, or y + α Aᵀx.
+  template <bool Adjoint, class S, class X, class Y, class W>
+  void add(S const& α, X const& x, Y& y, W& w) const {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      detail::accumulate<Adjoint>(terms_[i].get(), α, x, y, w[i]);
+    }
   }
   /// y = Σ own(Aᵢ).
   template <class Y, class F>

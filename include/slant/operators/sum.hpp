@@ -85,7 +85,7 @@ class sum : public base_of_node<T...> {
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
       return hana::make_tuple(slant::adjoint_workspace(term<0>(), x),
-                              slant::detail::accumulate_adjoint_workspace(term<I + 1>(), x)...);
+                              slant::detail::accumulate_workspace<true>(term<I + 1>(), x)...);
     }(rest);
   }
   template <class X, class Y, class W>
@@ -94,7 +94,7 @@ class sum : public base_of_node<T...> {
   void apply_adjoint(X const& x, Y& y, W& w) const {
     slant::apply_adjoint(term<0>(), x, y, hana::at_c<0>(w));
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (slant::detail::accumulate_adjoint(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)),
+      (slant::detail::accumulate<true>(term<I + 1>(), scalar_t<X>(1), x, y, hana::at_c<I + 1>(w)),
        ...);
     }(rest);
   }

@@ -14,6 +14,7 @@
 #include <slant/operators/identity.hpp>
 #include <slant/operators/matrix.hpp>
 
+#include <bit>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -146,19 +147,9 @@ struct ascii {
 }
 
 [[nodiscard]] constexpr std::string_view law_name(law l) {
-  switch (l) {
-    case law::self_adjoint:
-      return "self_adjoint";
-    case law::positive_semidefinite:
-      return "positive_semidefinite";
-    case law::positive_definite:
-      return "positive_definite";
-    case law::projector:
-      return "projector";
-    case law::firmly_nonexpansive:
-      return "firmly_nonexpansive";
-  }
-  return "";
+  constexpr std::string_view names[] = {"self_adjoint", "positive_semidefinite",
+                                        "positive_definite", "projector", "firmly_nonexpansive"};
+  return names[std::countr_zero(static_cast<unsigned>(l))];
 }
 
 /// "spd", "psd", "self-adjoint", …

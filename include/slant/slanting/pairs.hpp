@@ -97,7 +97,7 @@ class weighted_sum_operator {
   template <class X>
     requires has_adjoint<A, plain_t<X>> && has_adjoint<B, plain_t<X>>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return make_workspace(slant::adjoint_workspace(a_, x), accumulate_adjoint_workspace(b_, x),
+    return make_workspace(slant::adjoint_workspace(a_, x), accumulate_workspace<true>(b_, x),
                           slant::like(x, rows()));
   }
   /// y = Aᵀ(p∘x) + Bᵀ(q∘x).
@@ -107,7 +107,7 @@ class weighted_sum_operator {
     weigh(p(), x, w.product);
     slant::apply_adjoint(a_, w.product, y, w.first);
     weigh(q(), x, w.product);
-    accumulate_adjoint(b_, scalar_t<X>(1), w.product, y, w.second);
+    accumulate<true>(b_, scalar_t<X>(1), w.product, y, w.second);
   }
 
  private:

@@ -116,7 +116,7 @@ class stacked_operator {
     for_each([&](auto const& a, auto i, index first) {
       auto& own = boost::hana::at_c<i()>(w);
       slant::local(own.rows) = slant::local(x).middleRows(first, a.rows());
-      accumulate_adjoint(a, scalar_t<X>(1), own.rows, y, own.inner);
+      accumulate<true>(a, scalar_t<X>(1), own.rows, y, own.inner);
     });
   }
 
@@ -124,7 +124,7 @@ class stacked_operator {
   template <class P, class X>
   [[nodiscard]] static auto part_adjoint_workspace(P const& a, X const& x) {
     auto rows = slant::like(x, a.rows());
-    auto inner = accumulate_adjoint_workspace(a, rows);
+    auto inner = accumulate_workspace<true>(a, rows);
     return make_stacked_part_workspace(std::move(inner), std::move(rows));
   }
   /// f(part, its number as a constant, first row of it).

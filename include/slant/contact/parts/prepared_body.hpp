@@ -109,11 +109,7 @@ template <class F, class S, class V, class Factor>
     Eigen::VectorX<S> const load = f(body);
     result.displacement.resize(load.size());
     auto w = slant::workspace(result.inside->factors, load);
-    if constexpr (requires { result.inside->factors.solve(load, result.displacement, w); }) {
-      result.inside->factors.solve(load, result.displacement, w);
-    } else {
-      result.inside->factors.solve(load, result.displacement);
-    }
+    slant::detail::solve_with(result.inside->factors, load, result.displacement, w);
     result.idle = true;
   }
   return result;

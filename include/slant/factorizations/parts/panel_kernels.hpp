@@ -47,6 +47,13 @@ struct panel_columns {
   std::array<T const*, static_cast<std::size_t>(panel_width)> column;
   index step;
 };
+/// Column j begins at first + j · apart.
+template <class T>
+[[nodiscard]] panel_columns<T> panel_from(T const* first, index apart, index step) {
+  panel_columns<T> r{{}, step};
+  for (auto& c : r.column) c = first + (&c - r.column.data()) * apart;
+  return r;
+}
 
 template <class T, int Bytes>
 struct panel_loops {
@@ -131,65 +138,59 @@ using panel_sequence = std::make_index_sequence<static_cast<std::size_t>(panel_w
   return has;
 }
 
-template <class T>
-[[gnu::target("avx2,fma")]] void subtract_long(panel_columns<T> const& r, T const* p, T* y,
-                                               index rows) {
-  panel_loops<T, 32>::subtract(r, p, y, rows, panel_sequence{});
+template <class Loop>
+[[gnu::target("avx2,fma")]] void run_long(Loop loop) {
+  loop.template operator()<32>();
 }
-template <class T>
-[[gnu::target("avx2,fma")]] void products_long(panel_columns<T> const& r, T const* y, index rows,
-                                               T* result) {
-  panel_loops<T, 32>::products(r, y, rows, result, panel_sequence{});
-}
-template <class T>
-[[gnu::target("avx2,fma")]] void both_long(panel_columns<T> const& r, T const* p, T const* x, T* y,
-                                           index rows, T* result) {
-  panel_loops<T, 32>::both(r, p, x, y, rows, result, panel_sequence{});
-}
+
 #else
 
 [[nodiscard]] inline bool has_long_vectors() {
   return false;
 }
 
-template <class T>
-void subtract_long(panel_columns<T> const&, T const*, T*, index) {}
-template <class T>
-void products_long(panel_columns<T> const&, T const*, index, T*) {}
-template <class T>
-void both_long(panel_columns<T> const&, T const*, T const*, T*, index, T*) {}
+template <class Loop>
+void run_long(Loop) {}
+
 #endif
+
+/// loop<bytes>(), which must be inlined, with vectors of 32 or of 16 bytes.
+template <class Loop>
+void run_panel_loop(bool long_vectors, Loop loop) {
+  if (long_vectors) {
+    run_long(loop);
+  } else {
+    loop.template operator()<16>();
+  }
+}
 
 /// y ← y − R p; p: panel_width numbers, y: so many rows.
 template <class T>
 void subtract_panel(bool long_vectors, panel_columns<T> const& r, T const* p, T* y, index rows) {
-  if (long_vectors) {
-    subtract_long(r, p, y, rows);
-  } else {
-    panel_loops<T, 16>::subtract(r, p, y, rows, panel_sequence{});
-  }
+  run_panel_loop(
+      long_vectors, [ =, &r ]<int Bytes>() __attribute__((always_inline)) {
+        panel_loops<T, Bytes>::subtract(r, p, y, rows, panel_sequence{});
+      });
 }
 
 /// result ← Rᵀy; result: panel_width numbers.
 template <class T>
 void panel_products(bool long_vectors, panel_columns<T> const& r, T const* y, index rows,
                     T* result) {
-  if (long_vectors) {
-    products_long(r, y, rows, result);
-  } else {
-    panel_loops<T, 16>::products(r, y, rows, result, panel_sequence{});
-  }
+  run_panel_loop(
+      long_vectors, [ =, &r ]<int Bytes>() __attribute__((always_inline)) {
+        panel_loops<T, Bytes>::products(r, y, rows, result, panel_sequence{});
+      });
 }
 
 /// y ← y − R p and result ← Rᵀx; p, result: panel_width numbers, x, y: so many rows.
 template <class T>
 void subtract_panel_and_products(bool long_vectors, panel_columns<T> const& r, T const* p,
                                  T const* x, T* y, index rows, T* result) {
-  if (long_vectors) {
-    both_long(r, p, x, y, rows, result);
-  } else {
-    panel_loops<T, 16>::both(r, p, x, y, rows, result, panel_sequence{});
-  }
+  run_panel_loop(
+      long_vectors, [ =, &r ]<int Bytes>() __attribute__((always_inline)) {
+        panel_loops<T, Bytes>::both(r, p, x, y, rows, result, panel_sequence{});
+      });
 }
 
 // --- four at a time ------------------------------------------------------------------------------
@@ -265,48 +266,24 @@ struct panel_loops_of_four {
   }
 };
 
-#if defined(__x86_64__) && defined(__GNUC__)
-
-template <class T>
-[[gnu::target("avx2,fma")]] void subtract_from_four_long(panel_columns<T> const& r, T const* p,
-                                                         T* y, index stride, index rows) {
-  panel_loops_of_four<T, 32>::subtract(r, p, y, stride, rows, panel_sequence{});
-}
-template <class T>
-[[gnu::target("avx2,fma")]] void products_of_four_long(panel_columns<T> const& r, T const* y,
-                                                       index stride, index rows, T* result) {
-  panel_loops_of_four<T, 32>::products(r, y, stride, rows, result);
-}
-
-#else
-
-template <class T>
-void subtract_from_four_long(panel_columns<T> const&, T const*, T*, index, index) {}
-template <class T>
-void products_of_four_long(panel_columns<T> const&, T const*, index, index, T*) {}
-
-#endif
-
 /// subtract_panel for four right-hand sides, y to y + 3 stride; p: panel_width numbers for each.
 template <class T>
 void subtract_panel_from_four(bool long_vectors, panel_columns<T> const& r, T const* p, T* y,
                               index stride, index rows) {
-  if (long_vectors) {
-    subtract_from_four_long(r, p, y, stride, rows);
-  } else {
-    panel_loops_of_four<T, 16>::subtract(r, p, y, stride, rows, panel_sequence{});
-  }
+  run_panel_loop(
+      long_vectors, [ =, &r ]<int Bytes>() __attribute__((always_inline)) {
+        panel_loops_of_four<T, Bytes>::subtract(r, p, y, stride, rows, panel_sequence{});
+      });
 }
 
 /// panel_products for four right-hand sides, y to y + 3 stride; result: panel_width numbers each.
 template <class T>
 void panel_products_of_four(bool long_vectors, panel_columns<T> const& r, T const* y, index stride,
                             index rows, T* result) {
-  if (long_vectors) {
-    products_of_four_long(r, y, stride, rows, result);
-  } else {
-    panel_loops_of_four<T, 16>::products(r, y, stride, rows, result);
-  }
+  run_panel_loop(
+      long_vectors, [ =, &r ]<int Bytes>() __attribute__((always_inline)) {
+        panel_loops_of_four<T, Bytes>::products(r, y, stride, rows, result);
+      });
 }
 
 // --- rounded entry -------------------------------------------------------------------------------
@@ -392,10 +369,7 @@ class packed_symmetric {
       T const* const panel = values_.data() + places_[static_cast<std::size_t>(c / panel_width)];
       index const width = std::min(panel_width, n_ - c);
       index const below = n_ - c - width;
-      panel_columns<T> r{{}, tile_size};
-      for (auto& column : r.column) {
-        column = panel + square + (&column - r.column.data()) * tile;
-      }
+      auto const r = panel_from(panel + square, tile, tile_size);
       T minus_x[panel_width] = {};
       for (index j = 0; j < width; ++j) minus_x[j] = -x[c + j];
       T sum[panel_width];

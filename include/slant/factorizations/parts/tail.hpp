@@ -278,11 +278,7 @@ class tail_panels {
   [[nodiscard]] tail_panel<T> panel(tail_shape::supernode const& s, index c) const {
     auto const number = static_cast<std::size_t>(s.panels + c / panel_width);
     T const* const place = values_.data() + places_[number];
-    tail_panel<T> result{place, {{}, tile_size}};
-    for (auto& column : result.below.column) {
-      column = place + square + (&column - result.below.column.data()) * tile;
-    }
-    return result;
+    return {place, panel_from(place + square, tile, tile_size)};
   }
 
  private:
