@@ -130,9 +130,7 @@ void check_finite(std::string_view name, V const& v) {
   auto const& entries = slant::local(v);
   for (index i = 0; i < index(entries.size()); ++i) {
     S const e = entries.coeff(i);
-    if (!is_finite(e)) {
-      throw bad_input(std::string(name) + "[" + show(i) + "]", show(e), "a finite number");
-    }
+    if (!is_finite(e)) throw bad_input(name, show(e), "a finite number").at(i);
   }
 }
 

@@ -97,19 +97,23 @@ struct apply_adjoint_fn {
 /// Throws bad_input if x has not rows() rows, or y not cols().
 inline constexpr detail::apply_adjoint_fn apply_adjoint{};
 
-template <class A, class V>
-concept has_plain_accumulate =
-    requires(A const& a, scalar_t<V> α, V const& x, V& y) { a.apply_add(α, x, y); };
-
-template <class A, class V>
-concept has_workspace_accumulate = requires(A const& a, scalar_t<V> α, V const& x, V& y,
-                                            workspace_t<A, V>& w) { a.apply_add(α, x, y, w); };
-
-/// y ← y + α A x without a temporary of the caller's.
-template <class A, class V>
-concept has_accumulate = has_plain_accumulate<A, V> || has_workspace_accumulate<A, V>;
-
 namespace detail {
+
+/// slant::apply_add(a, α, x, y, w) works.
+template <class A, class X, class Y>
+concept accumulates = requires(A const& a, scalar_t<X> α, X const& x, Y& y) {
+  a.apply_add(α, x, y);
+} || requires(A const& a, scalar_t<X> α, X const& x, Y& y, workspace_t<A, plain_t<X>>& w) {
+  a.apply_add(α, x, y, w);
+};
+
+/// slant::apply_adjoint_add(a, α, x, y, w) works.
+template <class A, class X, class Y>
+concept accumulates_adjoint = requires(A const& a, scalar_t<X> α, X const& x, Y& y) {
+  a.apply_adjoint_add(α, x, y);
+} || requires(A const& a, scalar_t<X> α, X const& x, Y& y, adjoint_workspace_t<A, plain_t<X>>& w) {
+  a.apply_adjoint_add(α, x, y, w);
+} || (is_self_adjoint<A> && !has_adjoint_workspace<A, plain_t<X>> && accumulates<A, X, Y>);
 
 struct apply_add_fn {
   template <class A, class S, class X, class Y, class W>
@@ -123,29 +127,6 @@ struct apply_add_fn {
   }
 };
 
-}  // namespace detail
-
-/// y ← y + α A x. y must not alias x. Throws bad_input as apply does.
-inline constexpr detail::apply_add_fn apply_add{};
-
-template <class A, class V>
-concept has_plain_adjoint_accumulate =
-    requires(A const& a, scalar_t<V> α, V const& x, V& y) { a.apply_adjoint_add(α, x, y); };
-
-template <class A, class V>
-concept has_workspace_adjoint_accumulate =
-    requires(A const& a, scalar_t<V> α, V const& x, V& y, adjoint_workspace_t<A, V>& w) {
-      a.apply_adjoint_add(α, x, y, w);
-    };
-
-/// y ← y + α Aᵀx without a temporary of the caller's.
-template <class A, class V>
-concept has_adjoint_accumulate =
-    has_plain_adjoint_accumulate<A, V> || has_workspace_adjoint_accumulate<A, V> ||
-    (is_self_adjoint<A> && !has_adjoint_workspace<A, V> && has_accumulate<A, V>);
-
-namespace detail {
-
 struct apply_adjoint_add_fn {
   template <class A, class S, class X, class Y, class W>
   void operator()(A const& a, S α, X const& x, Y& y, W& w) const {
@@ -156,12 +137,21 @@ struct apply_adjoint_add_fn {
       a.apply_adjoint_add(α, x, y);
     } else {
       static_assert(is_self_adjoint<A>, "this operator has no apply_adjoint_add(α, x, y)");
-      slant::apply_add(a, α, x, y, w);
+      apply_add_fn{}(a, α, x, y, w);
     }
   }
 };
 
 }  // namespace detail
+
+/// y ← y + α A x without a temporary of the caller's.
+template <class A, class V> concept has_accumulate = detail::accumulates<A, V, V>;
+
+/// y ← y + α A x. y must not alias x. Throws bad_input as apply does.
+inline constexpr detail::apply_add_fn apply_add{};
+
+/// y ← y + α Aᵀx without a temporary of the caller's.
+template <class A, class V> concept has_adjoint_accumulate = detail::accumulates_adjoint<A, V, V>;
 
 /// y ← y + α Aᵀx. y must not alias x. Throws bad_input as apply_adjoint does.
 inline constexpr detail::apply_adjoint_add_fn apply_adjoint_add{};

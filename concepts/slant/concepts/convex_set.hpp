@@ -70,13 +70,6 @@ struct dimension_of_fn {
   }
 };
 
-}  // namespace detail
-
-/// Number of components of the points of a set.
-inline constexpr detail::dimension_of_fn dimension_of{};
-
-namespace detail {
-
 /// The same as far as the type tells.
 template <class C>
 [[nodiscard]] consteval index dimension_of_type() {
@@ -88,6 +81,9 @@ template <class C>
 }
 
 }  // namespace detail
+
+/// Number of components of the points of a set.
+inline constexpr detail::dimension_of_fn dimension_of{};
 
 template <class C, class V>
 concept has_project_value = requires(C const& c, V const& x) { c.project(x); };

@@ -47,23 +47,9 @@ enum class status : unsigned char {
 
 /// The status in words.
 [[nodiscard]] constexpr std::string_view to_string(status s) {
-  switch (s) {
-    case status::running:
-      return "running";
-    case status::converged:
-      return "converged";
-    case status::iteration_limit:
-      return "iteration_limit";
-    case status::stalled:
-      return "stalled";
-    case status::unbounded:
-      return "unbounded";
-    case status::breakdown:
-      return "breakdown";
-    case status::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
+  constexpr std::string_view names[] = {"running",   "converged", "iteration_limit", "stalled",
+                                        "unbounded", "breakdown", "interrupted"};
+  return s <= status::interrupted ? names[static_cast<int>(s)] : "unknown";
 }
 
 template <class State> concept has_iterate = requires(State const& s) { s.x; };

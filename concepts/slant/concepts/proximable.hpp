@@ -39,14 +39,11 @@
 
 namespace slant {
 
-template <class F, class V>
-concept has_prox_value = requires(F const& φ, scalar_t<V> const& ρ, V const& z) { φ.prox(ρ, z); };
-template <class F, class V>
-concept has_prox_in_place =
-    requires(F const& φ, scalar_t<V> const& ρ, V const& z, V& x) { φ.prox(ρ, z, x); };
 /// A proximal map of its own, which a set has not.
 template <class F, class V>
-concept has_prox = has_prox_value<F, V> || has_prox_in_place<F, V>;
+concept has_prox = requires(F const& φ, scalar_t<V> const& ρ, V const& z) {
+  φ.prox(ρ, z);
+} || requires(F const& φ, scalar_t<V> const& ρ, V const& z, V& x) { φ.prox(ρ, z, x); };
 
 template <class F, class V>
 concept has_function_value = requires(F const& φ, V const& x) {
@@ -57,8 +54,7 @@ concept has_conjugate = requires(F const& φ, V const& v) {
   { φ.conjugate(v) } -> std::convertible_to<scalar_t<V>>;
 };
 template <class F, class V>
-concept has_prox_slant =
-    requires(F const& φ, scalar_t<V> const& ρ, V const& z) { φ.slant(ρ, z); };
+concept has_prox_slant = requires(F const& φ, scalar_t<V> const& ρ, V const& z) { φ.slant(ρ, z); };
 template <class F, class V>
 concept has_prox_state = requires(F const& φ, scalar_t<V> const& ρ, V const& z) {
   { φ.state(ρ, z) } -> std::same_as<block_state>;
@@ -66,8 +62,9 @@ concept has_prox_state = requires(F const& φ, scalar_t<V> const& ρ, V const& z
 
 /// See the top of this file.
 template <class F, class V>
-concept proximable = convex_set<F, V> || ((has_static_dimension<F> || has_size<F>) &&
-                                          has_prox<F, V> && has_function_value<F, V>);
+concept proximable =
+    convex_set<F, V> ||
+    ((has_static_dimension<F> || has_size<F>)&&has_prox<F, V> && has_function_value<F, V>);
 
 namespace detail {
 

@@ -50,17 +50,13 @@ concept has_slant_operator = requires(F const& f, V const& y) {
 template <class F, class V>
 using slant_operator_t = decltype(std::declval<F const&>().slant(std::declval<V const&>()));
 
-template <class F, class V>
-concept has_plain_slant_update =
-    requires(F const& f, V const& y, slant_operator_t<F, V>& g) { f.slant(y, g); };
-
-template <class F, class V>
-concept has_workspace_slant_update = requires(F const& f, V const& y, slant_operator_t<F, V>& g,
-                                              workspace_t<F, V>& w) { f.slant(y, g, w); };
-
 /// F°(y) can be renewed in place.
 template <class F, class V>
-concept has_slant_update = has_plain_slant_update<F, V> || has_workspace_slant_update<F, V>;
+concept has_slant_update = requires(F const& f, V const& y, slant_operator_t<F, V>& g) {
+  f.slant(y, g);
+} || requires(F const& f, V const& y, slant_operator_t<F, V>& g, workspace_t<F, V>& w) {
+  f.slant(y, g, w);
+};
 
 /// A slantly differentiable function on vectors of type V; see the top of this file.
 template <class F, class V>

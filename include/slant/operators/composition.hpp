@@ -38,22 +38,6 @@ concept applies_adjoint = requires(A const& a, X const& x, Y& y) {
   a.apply_adjoint(x, y, w);
 } || (is_self_adjoint<A> && applies<A, X, Y>);
 
-/// slant::apply_add(a, α, x, y, w) works.
-template <class A, class X, class Y>
-concept accumulates = requires(A const& a, scalar_t<X> α, X const& x, Y& y) {
-  a.apply_add(α, x, y);
-} || requires(A const& a, scalar_t<X> α, X const& x, Y& y, workspace_t<A, plain_t<X>>& w) {
-  a.apply_add(α, x, y, w);
-};
-
-/// slant::apply_adjoint_add(a, α, x, y, w) works.
-template <class A, class X, class Y>
-concept accumulates_adjoint = requires(A const& a, scalar_t<X> α, X const& x, Y& y) {
-  a.apply_adjoint_add(α, x, y);
-} || requires(A const& a, scalar_t<X> α, X const& x, Y& y, adjoint_workspace_t<A, plain_t<X>>& w) {
-  a.apply_adjoint_add(α, x, y, w);
-} || (is_self_adjoint<A> && !has_adjoint_workspace<A, plain_t<X>> && accumulates<A, X, Y>);
-
 /// detail::accumulate(a, α, x, y, w) works: by apply_add, or through a temporary.
 template <class A, class X, class Y>
 concept adds = (has_accumulate<A, plain_t<X>> && accumulates<A, X, Y>) ||
