@@ -142,22 +142,12 @@ template <class A> concept part_with_adjoint = has_rows<A> && has_apply_adjoint_
 template <class A>
 concept part_with_solve = has_rows<A> && has_solve_member<A> && !has_apply_member<A>;
 
-/// What the part says it can do, it can do with vectors of type V.
-template <class A, class V>
+/// What the part says it can do, it can do with vectors of type V. An adjoint is looked at only if
+/// nothing else is wrong: it need not be in use.
+template <class A, class V, bool Adjoint = true>
 concept usable_part = linear_operator<asked_t<part_with_apply<A>, A>, V> &&
                       factorization<asked_t<part_with_solve<A>, A>, V> &&
-                      has_adjoint<asked_t<part_with_adjoint<A>, A>, V>;
-
-/// An adjoint is looked at only if nothing else is wrong: it need not be in use.
-template <bool Adjoint, class A, class V>
-[[nodiscard]] consteval bool is_flawed() {
-  if constexpr (Adjoint) {
-    return !usable_part<A, V>;
-  } else {
-    return !linear_operator<asked_t<part_with_apply<A>, A>, V> ||
-           !factorization<asked_t<part_with_solve<A>, A>, V>;
-  }
-}
+                      has_adjoint<asked_t<Adjoint && part_with_adjoint<A>, A>, V>;
 
 template <bool Adjoint, class V, class A>
 [[nodiscard]] consteval auto flawed_part(part_list<A>);
@@ -183,7 +173,7 @@ consteval auto flawed_part(part_list<A>) {
   using inside = decltype(first_flawed<adjoint, V>(typename parts_of<A>::type{}));
   if constexpr (!std::is_same_v<inside, part_list<>>) {
     return inside{};
-  } else if constexpr (is_flawed<Adjoint, A, V>()) {
+  } else if constexpr (!usable_part<A, V, Adjoint>) {
     return part_list<A>{};
   } else {
     return part_list<>{};

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -46,26 +47,30 @@ struct node_blocks {
   }
 };
 
+namespace detail {
+
+/// The rows of the entries of column j; of a matrix that is stored by rows the columns of row j.
+template <class M>
+[[nodiscard]] auto inner_indices(Eigen::SparseCompressedBase<M> const& k, index j) {
+  auto const* const first = k.innerIndexPtr() + k.outerIndexPtr()[j];
+  auto const count =
+      k.isCompressed() ? k.outerIndexPtr()[j + 1] - k.outerIndexPtr()[j] : k.innerNonZeroPtr()[j];
+  return std::span(first, static_cast<std::size_t>(count));
+}
+
+}  // namespace detail
+
 /// The largest b of 3, 2, 1 such that K consists of b × b blocks without a gap; 1 if there is
 /// doubt.
 template <class M>
 [[nodiscard]] index detected_block_size(Eigen::SparseCompressedBase<M> const& k) {
-  auto const* const inner = k.innerIndexPtr();
-  auto const* const first = k.outerIndexPtr();
-  auto const end = [&](index j) {
-    return k.isCompressed() ? first[j + 1] : first[j] + k.innerNonZeroPtr()[j];
-  };
   // Column j: b consecutive rows after each multiple of b, and those of the columns of its node.
   auto const fits = [&]<int b>(index j, std::integral_constant<int, b>) {
-    index const count = end(j) - first[j], node = j - j % b;
-    if (j > node) {
-      return count == end(node) - first[node] &&
-             std::equal(inner + first[j], inner + first[j] + count, inner + first[node]);
-    }
-    bool good = count % b == 0;
-    for (auto const* i = inner + first[j]; good && i != inner + first[j] + count; i += b) {
-      good = i[0] % b == 0;
-      for (index q = 1; q < b; ++q) good = good && i[q] == i[0] + q;
+    auto const rows = detail::inner_indices(k, j);
+    if (j % b > 0) return std::ranges::equal(rows, detail::inner_indices(k, j - j % b));
+    bool good = rows.size() % b == 0;
+    for (std::size_t e = 0; good && e < rows.size(); ++e) {
+      good = rows[e] % b == index(e % b) && rows[e] == rows[e - e % b] + index(e % b);
     }
     return good;
   };

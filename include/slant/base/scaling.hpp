@@ -7,7 +7,6 @@
 #pragma once
 
 #include <slant/base/entries.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 
 #include <Eigen/Core>

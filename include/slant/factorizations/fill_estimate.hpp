@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace slant {
@@ -47,11 +46,9 @@ template <class M>
   for (index j = 0; j < n; ++j) {
     pattern.startVec(j);
     // Blocks have no gaps, so that every b-th entry is the first one of a node.
-    auto const first = k.outerIndexPtr()[j * b];
-    auto const end =
-        k.isCompressed() ? k.outerIndexPtr()[j * b + 1] : first + k.innerNonZeroPtr()[j * b];
-    for (auto e = first; e < end; e += static_cast<int>(b)) {
-      pattern.insertBackByOuterInner(j, k.innerIndexPtr()[e] / b) = 1;
+    auto const rows = detail::inner_indices(k, j * b);
+    for (std::size_t e = 0; e < rows.size(); e += static_cast<std::size_t>(b)) {
+      pattern.insertBackByOuterInner(j, rows[e] / b) = 1;
     }
   }
   pattern.finalize();
@@ -107,21 +104,8 @@ class quotient_graph {
  public:
   explicit quotient_graph(Eigen::SparseMatrix<double> const& k)
       : group_(static_cast<std::size_t>(k.cols())) {
-    // A column ends where the next one begins, unless there is room to insert.
-    int const* const lengths = k.innerNonZeroPtr();
-    auto const column = [&k, lengths](index j) {
-      int const* const begin = k.innerIndexPtr() + k.outerIndexPtr()[j];
-      index const length =
-          lengths != nullptr ? lengths[j] : k.outerIndexPtr()[j + 1] - k.outerIndexPtr()[j];
-      return std::pair(begin, begin + length);
-    };
     for (index j = 0; j < k.cols(); ++j) {
-      bool same = false;
-      if (j > 0) {
-        auto const [a, b] = column(j);
-        auto const [c, d] = column(j - 1);
-        same = std::equal(a, b, c, d);
-      }
+      bool const same = j > 0 && std::ranges::equal(inner_indices(k, j), inner_indices(k, j - 1));
       if (!same) first_.push_back(static_cast<int>(j));
       group_[static_cast<std::size_t>(j)] = static_cast<int>(first_.size()) - 1;
     }
@@ -130,9 +114,8 @@ class quotient_graph {
     std::vector<int> seen(static_cast<std::size_t>(size()), -1);
     std::vector<int> begin{0}, rows;
     for (int v = 0; v < size(); ++v) {
-      auto const [a, b] = column(first_[static_cast<std::size_t>(v)]);
-      for (auto i = a; i != b; ++i) {
-        int const w = group_[static_cast<std::size_t>(*i)];
+      for (int const row : inner_indices(k, first_[static_cast<std::size_t>(v)])) {
+        int const w = group_[static_cast<std::size_t>(row)];
         int& last = seen[static_cast<std::size_t>(w)];
         if (last != v) rows.push_back(w);
         last = v;

@@ -27,7 +27,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -120,10 +119,7 @@ template <class M>
   for (index j = 0; j < d; ++j) rows.push_back(order[j]);
   // Each exchange multiplies the volume by more than 1.05, so there are few.
   while (true) {
-    matrix_type held(d, d);
-    for (index k = 0; k < d; ++k) {
-      for (index l = 0; l < d; ++l) held(l, k) = transposed(l, rows[static_cast<std::size_t>(k)]);
-    }
+    matrix_type const held = transposed(Eigen::all, rows);
     qr.compute(held);
     matrix_type const amplification = qr.solve(transposed);
     index j = 0, i = 0;

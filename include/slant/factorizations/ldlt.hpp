@@ -17,7 +17,6 @@
 
 #include <memory>
 #include <string_view>
-#include <utility>
 
 namespace slant::detail {
 

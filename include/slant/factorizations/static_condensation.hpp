@@ -31,7 +31,6 @@
 #include <concepts>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace slant {

@@ -8,7 +8,6 @@
 
 #include <boost/hana/for_each.hpp>
 
-#include <array>
 #include <string>
 #include <tuple>
 

@@ -7,10 +7,8 @@
 #pragma once
 
 #include <slant/base/held.hpp>
-#include <slant/base/sizes.hpp>
 #include <slant/concepts/capabilities.hpp>
 
-#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -22,6 +20,7 @@ class diagonal_operator {
   using vector_type = std::remove_cvref_t<D>;
 
  public:
+  static constexpr char const* symbol = "diag";
   using scalar = scalar_t<vector_type>;
   static constexpr law_set laws = L | slant::laws<slant::self_adjoint>;
 

@@ -4,7 +4,6 @@
 // with its sign, and which factors are each other's adjoint.
 #pragma once
 
-#include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/operators/letter.hpp>

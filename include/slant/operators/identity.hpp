@@ -3,18 +3,17 @@
 // The identity on n unknowns, for every vector type and scalar.
 #pragma once
 
-#include <slant/base/sizes.hpp>
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/capabilities.hpp>
 
 #include <string>
-#include <type_traits>
 
 namespace slant {
 
 /// y = x.
 class identity_operator {
  public:
+  static constexpr char const* symbol = "I";
   static constexpr law_set laws =
       slant::laws<slant::self_adjoint, slant::positive_definite, slant::projector>;
 
@@ -63,6 +62,7 @@ class identity_operator {
 template <bool Square>
 class zero_operator {
  public:
+  static constexpr char const* symbol = "0";
   static constexpr law_set laws = slant::laws<law::self_adjoint, law::projector>.when(Square);
 
   zero_operator(index rows, index cols) : rows_(rows), cols_(cols) {

@@ -12,8 +12,8 @@
 // an lvalue, which is referenced.
 #pragma once
 
-#include <slant/base/diagnosis.hpp>
 #include <slant/operators/composition.hpp>
+#include <slant/operators/identity.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/operators/text.hpp>
@@ -95,7 +95,7 @@ void print_nameless(A const& a, bool marked, std::string& out) {
     a.print(out);
     if (!is_bare) out += ")";
   } else {
-    out += symbol_of(&a);
+    out += symbol_of<A>();
   }
 }
 template <class A>
@@ -109,7 +109,7 @@ constexpr void spell_nameless(bool in_call, ascii& out) {
     A::spell(out);
     if (!is_bare) out.add(")");
   } else {
-    out.add(symbol_of(static_cast<A const*>(nullptr)));
+    out.add(symbol_of<A>());
   }
 }
 template <class A>

@@ -43,6 +43,7 @@ concept eigen_matrix = requires(std::remove_cvref_t<M> const& m) {
 template <class M, law_set L = law_set{}>
 class matrix_operator {
  public:
+  static constexpr char const* symbol = "matrix";
   using matrix_type = std::remove_cvref_t<M>;
   using scalar = typename matrix_type::Scalar;
   static constexpr law_set laws = L;

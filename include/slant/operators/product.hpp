@@ -14,6 +14,7 @@
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/operators/factors.hpp>
 
 #include <boost/hana/at.hpp>

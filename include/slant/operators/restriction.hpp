@@ -22,22 +22,29 @@
 #include <utility>
 #include <vector>
 
-namespace slant::detail {
+namespace slant {
 
-// --- component list ------------------------------------------------------------------------------
-//
-// A list of different components of a vector, which can be replaced without allocating.
+// --- restriction ---------------------------------------------------------------------------------
 
-class component_list {
+/// y = R x: y_i = x_{c_i} for the components c.
+class restriction {
  public:
-  explicit component_list(index full_size) {
-    if (full_size < 0) throw bad_input("n", show(full_size), "a size >= 0");
-    taken_.assign(static_cast<std::size_t>(full_size), 0);
-    components_.reserve(taken_.size());
-  }
+  static constexpr bool full_row_rank = true;
 
-  /// Replaces the components by those of a range of integers. Throws bad_input unless they are
-  /// different numbers in [0, full_size()); the list is then as before.
+  /// Throws bad_input unless the components are different numbers in [0, n). Room is reserved for
+  /// n components, so that assign never allocates.
+  template <class Components>
+  restriction(index n, Components const& components) {
+    if (n < 0) throw bad_input("n", detail::show(n), "a size >= 0");
+    taken_.assign(static_cast<std::size_t>(n), 0);
+    components_.reserve(taken_.size());
+    assign(components);
+  }
+  restriction(index n, std::initializer_list<index> components)
+      : restriction(n, std::vector<index>(components)) {}
+
+  /// Replaces the components by those of a range of integers, without allocating. Throws bad_input
+  /// unless they are different numbers in [0, cols()); the list is then as before.
   template <class Components>
   void assign(Components const& components) {
     require_valid(components);
@@ -45,68 +52,10 @@ class component_list {
     for (auto const& c : components) components_.push_back(static_cast<index>(c));
   }
 
-  [[nodiscard]] index size() const noexcept { return static_cast<index>(components_.size()); }
-  [[nodiscard]] index full_size() const noexcept { return static_cast<index>(taken_.size()); }
+  [[nodiscard]] index rows() const noexcept { return static_cast<index>(components_.size()); }
+  [[nodiscard]] index cols() const noexcept { return static_cast<index>(taken_.size()); }
   [[nodiscard]] index component(index i) const { return components_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::vector<index> const& components() const noexcept { return components_; }
-
- private:
-  template <class Components>
-  void require_valid(Components const& components) {
-    index position = 0;
-    char const* expectation = nullptr;
-    index offender = 0;
-    for (auto const& c : components) {
-      offender = static_cast<index>(c);
-      if (offender < 0 || offender >= full_size()) {
-        expectation = "a component of the vector (>= 0 and less than its size)";
-        break;
-      }
-      auto& taken = taken_[static_cast<std::size_t>(offender)];
-      if (taken != 0) {
-        expectation = "different components";
-        break;
-      }
-      taken = 1;
-      ++position;
-    }
-    index unmark = position;  // the marks are only needed while checking
-    for (auto const& c : components) {
-      if (unmark-- == 0) break;
-      taken_[static_cast<std::size_t>(c)] = 0;
-    }
-    if (expectation != nullptr) {
-      throw bad_input("components", show(offender), expectation).at(position);
-    }
-  }
-
-  std::vector<index> components_;
-  std::vector<unsigned char> taken_;  // all zero between calls; its size is the full size
-};
-
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- restriction ---------------------------------------------------------------------------------
-
-/// y = R x: y_i = x_{c_i} for the components c.
-class restriction : public detail::component_list {
- public:
-  static constexpr bool full_row_rank = true;
-
-  /// Throws bad_input unless the components are different numbers in [0, n). Room is reserved for
-  /// n components, so that assign never allocates.
-  template <class Components>
-  restriction(index n, Components const& components) : component_list(n) {
-    assign(components);
-  }
-  restriction(index n, std::initializer_list<index> components) : component_list(n) {
-    assign(components);
-  }
-
-  [[nodiscard]] index rows() const noexcept { return size(); }
-  [[nodiscard]] index cols() const noexcept { return full_size(); }
 
   template <has_local X, class Y>
   void apply(X const& x, Y& y) const {
@@ -127,13 +76,38 @@ class restriction : public detail::component_list {
   }
 
  private:
+  template <class Components>
+  void require_valid(Components const& components) {
+    index position = 0, offender = 0;
+    char const* expectation = nullptr;
+    for (auto const& c : components) {
+      offender = static_cast<index>(c);
+      bool const exists = offender >= 0 && offender < cols();
+      if (!exists || taken_[static_cast<std::size_t>(offender)] != 0) {
+        expectation = exists ? "different components"
+                             : "a component of the vector (>= 0 and less than its size)";
+        break;
+      }
+      taken_[static_cast<std::size_t>(offender)] = 1;
+      ++position;
+    }
+    index unmark = position;  // the marks are only needed while checking
+    for (auto const& c : components) {
+      if (unmark-- == 0) break;
+      taken_[static_cast<std::size_t>(c)] = 0;
+    }
+    if (expectation != nullptr) {
+      throw bad_input("components", detail::show(offender), expectation).at(position);
+    }
+  }
+
   /// f(full component c_i, short component i) for all i and all right-hand sides.
   template <class Full, class Short, class F>
   void each(Full& full, Short& shorter, F f) const {
     auto&& a = slant::local(full);
     auto&& b = slant::local(shorter);
     for (index j = 0; j < a.cols(); ++j) {
-      for (index i = 0; i < size(); ++i) f(entry(a, component(i), j), entry(b, i, j));
+      for (index i = 0; i < rows(); ++i) f(entry(a, component(i), j), entry(b, i, j));
     }
   }
   template <class M>
@@ -144,6 +118,9 @@ class restriction : public detail::component_list {
       return m.coeffRef(i, j);
     }
   }
+
+  std::vector<index> components_;
+  std::vector<unsigned char> taken_;  // all zero between calls; its size is the full size
 };
 
 /// y = R A Rᵀ x: the congruence with R, whose components may change, and which knows its diagonal

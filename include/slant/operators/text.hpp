@@ -10,9 +10,6 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/matrix.hpp>
 
 #include <bit>
 #include <cstddef>
@@ -97,27 +94,12 @@ template <class A>
 
 /// What stands for an operator without a name: A::symbol where there is one, else its type.
 template <class A>
-[[nodiscard]] constexpr std::string_view symbol_of(A const*) {
+[[nodiscard]] constexpr std::string_view symbol_of() {
   if constexpr (requires { std::string_view(A::symbol); }) {
     return A::symbol;
   } else {
     return type_name<A>();
   }
-}
-[[nodiscard]] constexpr std::string_view symbol_of(identity_operator const*) {
-  return "I";
-}
-template <bool Square>
-[[nodiscard]] constexpr std::string_view symbol_of(zero_operator<Square> const*) {
-  return "0";
-}
-template <class M, law_set L>
-[[nodiscard]] constexpr std::string_view symbol_of(matrix_operator<M, L> const*) {
-  return "matrix";
-}
-template <class D, law_set L>
-[[nodiscard]] constexpr std::string_view symbol_of(diagonal_operator<D, L> const*) {
-  return "diag";
 }
 
 // --- texts ---------------------------------------------------------------------------------------

@@ -125,7 +125,7 @@ template <class F>
   if constexpr (requires { f.write(y); }) {
     return f.write(y);
   } else {
-    return {std::string(expr::symbol_of(&f)) + "(" + y.text + ")", false};
+    return {std::string(expr::symbol_of<F>()) + "(" + y.text + ")", false};
   }
 }
 
