@@ -18,20 +18,13 @@
 #include <functional>
 
 namespace slant::expr {
-template <class A, class X>
+template <class A, class X, class W = void>
 class applied;
-template <class A, class X, class W>
-class applied_in;
 }  // namespace slant::expr
 
 namespace Eigen::internal {
-template <class A, class X>
-struct traits<slant::expr::applied<A, X>> {
-  using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
-  enum { Flags = EvalBeforeNestingBit };
-};
 template <class A, class X, class W>
-struct traits<slant::expr::applied_in<A, X, W>> {
+struct traits<slant::expr::applied<A, X, W>> {
   using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
   enum { Flags = EvalBeforeNestingBit };
 };
@@ -77,41 +70,27 @@ void assign_application(A const& a, X const& x, Y& y, W& w) {
   }
 }
 
-/// A x with temporaries that the caller keeps.
+/// A x, not yet computed. Lvalues that are no handles are referenced. W: temporaries that the caller
+/// keeps; void: none.
 template <class A, class X, class W>
-class applied_in : public Eigen::ReturnByValue<applied_in<A, X, W>> {
- public:
-  applied_in(held<A> a, held<X> x, W& w) : a_(std::move(a)), x_(std::move(x)), w_(&w) {}
-
-  [[nodiscard]] index rows() const { return a_.get().rows(); }
-  [[nodiscard]] index cols() const { return 1; }
-  template <class Y>
-  void evalTo(Y& y) const {
-    expr::assign_application(a_.get(), x_.get(), y, *w_);
-  }
-
- private:
-  held<A> a_;
-  held<X> x_;
-  W* w_;
-};
-
-/// A x, not yet computed. Lvalues that are no handles are referenced.
-template <class A, class X>
-class applied : public Eigen::ReturnByValue<applied<A, X>> {
+class applied : public Eigen::ReturnByValue<applied<A, X, W>> {
   using operator_type = std::remove_cvref_t<A>;
   using vector_type = plain_t<std::remove_cvref_t<X>>;
 
  public:
-  applied(held<A> a, held<X> x) : a_(std::move(a)), x_(std::move(x)) {}
+  applied(held<A> a, held<X> x, W* w = nullptr) : a_(std::move(a)), x_(std::move(x)), w_(w) {}
 
   [[nodiscard]] index rows() const { return a_.get().rows(); }
   [[nodiscard]] index cols() const { return 1; }
 
   template <class Y>
   void evalTo(Y& y) const {
-    auto w = slant::workspace(a_.get(), x_.get());
-    expr::assign_application(a_.get(), x_.get(), y, w);
+    if constexpr (std::is_void_v<W>) {
+      auto w = slant::workspace(a_.get(), x_.get());
+      expr::assign_application(a_.get(), x_.get(), y, w);
+    } else {
+      expr::assign_application(a_.get(), x_.get(), y, *w_);
+    }
   }
   /// y ← y + A x.
   template <class Y>
@@ -126,15 +105,16 @@ class applied : public Eigen::ReturnByValue<applied<A, X>> {
     }
   }
   /// The same with the temporaries slant::workspace(A, x).
-  template <class W>
-    requires std::same_as<W, workspace_t<operator_type, vector_type>>
-  [[nodiscard]] applied_in<A, X, W> in(W& w) const {
-    return applied_in<A, X, W>(a_, x_, w);
+  template <class Kept>
+    requires std::same_as<Kept, workspace_t<operator_type, vector_type>>
+  [[nodiscard]] applied<A, X, Kept> in(Kept& w) const {
+    return {a_, x_, &w};
   }
 
  private:
   held<A> a_;
   held<X> x_;
+  W* w_;
 };
 
 /// A column of Eigen.

@@ -169,15 +169,12 @@ class block_operator {
 
   template <bool Adjoint, std::size_t I, std::size_t J>
   [[nodiscard]] decltype(auto) part() const {
-    if constexpr (Adjoint) {
-      return expr::adjoint_view<block_type<J, I>>(part<false, J, I>());
-    } else {
-      return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
-    }
+    constexpr std::size_t row = Adjoint ? J : I, col = Adjoint ? I : J;
+    return expr::oriented<Adjoint>(
+        boost::hana::at_c<col>(boost::hana::at_c<row>(rows_).blocks).get());
   }
-  template <bool Adjoint, std::size_t I, std::size_t J,
-            class B = block_type<Adjoint ? J : I, Adjoint ? I : J>>
-  using part_type = std::conditional_t<Adjoint, expr::adjoint_view<B>, B>;
+  template <bool Adjoint, std::size_t I, std::size_t J>
+  using part_type = expr::oriented_t<Adjoint, block_type<Adjoint ? J : I, Adjoint ? I : J>>;
 
   /// The column of the first nonzero block of a row; it overwrites, the others add. width if none.
   template <bool Adjoint, std::size_t I>

@@ -27,18 +27,11 @@ class block_diagonal_operator {
   static constexpr std::make_index_sequence<n> blocks{};
 
   template <bool Adjoint, class B>
-  using oriented = std::conditional_t<Adjoint, expr::adjoint_view<std::remove_cvref_t<B>>,
-                                      std::remove_cvref_t<B>>;
+  using oriented = expr::oriented_t<Adjoint, std::remove_cvref_t<B>>;
 
   template <bool Adjoint, std::size_t I>
   [[nodiscard]] decltype(auto) part() const {
-    auto const& block = boost::hana::at_c<I>(parts_).get();
-    if constexpr (Adjoint) {
-      using B = std::remove_cvref_t<decltype(block)>;
-      return expr::adjoint_view<B>(block);
-    } else {
-      return (block);
-    }
+    return expr::oriented<Adjoint>(boost::hana::at_c<I>(parts_).get());
   }
 
  public:
@@ -183,41 +176,46 @@ class diagonal_blocks_operator {
   template <class X>
     requires detail::block_part<A, X>
   [[nodiscard]] auto workspace(X const& x) const {
-    return workspaces(blocks_, x, [](A const& block) -> A const& { return block; });
+    return workspaces<false>(x);
   }
   template <class X, class Y, class W>
     requires detail::block_part<A, X>
   void apply(X const& x, Y& y, W& w) const {
-    detail::parallel_for(block_count(), rows() + cols(), [&](index i) {
-      detail::apply_part<true>(block(i), scalar_t<X>(1), x, col_begin(i), y, row_begin(i),
-                               w[static_cast<std::size_t>(i)]);
-    });
+    run<false>(x, y, w);
   }
 
   template <class X>
     requires detail::block_part<expr::adjoint_view<A>, X>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return workspaces(blocks_, x, transposed);
+    return workspaces<true>(x);
   }
   template <class X, class Y, class W>
     requires detail::block_part<expr::adjoint_view<A>, X>
   void apply_adjoint(X const& x, Y& y, W& w) const {
-    detail::parallel_for(block_count(), rows() + cols(), [&](index i) {
-      detail::apply_part<true>(transposed(block(i)), scalar_t<X>(1), x, row_begin(i), y,
-                               col_begin(i), w[static_cast<std::size_t>(i)]);
-    });
+    run<true>(x, y, w);
   }
 
  private:
-  static expr::adjoint_view<A> transposed(A const& block) { return expr::adjoint_view<A>(block); }
-
   /// One workspace for each block, in its order.
-  template <class X, class F>
-  [[nodiscard]] static auto workspaces(std::vector<A> const& blocks, X const& x, F oriented) {
-    std::vector<decltype(detail::part_workspace<true>(oriented(blocks.front()), x))> w;
-    w.reserve(blocks.size());
-    for (A const& block : blocks) w.push_back(detail::part_workspace<true>(oriented(block), x));
+  template <bool Adjoint, class X>
+  [[nodiscard]] auto workspaces(X const& x) const {
+    auto const own = [&](A const& block) {
+      return detail::part_workspace<true>(expr::oriented<Adjoint>(block), x);
+    };
+    std::vector<decltype(own(blocks_.front()))> w;
+    w.reserve(blocks_.size());
+    for (A const& block : blocks_) w.push_back(own(block));
     return w;
+  }
+  template <bool Adjoint, class X, class Y, class W>
+  void run(X const& x, Y& y, W& w) const {
+    auto const& row_begin = Adjoint ? col_begin_ : row_begin_;
+    auto const& col_begin = Adjoint ? row_begin_ : col_begin_;
+    detail::parallel_for(block_count(), rows() + cols(), [&](index number) {
+      auto const i = static_cast<std::size_t>(number);
+      detail::apply_part<true>(expr::oriented<Adjoint>(blocks_[i]), scalar_t<X>(1), x, col_begin[i],
+                               y, row_begin[i], w[i]);
+    });
   }
 
   std::vector<A> blocks_;

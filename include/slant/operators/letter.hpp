@@ -421,6 +421,18 @@ template <operand A>
 template <class A>
 using adjoint_view = letter<nameless{}, A, adjointed>;
 
+/// A or its adjoint_view.
+template <bool Adjoint, class A>
+using oriented_t = std::conditional_t<Adjoint, adjoint_view<A>, A>;
+template <bool Adjoint, class A>
+[[nodiscard]] decltype(auto) oriented(A const& a) {
+  if constexpr (Adjoint) {
+    return adjoint_view<A>(a);
+  } else {
+    return (a);
+  }
+}
+
 /// The operator that a letter stands for; anything else itself.
 template <class A>
 [[nodiscard]] A const& operator_behind(A const& a) noexcept {

@@ -93,26 +93,16 @@ template <expression A>
   return expr::make_letter<expr::nameless{}>(std::move(a));
 }
 
-namespace expr {
-
-/// The formula of A without parentheses around it, or the symbol of what has none.
-template <class A>
-void print_whole(A const& a, std::string& out) {
-  if constexpr (decorates<A>) {
-    expr::print_whole(a.get(), out);
-  } else {
-    expr::print_part(a, out);
-  }
-}
-
-}  // namespace expr
-
 /// The formula alone: B K⁻¹ Bᵀ + 0.001 I; of what is no formula its kind: block_operator.
 template <linear_term A>
 [[nodiscard]] std::string to_string(A const& a) {
-  std::string out;
-  expr::print_whole(a, out);
-  return out;
+  if constexpr (expr::decorates<A>) {
+    return slant::to_string(a.get());
+  } else {
+    std::string out;
+    expr::print_part(a, out);
+    return out;
+  }
 }
 
 /// B K⁻¹ Bᵀ + 0.001 I   (600 × 600, spd)
