@@ -56,19 +56,11 @@ template <class A> concept names_laws = requires { A::laws; } || (can_be_base<A>
 
 }  // namespace detail
 
-/// A has something called apply.
+/// A has something called apply; the others likewise.
 template <class A> concept has_apply_member = detail::names_apply<A>;
-
-/// A has something called apply_adjoint.
 template <class A> concept has_apply_adjoint_member = detail::names_apply_adjoint<A>;
-
-/// A has something called solve.
 template <class A> concept has_solve_member = detail::names_solve<A>;
-
-/// A has something called value.
 template <class A> concept has_value_member = detail::names_value<A>;
-
-/// A has something called slant.
 template <class A> concept has_slant_member = detail::names_slant<A>;
 
 }  // namespace slant

@@ -39,12 +39,7 @@ void for_each_entry(M const& m, F f) {
 }
 
 [[nodiscard, gnu::cold]] inline std::string entry_text(std::string_view name, index i, index j) {
-  return std::string(name)
-      .append("(")
-      .append(std::to_string(i))
-      .append(", ")
-      .append(std::to_string(j))
-      .append(")");
+  return std::string(name) + "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
 }
 
 /// Throws bad_input naming the first entry that is NaN or infinite.
@@ -152,11 +147,9 @@ void require_symmetric_entries(std::string_view name, M const& m) {
     }
   }
   if (row >= 0) {
-    throw bad_input(entry_text(name, row, col), show(m.coeff(row, col)),
-                    std::string("a symmetric matrix, but ")
-                        .append(entry_text(name, col, row))
-                        .append(" is ")
-                        .append(show(m.coeff(col, row))));
+    throw bad_input(
+        entry_text(name, row, col), show(m.coeff(row, col)),
+        "a symmetric matrix, but " + entry_text(name, col, row) + " is " + show(m.coeff(col, row)));
   }
 }
 

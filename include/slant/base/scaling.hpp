@@ -94,21 +94,14 @@ template <int N, class S>
 /// v · 2^e, entry by entry.
 template <class S, int N>
 [[nodiscard]] Eigen::Matrix<S, N, 1> times_power_of_two(Eigen::Matrix<S, N, 1> const& v, int e) {
-  Eigen::Matrix<S, N, 1> scaled;
-  for (int i = 0; i < N; ++i) scaled(i) = times_power_of_two<S>(v(i), e);
-  return scaled;
+  return from_entries<Eigen::Matrix<S, N, 1>>(
+      [&](int i) { return times_power_of_two<S>(v(i), e); });
 }
 
 /// binary_exponent of the largest entry of a vector without NaN or infinity.
 template <class S, int N>
 [[nodiscard]] int binary_exponent(Eigen::Matrix<S, N, 1> const& v) {
-  using std::abs;
-  S largest(0);
-  for (int i = 0; i < N; ++i) {
-    S const magnitude = abs(v(i));
-    if (largest < magnitude) largest = magnitude;
-  }
-  return binary_exponent(largest);
+  return binary_exponent(largest_of(v));
 }
 
 /// ‖v‖. NaN if v holds a NaN, otherwise infinity if v holds one.
@@ -126,12 +119,8 @@ template <class S, int N>
       squares >= (limits::min)() / (limits::epsilon() * limits::epsilon())) {
     return {S(sqrt(squares)), 0};
   }
-  bool infinite = false;
-  for (int i = 0; i < N; ++i) {
-    if (any_nan(v(i))) return {not_a_number<S>(), 0};
-    infinite = infinite || !is_finite<S>(v(i));
-  }
-  if (infinite) return {infinity<S>(), 0};
+  if (has_nan(v)) return {not_a_number<S>(), 0};
+  if (!all_finite(v)) return {infinity<S>(), 0};
   int const e = binary_exponent(v);
   S const scaled_squares = pairwise_squares<N>(times_power_of_two(v, -e).data());
   return {S(sqrt(scaled_squares)), e};

@@ -285,8 +285,6 @@ class cholmod_workspace {
 
 namespace slant {
 
-// --- cholmod -------------------------------------------------------------------------------------
-
 /// P K Pᵀ = 2^e L Lᵀ. Copies share the factors, which never change.
 class cholmod {
  public:

@@ -158,8 +158,6 @@ template <class F, class S, class Factor>
 
 namespace slant {
 
-// --- conjugate projector -------------------------------------------------------------------------
-
 /// Factors by slant::ldlt, whose sweeps are plain loops: their bits depend on nothing else.
 struct factor_by_ldlt {
   template <class M>

@@ -71,8 +71,6 @@ class sparse_ldlt_factors : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>,
 
 namespace slant {
 
-// --- ldlt ----------------------------------------------------------------------------------------
-
 /// P K Pᵀ = 2^e L D Lᵀ. Copies share the factors, which never change.
 template <class S = double>
 class ldlt {

@@ -35,8 +35,6 @@
 
 namespace slant {
 
-// --- state ---------------------------------------------------------------------------------------
-
 /// State of range_cg. The residual is C r; its scale is ‖C b‖, or ‖C r₀‖ if that is 0.
 template <class V, class WK, class WC, class WQ, bool Definite>
 struct range_cg_state : detail::residual_state<V> {
@@ -73,8 +71,6 @@ struct range_cg_state : detail::residual_state<V> {
     }
   }
 };
-
-// --- range cg ------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
 template <class K, class V, class C, class Q = no_projector>

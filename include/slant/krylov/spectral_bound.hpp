@@ -80,8 +80,6 @@ template <class S>
 
 namespace slant {
 
-// --- spectral bound ------------------------------------------------------------------------------
-
 /// Result of largest_eigenvalue_bound.
 template <class S>
 struct spectral_bound {

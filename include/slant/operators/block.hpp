@@ -127,8 +127,6 @@ concept accumulating_block_part =
 
 namespace slant {
 
-// --- block ---------------------------------------------------------------------------------------
-
 /// One row of blocks. Each A is `Operator const&` (referenced) or an operator type (owned).
 template <class... A>
 struct block_row_of {

@@ -118,8 +118,6 @@ class decorator {
 
 namespace slant {
 
-// --- declare -------------------------------------------------------------------------------------
-
 namespace detail {
 
 /// Does nothing around an application.

@@ -226,9 +226,7 @@ template <class S>
 [[nodiscard]] auto as_number(S const& c) {
   using T = kept_number<S>;
   T const value(c);
-  if (!slant::detail::is_finite(value)) {
-    throw bad_input("c", slant::detail::show(value), "a finite number");
-  }
+  slant::detail::check_option("c", value, slant::detail::is_finite(value), "a finite number");
   return number<T, sign::plus>{value, T(1)};
 }
 template <class S>

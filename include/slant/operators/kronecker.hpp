@@ -116,9 +116,7 @@ class kronecker_operator {
   template <bool Adjoint, class X, class Y, class W>
   void run(X const& x, Y& y, W& w) const {
     for (index c = 0; c < index(x.cols()); ++c) {
-      for (index j = 0; j < index(w.x.cols()); ++j) {
-        w.x.col(j) = x.col(c).segment(j * w.x.rows(), w.x.rows());
-      }
+      w.x.reshaped() = x.col(c);
       detail::apply_oriented<Adjoint>(b_.get(), w.x, w.bx, w.b);
       w.xb = w.bx.transpose();
       detail::apply_oriented<Adjoint>(a_.get(), w.xb, w.yt, w.a);

@@ -246,7 +246,7 @@ class product : public base_of_node<F...> {
   template <bool Adjoint, class X>
   [[nodiscard]] auto make_workspace(X const& x) const {
     // The argument of factor J (of its adjoint) has the size of its columns (rows).
-    auto const part = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
+    auto const part = [&]<std::size_t J>() {
       auto const& f = factor<J>();
       if constexpr (J == (Adjoint ? 0 : n - 1)) {
         return slant::detail::oriented_workspace<Adjoint>(f, x);
@@ -257,13 +257,12 @@ class product : public base_of_node<F...> {
     };
     return [&]<std::size_t... I, std::size_t... B>(std::index_sequence<I...>,
                                                    std::index_sequence<B...>) {
-      using inner = hana::tuple<decltype(part(std::integral_constant<std::size_t, I>{}))...>;
-      using workspace_type = product_workspace<plain_t<X>, n, inner>;
+      auto inner = hana::make_tuple(part.template operator()<I>()...);
+      using workspace_type = product_workspace<plain_t<X>, n, decltype(inner)>;
       if constexpr (n == 1) {
-        return workspace_type{inner{part(std::integral_constant<std::size_t, I>{})...}};
+        return workspace_type{std::move(inner)};
       } else {
-        return workspace_type{{slant::like(x, factor<B>().cols())...},
-                              inner{part(std::integral_constant<std::size_t, I>{})...}};
+        return workspace_type{{slant::like(x, factor<B>().cols())...}, std::move(inner)};
       }
     }(std::make_index_sequence<n>{}, std::make_index_sequence<n - 1>{});
   }

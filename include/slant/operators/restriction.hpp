@@ -24,8 +24,6 @@
 
 namespace slant {
 
-// --- restriction ---------------------------------------------------------------------------------
-
 /// y = R x: y_i = x_{c_i} for the components c.
 class restriction {
  public:

@@ -131,8 +131,6 @@ class cholmod_ordering {
   std::vector<int> length_;  // entries of each column of L, its diagonal included
 };
 
-// --- cholmod condensation ------------------------------------------------------------------------
-
 /// See static_condensation.hpp.
 class cholmod_condensation {
  public:
