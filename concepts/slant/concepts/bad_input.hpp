@@ -69,11 +69,6 @@ class bad_input : public std::invalid_argument {
 
 namespace slant::detail {
 
-// --- checks --------------------------------------------------------------------------------------
-//
-// The checks that nearly every constructor makes, and those of the arguments of an application,
-// with their sentences in one place.
-
 /// Throws bad_input "name: got 3, expected 4" (or the expectation in the caller's words).
 [[gnu::cold]] inline void check_size(std::string_view name, index got, index expected,
                                      std::string_view meaning = "size") {

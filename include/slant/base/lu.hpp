@@ -12,12 +12,8 @@
 
 namespace slant::detail {
 
-// --- sparse lu -----------------------------------------------------------------------------------
-//
-// Eigen's sparse LU as a value that can be copied, as states are: a copy begins without factors,
-// which every Newton step computes anew.
-
-/// Factors of a sparse matrix.
+/// Eigen's LU of a sparse matrix. A copy begins without factors, which every Newton step computes
+/// anew.
 template <class S>
 class sparse_lu {
  public:
@@ -57,12 +53,7 @@ class sparse_lu {
   std::unique_ptr<factors_type> factors_;
 };
 
-// --- dense lu ------------------------------------------------------------------------------------
-//
-// A dense matrix taken from the columns of an operator, and its LU factors, in memory that is made
-// once.
-
-/// P G = L U of n × n operators with columns.
+/// P G = L U of n × n operators with columns, in memory that is made once.
 template <class S>
 class dense_lu {
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;

@@ -17,11 +17,8 @@
 
 namespace slant {
 
-// --- node blocks ---------------------------------------------------------------------------------
-//
-// Unknowns of one node of a mesh: blocks of consecutive rows of a matrix, told by its pattern.
-
-/// Node i has the unknowns first[i] … first[i + 1] − 1; the last entry is their number.
+/// Unknowns of the nodes of a mesh, consecutive rows of a matrix. Node i has the unknowns
+/// first[i] … first[i + 1] − 1; the last entry is their number.
 struct node_blocks {
   std::vector<int> first{0};
 
@@ -87,11 +84,7 @@ template <class M>
 
 namespace slant::detail {
 
-// --- union find ----------------------------------------------------------------------------------
-//
-// Sets that grow together [Tarjan 1975]: which unknowns belong to the same body.
-
-/// A partition of 0, …, n − 1, at first into single numbers.
+/// A partition of 0, …, n − 1, at first into single numbers [Tarjan 1975].
 class union_find {
  public:
   explicit union_find(index n) : parent_(static_cast<std::size_t>(n)) {

@@ -70,10 +70,6 @@ template <class S>
 
 namespace slant::detail {
 
-// --- scaled norm ---------------------------------------------------------------------------------
-//
-// Euclidean norm of a short vector that neither overflows nor underflows.
-
 /// The number value · 2^exponent; exponent is 0 unless the squares would leave the range.
 template <class S>
 struct scaled_number {

@@ -38,10 +38,6 @@
 
 namespace slant::detail {
 
-// --- handles -------------------------------------------------------------------------------------
-//
-// Owners of what CHOLMOD allocates: its state and the factors.
-
 /// CHOLMOD's settings, statistics and scratch memory. Silent: failures are reported by us.
 class cholmod_state {
  public:
@@ -198,10 +194,6 @@ class cholmod_factors {
   cholmod_state state_;
   cholmod_factor* factor_ = nullptr;
 };
-
-// --- workspace -----------------------------------------------------------------------------------
-//
-// What solves by CHOLMOD need: its state and the vectors that it allocates.
 
 /// State and vectors of the solves of one thread, for a fixed number of right-hand sides. What it
 /// holds between two solves is scratch: a copy is as much room, and as ready for a solve.

@@ -33,11 +33,7 @@
 
 namespace slant::detail {
 
-// --- conjugate part ------------------------------------------------------------------------------
-//
-// What a conjugate projector keeps of each body: its columns of U and of K U, and the factors of
-// UᵀKU.
-
+/// What is kept of each body: its columns of U and of K U, and the factors of UᵀKU.
 template <class S, class F>
 struct conjugate_part {
   Eigen::SparseMatrix<S> u;

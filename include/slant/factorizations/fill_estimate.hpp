@@ -92,14 +92,9 @@ template <class M>
 
 namespace slant::detail {
 
-// --- quotient graph ------------------------------------------------------------------------------
-//
-// Unknowns with the same neighbours, such as the displacements of one mesh node, are neighbours in
-// every good ordering: orderings are found on the graph of groups of them, which in three
-// dimensions has a ninth of the edges.
-
 /// The graph of a symmetric matrix (both triangles), consecutive unknowns with equal columns being
-/// one vertex.
+/// one vertex: such unknowns, the displacements of one mesh node say, are neighbours in every good
+/// ordering, and in three dimensions the graph has a ninth of the edges.
 class quotient_graph {
  public:
   explicit quotient_graph(Eigen::SparseMatrix<double> const& k)

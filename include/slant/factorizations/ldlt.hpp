@@ -20,13 +20,9 @@
 
 namespace slant::detail {
 
-// --- sparse ldlt factors -------------------------------------------------------------------------
-//
-// Eigen's sparse LDLᵀ without pivoting, for symmetric matrices, and a solve that allocates nothing.
-// Definiteness is for those who use it to look at: the pivots have the signs of the eigenvalues.
-
-/// P K Pᵀ = L D Lᵀ of the lower triangle of K. With the parts that Eigen gives away only as copies
-/// (D) or protects.
+/// P K Pᵀ = L D Lᵀ of the lower triangle of K by Eigen, without pivoting: the pivots have the signs
+/// of the eigenvalues, for those who use it to look at. With the parts that Eigen gives away only
+/// as copies (D) or protects, and a solve that allocates nothing.
 template <class S>
 class sparse_ldlt_factors : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>, Eigen::Lower> {
  public:

@@ -12,10 +12,6 @@
 
 namespace slant {
 
-// --- for -----------------------------------------------------------------------------------------
-//
-// What may precondition a method for a quadratic program.
-
 /// A self-adjoint semidefinite M ≈ A⁻¹ for the vectors of the problem.
 template <class M, class QP> concept preconditioner_for = psd_operator<M, typename QP::vector_type>;
 

@@ -70,8 +70,8 @@ void assign_application(A const& a, X const& x, Y& y, W& w) {
   }
 }
 
-/// A x, not yet computed. Lvalues that are no handles are referenced. W: temporaries that the caller
-/// keeps; void: none.
+/// A x, not yet computed. Lvalues that are no handles are referenced. W: temporaries that the
+/// caller keeps; void: none.
 template <class A, class X, class W>
 class applied : public Eigen::ReturnByValue<applied<A, X, W>> {
   using operator_type = std::remove_cvref_t<A>;

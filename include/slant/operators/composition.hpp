@@ -66,8 +66,6 @@ template <class Y>
   return unit;
 }
 
-// --- oriented ------------------------------------------------------------------------------------
-//
 // What is the same for A and for Aᵀ is written once.
 
 template <bool Adjoint, class A, class X>

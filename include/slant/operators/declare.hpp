@@ -14,15 +14,11 @@
 
 namespace slant::detail {
 
-// --- decorator -----------------------------------------------------------------------------------
-//
-// An operator with something done around each application (counting, timing). Forwards
-// every capability that the operator has, and no other.
-
 enum class application_kind : unsigned char { forward, adjoint, columns };
 
-/// Probe has enter(kind, number of right-hand sides), const and thread-safe, which returns an
-/// object that lives as long as the application.
+/// An operator with something done around each application (counting, timing); forwards every
+/// capability that the operator has, and no other. Probe has enter(kind, number of right-hand
+/// sides), const and thread-safe, which returns an object that lives as long as the application.
 template <class A, class Probe>
 class decorator {
   using part = std::remove_cvref_t<A>;

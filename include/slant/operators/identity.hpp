@@ -54,11 +54,8 @@ class identity_operator {
   return identity_operator(n);
 }
 
-// --- zero ----------------------------------------------------------------------------------------
-//
-// The zero operator. As a block of block() it is skipped at compile time and costs nothing.
-
-/// y = 0. Square says whether the type promises as many rows as columns, and the laws of 0.
+/// y = 0; as a block of block() it is skipped at compile time and costs nothing. Square says
+/// whether the type promises as many rows as columns, and the laws of 0.
 template <bool Square>
 class zero_operator {
  public:

@@ -27,12 +27,8 @@
 
 namespace slant::detail {
 
-// --- cholmod ordering ----------------------------------------------------------------------------
-//
-// Orderings by CHOLMOD and what they would cost, without any number being computed.
-
-/// Ordering of a symmetric matrix, its elimination tree and the lengths of the columns of its
-/// factor.
+/// Ordering of a symmetric matrix by CHOLMOD, its elimination tree and the lengths of the columns
+/// of its factor; no number of that is computed.
 class cholmod_ordering {
  public:
   /// Nested dissection (METIS) where CHOLMOD has it, else minimum degree; postordered.

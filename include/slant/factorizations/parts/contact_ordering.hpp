@@ -97,10 +97,6 @@ class separator_tree {
   return result;
 }
 
-// --- contact flags -------------------------------------------------------------------------------
-//
-// Lists of unknowns as marks, and matrices that must keep to them.
-
 /// A mark for each of n unknowns. Throws bad_input if one is out of range or named twice.
 [[nodiscard]] inline std::vector<char> contact_flags(std::vector<index> const& contact, index n) {
   std::vector<char> marked(static_cast<std::size_t>(n), 0);

@@ -286,12 +286,9 @@ void panel_products_of_four(bool long_vectors, panel_columns<T> const& r, T cons
       });
 }
 
-// --- rounded entry -------------------------------------------------------------------------------
-//
-// Entries of factors in a shorter precision.
-
-/// The value as a T. What is smaller than any entry that matters becomes zero, because processors
-/// are slow with numbers below the smallest normal one; what is too large the largest number.
+/// The value in a shorter precision. What is smaller than any entry that matters becomes zero,
+/// because processors are slow with numbers below the smallest normal one; what is too large the
+/// largest number.
 template <class T, class U>
 [[nodiscard]] T rounded_entry(U const& value) {
   U const least = U(std::numeric_limits<T>::min()) / U(std::numeric_limits<T>::epsilon());
@@ -300,13 +297,9 @@ template <class T, class U>
   return v < least && -v < least ? T(0) : static_cast<T>(v);
 }
 
-// --- large pages ---------------------------------------------------------------------------------
-//
-// Large pages for large arrays. A sweep over a factor of a hundred megabytes in pages of 4 kB
-// spends a third of its time on looking up where they are.
-
 /// Asks the system to use large pages for the array of n numbers at `place`, before it is written
-/// to. Where there are none, nothing happens.
+/// to. A sweep over a factor of a hundred megabytes in pages of 4 kB spends a third of its time on
+/// looking up where they are. Where there are none, nothing happens.
 template <class T>
 void prefer_large_pages([[maybe_unused]] T* place, [[maybe_unused]] index n) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
