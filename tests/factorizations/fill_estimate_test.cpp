@@ -64,7 +64,6 @@ TEST_CASE("nodes of three unknowns become one vertex; the graph is that of the n
   sparse const nodes = test::grid_laplacian(3, 0.1);
   slant::detail::quotient_graph const quotient(blown_up(nodes, 3));
   REQUIRE(quotient.size() == 27);
-  for (int v = 0; v < 27; ++v) CHECK(quotient.weight(v) == 3);
   Eigen::MatrixXd const expected =
       Eigen::MatrixXd(nodes).unaryExpr([](double v) { return v != 0 ? 1.0 : 0.0; });
   CHECK(Eigen::MatrixXd(quotient.graph()) == expected);

@@ -343,26 +343,20 @@ namespace detail {
 /// A number of rows or columns that is not known before the program runs.
 inline constexpr index unknown_size = -1;
 
-/// Rows and columns of M as far as its type tells, as Eigen's do.
+/// M has so many rows and columns, as far as its type tells.
 template <class M>
-[[nodiscard]] consteval index rows_of_type() {
+[[nodiscard]] consteval bool may_be_sized(index rows, index cols) {
+  auto const differ = [](index told, index asked) {
+    return told >= 0 && asked != unknown_size && told != asked;
+  };
+  bool fits = true;
   if constexpr (requires { index(M::RowsAtCompileTime); }) {
-    return index(M::RowsAtCompileTime) < 0 ? unknown_size : index(M::RowsAtCompileTime);
-  } else {
-    return unknown_size;
+    fits = !differ(M::RowsAtCompileTime, rows);
   }
-}
-template <class M>
-[[nodiscard]] consteval index cols_of_type() {
   if constexpr (requires { index(M::ColsAtCompileTime); }) {
-    return index(M::ColsAtCompileTime) < 0 ? unknown_size : index(M::ColsAtCompileTime);
-  } else {
-    return unknown_size;
+    fits = fits && !differ(M::ColsAtCompileTime, cols);
   }
-}
-
-[[nodiscard]] consteval bool may_be_equal(index a, index b) {
-  return a == unknown_size || b == unknown_size || a == b;
+  return fits;
 }
 
 template <class S>
@@ -388,9 +382,7 @@ concept same_scalar =
 
 /// R has so many rows and columns (unknown_size: any), as far as its type tells.
 template <class R, index Rows, index Cols>
-concept may_have_size =
-    detail::may_be_equal(detail::rows_of_type<local_t<std::remove_cvref_t<R>>>(), Rows) &&
-    detail::may_be_equal(detail::cols_of_type<local_t<std::remove_cvref_t<R>>>(), Cols);
+concept may_have_size = detail::may_be_sized<local_t<std::remove_cvref_t<R>>>(Rows, Cols);
 
 /// R is a vector or matrix of such size, of numbers of the kind that V consists of.
 template <class R, class V, index Rows, index Cols>

@@ -76,9 +76,8 @@ struct common_state {
 
 /// A state for vectors V; if those are what was refused, for numbers.
 template <class V>
-struct refused_state : common_state<double, double> {};
-template <vector V>
-struct refused_state<V> : common_state<V, scalar_t<V>> {};
+using refused_state =
+    common_state<std::conditional_t<vector<V>, V, double>, typename scalar_of<V>::scalar>;
 
 struct no_options {};
 

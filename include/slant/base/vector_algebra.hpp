@@ -95,18 +95,16 @@ void copy(X const& x, Y&& y) {
   detail::assign(kernels::copy<scalar_t<X>>, y, x);
 }
 
-/// y ← α y.
-template <class Y>
-void scale(detail::factor<Y> const& α, Y&& y) {
-  using S = scalar_t<Y>;
-  auto&& to = slant::local(y);
-  detail::run([&](index n, S* t) { kernels::scale(n, α, t, t); }, to);
-}
 /// y ← α x; y takes the size of x.
 template <class X, class Y>
 void scale(detail::factor<X> const& α, X const& x, Y&& y) {
   using S = scalar_t<X>;
   detail::assign([&](index n, S const* a, S* t) { kernels::scale(n, α, a, t); }, y, x);
+}
+/// y ← α y.
+template <class Y>
+void scale(detail::factor<Y> const& α, Y&& y) {
+  vectors::scale(α, y, y);
 }
 
 /// y ← −x; y takes the size of x.
@@ -119,17 +117,7 @@ void negate(X const& x, Y&& y) {
 template <class Y>
 void divide(detail::factor<Y> const& α, Y&& y) {
   using S = scalar_t<Y>;
-  auto&& to = slant::local(y);
-  detail::run([&](index n, S* t) { kernels::divide(n, α, t, t); }, to);
-}
-
-/// y ← y + α x.
-template <class X, class Y>
-void axpy(detail::factor<X> const& α, X const& x, Y&& y) {
-  using S = scalar_t<X>;
-  auto&& to = slant::local(y);
-  detail::run([&](index n, S const* a, S* t) { kernels::waxpby(n, S(1), t, α, a, t); }, to,
-              slant::local(x));
+  detail::assign([&](index n, S const* a, S* t) { kernels::divide(n, α, a, t); }, y, y);
 }
 
 /// w ← α x + β y; w takes their size, and may be one of them.
@@ -140,6 +128,11 @@ void waxpby(detail::factor<X> const& α, X const& x, detail::factor<X> const& β
                  w, x, y);
 }
 
+/// y ← y + α x.
+template <class X, class Y>
+void axpy(detail::factor<X> const& α, X const& x, Y&& y) {
+  vectors::waxpby(scalar_t<X>(1), y, α, x, y);
+}
 /// w ← α x + y; w takes their size, and may be one of them.
 template <class X, class Y, class W>
 void waxpy(detail::factor<X> const& α, X const& x, Y const& y, W&& w) {

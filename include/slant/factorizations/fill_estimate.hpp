@@ -126,10 +126,6 @@ class quotient_graph {
   [[nodiscard]] int size() const { return static_cast<int>(first_.size()) - 1; }
   /// A matrix with this graph.
   [[nodiscard]] Eigen::SparseMatrix<double> const& graph() const noexcept { return graph_; }
-  /// Number of unknowns of a group.
-  [[nodiscard]] int weight(int v) const {
-    return first_[static_cast<std::size_t>(v) + 1] - first_[static_cast<std::size_t>(v)];
-  }
   /// The groups that contain a marked unknown.
   [[nodiscard]] std::vector<char> groups(std::vector<char> const& marked) const {
     std::vector<char> result(static_cast<std::size_t>(size()), 0);

@@ -25,7 +25,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -154,20 +153,6 @@ extern template std::vector<index> fixing_rows<Eigen::MatrixXd>(
 
 namespace detail {
 
-/// One step of the iteration: X orthonormal, of Ritz vectors in the order of their values.
-template <class S, class Factors>
-void inverse_iteration(Eigen::SparseMatrix<S> const& K, Factors const& shifted,
-                       Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& X) {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  matrix_type Y(X.rows(), X.cols());
-  auto w = slant::workspace(shifted, X);
-  solve_with(shifted, X, Y, w);
-  matrix_type const Q = orthonormal_basis<S>(std::move(Y));
-  matrix_type const image = K * Q, projected = Q.transpose() * image;
-  Eigen::SelfAdjointEigenSolver<matrix_type> const ritz(projected);
-  X = Q * ritz.eigenvectors();
-}
-
 /// How many of the vectors X, of length 1, have ‖K x‖ ≤ limit.
 template <class S>
 [[nodiscard]] index count_below(Eigen::SparseMatrix<S> const& K,
@@ -177,12 +162,6 @@ template <class S>
   index count = 0;
   for (index j = 0; j < image.cols(); ++j) count += image.col(j).norm() <= limit ? 1 : 0;
   return count;
-}
-
-/// In [−1, 1): from the bits themselves, since standard libraries differ in their distributions.
-template <class S>
-[[nodiscard]] S uniform(std::uint64_t bits) {
-  return static_cast<S>(static_cast<double>(bits >> 11U) * 0x1p-52 - 1.0);
 }
 
 }  // namespace detail
@@ -213,10 +192,18 @@ template <class S>
   detail::random_bits generator(2013);
   for (index width = std::min<index>(n, 8);; width = std::min<index>(n, 2 * width)) {
     matrix_type X(n, width);
-    for (index i = 0; i < X.size(); ++i) X(i) = detail::uniform<S>(generator());
+    // In [−1, 1), from the bits themselves, since standard libraries differ in their distributions.
+    for (index i = 0; i < X.size(); ++i) {
+      X(i) = S(static_cast<double>(generator() >> 11U) * 0x1p-52 - 1.0);
+    }
     index found = -1;
     for (int step = 0; step < 20; ++step) {
-      detail::inverse_iteration(scaled, factors, X);
+      matrix_type Y(n, X.cols());  // fewer than before, if some were dependent
+      auto w = slant::workspace(factors, X);
+      detail::solve_with(factors, X, Y, w);
+      matrix_type const Q = detail::orthonormal_basis<S>(std::move(Y));
+      matrix_type const image = scaled * Q, projected = Q.transpose() * image;
+      X = Q * Eigen::SelfAdjointEigenSolver<matrix_type>(projected).eigenvectors();
       index const now = detail::count_below(scaled, X, limit);
       if (now == found && step > 2) break;
       found = now;

@@ -74,21 +74,6 @@ template <class S>
 
 }  // namespace slant
 
-namespace slant::detail {
-
-/// Throws bad_input unless c has the sign that keeps an operator semidefinite, or definite.
-template <class S>
-void require_keeping_sign(S const& c, bool definite) {
-  if (c > S(0) || (!definite && c == S(0))) return;
-  throw bad_input("c", show(c),
-                  definite ? "a number > 0 in front of a definite operator; for others write "
-                             "-(c * A) or any_sign(c) * A"
-                           : "a number >= 0 in front of a semidefinite operator; for others write "
-                             "-(c * A) or any_sign(c) * A");
-}
-
-}  // namespace slant::detail
-
 namespace slant::expr {
 
 enum class sign : signed char { minus = -1, any = 0, plus = 1 };
@@ -203,7 +188,13 @@ void require_sign(C const& c, bool strictly) {
     using S = decltype(c.value);
     S const magnitude =
         sign_of<C> == sign::plus ? S(c.value / c.divisor) : S(-(c.value / c.divisor));
-    slant::detail::require_keeping_sign(magnitude, strictly);
+    if (magnitude > S(0) || (!strictly && magnitude == S(0))) return;
+    throw bad_input("c", slant::detail::show(magnitude),
+                    strictly
+                        ? "a number > 0 in front of a definite operator; for others write "
+                          "-(c * A) or any_sign(c) * A"
+                        : "a number >= 0 in front of a semidefinite operator; for others write "
+                          "-(c * A) or any_sign(c) * A");
   }
 }
 

@@ -238,15 +238,12 @@ class cholmod_condensation {
       for (auto const& plan : swept) plans.push_back(plan.with_inverse(options));
     }
     report.chosen = cheapest(plans, report.alone, options);
-    report.reason = options.levels && options.inverse ? "as asked for" : reason(report);
+    report.reason = "least time predicted among " + show(static_cast<index>(plans.size())) +
+                    " ways, that with contact unknowns behind the subdomains of level " +
+                    show(report.chosen.levels) +
+                    (report.chosen.inverse ? ", and the inverse on them formed" : "");
+    if (options.levels && options.inverse) report.reason = "as asked for";
     return quotient.expanded(order_of(report.chosen.levels));
-  }
-
-  static std::string reason(condensation_report const& report) {
-    return "least time predicted among " + show(static_cast<index>(report.plans.size())) +
-           " ways, that with contact unknowns behind the subdomains of level " +
-           show(report.chosen.levels) +
-           (report.chosen.inverse ? ", and the inverse on them formed" : "");
   }
 
   /// Numbers the columns that marked unknowns reach.
