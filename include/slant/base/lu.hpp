@@ -64,8 +64,7 @@ class dense_lu {
   explicit dense_lu(index n) : matrix_(n, n), factors_(n) {}
 
   /// False if a pivot is zero or not a number.
-  template <class G>
-  [[nodiscard]] bool factor(G const& g) {
+  [[nodiscard]] bool factor(auto const& g) {
     if (matrix_.size() == 0) return true;
     g.columns(0, matrix_);
     factors_.compute(matrix_);

@@ -43,8 +43,7 @@ void for_each_entry(M const& m, F f) {
 }
 
 /// Throws bad_input naming the first entry that is NaN or infinite.
-template <class M>
-void require_finite_entries(std::string_view name, M const& m) {
+void require_finite_entries(std::string_view name, auto const& m) {
   for_each_entry(m, [&](index i, index j, auto const& value) {
     if (!is_finite(value)) {
       throw bad_input(entry_text(name, i, j), show(value), "a finite number");
@@ -165,16 +164,14 @@ void require_symmetric_entries(std::string_view name, M const& m) {
 // singular.
 
 /// Throws bad_input unless K is square, finite and symmetric up to rounding.
-template <class M>
-void require_symmetric_matrix(std::string_view name, M const& k) {
+void require_symmetric_matrix(std::string_view name, auto const& k) {
   require_square(name, k);
   require_finite_entries(name, k);
   require_symmetric_entries(name, k);
 }
 
 /// Throws bad_input unless b and x have the sizes of right-hand sides and solutions.
-template <class X, class Y>
-void check_solve(index n, X const& b, Y const& x) {
+void check_solve(index n, auto const& b, auto const& x) {
   check_rows("b", b, n, "rows() of the factorisation");
   check_rows("x", x, n, "rows() of the factorisation");
   check_same_columns("x", x, b, "one for each column of b");
@@ -200,8 +197,7 @@ template <class S>
 }
 
 /// Throws bad_input that names the pivot: its position in the elimination, its row, its value.
-template <class S>
-[[noreturn]] void refuse_pivot(std::string_view name, index pivot, index row, S const& value,
+[[noreturn]] void refuse_pivot(std::string_view name, index pivot, index row, auto const& value,
                                bool singular) {
   std::string text("pivot ");
   text.append(show(pivot)).append(" (row ").append(show(row)).append(") = ").append(show(value));

@@ -30,8 +30,7 @@ class progress_watch {
   /// Has there been no progress for `patience` steps? energy() → {q, its rounding error} is asked
   /// only if ‖r̃‖ has not fallen for so long. floor: what ‖r̃‖ may be without being an error of x; 0
   /// if that is unknown.
-  template <class Energy>
-  [[nodiscard]] bool stalled(index iteration, S const& norm_now, index patience, Energy energy,
+  [[nodiscard]] bool stalled(index iteration, S const& norm_now, index patience, auto energy,
                              S const& floor = S(0)) {
     if (norm_now <= floor && !at_floor_) {
       at_floor_ = true;

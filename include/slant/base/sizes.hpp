@@ -16,8 +16,8 @@ namespace slant::detail {
 }
 
 /// Throws unless the operator called `name` is rows × cols; `why` says where that size comes from.
-template <class A>
-void require_size(std::string_view name, A const& a, index rows, index cols, std::string_view why) {
+void require_size(std::string_view name, auto const& a, index rows, index cols,
+                  std::string_view why) {
   if (a.rows() != rows || a.cols() != cols) {
     throw bad_input(name, size_text(a.rows(), a.cols()),
                     size_text(rows, cols).append(" (").append(why).append(")"));
@@ -25,8 +25,7 @@ void require_size(std::string_view name, A const& a, index rows, index cols, std
 }
 
 /// Throws unless the operator called `name` has that many rows.
-template <class A>
-void require_rows(std::string_view name, A const& a, index rows, std::string_view why) {
+void require_rows(std::string_view name, auto const& a, index rows, std::string_view why) {
   if (a.rows() != rows) {
     throw bad_input(name, size_text(a.rows(), a.cols()),
                     std::to_string(rows).append(" rows (").append(why).append(")"));
@@ -34,8 +33,7 @@ void require_rows(std::string_view name, A const& a, index rows, std::string_vie
 }
 
 /// Throws unless the operator called `name` has that many columns.
-template <class A>
-void require_cols(std::string_view name, A const& a, index cols, std::string_view why) {
+void require_cols(std::string_view name, auto const& a, index cols, std::string_view why) {
   if (a.cols() != cols) {
     throw bad_input(name, size_text(a.rows(), a.cols()),
                     std::to_string(cols).append(" columns (").append(why).append(")"));
@@ -43,16 +41,14 @@ void require_cols(std::string_view name, A const& a, index cols, std::string_vie
 }
 
 /// Throws unless the rows can be independent.
-template <class A>
-void require_wide(std::string_view name, A const& a) {
+void require_wide(std::string_view name, auto const& a) {
   if (a.rows() > a.cols()) {
     throw bad_input(name, size_text(a.rows(), a.cols()),
                     "at most as many rows as columns (independent rows)");
   }
 }
 
-template <class A>
-void require_square(std::string_view name, A const& a) {
+void require_square(std::string_view name, auto const& a) {
   if (a.rows() != a.cols()) {
     throw bad_input(name, size_text(a.rows(), a.cols()), "a square operator");
   }

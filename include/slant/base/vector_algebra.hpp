@@ -29,8 +29,7 @@ concept has_memory = requires(X const& x) {
 };
 
 /// One entry beside the other within a column.
-template <class X>
-[[nodiscard]] bool is_contiguous(X const& x) {
+[[nodiscard]] bool is_contiguous(auto const& x) {
   return x.innerStride() == 1 && (x.outerSize() <= 1 || x.outerStride() == x.innerSize());
 }
 

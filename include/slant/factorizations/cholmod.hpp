@@ -123,8 +123,7 @@ class cholmod_factors {
     double const* entries;  ///< height × columns
   };
   /// f(supernode) for all of them in order of elimination; only for supernodal factors.
-  template <class F>
-  void for_each_supernode(F f) const {
+  void for_each_supernode(auto f) const {
     int const* begin = numbers(factor_->super);
     int const* rows = numbers(factor_->pi);
     int const* entries = numbers(factor_->px);
@@ -136,8 +135,7 @@ class cholmod_factors {
   }
 
   /// f(column, pivot) for all columns before the failed one.
-  template <class F>
-  void for_each_pivot(F f) const {
+  void for_each_pivot(auto f) const {
     auto const visit = [&](index i, double stored) {
       if (i < failed_column()) f(i, factor_->is_ll != 0 ? stored * stored : stored);
     };

@@ -161,8 +161,7 @@ class condensed_operator {
     solve_in_place(w.tail);
     w.forces.array() *= w.tail.x.template cast<double>().array();
   }
-  template <class V>
-  static int exponent(V const& v) {
+  static int exponent(auto const& v) {
     double const largest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
     return std::isfinite(largest) ? -std::clamp(detail::binary_exponent(largest), -1000, 1000) : 0;
   }

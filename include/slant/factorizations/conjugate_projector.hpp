@@ -238,8 +238,8 @@ class conjugate_projector_operator {
   };
 
   /// y += α · left (UᵀKU)⁻¹ · rightᵀ x, body by body.
-  template <class X, class Y, class W>
-  void sweep(matrix_type part::*right, matrix_type part::*left, S α, X const& x, Y& y, W& w) const {
+  void sweep(matrix_type part::*right, matrix_type part::*left, S α, auto const& x, auto& y,
+             auto& w) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
     detail::parallel_for(bodies(), work_, [&](index i) {

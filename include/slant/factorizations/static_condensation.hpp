@@ -115,8 +115,7 @@ class static_condensation {
   }
 
  private:
-  template <class M>
-  static factors make(M const& k, std::vector<char> const& contact,
+  static factors make(auto const& k, std::vector<char> const& contact,
                       condensation_options const& options) {
     options.validate();
     if constexpr (condenses) {

@@ -41,8 +41,7 @@ struct conjugate_directions {
   }
 
   /// Ap and pᵀAp; one application of A.
-  template <class A, class W>
-  void image(A const& a, W& w) {
+  void image(auto const& a, auto& w) {
     slant::apply(a, p, Ap, w);
     curvature = inner_product(p, Ap);
   }
@@ -66,8 +65,7 @@ concept conjugate_projector_for =
 /// The projector of U without columns: there is nothing to minimise over.
 struct no_projector : identity_operator {
   using identity_operator::identity_operator;
-  template <class S, class X, class Y, class W>
-  void add_minimiser(S const&, X const&, Y&, W&) const {}
+  void add_minimiser(auto const&, auto const&, auto&, auto&) const {}
 };
 
 /// p as in conjugate_directions, q = Q p; Ap is K q and curvature qᵀKq.
@@ -79,8 +77,7 @@ struct projected_directions : conjugate_directions<V> {
       : conjugate_directions<V>(prototype), q(like(prototype, slant::local(prototype).size())) {}
 
   /// q, K q and qᵀKq; one application of Q and one of K.
-  template <class K, class WK, class Q, class WQ>
-  void image(K const& k, WK& k_workspace, Q const& q_operator, WQ& q_workspace) {
+  void image(auto const& k, auto& k_workspace, auto const& q_operator, auto& q_workspace) {
     slant::apply(q_operator, this->p, q, q_workspace);
     slant::apply(k, q, this->Ap, k_workspace);
     this->curvature = inner_product(q, this->Ap);

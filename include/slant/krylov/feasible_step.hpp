@@ -39,8 +39,7 @@ struct feasible_step {
 };
 
 /// p ← φ − γ p with Ap and pᵀAp; one application of A.
-template <class A, class State>
-void next_direction(A const& a, State& s) {
+void next_direction(auto const& a, auto& s) {
   s.directions.advance(s.φ);
   s.directions.image(a, s.a_workspace);
   ++s.work.operator_applications;

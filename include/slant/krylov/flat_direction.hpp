@@ -69,14 +69,12 @@ class flat_direction {
   }
 
   /// Is qᵀKq zero up to rounding?
-  template <class Directions>
-  [[nodiscard]] bool is_flat(Directions const& d) {
+  [[nodiscard]] bool is_flat(auto const& d) {
     using std::abs;
     return abs(d.curvature) <= scalar(16) * std::numeric_limits<scalar>::epsilon() * size(d);
   }
   /// Is it so small that q may be near a direction of the kernel?
-  template <class Directions>
-  [[nodiscard]] bool is_nearly_flat(Directions const& d) {
+  [[nodiscard]] bool is_nearly_flat(auto const& d) {
     using std::sqrt;
     return !(d.curvature > sqrt(std::numeric_limits<scalar>::epsilon()) * size(d));
   }
@@ -117,8 +115,7 @@ class flat_direction {
     return spent;
   }
   /// d as it was before it was split.
-  template <class Directions>
-  void restore(Directions& d) const {
+  void restore(auto& d) const {
     vectors::copy(q_, d.q);
     vectors::copy(image_of_q_, d.Ap);
     d.curvature = curvature_of_q_;
@@ -150,8 +147,7 @@ class flat_direction {
   }
 
   /// qᵀD q.
-  template <class Directions>
-  [[nodiscard]] scalar size(Directions const& d) {
+  [[nodiscard]] scalar size(auto const& d) {
     vectors::multiply(D_, d.q, image_);
     return inner_product(image_, d.q);
   }
@@ -168,20 +164,12 @@ class flat_direction {
 template <class V>
 class flat_direction<V, true> {
  public:
-  template <class K>
-  flat_direction(K const&, V const&, index&) {}
-  template <class Directions>
-  [[nodiscard]] bool is_flat(Directions const&) const {
-    return false;
-  }
-  template <class Directions>
-  [[nodiscard]] bool is_nearly_flat(Directions const&) const {
-    return false;
-  }
+  flat_direction(auto const&, V const&, index&) {}
+  [[nodiscard]] bool is_flat(auto const&) const { return false; }
+  [[nodiscard]] bool is_nearly_flat(auto const&) const { return false; }
   [[nodiscard]] bool is_exact() const noexcept { return true; }
   [[nodiscard]] scalar_t<V> force(V const&) const { return scalar_t<V>(0); }
-  template <class Directions>
-  void restore(Directions const&) const {}
+  void restore(auto const&) const {}
   template <class... Parts>
   [[nodiscard]] kernel_search split(Parts const&...) const {
     return {false, 0, 0};

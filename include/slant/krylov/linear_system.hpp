@@ -62,8 +62,7 @@ void note_norm(State& s, S const& size) {
   if (s.residual_norm == S(0)) s.status = status::converged;
   if (!is_finite(s.residual_norm)) s.status = status::breakdown;
 }
-template <class State>
-void note_residual(State& s) {
+void note_residual(auto& s) {
   note_norm(s, norm(s.r));
 }
 

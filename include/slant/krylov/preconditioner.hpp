@@ -58,8 +58,7 @@ concept multiplies_roughly =
 // always.
 
 /// What m has to know of a face before precondition_on_face; κ = 1/ρ.
-template <class M, class Face, class S, class WM>
-void enter_face(M const& m, Face const& face, S const& κ, WM& of_m) {
+void enter_face(auto const& m, auto const& face, auto const& κ, auto& of_m) {
   if constexpr (requires { m.enter(face, κ, of_m); }) {
     m.enter(face, κ, of_m);
   } else if constexpr (requires { m.enter(face, of_m); }) {

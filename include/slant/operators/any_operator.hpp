@@ -20,8 +20,7 @@ namespace slant {
 /// The workspace of an any_operator. A copy has a content of its own.
 class any_workspace {
  public:
-  template <class W>
-  explicit any_workspace(std::in_place_t, W w) : content_(std::move(w)) {}
+  explicit any_workspace(std::in_place_t, auto w) : content_(std::move(w)) {}
 
   /// The content, which has the type W.
   template <class W>

@@ -33,8 +33,7 @@ struct traits<slant::expr::applied<A, X, W>> {
 namespace slant::expr {
 
 /// Throws bad_input if y and x share memory, as far as both have any that can be seen.
-template <class X, class Y>
-void refuse_overlap(X const& x, Y const& y) {
+void refuse_overlap(auto const& x, auto const& y) {
   if constexpr (requires { x.data(), y.data(), x.innerStride(), y.innerStride(); }) {
     auto const end = [](auto const& v) { return v.data() + (v.size() - 1) * v.innerStride() + 1; };
     std::less<void const*> const before{};
@@ -83,8 +82,7 @@ class applied : public Eigen::ReturnByValue<applied<A, X, W>> {
   [[nodiscard]] index rows() const { return a_.get().rows(); }
   [[nodiscard]] index cols() const { return 1; }
 
-  template <class Y>
-  void evalTo(Y& y) const {
+  void evalTo(auto& y) const {
     if constexpr (std::is_void_v<W>) {
       auto w = slant::workspace(a_.get(), x_.get());
       expr::assign_application(a_.get(), x_.get(), y, w);

@@ -254,8 +254,7 @@ class block_operator {
   }
 
  private:
-  template <class F>
-  static void for_each_block(F f) {
+  static void for_each_block(auto f) {
     [&]<std::size_t... P>(std::index_sequence<P...>) {
       (f.template operator()<P / n, P % n>(), ...);
     }(places{});

@@ -24,10 +24,7 @@ class identity_operator {
   [[nodiscard]] index rows() const noexcept { return n_; }
   [[nodiscard]] index cols() const noexcept { return n_; }
 
-  template <has_local X, class Y>
-  void apply(X const& x, Y& y) const {
-    vectors::copy(x, y);
-  }
+  void apply(has_local auto const& x, auto& y) const { vectors::copy(x, y); }
   template <has_local X, class Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y) const {
     vectors::axpy(α, x, y);
@@ -70,26 +67,14 @@ class zero_operator {
   [[nodiscard]] index rows() const noexcept { return rows_; }
   [[nodiscard]] index cols() const noexcept { return cols_; }
 
-  template <has_local X, class Y>
-  void apply(X const&, Y& y) const {
-    vectors::set_zero(y);
-  }
+  void apply(has_local auto const&, auto& y) const { vectors::set_zero(y); }
   template <has_local X, class Y>
   void apply_add(scalar_t<X>, X const&, Y&) const {}
-  template <has_local X, class Y>
-  void apply_adjoint(X const&, Y& y) const {
-    vectors::set_zero(y);
-  }
+  void apply_adjoint(has_local auto const&, auto& y) const { vectors::set_zero(y); }
   template <has_local X, class Y>
   void apply_adjoint_add(scalar_t<X>, X const&, Y&) const {}
-  template <has_local D>
-  void diagonal(D& d) const {
-    vectors::set_zero(d);
-  }
-  template <has_local Y>
-  void columns(index, Y& y) const {
-    vectors::set_zero(y);
-  }
+  void diagonal(has_local auto& d) const { vectors::set_zero(d); }
+  void columns(index, has_local auto& y) const { vectors::set_zero(y); }
 
  private:
   index rows_;

@@ -94,8 +94,7 @@ class range_sum_operator {
     }
   }
   /// y = Σ own(Aᵢ).
-  template <class Y, class F>
-  void add_up(Y& y, F const& write) const {
+  void add_up(auto& y, auto const& write) const {
     auto own = slant::like(y, rows());
     vectors::set_zero(y);
     for (auto const& kept : terms_) {
@@ -105,8 +104,7 @@ class range_sum_operator {
   }
 
   /// Not inlined: g++ 12 would see Eigen free `own` twice, were it resized in add_up.
-  template <class F, class Y>
-  [[gnu::noinline]] static void write_part(F const& write, part const& a, Y& own) {
+  [[gnu::noinline]] static void write_part(auto const& write, part const& a, auto& own) {
     write(a, own);
   }
 

@@ -31,8 +31,7 @@ class restriction {
 
   /// Throws bad_input unless the components are different numbers in [0, n). Room is reserved for
   /// n components, so that assign never allocates.
-  template <class Components>
-  restriction(index n, Components const& components) {
+  restriction(index n, auto const& components) {
     if (n < 0) throw bad_input("n", detail::show(n), "a size >= 0");
     taken_.assign(static_cast<std::size_t>(n), 0);
     components_.reserve(taken_.size());
@@ -43,8 +42,7 @@ class restriction {
 
   /// Replaces the components by those of a range of integers, without allocating. Throws bad_input
   /// unless they are different numbers in [0, cols()); the list is then as before.
-  template <class Components>
-  void assign(Components const& components) {
+  void assign(auto const& components) {
     require_valid(components);
     components_.clear();
     for (auto const& c : components) components_.push_back(static_cast<index>(c));
@@ -55,16 +53,14 @@ class restriction {
   [[nodiscard]] index component(index i) const { return components_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::vector<index> const& components() const noexcept { return components_; }
 
-  template <has_local X, class Y>
-  void apply(X const& x, Y& y) const {
+  void apply(has_local auto const& x, auto& y) const {
     each(x, y, [](auto const& from, auto& to) { to = from; });
   }
   template <has_local X, class Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y) const {
     each(x, y, [&](auto const& from, auto& to) { to += α * from; });
   }
-  template <has_local X, class Y>
-  void apply_adjoint(X const& x, Y& y) const {
+  void apply_adjoint(has_local auto const& x, auto& y) const {
     vectors::set_zero(y);
     each(y, x, [](auto& to, auto const& from) { to = from; });
   }
@@ -74,8 +70,7 @@ class restriction {
   }
 
  private:
-  template <class Components>
-  void require_valid(Components const& components) {
+  void require_valid(auto const& components) {
     index position = 0, offender = 0;
     char const* expectation = nullptr;
     for (auto const& c : components) {
@@ -100,8 +95,7 @@ class restriction {
   }
 
   /// f(full component c_i, short component i) for all i and all right-hand sides.
-  template <class Full, class Short, class F>
-  void each(Full& full, Short& shorter, F f) const {
+  void each(auto& full, auto& shorter, auto f) const {
     auto&& a = slant::local(full);
     auto&& b = slant::local(shorter);
     for (index j = 0; j < a.cols(); ++j) {
@@ -140,10 +134,7 @@ class restricted_operator {
   /// R.
   [[nodiscard]] restriction const& components() const noexcept { return r_; }
   /// Other components from now on; as restriction::assign. Workspaces stay valid.
-  template <class Components>
-  void assign(Components const& components) {
-    r_.assign(components);
-  }
+  void assign(auto const& components) { r_.assign(components); }
 
   template <class X>
     requires linear_operator<part, plain_t<X>>
@@ -245,16 +236,12 @@ class slice_operator {
     return slant::local(x).middleRows(first_, count_);
   }
 
-  template <has_local X, class Y>
-  void apply(X const& x, Y& y) const {
-    slant::local(y) = segment(x);
-  }
+  void apply(has_local auto const& x, auto& y) const { slant::local(y) = segment(x); }
   template <has_local X, class Y>
   void apply_add(scalar_t<X> α, X const& x, Y& y) const {
     slant::local(y) += α * segment(x);
   }
-  template <has_local X, class Y>
-  void apply_adjoint(X const& x, Y& y) const {
+  void apply_adjoint(has_local auto const& x, auto& y) const {
     vectors::set_zero(y);
     segment(y) = slant::local(x);
   }

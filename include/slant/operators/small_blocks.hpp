@@ -45,8 +45,7 @@ class small_blocks {
     return Eigen::Map<Eigen::Matrix<S, N, N>>(entries_.data() + b.entry, b.size, b.size);
   }
   /// The entries of the diagonal outside the blocks become those of d.
-  template <class D>
-  void assign_outside(D const& d) {
+  void assign_outside(auto const& d) {
     diagonal_ = slant::local(d);
     for (auto const& b : blocks_) {
       for (index i = 0; i < b.size; ++i) diagonal_.coeffRef(b.first + i * b.stride) = S(0);
@@ -54,8 +53,7 @@ class small_blocks {
   }
 
   /// y = B x; several columns at once are fine.
-  template <class X, class Y>
-  void apply(X const& x, Y& y) const {
+  void apply(auto const& x, auto& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
     for (index c = 0; c < index(from.cols()); ++c) {
@@ -64,8 +62,7 @@ class small_blocks {
     }
   }
   /// y ← y + α B x.
-  template <class X, class Y>
-  void apply_add(S const& α, X const& x, Y& y) const {
+  void apply_add(S const& α, auto const& x, auto& y) const {
     auto const& from = slant::local(x);
     auto& to = slant::local(y);
     for (index c = 0; c < index(from.cols()); ++c) {
@@ -74,8 +71,7 @@ class small_blocks {
     }
   }
   /// d = diag(B).
-  template <class D>
-  void diagonal(D& d) const {
+  void diagonal(auto& d) const {
     auto& to = slant::local(d);
     to = diagonal_;
     for (auto const& b : blocks_) {
@@ -95,8 +91,7 @@ class small_blocks {
   };
 
   /// f(component, (B x) there) for every component of a block.
-  template <class X, class F>
-  void for_each(X const& x, F const& f) const {
+  void for_each(auto const& x, auto const& f) const {
     for (auto const& b : blocks_) {
       S const* const m = entries_.data() + b.entry;
       if (b.size == 1) {

@@ -164,8 +164,7 @@ class sum : public base_of_node<T...> {
     }
   }
   /// y = Σ part(Tᵢ).
-  template <class Y, class Part>
-  void add_up(Y& y, Part const& part) const {
+  void add_up(auto& y, auto const& part) const {
     auto more = slant::like(y, rows());
     part(term<0>(), y);
     [&]<std::size_t... I>(std::index_sequence<I...>) {

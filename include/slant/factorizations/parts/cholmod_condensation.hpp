@@ -133,8 +133,7 @@ class cholmod_condensation {
   using sparse_type = Eigen::SparseMatrix<double>;
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
-  template <class M>
-  cholmod_condensation(M const& matrix, std::vector<char> marked,
+  cholmod_condensation(auto const& matrix, std::vector<char> marked,
                        condensation_options const& options)
       : marked_(std::move(marked)),
         factor_(matrix, best_order(matrix, marked_, options, planned_)),
@@ -142,8 +141,7 @@ class cholmod_condensation {
     form(matrix);
   }
 
-  template <class M>
-  [[nodiscard]] cholmod_condensation refactorized(M const& matrix) const {
+  [[nodiscard]] cholmod_condensation refactorized(auto const& matrix) const {
     cholmod_condensation result = *this;
     result.factor_ = factor_.refactorized(matrix);
     result.tail_ = result.reached_part();
@@ -155,18 +153,9 @@ class cholmod_condensation {
   [[nodiscard]] std::string_view name() const noexcept { return factor_.name(); }
   [[nodiscard]] condensation_report const& report() const noexcept { return report_; }
 
-  template <class X>
-  [[nodiscard]] cholmod_workspace workspace(X const& b) const {
-    return factor_.workspace(b);
-  }
-  template <class X, class Y>
-  void solve(X const& b, Y& x, cholmod_workspace& w) const {
-    factor_.solve(b, x, w);
-  }
-  template <class X, class Y>
-  void solve(X const& b, Y& x) const {
-    factor_.solve(b, x);
-  }
+  [[nodiscard]] cholmod_workspace workspace(auto const& b) const { return factor_.workspace(b); }
+  void solve(auto const& b, auto& x, cholmod_workspace& w) const { factor_.solve(b, x, w); }
+  void solve(auto const& b, auto& x) const { factor_.solve(b, x); }
 
   /// B touches marked unknowns only.
   [[nodiscard]] auto restricted(sparse_type const& b) const {
@@ -200,8 +189,7 @@ class cholmod_condensation {
     return result;
   }
 
-  template <class M>
-  static std::vector<int> best_order(M const& matrix, std::vector<char> const& marked,
+  static std::vector<int> best_order(auto const& matrix, std::vector<char> const& marked,
                                      condensation_options const& options,
                                      condensation_report& report) {
     require_square("K", matrix);

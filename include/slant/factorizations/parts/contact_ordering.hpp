@@ -30,10 +30,7 @@ namespace slant::detail {
 /// The subtrees of an elimination forest (parent[j] > j, or −1; postordered, so that each subtree
 /// is a range of columns) below its topmost separators.
 class separator_tree {
-  template <class V>
-  static auto& at(V& v, int i) {
-    return v[static_cast<std::size_t>(i)];
-  }
+  static auto& at(auto& v, int i) { return v[static_cast<std::size_t>(i)]; }
 
  public:
   explicit separator_tree(std::vector<int> const& parent)

@@ -138,8 +138,7 @@ using panel_sequence = std::make_index_sequence<static_cast<std::size_t>(panel_w
   return has;
 }
 
-template <class Loop>
-[[gnu::target("avx2,fma")]] void run_long(Loop loop) {
+[[gnu::target("avx2,fma")]] void run_long(auto loop) {
   loop.template operator()<32>();
 }
 
@@ -149,14 +148,12 @@ template <class Loop>
   return false;
 }
 
-template <class Loop>
-void run_long(Loop) {}
+void run_long(auto) {}
 
 #endif
 
 /// loop<bytes>(), which must be inlined, with vectors of 32 or of 16 bytes.
-template <class Loop>
-void run_panel_loop(bool long_vectors, Loop loop) {
+void run_panel_loop(bool long_vectors, auto loop) {
   if (long_vectors) {
     run_long(loop);
   } else {

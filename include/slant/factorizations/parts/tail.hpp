@@ -37,8 +37,7 @@ class tail_shape {
   };
 
   /// Adds the next supernode, with the rows below it (numbers of columns that are still to come).
-  template <class Rows>
-  void add(index columns, Rows const& below) {
+  void add(index columns, auto const& below) {
     supernode const s{size_, columns, static_cast<index>(below.size()),
                       static_cast<index>(rows_.size()), panels_};
     supernodes_.push_back(s);
@@ -203,8 +202,7 @@ class tail_sweeps {
 
   /// step(y, stride, together) for the right-hand sides, four of them together or one: y is the
   /// entry c of the first.
-  template <class Step>
-  static void by_groups(index c, tail_vectors<T>& v, Step const& step) {
+  static void by_groups(index c, tail_vectors<T>& v, auto const& step) {
     index const stride = v.buffer.rows();
     for (index k = 0; k < v.x.cols();) {
       index const together = k + group_size <= v.x.cols() ? group_size : 1;
@@ -237,8 +235,7 @@ template <class T>
 class tail_panels {
  public:
   /// From entries elsewhere, in another precision (panel_kernels.hpp).
-  template <class Storage>
-  explicit tail_panels(Storage const& from) : shape_(from.shared_shape()) {
+  explicit tail_panels(auto const& from) : shape_(from.shared_shape()) {
     index size = 0;
     for (auto const& s : shape_->supernodes()) {
       for (index c = 0; c < s.columns; c += panel_width) {
@@ -380,9 +377,8 @@ class tail_columns {
 
 /// Rows and columns `unknowns` (numbers of columns of L_tt, ascending) of the inverse, with the
 /// entries of L_tt in `storage`.
-template <class Storage>
 [[nodiscard]] std::shared_ptr<packed_symmetric<double> const> tail_inverse(
-    Storage const& storage, std::vector<int> const& unknowns) {
+    auto const& storage, std::vector<int> const& unknowns) {
   constexpr index together = 32;  // a panel is read once for so many columns
   auto const n = static_cast<index>(unknowns.size());
   auto const unknown = [&](index i) { return index(unknowns[static_cast<std::size_t>(i)]); };
