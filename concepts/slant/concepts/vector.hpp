@@ -71,6 +71,9 @@ using local_t = std::remove_cvref_t<decltype(slant::local(std::declval<V&>()))>;
 template <class V>
 using scalar_t = typename local_t<V>::Scalar;
 
+/// A vector or matrix of numbers S.
+template <class V, class S> concept has_scalar = std::same_as<scalar_t<V>, S>;
+
 template <class V>
 concept has_local = requires(V& v, V const& c) {
   { slant::local(c).size() } -> std::convertible_to<index>;

@@ -330,25 +330,19 @@ class cholmod {
   }
 
   /// All that a solve needs: CHOLMOD's own state and vectors. One for each thread.
-  template <class X>
-    requires std::same_as<scalar_t<X>, double>
-  [[nodiscard]] detail::cholmod_workspace workspace(X const& b) const {
+  [[nodiscard]] detail::cholmod_workspace workspace(has_scalar<double> auto const& b) const {
     return detail::cholmod_workspace(factors_.get(), slant::local(b).cols());
   }
   /// x = K⁻¹ b for as many right-hand sides as w was made for. Throws bad_input if b or x has not
   /// rows() rows.
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, double>
-  void solve(X const& b, Y& x, detail::cholmod_workspace& w) const {
+  void solve(has_scalar<double> auto const& b, auto& x, detail::cholmod_workspace& w) const {
     detail::check_solve(rows(), b, x);
     if (rows_ == 0) return;
     w.right_hand_side() = slant::local(b);
     slant::local(x).noalias() = unit_ * w.solve(*factors_);
   }
   /// The same once, for those who will not solve again.
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, double>
-  void solve(X const& b, Y& x) const {
+  void solve(has_scalar<double> auto const& b, auto& x) const {
     detail::cholmod_workspace w(factors_.get(), slant::local(b).cols(), false);
     solve(b, x, w);
   }

@@ -67,16 +67,12 @@ class condensed_operator {
     Eigen::MatrixXd forces;
     detail::tail_vectors<T> tail;
   };
-  template <class X>
-    requires std::same_as<scalar_t<X>, double>
-  [[nodiscard]] workspace_type workspace(X const& x) const {
+  [[nodiscard]] workspace_type workspace(has_scalar<double> auto const& x) const {
     index const columns = slant::local(x).cols();
     return {Eigen::MatrixXd(b_->cols(), columns), {b_->cols(), buffer_rows(), columns}};
   }
   /// y = B K⁻¹Bᵀx for one or several right-hand sides.
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, double>
-  void apply(X const& x, Y& y, workspace_type& w) const {
+  void apply(has_scalar<double> auto const& x, auto& y, workspace_type& w) const {
     // One that was made for another matrix, of the same B, may have another buffer.
     index const columns = slant::local(x).cols();
     w.tail.x.resize(b_->cols(), columns);

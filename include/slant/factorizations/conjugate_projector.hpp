@@ -33,6 +33,10 @@
 
 namespace slant::detail {
 
+/// A vector of numbers S, one and not several side by side.
+template <class X, class S>
+concept column_of = has_scalar<X, S> && (local_t<X>::ColsAtCompileTime == 1);
+
 /// What is kept of each body: its columns of U and of K U, and the factors of UᵀKU.
 template <class S, class F>
 struct conjugate_part {
@@ -188,43 +192,32 @@ class conjugate_projector_operator {
   [[nodiscard]] matrix_type const& u(index i) const { return at(i).u; }
   [[nodiscard]] matrix_type const& ku(index i) const { return at(i).ku; }
 
-  template <class X>
-    requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
-  [[nodiscard]] auto workspace(X const& x) const {
+  [[nodiscard]] auto workspace(detail::column_of<S> auto const&) const {
     std::vector<room> w;
     w.reserve(parts_.size());
     for (part const& b : parts_) {
       vector_type v = vector_type::Zero(b.u.cols());
       w.push_back({v, v, slant::workspace(b.factors, v)});
     }
-    static_cast<void>(x);
     return w;
   }
-  template <class X>
-    requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
-  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+  [[nodiscard]] auto adjoint_workspace(detail::column_of<S> auto const& x) const {
     return workspace(x);
   }
 
   /// y = Q x = x − U (UᵀKU)⁻¹ (K U)ᵀx.
-  template <class X, class Y, class W>
-    requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
-  void apply(X const& x, Y& y, W& w) const {
+  void apply(detail::column_of<S> auto const& x, auto& y, auto& w) const {
     vectors::copy(x, y);
     sweep(&part::ku, &part::u, S(-1), x, y, w);
   }
   /// y = Qᵀx = x − K U (UᵀKU)⁻¹ Uᵀx.
-  template <class X, class Y, class W>
-    requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
-  void apply_adjoint(X const& x, Y& y, W& w) const {
+  void apply_adjoint(detail::column_of<S> auto const& x, auto& y, auto& w) const {
     vectors::copy(x, y);
     sweep(&part::u, &part::ku, S(-1), x, y, w);
   }
   /// y ← y + α U (UᵀKU)⁻¹ Uᵀ b. Into y = 0 with α = 1 it is what minimises ½ uᵀKu − bᵀu over
   /// range(U) [D (4)]; with b = f − K y it is the step from y to the minimum over y + range(U).
-  template <class X, class Y, class W>
-    requires std::same_as<scalar_t<X>, S> && (local_t<X>::ColsAtCompileTime == 1)
-  void add_minimiser(S α, X const& b, Y& y, W& w) const {
+  void add_minimiser(S α, detail::column_of<S> auto const& b, auto& y, auto& w) const {
     sweep(&part::u, &part::u, α, b, y, w);
   }
 

@@ -46,9 +46,7 @@ class dense_ldlt {
   [[nodiscard]] std::string_view name() const noexcept { return "dense_ldlt"; }
 
   /// x = K⁻¹ b for one or several right-hand sides. Throws bad_input if b or x has not rows() rows.
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, S>
-  void solve(X const& b, Y& x) const {
+  void solve(has_scalar<S> auto const& b, auto& x) const {
     detail::check_solve(rows(), b, x);
     auto&& solution = slant::local(x);
     solution = slant::local(b);

@@ -62,18 +62,14 @@ class generalized_inverse {
   std::vector<index> const& fixing() const&& = delete;
 
   /// Room for the components I.
-  template <class X>
-    requires std::same_as<scalar_t<X>, S>
-  [[nodiscard]] auto workspace(X const& x) const {
+  [[nodiscard]] auto workspace(has_scalar<S> auto const& x) const {
     auto right = slant::like(slant::local(x), static_cast<index>(kept_.size()));
     auto solution = right;
     auto inner = slant::workspace(factors_, right);
     return temporaries<decltype(right), decltype(inner)>{std::move(right), std::move(solution),
                                                          std::move(inner)};
   }
-  template <class X, class Y, class W>
-    requires std::same_as<scalar_t<X>, S>
-  void apply(X const& x, Y& y, W& w) const {
+  void apply(has_scalar<S> auto const& x, auto& y, auto& w) const {
     auto const& from = slant::local(x);
     auto&& to = slant::local(y);
     for (index j = 0; j < from.cols(); ++j) {

@@ -100,8 +100,7 @@ class ldlt {
   [[nodiscard]] index nonzeros() const { return factors_->lower().nonZeros(); }
 
   /// Room for the permuted unknowns of a solve; column after column, whichever order b has.
-  template <class X>
-    requires std::same_as<scalar_t<X>, S>
+  template <has_scalar<S> X>
   [[nodiscard]] auto workspace(X const& b) const {
     using workspace_type =
         Eigen::Matrix<S, Eigen::Dynamic, local_t<X>::ColsAtCompileTime, Eigen::ColMajor>;
@@ -111,9 +110,7 @@ class ldlt {
   }
   /// x = K⁻¹ b for one or several right-hand sides. w is what workspace(b) made. Throws bad_input
   /// if b or x has not rows() rows.
-  template <class X, class Y, class W>
-    requires std::same_as<scalar_t<X>, S>
-  void solve(X const& b, Y& x, W& w) const {
+  void solve(has_scalar<S> auto const& b, auto& x, auto& w) const {
     detail::check_solve(rows(), b, x);
     w.noalias() = factors_->permutation() * slant::local(b);
     auto&& solution = slant::local(x);

@@ -88,11 +88,7 @@ class static_condensation {
     return factors_.workspace(b);
   }
   /// x = K⁻¹ b, by the whole factor.
-  template <class X, class Y, class W>
-    requires std::same_as<scalar_t<X>, S>
-  void solve(X const& b, Y& x, W& w) const {
-    factors_.solve(b, x, w);
-  }
+  void solve(has_scalar<S> auto const& b, auto& x, auto& w) const { factors_.solve(b, x, w); }
   /// The same once, for those who will not solve again.
   template <class X, class Y>
     requires std::same_as<scalar_t<X>, S> && has_plain_solve<factors, X>

@@ -37,24 +37,14 @@ class diagonal_operator {
     return slant::local(d_.get());
   }
 
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, scalar>
-  void apply(X const& x, Y& y) const {
+  void apply(has_scalar<scalar> auto const& x, auto& y) const {
     slant::local(y).noalias() = entries().asDiagonal() * slant::local(x);
   }
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, scalar>
-  void apply_add(scalar α, X const& x, Y& y) const {
+  void apply_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
     slant::local(y).noalias() += (α * entries()).asDiagonal() * slant::local(x);
   }
-  template <class Y>
-    requires std::same_as<scalar_t<Y>, scalar>
-  void diagonal(Y& d) const {
-    slant::local(d) = entries();
-  }
-  template <class Y>
-    requires std::same_as<scalar_t<Y>, scalar>
-  void columns(index first, Y& y) const {
+  void diagonal(has_scalar<scalar> auto& d) const { slant::local(d) = entries(); }
+  void columns(index first, has_scalar<scalar> auto& y) const {
     slant::local(y).setZero();
     for (index j = 0; j < slant::local(y).cols(); ++j) {
       slant::local(y)(first + j, j) = entries()[first + j];

@@ -55,40 +55,28 @@ class matrix_operator {
   /// The matrix itself.
   [[nodiscard]] matrix_type const& get() const noexcept { return m_.get(); }
 
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, scalar>
-  void apply(X const& x, Y& y) const {
+  void apply(has_scalar<scalar> auto const& x, auto& y) const {
     slant::local(y).noalias() = m_.get() * slant::local(x);
   }
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, scalar>
-  void apply_add(scalar α, X const& x, Y& y) const {
+  void apply_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
     multiply_add(m_.get(), α, slant::local(x), slant::local(y));
   }
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, scalar>
-  void apply_adjoint(X const& x, Y& y) const {
+  void apply_adjoint(has_scalar<scalar> auto const& x, auto& y) const {
     slant::local(y).noalias() = m_.get().transpose() * slant::local(x);
   }
-  template <class X, class Y>
-    requires std::same_as<scalar_t<X>, scalar>
-  void apply_adjoint_add(scalar α, X const& x, Y& y) const {
+  void apply_adjoint_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
     multiply_add(m_.get().transpose(), α, slant::local(x), slant::local(y));
   }
 
   /// d = diag(M) of a square matrix.
-  template <class D>
-    requires std::same_as<scalar_t<D>, scalar>
-  void diagonal(D& d) const {
+  void diagonal(has_scalar<scalar> auto& d) const {
     if constexpr (requires { m_.get().diagonal(); }) {
       slant::local(d) = m_.get().diagonal();
     } else {  // a map of a sparse matrix
       for (index i = 0; i < rows(); ++i) slant::local(d).coeffRef(i) = m_.get().coeff(i, i);
     }
   }
-  template <class Y>
-    requires std::same_as<scalar_t<Y>, scalar>
-  void columns(index first, Y& y) const {
+  void columns(index first, has_scalar<scalar> auto& y) const {
     slant::local(y) = m_.get().middleCols(first, slant::local(y).cols());
   }
 
