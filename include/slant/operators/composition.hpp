@@ -24,6 +24,10 @@ using nth = std::tuple_element_t<I, std::tuple<T...>>;
 // here argument and result may differ (an expression in, a segment out), while temporaries, and so
 // workspaces, always have the plain type that belongs to the argument.
 
+/// A, or its adjoint, can be applied to vectors like X.
+template <class X, class A> concept accepted_by = linear_operator<A, plain_t<X>>;
+template <class X, class A> concept accepted_by_adjoint_of = has_adjoint<A, plain_t<X>>;
+
 /// slant::apply(a, x, y, w) works.
 template <class A, class X, class Y>
 concept applies = requires(A const& a, X const& x, Y& y) {

@@ -36,9 +36,7 @@ class decorator {
   /// The operator inside.
   [[nodiscard]] part const& get() const noexcept { return a_.get(); }
 
-  template <class X>
-    requires linear_operator<part, plain_t<X>>
-  [[nodiscard]] auto workspace(X const& x) const {
+  [[nodiscard]] auto workspace(accepted_by<part> auto const& x) const {
     return slant::workspace(a_.get(), x);
   }
   template <class X, class Y, class W>
@@ -56,9 +54,7 @@ class decorator {
     slant::apply_add(a_.get(), α, x, y, w);
   }
 
-  template <class X>
-    requires has_adjoint<part, plain_t<X>>
-  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+  [[nodiscard]] auto adjoint_workspace(accepted_by_adjoint_of<part> auto const& x) const {
     return slant::adjoint_workspace(a_.get(), x);
   }
   template <class X, class Y, class W>

@@ -36,9 +36,7 @@ class range_sum_operator {
     return terms_[static_cast<std::size_t>(i)].get();
   }
 
-  template <class X>
-    requires linear_operator<part, plain_t<X>>
-  [[nodiscard]] auto workspace(X const& x) const {
+  [[nodiscard]] auto workspace(detail::accepted_by<part> auto const& x) const {
     return workspaces<false>(x);
   }
   template <class X, class Y, class W>
@@ -53,9 +51,7 @@ class range_sum_operator {
     add<false>(α, x, y, w);
   }
 
-  template <class X>
-    requires has_adjoint<part, plain_t<X>>
-  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+  [[nodiscard]] auto adjoint_workspace(detail::accepted_by_adjoint_of<part> auto const& x) const {
     return workspaces<true>(x);
   }
   template <class X, class Y, class W>

@@ -136,34 +136,24 @@ class restricted_operator {
   /// Other components from now on; as restriction::assign. Workspaces stay valid.
   void assign(auto const& components) { r_.assign(components); }
 
-  template <class X>
-    requires linear_operator<part, plain_t<X>>
-  [[nodiscard]] auto workspace(X const& x) const {
+  [[nodiscard]] auto workspace(detail::accepted_by<part> auto const& x) const {
     return congruence().workspace(x);
   }
-  template <class X, class Y, class W>
-    requires linear_operator<part, plain_t<X>>
-  void apply(X const& x, Y& y, W& w) const {
+  void apply(detail::accepted_by<part> auto const& x, auto& y, auto& w) const {
     congruence().apply(x, y, w);
   }
-  template <class X, class Y, class W>
-    requires linear_operator<part, plain_t<X>>
+  template <detail::accepted_by<part> X, class Y, class W>
   void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     congruence().apply_add(α, x, y, w);
   }
 
-  template <class X>
-    requires has_adjoint<part, plain_t<X>>
-  [[nodiscard]] auto adjoint_workspace(X const& x) const {
+  [[nodiscard]] auto adjoint_workspace(detail::accepted_by_adjoint_of<part> auto const& x) const {
     return congruence().adjoint_workspace(x);
   }
-  template <class X, class Y, class W>
-    requires has_adjoint<part, plain_t<X>>
-  void apply_adjoint(X const& x, Y& y, W& w) const {
+  void apply_adjoint(detail::accepted_by_adjoint_of<part> auto const& x, auto& y, auto& w) const {
     congruence().apply_adjoint(x, y, w);
   }
-  template <class X, class Y, class W>
-    requires has_adjoint<part, plain_t<X>>
+  template <detail::accepted_by_adjoint_of<part> X, class Y, class W>
   void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
     congruence().apply_adjoint_add(α, x, y, w);
   }
