@@ -39,21 +39,13 @@ template <class V> concept has_local_member = requires(V& v) { v.local(); };
 namespace detail {
 
 struct local_fn {
+  // An lvalue is returned as an lvalue: elementwise code can assign to local(y).
   template <class V>
   [[nodiscard]] constexpr decltype(auto) operator()(V&& v) const noexcept {
     if constexpr (has_local_member<std::remove_reference_t<V>>) {
       return v.local();
     } else {
       return static_cast<V&&>(v);
-    }
-  }
-  // An lvalue is returned as an lvalue: elementwise code can assign to local(y).
-  template <class V>
-  [[nodiscard]] constexpr decltype(auto) operator()(V& v) const noexcept {
-    if constexpr (has_local_member<V>) {
-      return v.local();
-    } else {
-      return (v);
     }
   }
 };
@@ -240,16 +232,10 @@ struct like_fn {
     if constexpr (has_like_member<X>) {
       return x.like(n);
     } else {
-      return sized<typename X::PlainObject>(n, x.cols());  // several right-hand sides stay several
+      typename X::PlainObject y;
+      y.resize(n, x.cols());  // several right-hand sides stay several
+      return y;
     }
-  }
-
- private:
-  template <class P>
-  [[nodiscard]] static P sized(index n, index columns) {
-    P y;
-    y.resize(n, columns);
-    return y;
   }
 };
 
@@ -311,12 +297,8 @@ template <class V>
 /// Does it hold on all processes that hold x?
 template <class V>
 [[nodiscard]] bool everywhere(V const& x, bool holds) {
-  if constexpr (has_minimum<V>) {
-    using S = scalar_t<V>;
-    return x.minimum(holds ? S(1) : S(0)) > S(0);
-  } else {
-    return holds;
-  }
+  using S = scalar_t<V>;
+  return slant::minimum(x, S(holds ? 1 : 0)) > S(0);
 }
 
 /// Number of entries of x on all processes.
