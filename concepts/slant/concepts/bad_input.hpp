@@ -107,8 +107,7 @@ inline void check_extent(char const* name, index got, char const* what, index ex
 }
 
 /// Throws bad_input unless the (local part of the) vector or matrix v has that many rows.
-template <class V>
-void check_rows(char const* name, V const& v, index expected, char const* why) {
+void check_rows(char const* name, auto const& v, index expected, char const* why) {
   check_extent(name, index(slant::local(v).rows()), "rows", expected, why);
 }
 

@@ -64,8 +64,7 @@ concept has_adjoint =
 namespace detail {
 
 /// Throws bad_input unless x and y have the sizes of Aᵀx = y.
-template <class A, class X, class Y>
-void check_adjoint_operands(A const& a, X const& x, Y const& y) {
+void check_adjoint_operands(auto const& a, auto const& x, auto const& y) {
   check_rows("x", x, index(a.rows()), "rows() of the operator, as the adjoint is applied");
   check_rows("y", y, index(a.cols()), "cols() of the operator, as the adjoint is applied");
   check_same_columns("y", y, x, "one for each column of x");

@@ -80,8 +80,7 @@ concept has_workspace_apply =
 namespace detail {
 
 /// Throws bad_input unless x and y have the sizes of A x = y.
-template <class A, class X, class Y>
-void check_operands(A const& a, X const& x, Y const& y) {
+void check_operands(auto const& a, auto const& x, auto const& y) {
   check_rows("x", x, index(a.cols()), "cols() of the operator");
   check_rows("y", y, index(a.rows()), "rows() of the operator");
   check_same_columns("y", y, x, "one for each column of x");

@@ -67,8 +67,7 @@ concept slanting_function =
 namespace detail {
 
 /// Throws bad_input unless F can be evaluated at y.
-template <class F, class X>
-void check_argument(F const& f, X const& y) {
+void check_argument(auto const& f, auto const& y) {
   check_rows("y", y, index(f.cols()), "cols() of the function");
 }
 

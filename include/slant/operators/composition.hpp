@@ -47,7 +47,7 @@ template <class A, class X, class Y>
 concept adds = (has_accumulate<A, plain_t<X>> && accumulates<A, X, Y>) ||
                (!has_accumulate<A, plain_t<X>> && applies<A, X, plain_t<X>>);
 
-/// detail::accumulate_adjoint(a, α, x, y, w) works.
+/// detail::accumulate<true>(a, α, x, y, w) works.
 template <class A, class X, class Y>
 concept adds_adjoint =
     (has_adjoint_accumulate<A, plain_t<X>> && accumulates_adjoint<A, X, Y>) ||
