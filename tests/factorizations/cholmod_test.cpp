@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/cholmod.hpp>
-
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/matrix.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
+#include <support/testing.hpp>
 #include <thread>
-#include <utility>
-#include <vector>
-
 #include "factorizations/spd_examples.hpp"
-#include "support/allocation_guard.hpp"
 
 namespace cholmod_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 auto const factor = [](sparse const& k) { return slant::cholmod(k); };
@@ -169,7 +156,7 @@ TEST_CASE("states of a method over it are saved and assigned") {
   auto const M = slant::inverse(slant::cholmod(sparse(2 * k)));
   VectorXd const b = test::load(k.rows());
   slant::cg const method{A, b, M};
-  auto r = slant::solve(method, VectorXd(VectorXd::Zero(k.rows())), slant::at_most(0));
+  auto r = slant::solve(method, test::zeros(k.rows()), slant::at_most(0));
   auto const saved = r.state;
   r = slant::solve(method, r.x(), slant::residual_below(1e-12) || slant::at_most(5));
   CHECK(r.converged());

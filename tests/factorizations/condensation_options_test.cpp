@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/condensation_options.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace condensation_options_test {
 

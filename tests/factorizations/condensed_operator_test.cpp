@@ -1,32 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/condensed_operator.hpp>
-
-#include <slant/concepts/capabilities.hpp>
-#include <slant/concepts/linear_operator.hpp>
-#include <slant/factorizations/parts/panel_kernels.hpp>
-#include <slant/factorizations/parts/tail.hpp>
+#include <slant/factorizations/factorizations.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
-#include <optional>
-#include <type_traits>
-#include <vector>
-
+#include <support/testing.hpp>
 #include "factorizations/tail_factor.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
 
 namespace condensed_operator_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::index;
 using sparse = Eigen::SparseMatrix<double>;
 using exact = slant::condensed_operator<double>;
@@ -115,7 +95,7 @@ TEST_CASE_TEMPLATE("entries of A: as by dense matrices, symmetric to the last bi
 TEST_CASE_TEMPLATE("a workspace fits other numbers of right-hand sides", Way, by_sweeps,
                    by_inverse) {
   auto const a = scene(Way::value).condensed();
-  auto w = slant::workspace(a, VectorXd(VectorXd::Zero(20)));
+  auto w = slant::workspace(a, test::zeros(20));
   MatrixXd const X = MatrixXd::Random(20, 3);
   MatrixXd Y(20, 3), Z(20, 3);
   slant::apply(a, X, Y);

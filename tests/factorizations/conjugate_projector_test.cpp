@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/conjugate_projector.hpp>
-
-#include <slant/factorizations/dense_ldlt.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/factorizations/factorizations.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <limits>
-#include <vector>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
 
 namespace conjugate_projector_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 namespace archetype = slant::testing::archetype;
 

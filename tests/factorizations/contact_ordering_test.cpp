@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/parts/contact_ordering.hpp>
 
-#include <doctest/doctest.h>
-
-#include <utility>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace contact_ordering_test {
 

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/dense_ldlt.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
-
+#include <support/testing.hpp>
 #include "factorizations/spd_examples.hpp"
-#include "support/allocation_guard.hpp"
 
 namespace dense_ldlt_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 auto const factor = [](MatrixXd const& k) { return slant::dense_ldlt(k); };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/factorize.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "factorizations/spd_examples.hpp"
 
 namespace factorize_test {
@@ -17,7 +16,7 @@ TEST_CASE("the best factorisation for the matrix") {
 #endif
   CHECK(test::residual(sparse_factors, k) < 1e-14);
 
-  Eigen::MatrixXd const dense(k);
+  MatrixXd const dense(k);
   auto const dense_factors = slant::factorize(dense);
   CHECK(dense_factors.name() == "dense_ldlt");
   CHECK(test::residual(dense_factors, dense) < 1e-14);

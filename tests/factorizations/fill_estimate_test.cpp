@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/fill_estimate.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <Eigen/SparseCholesky>
 #include <fem/steel_brick.hpp>
+#include <support/testing.hpp>
 #include "factorizations/spd_examples.hpp"
-
-#include <vector>
 
 namespace fill_estimate_test {
 
 using sparse = Eigen::SparseMatrix<double>;
 
 TEST_CASE("a full matrix fills completely: n(n + 1)/2 entries, n³/3 operations") {
-  sparse const full = Eigen::MatrixXd::Ones(24, 24).sparseView();
+  sparse const full = MatrixXd::Ones(24, 24).sparseView();
   auto const e = slant::estimate_fill(full);
   CHECK(e.entries == 24 * 25 / 2);
   CHECK(e.operations == doctest::Approx(24. * 24 * 24 / 3).epsilon(0.1));
@@ -64,9 +59,8 @@ TEST_CASE("nodes of three unknowns become one vertex; the graph is that of the n
   sparse const nodes = test::grid_laplacian(3, 0.1);
   slant::detail::quotient_graph const quotient(blown_up(nodes, 3));
   REQUIRE(quotient.size() == 27);
-  Eigen::MatrixXd const expected =
-      Eigen::MatrixXd(nodes).unaryExpr([](double v) { return v != 0 ? 1.0 : 0.0; });
-  CHECK(Eigen::MatrixXd(quotient.graph()) == expected);
+  MatrixXd const expected = MatrixXd(nodes).unaryExpr([](double v) { return v != 0 ? 1.0 : 0.0; });
+  CHECK(MatrixXd(quotient.graph()) == expected);
 
   std::vector<char> marked(81, 0);
   marked[7] = marked[80] = 1;

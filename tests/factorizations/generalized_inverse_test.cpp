@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/rigid_body_modes.hpp>
-
-#include <slant/factorizations/generalized_inverse.hpp>
-#include <slant/factorizations/kernel_basis.hpp>
+#include <slant/factorizations/factorizations.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
 #include <fem/box_mesh.hpp>
 #include <fem/elasticity.hpp>
-#include <support/allocation_guard.hpp>
 #include <support/dense_of.hpp>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 #include "spd_examples.hpp"
-#include "support/message.hpp"
-
-#include <algorithm>
-#include <numeric>
-#include <random>
-#include <vector>
 
 namespace generalized_inverse_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::generalized_inverse;
 

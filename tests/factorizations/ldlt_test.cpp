@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/ldlt.hpp>
-
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <fem/brick_mesh.hpp>
 #include <fem/elasticity.hpp>
-
-#include <utility>
-
+#include <support/testing.hpp>
 #include "factorizations/spd_examples.hpp"
-#include "support/allocation_guard.hpp"
 
 namespace ldlt_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                      boost::multiprecision::et_off>;

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/parts/panel_kernels.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-
-#include <limits>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
 
 namespace packed_symmetric_test {
 
@@ -62,8 +57,8 @@ TEST_CASE("an entry may be set again") {
     packed.set(10, 2, v);
     packed.set(5, 5, v);
   }
-  Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(11, 1, 11);
-  Eigen::VectorXd y(11), expected = Eigen::VectorXd::Zero(11);
+  VectorXd const x = VectorXd::LinSpaced(11, 1, 11);
+  VectorXd y(11), expected = VectorXd::Zero(11);
   packed.multiply(x.data(), y.data());
   expected[9] = -2 * x[8];
   expected[8] = -2 * x[9];

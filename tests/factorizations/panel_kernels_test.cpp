@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/parts/panel_kernels.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-
-#include <cstddef>
-#include <limits>
+#include <support/testing.hpp>
 
 namespace panel_kernels_test {
 

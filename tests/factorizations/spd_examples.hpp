@@ -5,15 +5,7 @@
 
 #include <slant/operators/inverse.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/SparseCore>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace test {
 
@@ -70,20 +62,20 @@ inline bool contains(std::string const& text, std::string const& part) {
 /// Solutions in other units are the same numbers; bit for bit if the units are powers of two.
 template <class Factor, class M>
 void check_units(Factor factor, M const& k) {
-  Eigen::VectorXd const b = load(k.rows());
-  Eigen::VectorXd x(k.rows());
+  VectorXd const b = load(k.rows());
+  VectorXd x(k.rows());
   slant::apply(slant::inverse(factor(k)), b, x);
   for (int const e : {-600, -331, -1, 7, 600}) {
     double const s = std::ldexp(1.0, e);
     M const scaled = k * s;
-    Eigen::VectorXd y(k.rows());
+    VectorXd y(k.rows());
     slant::apply(slant::inverse(factor(scaled)), b, y);
-    CHECK(Eigen::VectorXd(y * s) == x);
+    CHECK(VectorXd(y * s) == x);
   }
   for (double const s : {1e-150, 1e150, 1e-290, 1e290}) {
     M const scaled = k * s;
-    Eigen::VectorXd const small_load = s < 1 ? Eigen::VectorXd(b * s) : b;
-    Eigen::VectorXd y(k.rows());
+    VectorXd const small_load = s < 1 ? VectorXd(b * s) : b;
+    VectorXd y(k.rows());
     slant::apply(slant::inverse(factor(scaled)), small_load, y);
     if (s > 1) y *= s;
     CHECK((y - x).norm() <= 1e-12 * x.norm());
@@ -95,8 +87,8 @@ template <class F>
 void check_sizes_of_solve(F const& factors) {
   slant::index const n = factors.rows();
   auto const message = [&](slant::index of_b, slant::index of_x, int columns) -> std::string {
-    Eigen::MatrixXd const b = Eigen::MatrixXd::Ones(of_b, 2);
-    Eigen::MatrixXd x(of_x, columns);
+    MatrixXd const b = MatrixXd::Ones(of_b, 2);
+    MatrixXd x(of_x, columns);
     return test::complaint([&] {
       auto w = slant::workspace(factors, b);
       if constexpr (requires { factors.solve(b, x); }) {

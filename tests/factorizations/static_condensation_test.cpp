@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/static_condensation.hpp>
-
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/LU>
-#include <Eigen/SparseCore>
+#include <support/testing.hpp>
 #include "factorizations/condensation_scene.hpp"
 #include "factorizations/spd_examples.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
-
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace static_condensation_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using scene = test::condensation_scene;
 using slant::index;
@@ -218,7 +203,7 @@ TEST_CASE("the inverse is formed where there will be many applications") {
 /// The same forces held by n unknowns that are all but free to move together: S is nearly singular.
 Eigen::SparseMatrix<double> floating(scene const& s, double held) {
   Eigen::SparseMatrix<double> k = s.K;
-  Eigen::VectorXd const sums = k * Eigen::VectorXd::Ones(k.cols());
+  VectorXd const sums = k * VectorXd::Ones(k.cols());
   k.diagonal() -= (1 - held) * sums;
   return k;
 }
@@ -230,8 +215,8 @@ TEST_CASE("an inverse that floats would make indefinite is left, and the report 
   CHECK(!factor.report().chosen.inverse);
   CHECK(test::contains(factor.report().reason, "not kept"));
   auto const a = factor.restricted(s.B);
-  Eigen::VectorXd const x = Eigen::VectorXd::Random(a.rows());
-  Eigen::VectorXd y(x.size());
+  VectorXd const x = VectorXd::Random(a.rows());
+  VectorXd y(x.size());
   slant::apply(a.rounded(), x, y);
   CHECK(x.dot(y) > 0);
 
@@ -275,8 +260,8 @@ TEST_CASE("a workspace fits the operator of another matrix, with the inverse or 
   REQUIRE(fine.report().chosen.inverse);
   REQUIRE(!poor.report().chosen.inverse);
   auto const a = fine.restricted(B), c = poor.restricted(B);
-  Eigen::VectorXd const x = Eigen::VectorXd::Random(5);
-  Eigen::VectorXd y(5), z(5);
+  VectorXd const x = VectorXd::Random(5);
+  VectorXd y(5), z(5);
   auto w = slant::workspace(a, x);
   slant::apply(c, x, y, w);
   slant::apply(c, x, z);

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/parts/tail.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
 #include "factorizations/tail_factor.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
-#include <vector>
 
 namespace tail_test {
 
-using Eigen::MatrixXd;
 using slant::index;
 namespace detail = slant::detail;
 

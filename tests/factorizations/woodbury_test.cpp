@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/ldlt.hpp>
-#include <slant/factorizations/woodbury.hpp>
+#include <slant/factorizations/factorizations.hpp>
 #include <slant/operators/syntax.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/LU>
-#include <limits>
-
+#include <support/testing.hpp>
 #include "krylov/spd_matrices.hpp"
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace woodbury_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("the inverse of K + U C Uᵀ, at any scale") {
   for (double const unit : {1.0, 1e100, 1e-100}) {

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Files that appear complete or not at all.
-#include <doctest/doctest.h>
+#include <slant/io/atomic_file.hpp>
+
 #include <sys/resource.h>
 #include <sys/stat.h>
-
 #include <csignal>
-#include <slant/io/atomic_file.hpp>
-#include <stdexcept>
-#include <string>
+#include <support/testing.hpp>
 #include <system_error>
-#include <utility>
-
 #include "io_support.hpp"
-#include "support/message.hpp"
 
 namespace atomic_file_test {
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Friction problems as folders: what is read and written, and every way in which it can be wrong.
-#include <doctest/doctest.h>
-
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
-#include <support/folders.hpp>
 
+#include <support/folders.hpp>
+#include <support/testing.hpp>
 #include "io_support.hpp"
-#include "support/message.hpp"
 
 namespace friction_folder_test {
 
@@ -49,7 +47,7 @@ TEST_CASE("friction folder: the texts of its files, without a file") {
   std::string const W = coordinate + "3 3 2\n1 1 2\n3 3 1\n";
   auto const p = slant::parse_friction_problem({W, "-1\n2\n3\n", "0.5\n"}, "box");
   CHECK(p.W.coeff(2, 2) == 1);
-  CHECK(p.q == Eigen::Vector3d(-1, 2, 3));
+  CHECK(p.q == Vector3d(-1, 2, 3));
   CHECK(complaint([&] {
           (void)slant::parse_friction_problem({W, "-1\n2\n3\n", "-1\n"}, "box");
         }) == "box/mu.txt: got -1 of contact 0, expected a number >= 0");
@@ -67,7 +65,7 @@ TEST_CASE("friction folder: the dimension follows from the sizes") {
   CHECK(p.contacts() == 1);
   CHECK(p.W.coeff(0, 1) == 0.5);
   CHECK(p.W.coeff(1, 0) == 0);
-  CHECK(p.q == Eigen::Vector3d(-1, 2, 3));
+  CHECK(p.q == Vector3d(-1, 2, 3));
   CHECK(p.mu[0] == 0.5);
 
   files.put("W.mtx", coordinate + "2 2 1\n1 1 2\n");
@@ -124,7 +122,7 @@ TEST_CASE("friction folder: what is written reads back to the same bits") {
   temporary_folder const folder;
   slant::write_friction_problem(folder.path(), p);
   auto const again = slant::read_friction_problem(folder.path());
-  CHECK(Eigen::MatrixXd(again.W) == Eigen::MatrixXd(p.W));
+  CHECK(MatrixXd(again.W) == MatrixXd(p.W));
   CHECK(again.q == p.q);
   CHECK(again.mu == p.mu);
 }
@@ -134,7 +132,7 @@ TEST_CASE("friction folder: problems from simulations") {
   auto const p = slant::read_friction_problem(test::data("friction/FC3D_Example1"));
   CHECK(p.contacts() == 3);
   CHECK(p.dimension() == 3);
-  Eigen::VectorXd r(9);
+  VectorXd r(9);
   for (int i = 0; i < 3; ++i) r.segment(3 * i, 3) << 1, -0.1 / std::sqrt(10), -0.3 / std::sqrt(10);
   CHECK(slant::contact::verify(p, r).relative_natural_map < 1e-15);
   CHECK(slant::contact::verify(p, r).slip == 3);

@@ -3,21 +3,9 @@
 // Reading Matrix Market files: what is accepted and what it means, and every way to be refused.
 #include <slant/io/matrix_market.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include "io_support.hpp"
-#include "support/message.hpp"
-
 #include <bit>
-#include <cstdint>
-#include <initializer_list>
-#include <limits>
-#include <optional>
-#include <random>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <support/testing.hpp>
+#include "io_support.hpp"
 
 namespace matrix_market_test {
 
@@ -27,8 +15,8 @@ using matrix = Eigen::SparseMatrix<double>;
 using io_test::get;
 using io_test::temporary_folder;
 
-Eigen::MatrixXd dense(std::string_view text) {
-  return Eigen::MatrixXd(parse_matrix_market(text, "A.mtx"));
+MatrixXd dense(std::string_view text) {
+  return MatrixXd(parse_matrix_market(text, "A.mtx"));
 }
 
 /// The refusal of a text, without the name of the file.
@@ -40,7 +28,7 @@ std::string refused(std::string_view text) {
 std::string const banner = "%%MatrixMarket matrix coordinate real general\n";
 
 TEST_CASE("matrix market: coordinate general") {
-  Eigen::MatrixXd expected(2, 3);
+  MatrixXd expected(2, 3);
   expected << 0, 1.5, 0, -2e-3, 0, 7;
   CHECK(dense(banner + "2 3 3\n2 3 7\n1 2 1.5\n2 1 -2e-3\n") == expected);
   CHECK(dense("%%MatrixMarket MATRIX Coordinate REAL General\r\n% a comment\r\n%\r\n\r\n2 3 3\r\n"
@@ -61,7 +49,7 @@ TEST_CASE("matrix market: symmetric files hold the lower triangle") {
 }
 
 TEST_CASE("matrix market: arrays are stored column by column") {
-  Eigen::MatrixXd expected(2, 3);
+  MatrixXd expected(2, 3);
   expected << 1, 3, 0, 2, 4, 6;
   std::string const text = "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3\n4\n0\n6\n";
   CHECK(dense(text) == expected);
@@ -273,7 +261,7 @@ std::optional<matrix> read_or_refuse(std::string_view text) {
 }
 
 bool equal(matrix const& a, matrix const& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && Eigen::MatrixXd(a) == Eigen::MatrixXd(b);
+  return a.rows() == b.rows() && a.cols() == b.cols() && MatrixXd(a) == MatrixXd(b);
 }
 
 std::initializer_list<std::string_view> const files{

@@ -3,17 +3,10 @@
 // Whole files, their lines and words.
 #include <slant/io/text_scanner.hpp>
 
-#include <doctest/doctest.h>
-
 #include <sys/stat.h>
-#include "io_support.hpp"
-#include "support/message.hpp"
-
 #include <bit>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <string>
+#include <support/testing.hpp>
+#include "io_support.hpp"
 
 namespace text_scanner_test {
 

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Vectors as text.
-#include <doctest/doctest.h>
+#include <slant/io/text_vector.hpp>
 
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <slant/io/text_vector.hpp>
-#include <string>
-#include <string_view>
-
+#include <support/testing.hpp>
 #include "io_support.hpp"
-#include "support/message.hpp"
 
 namespace text_vector_test {
 
@@ -31,9 +23,8 @@ std::string refused(std::string_view text, text_vector_options const& options = 
 }
 
 TEST_CASE("text vector: what is read") {
-  CHECK(parse_text_vector("1\n-2.5\n+3e2\n", "f.txt") == Eigen::Vector3d(1, -2.5, 300));
-  CHECK(parse_text_vector("# load\r\n 1 \r\n#\n\t2\r\n\r\n\r\n# end\n", "f.txt") ==
-        Eigen::Vector2d(1, 2));
+  CHECK(parse_text_vector("1\n-2.5\n+3e2\n", "f.txt") == Vector3d(1, -2.5, 300));
+  CHECK(parse_text_vector("# load\r\n 1 \r\n#\n\t2\r\n\r\n\r\n# end\n", "f.txt") == Vector2d(1, 2));
   CHECK(parse_text_vector("\n\n", "f.txt").size() == 0);
   CHECK(parse_text_vector("7\n", "f.txt", {.size = 1})[0] == 7);
   CHECK(parse_text_vector<float>("0.1\n", "f.txt")[0] == 0.1f);
@@ -77,7 +68,7 @@ TEST_CASE("text vector: what is refused") {
 
 TEST_CASE("text vector: every prefix is refused when the size is known") {
   std::string_view const file = "# three\n1.25\n-31\n4.5e7\n";
-  REQUIRE(parse_text_vector(file, "f.txt", {.size = 3}) == Eigen::Vector3d(1.25, -31, 4.5e7));
+  REQUIRE(parse_text_vector(file, "f.txt", {.size = 3}) == Vector3d(1.25, -31, 4.5e7));
   for (std::size_t length = 0; length < file.size(); ++length)
     CHECK(refused(file.substr(0, length), {.size = 3}) != "nothing thrown");
 }
@@ -94,7 +85,7 @@ TEST_CASE("text vector: files") {
 TEST_CASE("text vector: the same bits come back") {
   temporary_folder const folder;
   std::mt19937_64 random(7);
-  Eigen::VectorXd x(5000);
+  VectorXd x(5000);
   for (double& value : x) do
       value = std::bit_cast<double>(std::uint64_t{random()});
     while (!std::isfinite(value));
@@ -102,7 +93,7 @@ TEST_CASE("text vector: the same bits come back") {
   x[1] = std::numeric_limits<double>::denorm_min();
   x[2] = std::numeric_limits<double>::max();
   slant::write_text_vector(folder / "x.txt", x);
-  Eigen::VectorXd const y = slant::read_text_vector(folder / "x.txt", {.size = 5000});
+  VectorXd const y = slant::read_text_vector(folder / "x.txt", {.size = 5000});
   bool same = true;
   for (Eigen::Index i = 0; i < x.size(); ++i)
     same = same && std::bit_cast<std::uint64_t>(x[i]) == std::bit_cast<std::uint64_t>(y[i]);
@@ -112,10 +103,10 @@ TEST_CASE("text vector: the same bits come back") {
   slant::write_text_vector(folder / "w.txt", wide);
   CHECK(slant::read_text_vector<long double>(folder / "w.txt") == wide);
 
-  slant::write_text_vector(folder / "e.txt", Eigen::VectorXd());
+  slant::write_text_vector(folder / "e.txt", VectorXd());
   CHECK(io_test::get(folder / "e.txt").empty());
 
-  Eigen::Vector2d const open(infinity, -infinity);
+  Vector2d const open(infinity, -infinity);
   slant::write_text_vector(folder / "g.txt", open, {.allow_infinity = true});
   CHECK(io_test::get(folder / "g.txt") == "inf\n-inf\n");
   CHECK(slant::read_text_vector(folder / "g.txt", {.allow_infinity = true}) == open);
@@ -124,11 +115,11 @@ TEST_CASE("text vector: the same bits come back") {
 TEST_CASE("text vector: what is not written, and that nothing is left of it") {
   temporary_folder const folder;
   std::string const name = (folder / "x.txt").string();
-  Eigen::Vector2d const nan(1, std::numeric_limits<double>::quiet_NaN());
+  Vector2d const nan(1, std::numeric_limits<double>::quiet_NaN());
   CHECK(complaint([&] {
           slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true});
         }) == name + ": got nan in component 1, expected finite numbers");
-  Eigen::Vector2d const inf(infinity, 1);
+  Vector2d const inf(infinity, 1);
   CHECK(complaint([&] { slant::write_text_vector(folder / "x.txt", inf); }) ==
         name + ": got inf in component 0, expected finite numbers");
   CHECK(folder.entries() == 0);

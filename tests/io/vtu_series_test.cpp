@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/io/vtu_series.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
+#include <support/testing.hpp>
 #include "io_support.hpp"
-#include "support/message.hpp"
 
 namespace vtu_series_test {
 

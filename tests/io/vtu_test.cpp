@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // VTU files, read back by an XML parser and a base64 decoder of the test's own.
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <pugixml.hpp>
 #include <slant/io/vtu.hpp>
-#include <sstream>
-#include <string>
-#include <vector>
 
+#include <cstring>
+#include <pugixml.hpp>
+#include <support/testing.hpp>
 #include "io_support.hpp"
-#include "support/message.hpp"
 
 namespace vtu_test {
 
@@ -175,7 +167,7 @@ TEST_CASE("vtu: every shape has VTK's number and its nodes") {
                           {vtu_cell::quadratic_quadrilateral, 23, 8},
                           {vtu_cell::quadratic_tetrahedron, 24, 10},
                           {vtu_cell::quadratic_hexahedron, 25, 20}};
-  vtu_grid grid(Eigen::MatrixXd(Eigen::MatrixXd::Random(3, 20)));
+  vtu_grid grid(MatrixXd(MatrixXd::Random(3, 20)));
   for (auto const& s : shapes) {
     CHECK(static_cast<int>(s.cell) == s.number);
     CHECK(slant::node_count(s.cell) == s.nodes);
@@ -194,11 +186,11 @@ TEST_CASE("vtu: every shape has VTK's number and its nodes") {
 TEST_CASE("vtu: what does not fit is refused") {
   square const mesh;
   vtu_grid grid(mesh.points);
-  CHECK(complaint([] { vtu_grid const flat(Eigen::MatrixXd(1, 3)); }) ==
+  CHECK(complaint([] { vtu_grid const flat(MatrixXd(1, 3)); }) ==
         "points: got 1 components, expected 2 or 3, one column per vector");
-  CHECK(complaint([] { vtu_grid const deep(Eigen::MatrixXd(4, 3)); }) ==
+  CHECK(complaint([] { vtu_grid const deep(MatrixXd(4, 3)); }) ==
         "points: got 4 components, expected 2 or 3, one column per vector");
-  CHECK(complaint([] { vtu_grid const lost(Eigen::Vector3d(0, not_a_number, 0)); }) ==
+  CHECK(complaint([] { vtu_grid const lost(Vector3d(0, not_a_number, 0)); }) ==
         "points: got nan at 0, expected finite numbers");
   CHECK(complaint([&] { grid.add_cells(vtu_cell::line, mesh.triangles); }) ==
         "cells: got 3 nodes per cell, expected 2 for this shape");
@@ -206,7 +198,7 @@ TEST_CASE("vtu: what does not fit is refused") {
         "cells: got node 4 in cell 0, expected node numbers from 0 to 3");
   CHECK(complaint([&] { grid.add_cells(vtu_cell::triangle, Eigen::Vector3i(0, -1, 2)); }) ==
         "cells: got node -1 in cell 0, expected node numbers from 0 to 3");
-  CHECK(complaint([&] { grid.add_point_scalars("p", Eigen::Vector3d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_point_scalars("p", Vector3d::Zero()); }) ==
         "p: got 3 values, expected 4");
   CHECK(complaint([&] { grid.add_point_scalars("p", Eigen::Vector4d(1, 2, 3, not_a_number)); }) ==
         "p: got nan at 3, expected finite numbers");
@@ -214,9 +206,9 @@ TEST_CASE("vtu: what does not fit is refused") {
           grid.add_point_scalars("p",
                                  Eigen::Vector4d(1, std::numeric_limits<double>::infinity(), 3, 4));
         }) == "p: got inf at 1, expected finite numbers");
-  CHECK(complaint([&] { grid.add_point_vectors("u", Eigen::MatrixXd::Zero(2, 5)); }) ==
+  CHECK(complaint([&] { grid.add_point_vectors("u", MatrixXd::Zero(2, 5)); }) ==
         "u: got 5 vectors, expected 4");
-  CHECK(complaint([&] { grid.add_point_vectors("u", Eigen::MatrixXd::Zero(4, 4)); }) ==
+  CHECK(complaint([&] { grid.add_point_vectors("u", MatrixXd::Zero(4, 4)); }) ==
         "u: got 4 components, expected 2 or 3, one column per vector");
   CHECK(complaint([&] { grid.add_point_scalars("", Eigen::Vector4d::Zero()); }) ==
         "name: got '', expected a name without control characters");
@@ -225,7 +217,7 @@ TEST_CASE("vtu: what does not fit is refused") {
   grid.add_point_scalars("p", Eigen::Vector4d::Zero());
   CHECK(complaint([&] { grid.add_point_scalars("p", Eigen::Vector4d::Zero()); }) ==
         "name: got 'p' again, expected a new name");
-  CHECK(complaint([&] { grid.add_cell_scalars("c", Eigen::Vector2d::Zero()); }) ==
+  CHECK(complaint([&] { grid.add_cell_scalars("c", Vector2d::Zero()); }) ==
         "c: got 2 values, expected 0");
 }
 
@@ -236,7 +228,7 @@ TEST_CASE("vtu: a refusal while writing leaves the file as it was") {
   grid.write(folder / "a.vtu");
   std::string const before = io_test::get(folder / "a.vtu");
   grid.add_cells(vtu_cell::triangle, mesh.triangles);
-  grid.add_cell_scalars("c", Eigen::Vector2d::Zero());
+  grid.add_cell_scalars("c", Vector2d::Zero());
   grid.add_cells(vtu_cell::line, Eigen::Vector2i(0, 1));
   CHECK(complaint([&] { grid.write(folder / "a.vtu"); }) ==
         "c: got 2 values, expected 3, one per cell");

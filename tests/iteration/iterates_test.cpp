@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <slant/iteration/iterates.hpp>
-
 #include <slant/iteration/solve.hpp>
 #include <slant/testing/archetypes.hpp>
-
-#include <doctest/doctest.h>
 
 #include <range/v3/view/take.hpp>
 #include <range/v3/view/take_while.hpp>
 #include <range/v3/view/transform.hpp>
+#include <support/testing.hpp>
 #include "toy_method.hpp"
-
-#include <vector>
 
 namespace iterates_test {
 

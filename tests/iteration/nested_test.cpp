@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <slant/iteration/nested.hpp>
-
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/SparseCore>
-#include <cmath>
-#include <memory>
 #include <ranges>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace nested_test {
 
@@ -47,7 +41,7 @@ class line {
   auto stop() const { return slant::residual_below(tolerance_) || slant::at_most(1000); }
   auto prolongation() const { return slant::matrix(P_); }
 
-  Eigen::VectorXd const& b() const { return b_; }
+  VectorXd const& b() const { return b_; }
   sparse const& A() const { return A_; }
 
  private:
@@ -55,7 +49,7 @@ class line {
   Eigen::Index n_;
   sparse A_;
   sparse P_;
-  Eigen::VectorXd b_;
+  VectorXd b_;
 };
 
 auto lines(int levels, double tolerance) {
@@ -64,11 +58,11 @@ auto lines(int levels, double tolerance) {
 }
 
 TEST_CASE("each level starts from the prolonged solution of the one before") {
-  std::vector<Eigen::VectorXd> starts;
+  std::vector<VectorXd> starts;
   auto const note = [&](auto const& s) {
     if (s.iteration == 0) starts.push_back(s.x);
   };
-  Eigen::VectorXd const zero = Eigen::VectorXd::Zero(3);
+  VectorXd const zero = VectorXd::Zero(3);
   auto const r = slant::solve_nested(lines(4, 1e-10), zero, note);
   CHECK(r.converged());
   CHECK(r.x().size() == 31);
@@ -76,7 +70,7 @@ TEST_CASE("each level starts from the prolonged solution of the one before") {
   REQUIRE(starts.size() == 4);
   CHECK(starts[0] == zero);
   for (std::size_t l = 1; l < 4; ++l) {
-    Eigen::VectorXd const& coarse = r.levels[l - 1].x();
+    VectorXd const& coarse = r.levels[l - 1].x();
     CHECK(starts[l].size() == r.levels[l].x().size());
     for (Eigen::Index i = 0; i < coarse.size(); ++i) CHECK(starts[l][2 * i + 1] == coarse[i]);
     CHECK(starts[l][0] == coarse[0] / 2);
@@ -86,9 +80,9 @@ TEST_CASE("each level starts from the prolonged solution of the one before") {
 }
 
 TEST_CASE("what a level counts is that level's work, and less than from zero") {
-  auto const nested = slant::solve_nested(lines(8, 1e-3), Eigen::VectorXd::Zero(3).eval());
+  auto const nested = slant::solve_nested(lines(8, 1e-3), test::zeros(3));
   line const finest(7, 1e-3);
-  Eigen::VectorXd const zero = Eigen::VectorXd::Zero(finest.b().size());
+  VectorXd const zero = VectorXd::Zero(finest.b().size());
   auto const direct = slant::solve(finest.method(), zero, finest.stop());
   CHECK(nested.converged());
   CHECK(direct.converged());
@@ -100,7 +94,7 @@ TEST_CASE("levels may stand in a container and are not copied") {
   std::vector<std::unique_ptr<line>> kept;
   for (int l = 0; l < 2; ++l) kept.push_back(std::make_unique<line>(l, 1e-8));
   auto const levels = kept | std::views::transform([](auto const& p) -> line const& { return *p; });
-  CHECK(slant::solve_nested(levels, Eigen::VectorXd::Zero(3).eval()).converged());
+  CHECK(slant::solve_nested(levels, test::zeros(3)).converged());
 }
 
 TEST_CASE("a level that did not converge is a start all the same") {
@@ -111,7 +105,7 @@ TEST_CASE("a level that did not converge is a start all the same") {
   };
   auto const levels =
       std::views::iota(0, 3) | std::views::transform([](int l) { return hasty(l); });
-  auto const r = slant::solve_nested(levels, Eigen::VectorXd::Zero(3).eval());
+  auto const r = slant::solve_nested(levels, test::zeros(3));
   CHECK(r.levels[0].status == slant::status::iteration_limit);
   CHECK(r.converged());
   CHECK(r.levels.size() == 3);
@@ -120,11 +114,11 @@ TEST_CASE("a level that did not converge is a start all the same") {
 /// x ← 1e200 x: overflows in its second step.
 struct explosion {
   struct state {
-    Eigen::VectorXd x;
+    VectorXd x;
     slant::index iteration = 0;
     slant::status status = slant::status::running;
   };
-  static state start(Eigen::VectorXd const& x0) { return {x0}; }
+  static state start(VectorXd const& x0) { return {x0}; }
   static void step(state& s) {
     s.x *= 1e200;
     ++s.iteration;
@@ -135,11 +129,11 @@ struct exploding_level {
   slant::index steps;
   static explosion method() { return {}; }
   auto stop() const { return slant::at_most(steps); }
-  static auto prolongation() { return slant::matrix(Eigen::MatrixXd::Identity(2, 2).eval()); }
+  static auto prolongation() { return slant::matrix(MatrixXd::Identity(2, 2).eval()); }
 };
 
 TEST_CASE("after an iterate that is not finite there is no next level") {
-  Eigen::VectorXd const one = Eigen::VectorXd::Ones(2);
+  VectorXd const one = VectorXd::Ones(2);
   auto const r = slant::solve_nested(std::vector<exploding_level>{{1}, {2}, {1}}, one);
   CHECK(r.levels.size() == 2);
   CHECK_FALSE(r.converged());
@@ -152,25 +146,25 @@ struct archetype_level {
   Eigen::Index n;
 
   auto method() const {
-    return slant::cg{spd(2 * Eigen::MatrixXd::Identity(n, n)), vector(Eigen::VectorXd::Ones(n))};
+    return slant::cg{spd(2 * MatrixXd::Identity(n, n)), vector(VectorXd::Ones(n))};
   }
   static auto stop() { return slant::residual_below(1e-12) || slant::at_most(9); }
   auto prolongation() const {
-    return slant::testing::archetype::linear_operator(Eigen::MatrixXd::Ones(n, 1));
+    return slant::testing::archetype::linear_operator(MatrixXd::Ones(n, 1));
   }
   using spd = slant::testing::archetype::spd_operator;
 };
 
 TEST_CASE("vectors and operators are asked for nothing that they need not have") {
-  slant::testing::archetype::vector const zero(Eigen::VectorXd::Zero(1));
+  slant::testing::archetype::vector const zero(VectorXd::Zero(1));
   auto const r = slant::solve_nested(std::vector<archetype_level>{{1}, {5}}, zero);
   CHECK(r.levels[0].iterations() == 1);
   CHECK(r.levels[1].iterations() == 0);  // constants are prolonged exactly
-  CHECK(r.x().local() == Eigen::VectorXd::Constant(5, 0.5));
+  CHECK(r.x().local() == VectorXd::Constant(5, 0.5));
 }
 
 TEST_CASE("no level, and levels that do not fit, are refused by name") {
-  Eigen::VectorXd const zero = Eigen::VectorXd::Zero(3);
+  VectorXd const zero = VectorXd::Zero(3);
   CHECK_THROWS_WITH_AS((void)slant::solve_nested(lines(0, 0.1), zero),
                        "levels: got none, expected at least one level", slant::bad_input);
   auto const gap =

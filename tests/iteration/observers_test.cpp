@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "toy_method.hpp"
+#include <slant/iteration/iteration.hpp>
 
-#include <slant/base/report.hpp>
-#include <slant/iteration/observers.hpp>
-#include <slant/iteration/solve.hpp>
-
-#include <doctest/doctest.h>
-
-#include <algorithm>
 #include <cstdio>
-#include <limits>
-#include <memory>
-#include <string>
+#include <support/testing.hpp>
+#include "toy_method.hpp"
 
 namespace observers_test {
 

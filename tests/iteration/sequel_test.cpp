@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/iteration/solve.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cmath>
+#include <support/testing.hpp>
 
 namespace sequel_test {
-
-using Eigen::VectorXd;
 
 struct halving_state {
   VectorXd x;

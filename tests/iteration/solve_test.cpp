@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "toy_method.hpp"
-
 #include <slant/iteration/solve.hpp>
 
-#include <doctest/doctest.h>
-
-#include <vector>
+#include <support/testing.hpp>
+#include "toy_method.hpp"
 
 namespace solve_test {
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/iteration/stopping.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "toy_method.hpp"
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace stopping_test {
 

@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/operators/matrix.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <limits>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace affine_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 using slanting_support::random_matrix;
 using slanting_support::random_vector;
 
 TEST_CASE("y -> A y + c and y -> A y") {
-  Eigen::MatrixXd const a = random_matrix(3, 4, 1);
+  MatrixXd const a = random_matrix(3, 4, 1);
   VectorXd const c = random_vector(3, 2);
   VectorXd const y = random_vector(4, 3);
   auto const f = slant::affine(a, c);
@@ -35,13 +29,13 @@ TEST_CASE("y -> A y + c and y -> A y") {
 }
 
 TEST_CASE("the slanting operator has the laws and the adjoint of A") {
-  Eigen::MatrixXd const m = slanting_support::random_spd(3, 1);
+  MatrixXd const m = slanting_support::random_spd(3, 1);
   auto const a = slant::matrix<slant::self_adjoint, slant::positive_definite>(m);
   auto const f = slant::affine(a, VectorXd::Ones(3));
   VectorXd const y = VectorXd::Zero(3);
   using slope = slant::slant_operator_t<decltype(f), VectorXd>;
   static_assert(slant::spd_operator<slope, VectorXd>);
-  Eigen::MatrixXd const b = random_matrix(2, 3, 7);
+  MatrixXd const b = random_matrix(2, 3, 7);
   auto const h = slant::linear(b);
   auto const g = h.slant(y);
   static_assert(slant::has_adjoint<std::remove_cvref_t<decltype(g)>, VectorXd>);
@@ -51,7 +45,7 @@ TEST_CASE("the slanting operator has the laws and the adjoint of A") {
 }
 
 TEST_CASE("lvalues are referenced, rvalues and expressions owned") {
-  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(2, 2);
+  MatrixXd a = MatrixXd::Identity(2, 2);
   VectorXd c = VectorXd::Zero(2);
   VectorXd const y{{1.0, 2.0}};
   auto const f = slant::affine(a, c);
@@ -61,7 +55,7 @@ TEST_CASE("lvalues are referenced, rvalues and expressions owned") {
   CHECK(slant::evaluate(f, y) == VectorXd{{5.0, 9.0}});
   CHECK(slant::evaluate(with_expression, y) == VectorXd{{5.0, 2.0}});
   auto const owner = [] {
-    return slant::affine(Eigen::MatrixXd(2 * Eigen::MatrixXd::Identity(2, 2)), VectorXd::Ones(2));
+    return slant::affine(MatrixXd(2 * MatrixXd::Identity(2, 2)), VectorXd::Ones(2));
   }();
   CHECK(slant::evaluate(owner, y) == VectorXd{{3.0, 5.0}});
 }
@@ -75,7 +69,7 @@ TEST_CASE("archetype operator and vector") {
 }
 
 TEST_CASE("bad input") {
-  Eigen::MatrixXd const a = Eigen::MatrixXd::Identity(3, 3);
+  MatrixXd const a = MatrixXd::Identity(3, 3);
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::affine(a, VectorXd::Ones(2))),
                        "c.size(): got 2, expected 3 (the number of rows of the operator)",
                        slant::bad_input);

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include "support/message.hpp"
-
 #include <slant/slanting/coulomb_law.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cmath>
-#include <limits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace alart_curnier_test {
 
-using Eigen::MatrixXd;
-using Eigen::Vector3d;
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
 using block = slant::alart_curnier_block<3>;
@@ -42,7 +32,7 @@ TEST_CASE("Alart–Curnier: the three cases and what counts at their borders") {
   CHECK(smooth.value(Vector3d(2, 3, 4)) == Vector3d(2, 0, 0));
   CHECK(smooth.slant(Vector3d(2, 0, 0)) == Vector3d(1, 0, 0).asDiagonal().toDenseMatrix());
   Vector3d const overflow(std::numeric_limits<double>::infinity(), 3, 4);
-  CHECK(smooth.value(overflow).tail<2>() == Eigen::Vector2d(0, 0));
+  CHECK(smooth.value(overflow).tail<2>() == Vector2d(0, 0));
   CHECK(smooth.slant(overflow) == Vector3d(1, 0, 0).asDiagonal().toDenseMatrix());
   CHECK(a.value(overflow) == overflow);
   CHECK(a.value(Vector3d(std::nan(""), 1, 1)).hasNaN());
@@ -56,7 +46,7 @@ TEST_CASE("Alart–Curnier: limits at the borders and the apex, at all scales") 
                                         VectorXd(s * VectorXd{{1.0, 3.0, 0.0, 1.0, 0.0, 0.0}}));
   }
   auto const f = slant::alart_curnier_projection<3>(VectorXd{{0.5, 0.0}});
-  slant::testing::check_slanting_laws(f, VectorXd(VectorXd::Zero(6)));
+  slant::testing::check_slanting_laws(f, test::zeros(6));
   slant::testing::check_slanting_laws(slant::alart_curnier_projection<2>(VectorXd{{0.5, 1.0}}),
                                       VectorXd{{2.0, -1.0, 0.0, 3.0}});
 }
@@ -68,7 +58,7 @@ VectorXd naive(MatrixXd const& W, VectorXd const& q, VectorXd const& mu, VectorX
   VectorXd f = r;
   for (Eigen::Index i = 0; i < mu.size(); ++i) {
     double const n = std::max(0.0, r[3 * i] - rho[3 * i] * u[3 * i]);
-    Eigen::Vector2d t = r.segment<2>(3 * i + 1) - rho[3 * i + 1] * u.segment<2>(3 * i + 1);
+    Vector2d t = r.segment<2>(3 * i + 1) - rho[3 * i + 1] * u.segment<2>(3 * i + 1);
     if (t.norm() > mu[i] * n) t *= mu[i] * n / t.norm();
     f[3 * i] -= n;
     f.segment<2>(3 * i + 1) -= t;
@@ -92,7 +82,7 @@ TEST_CASE(
     VectorXd const d = (naive(W, q, mu, rho, r + h) - naive(W, q, mu, rho, r - h)) / 2e-6;
     CHECK((G.col(j) - d).norm() <= 1e-7 * G.norm());
   }
-  slant::testing::check_slanting_laws(F, r, VectorXd(VectorXd::Zero(n)));
+  slant::testing::check_slanting_laws(F, r, test::zeros(n));
   slanting_support::check_renewal(F, r);
 }
 

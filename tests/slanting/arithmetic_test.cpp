@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <slant/operators/operators.hpp>
+#include <slant/slanting/slanting.hpp>
+
+#include <support/testing.hpp>
 #include "slanting_support.hpp"
 
-#include <slant/operators/matrix.hpp>
-#include <slant/operators/restriction.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/pairs.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <sstream>
-
 namespace arithmetic_test {
-
-using Eigen::VectorXd;
 
 namespace client {
 
@@ -24,7 +15,7 @@ struct doubling : slant::slanting_base {
   [[nodiscard]] slant::index cols() const { return 3; }
   void value(VectorXd const& y, VectorXd& f) const { f = 2 * y; }
   [[nodiscard]] auto slant(VectorXd const&) const {
-    return slant::matrix(Eigen::MatrixXd(2 * Eigen::MatrixXd::Identity(3, 3)));
+    return slant::matrix(MatrixXd(2 * MatrixXd::Identity(3, 3)));
   }
 };
 
@@ -34,7 +25,7 @@ TEST_CASE("formulas say what they say on paper") {
   VectorXd const y{{1.0, -2.0, 4.0}};
   slant::identity_map const id(3);
   auto const p = slant::positive_part(3);
-  Eigen::MatrixXd const a = slanting_support::random_matrix(3, 3, 1);
+  MatrixXd const a = slanting_support::random_matrix(3, 3, 1);
   auto const at_y = [&](auto const& f) { return slant::evaluate(f, y); };
   VectorXd const plus{{1.0, 0.0, 4.0}};
 
@@ -53,7 +44,7 @@ TEST_CASE("formulas say what they say on paper") {
 }
 
 TEST_CASE("formulas print themselves and their slanting operators") {
-  Eigen::MatrixXd const m = slanting_support::random_spd(2, 1);
+  MatrixXd const m = slanting_support::random_spd(2, 1);
   VectorXd const b = VectorXd::Ones(2), y{{1.0, -2.0}};
   slant::identity_map const x(2);
   auto const A = slant::op<"A", slant::self_adjoint, slant::positive_definite>(m);
@@ -76,8 +67,8 @@ TEST_CASE("temporaries are owned, variables referenced") {
 }
 
 TEST_CASE("operators of slant and Eigen matrices keep their own arithmetic") {
-  Eigen::MatrixXd const a = Eigen::MatrixXd::Identity(2, 2);
-  static_assert(!slant::slanting_map<Eigen::MatrixXd>);
+  MatrixXd const a = MatrixXd::Identity(2, 2);
+  static_assert(!slant::slanting_map<MatrixXd>);
   CHECK((a * a).isIdentity());
   CHECK((2.0 * a - a).isIdentity());
 }

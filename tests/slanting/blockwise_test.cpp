@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/slanting/coulomb_law.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <support/allocation_guard.hpp>
-#include <support/message.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace blockwise_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
@@ -27,10 +20,10 @@ struct quadratic {
     if (!(value >= 0)) throw slant::bad_input("c", slant::detail::show(value), "a number >= 0");
     return {value};
   }
-  [[nodiscard]] Eigen::Vector2d value(Eigen::Vector2d const& y) const {
+  [[nodiscard]] Vector2d value(Vector2d const& y) const {
     return {y(0) + c * y(1) * y(1), y(0) * y(1)};
   }
-  [[nodiscard]] Eigen::Matrix2d slant(Eigen::Vector2d const& y) const {
+  [[nodiscard]] Eigen::Matrix2d slant(Vector2d const& y) const {
     Eigen::Matrix2d g;
     g << 1, 2 * c * y(1), y(1), y(0);
     return g;
@@ -43,11 +36,11 @@ TEST_CASE("blockwise: values, block diagonal derivative, laws") {
   CHECK(f.block(1).c == 3);
   VectorXd const y{{1.0, 2.0, 3.0, -1.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{9.0, 2.0, 6.0, -3.0}});
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(4, 4);
+  MatrixXd expected = MatrixXd::Zero(4, 4);
   expected.block<2, 2>(0, 0) << 1, 8, 2, 1;
   expected.block<2, 2>(2, 2) << 1, -6, -1, 3;
   CHECK(dense_slant(f, y) == expected);
-  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(4)));
+  slant::testing::check_slanting_laws(f, y, test::zeros(4));
   auto const g = f.slant(y);
   slant::testing::check_operator_laws(g);  // the adjoint among them
   static_assert(!slant::declares_self_adjoint<decltype(g)>);

@@ -1,45 +1,38 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/operators/counted.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/composition.hpp>
-#include <slant/slanting/pairs.hpp>
-#include <slant/slanting/smooth.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace composition_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
 using slanting_support::random_matrix;
 using slanting_support::random_vector;
 
 TEST_CASE("the chain rule, with different sizes") {
-  Eigen::MatrixXd const a = random_matrix(2, 3, 1);
+  MatrixXd const a = random_matrix(2, 3, 1);
   VectorXd const c = random_vector(2, 2);
   auto const squares = slant::smooth(
       2, 2, [](auto const& y, auto& f) { f = y.cwiseAbs2(); },
-      [](auto const& y) { return Eigen::MatrixXd((2 * y).asDiagonal()); });
+      [](auto const& y) { return MatrixXd((2 * y).asDiagonal()); });
   auto const f = slant::compose(squares, slant::affine(a, c));
   CHECK(f.rows() == 2);
   CHECK(f.cols() == 3);
   VectorXd const y = random_vector(3, 3);
   VectorXd const inner = a * y + c;
   CHECK((slant::evaluate(f, y) - inner.cwiseAbs2()).norm() <= 1e-15);
-  Eigen::MatrixXd const expected = (2 * inner).asDiagonal() * a;
+  MatrixXd const expected = (2 * inner).asDiagonal() * a;
   CHECK((dense_slant(f, y) - expected).norm() <= 1e-15);
-  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(3)));
+  slant::testing::check_slanting_laws(f, y, test::zeros(3));
 }
 
 TEST_CASE("a slant after a value evaluates nothing again, at any depth") {
-  Eigen::MatrixXd const m = random_matrix(4, 4, 1);
+  MatrixXd const m = random_matrix(4, 4, 1);
   auto const a = slant::counted(m);
   auto const b = slant::counted(m);
   auto const inner = slant::compose(slant::positive_part(4), slant::affine(a, random_vector(4, 2)));
@@ -65,7 +58,7 @@ TEST_CASE("a slant after a value evaluates nothing again, at any depth") {
 }
 
 TEST_CASE("value and renewal allocate nothing") {
-  Eigen::MatrixXd const m = random_matrix(30, 30, 1);
+  MatrixXd const m = random_matrix(30, 30, 1);
   auto const inner =
       slant::compose(slant::positive_part(30), slant::affine(m, random_vector(30, 2)));
   auto const f = slant::compose(slant::positive_part(30), slant::compose(slant::linear(m), inner));

@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
+#include <slant/sets/sets.hpp>
+#include <slant/slanting/slanting.hpp>
+#include <slant/testing/laws.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/hard_points.hpp"
 #include "oracle/naive_projections.hpp"
 #include "oracle/precise.hpp"
 #include "oracle/set_checks.hpp"
-#include "support/message.hpp"
-
-#include <slant/sets/power.hpp>
-#include <slant/sets/second_order_cone.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/coulomb_law.hpp>
-#include <slant/slanting/projection.hpp>
-#include <slant/testing/laws.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <limits>
+#include "slanting_support.hpp"
 
 namespace de_saxce_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using oracle::float_50;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
@@ -47,7 +35,7 @@ TEST_CASE("de Saxcé: slanting against differences in 50 digits, at all scales")
   for (int i = 0; i < 60; ++i) {
     double const scale = source.positive_of_size(-150, 150);
     double const μ = source.positive_of_size(-2, 1);
-    Eigen::Vector3d const u = scale * source.direction<3>();
+    Vector3d const u = scale * source.direction<3>();
     auto const exact = [&](auto const& z) {
       auto v = z;
       v(0) += float_50(μ) * sqrt(float_50(z(1) * z(1) + z(2) * z(2)));
@@ -56,7 +44,7 @@ TEST_CASE("de Saxcé: slanting against differences in 50 digits, at all scales")
     slant::de_saxce_block<3> const block(μ);
     auto const wide = oracle::widen<float_50>(u);
     double worst = 0;
-    Eigen::Vector3d const computed = block.value(u);
+    Vector3d const computed = block.value(u);
     for (int k = 0; k < 3; ++k) {
       // The sum u_n + μ‖u_t‖ may cancel: measured by its terms.
       worst = std::max(worst, std::abs(double((float_50(computed(k)) - exact(wide)(k)) /
@@ -75,8 +63,7 @@ TEST_CASE("de Saxcé: slanting against differences in 50 digits, at all scales")
 TEST_CASE("de Saxcé: the limit at u_t = 0, on the axis and at 0") {
   auto const f = slant::de_saxce<3>(VectorXd{{0.5, 2.0}});
   slant::testing::check_slanting_laws(f, VectorXd{{1.0, 0.0, 0.0, -3.0, 0.0, 0.0}},
-                                      VectorXd{{0.0, 1.0, 0.0, 0.0, 0.0, 0.0}},
-                                      VectorXd(VectorXd::Zero(6)));
+                                      VectorXd{{0.0, 1.0, 0.0, 0.0, 0.0, 0.0}}, test::zeros(6));
   slant::testing::check_slanting_laws(slant::de_saxce<2>(VectorXd{{0.5, 2.0}}),
                                       VectorXd{{1.0, 0.0, -3.0, -0.25}});
 }
@@ -97,20 +84,20 @@ TEST_CASE(
   VectorXd expected = r;
   MatrixXd slope = MatrixXd::Identity(n, n);
   for (slant::index i = 0; i < 3; ++i) {
-    Eigen::Vector3d hat = u.segment<3>(3 * i);
+    Vector3d hat = u.segment<3>(3 * i);
     double const slip = hat.tail<2>().norm();
     Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
     H.block<1, 2>(0, 1) = mu[i] * hat.tail<2>().transpose() / slip;
     hat(0) += mu[i] * slip;
-    Eigen::Vector3d const z = r.segment<3>(3 * i) - ρ * hat;
+    Vector3d const z = r.segment<3>(3 * i) - ρ * hat;
     expected.segment<3>(3 * i) -= naive::project_cone<double, 3>(z, mu[i]);
-    Eigen::MatrixXd inner = -ρ * H * W.middleRows<3>(3 * i);
+    MatrixXd inner = -ρ * H * W.middleRows<3>(3 * i);
     inner.middleCols<3>(3 * i) += Eigen::Matrix3d::Identity();
     slope.middleRows<3>(3 * i) -= K.block(i).slant(z) * inner;
   }
   CHECK((slant::evaluate(F, r) - expected).norm() <= 1e-14);
   CHECK((dense_slant(F, r) - slope).norm() <= 1e-14 * slope.norm());
-  slant::testing::check_slanting_laws(F, r, VectorXd(VectorXd::Zero(n)));
+  slant::testing::check_slanting_laws(F, r, test::zeros(n));
 
   MatrixXd columns(n, n);
   F.slant(r).columns(0, columns);  // what direct solvers take

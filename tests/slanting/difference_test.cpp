@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace difference_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("y - max(0, y) = min(0, y)") {
   auto const f = slant::subtract(slant::identity_map(3), slant::positive_part(3));
   VectorXd const y{{1.0, -2.0, 0.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{0.0, -2.0, 0.0}});
-  Eigen::MatrixXd const expected = Eigen::Vector3d(0, 1, 0).asDiagonal();
+  MatrixXd const expected = Vector3d(0, 1, 0).asDiagonal();
   CHECK(slanting_support::dense_slant(f, y) == expected);
   using slope = slant::slant_operator_t<std::remove_cvref_t<decltype(f)>, VectorXd>;
   static_assert(slant::declares_self_adjoint<slope>);
@@ -38,7 +30,7 @@ TEST_CASE("order matters, archetypes") {
 }
 
 TEST_CASE("bad input") {
-  Eigen::MatrixXd const wide = Eigen::MatrixXd::Ones(3, 4);
+  MatrixXd const wide = MatrixXd::Ones(3, 4);
   CHECK_THROWS_WITH_AS(
       static_cast<void>(slant::subtract(slant::identity_map(3), slant::linear(wide))),
       "g.cols(): got 4, expected 3 (f.cols())", slant::bad_input);

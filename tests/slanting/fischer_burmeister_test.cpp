@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <Eigen/Core>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace fischer_burmeister_test {
 
-using Eigen::VectorXd;
 using kernel = slant::detail::fischer_burmeister_kernel;
 using oracle = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
                                              boost::multiprecision::et_off>;
@@ -107,13 +98,13 @@ TEST_CASE("the slope at (0, 0) is the limit along a = b > 0") {
 }
 
 TEST_CASE("of two functions: values, chain rule, laws") {
-  Eigen::MatrixXd const m = slanting_support::random_spd(4, 3);
+  MatrixXd const m = slanting_support::random_spd(4, 3);
   VectorXd const b = slanting_support::random_vector(4, 5);
   auto const f = slant::fischer_burmeister(slant::identity_map(4), slant::affine(m, -b));
   VectorXd const y{{1.0, 0.0, -2.0, 0.3}};
   VectorXd const r = m * y - b;
   VectorXd const value = slant::evaluate(f, y);
-  Eigen::MatrixXd expected = m;
+  MatrixXd expected = m;
   for (int i = 0; i < 4; ++i) {
     double const h = std::hypot(y[i], r[i]);
     CHECK(value[i] == doctest::Approx(h - y[i] - r[i]));
@@ -124,8 +115,7 @@ TEST_CASE("of two functions: values, chain rule, laws") {
   // Both arguments are 0 at the second point: the kink in every component.
   slant::testing::check_slanting_laws(f, y, slanting_support::solve(m, b));
   auto const both = slant::fischer_burmeister(slant::identity_map(3), slant::identity_map(3));
-  slant::testing::check_slanting_laws(both, VectorXd(VectorXd::Zero(3)),
-                                      VectorXd{{1.0, 0.0, -1.0}});
+  slant::testing::check_slanting_laws(both, test::zeros(3), VectorXd{{1.0, 0.0, -1.0}});
 }
 
 TEST_CASE("float, long double and multiprecision") {

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/slanting/affine.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace identity_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("the identity") {
   slant::identity_map const f(3);

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/second_order_cone.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/inequalities.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace inequalities_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
 
@@ -69,12 +63,12 @@ TEST_CASE("forces are Jᵀz, and their derivative (H, Jᵀ)") {
   auto const set = mixed_set();
   auto const force = slant::inequality_forces(set);
   VectorXd const y = random_vector(24, 5);
-  Eigen::MatrixXd const J = dense_slant(slant::inequalities(set), VectorXd(y.head(15)));
+  MatrixXd const J = dense_slant(slant::inequalities(set), VectorXd(y.head(15)));
   CHECK((slant::evaluate(force, y) - J.transpose() * y.tail(9)).norm() <= 1e-15 * y.norm());
-  Eigen::MatrixXd const G = dense_slant(force, y);
+  MatrixXd const G = dense_slant(force, y);
   CHECK(G.rightCols(9) == J.transpose());
   CHECK(G.leftCols(15) == G.leftCols(15).transpose());
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(15, 15);
+  MatrixXd H = MatrixXd::Zero(15, 15);
   force.slant(y).visit_hessian([&](auto i, auto j, double h) { H(i, j) += h; });
   CHECK(G.leftCols(15) == H);
 }

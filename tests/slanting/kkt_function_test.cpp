@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/operators/counted.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/ellipse.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/kkt_function.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
 #include <fem/string_1d.hpp>
-
-#include <Eigen/Core>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace kkt_function_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
 

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/kkt_function.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace kkt_scalars_test {
 
@@ -48,14 +44,14 @@ TEST_CASE("float and long double") {
 
 TEST_CASE("vectors of which only the concept is known") {
   using slant::testing::archetype::vector;
-  Eigen::MatrixXd const A = 4 * Eigen::MatrixXd::Identity(4, 4);
+  MatrixXd const A = 4 * MatrixXd::Identity(4, 4);
   auto const set = slant::cartesian(slant::half_lines(1), slant::free_components(1),
-                                    slant::discs(Eigen::VectorXd{{1.0}}));
-  vector const b(Eigen::VectorXd::Constant(4, 1.0));
+                                    slant::discs(VectorXd{{1.0}}));
+  vector const b(VectorXd::Constant(4, 1.0));
   auto const F = slant::kkt(A, b, set, 0.5);
-  vector const y(Eigen::VectorXd{{-1, 2, 1, 2, 3, -0.5}});
-  CHECK(slant::evaluate(F, y).local() == Eigen::VectorXd{{-8, 7, 2, 5, -0.5, -2}});
-  CHECK(dense_slant(F, y).row(4).transpose() == Eigen::VectorXd{{0.5, 0, 0, 0, 0, 0}});
+  vector const y(VectorXd{{-1, 2, 1, 2, 3, -0.5}});
+  CHECK(slant::evaluate(F, y).local() == VectorXd{{-8, 7, 2, 5, -0.5, -2}});
+  CHECK(dense_slant(F, y).row(4).transpose() == VectorXd{{0.5, 0, 0, 0, 0, 0}});
 }
 
 }  // namespace kkt_scalars_test

@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <Eigen/Core>
-#include <cmath>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace max_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
 TEST_CASE("max(0, y): slope 1 at the kink, a projector") {
   auto const f = slant::positive_part(4);
   VectorXd const y{{1.0, -2.0, 0.0, -0.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{1.0, 0.0, 0.0, 0.0}});
-  Eigen::MatrixXd const expected = Eigen::Vector4d(1, 0, 1, 1).asDiagonal();
+  MatrixXd const expected = Eigen::Vector4d(1, 0, 1, 1).asDiagonal();
   CHECK(dense_slant(f, y) == expected);
   using slope = slant::slant_operator_t<std::remove_cvref_t<decltype(f)>, VectorXd>;
   static_assert(slant::declares_self_adjoint<slope>);
@@ -33,22 +26,22 @@ TEST_CASE("max(0, y): slope 1 at the kink, a projector") {
 }
 
 TEST_CASE("max(0, F)") {
-  Eigen::MatrixXd const a{{1.0, 2.0}, {3.0, -1.0}};
+  MatrixXd const a{{1.0, 2.0}, {3.0, -1.0}};
   auto const f = slant::positive_part(slant::linear(a));
   VectorXd const y{{1.0, 4.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{9.0, 0.0}});
-  CHECK(dense_slant(f, y) == Eigen::MatrixXd{{1.0, 2.0}, {0.0, 0.0}});
-  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(2)));
+  CHECK(dense_slant(f, y) == MatrixXd{{1.0, 2.0}, {0.0, 0.0}});
+  slant::testing::check_slanting_laws(f, y, test::zeros(2));
 }
 
 TEST_CASE("max(F, G): the row of F at a tie") {
-  Eigen::MatrixXd const a{{2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 2.0}};
+  MatrixXd const a{{2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 2.0}};
   auto const f = slant::max(slant::linear(a), slant::identity_map(3));
   VectorXd const y{{1.0, -2.0, 0.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{2.0, -2.0, 0.0}});
-  Eigen::MatrixXd const expected = Eigen::Vector3d(2, 1, 2).asDiagonal();
+  MatrixXd const expected = Vector3d(2, 1, 2).asDiagonal();
   CHECK(dense_slant(f, y) == expected);
-  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(3)));
+  slant::testing::check_slanting_laws(f, y, test::zeros(3));
 }
 
 TEST_CASE("NaN in, NaN out") {

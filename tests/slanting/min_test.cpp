@@ -1,37 +1,29 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/slanting/pairs.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/sets/sets.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cmath>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace min_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
 TEST_CASE("min(F, G): the row of G at a tie") {
-  Eigen::MatrixXd const a = 2 * Eigen::MatrixXd::Identity(3, 3);
+  MatrixXd const a = 2 * MatrixXd::Identity(3, 3);
   auto const f = slant::min(slant::linear(a), slant::identity_map(3));
   VectorXd const y{{1.0, -2.0, 0.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{1.0, -4.0, 0.0}});
-  Eigen::MatrixXd const expected = Eigen::Vector3d(1, 2, 1).asDiagonal();
+  MatrixXd const expected = Vector3d(1, 2, 1).asDiagonal();
   CHECK(dense_slant(f, y) == expected);
-  slant::testing::check_slanting_laws(f, y, VectorXd(VectorXd::Zero(3)));
+  slant::testing::check_slanting_laws(f, y, test::zeros(3));
 }
 
 TEST_CASE("min(x, rho r(x)) is the natural residual of x >= 0, at kinks too") {
   // Small integers: everything is exact. r(x) = (8, −1, 0), so there are ties in the components 0
   // and 2 at ρ = 1/4.
-  Eigen::MatrixXd const m{{4.0, 1.0, 0.0}, {1.0, 4.0, 1.0}, {0.0, 1.0, 4.0}};
+  MatrixXd const m{{4.0, 1.0, 0.0}, {1.0, 4.0, 1.0}, {0.0, 1.0, 4.0}};
   VectorXd const x{{2.0, 0.5, 0.0}};
   VectorXd const b{{0.5, 5.0, 0.5}};
   auto const a = slant::matrix(m);

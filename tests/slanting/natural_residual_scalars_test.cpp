@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The natural residual with other scalars than double; apart from the rest for the compiler's sake.
-#include "slanting_support.hpp"
-
-#include <slant/sets/ball.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/projection.hpp>
 
-#include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <Eigen/Core>
-#include <limits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace natural_residual_scalars_test {
 

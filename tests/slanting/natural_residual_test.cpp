@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/operators/counted.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/operators/operators.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cmath>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace natural_residual_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
 
@@ -52,12 +41,12 @@ TEST_CASE("value and slanting operator, derived by hand") {
   }
   for (int k = 0; k < 2; ++k) {
     double const radius = k == 0 ? 1 : 5;
-    Eigen::Vector2d const part = z.segment<2>(2 + 2 * k);
+    Vector2d const part = z.segment<2>(2 + 2 * k);
     double const size = part.norm();
     if (size <= radius) {
       g.block<2, 2>(2 + 2 * k, 2 + 2 * k).setIdentity();
     } else {
-      Eigen::Vector2d const t(-part[1] / size, part[0] / size);  // the tangent
+      Vector2d const t(-part[1] / size, part[0] / size);  // the tangent
       projected.segment<2>(2 + 2 * k) *= radius / size;
       g.block<2, 2>(2 + 2 * k, 2 + 2 * k) = radius / size * t * t.transpose();
     }

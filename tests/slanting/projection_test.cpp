@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/projection.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace projection_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
 TEST_CASE("a product of half lines and discs: values, slopes, laws, kinks") {
@@ -27,7 +19,7 @@ TEST_CASE("a product of half lines and discs: values, slopes, laws, kinks") {
   VectorXd const y{{-1.0, 2.0, 3.0, 4.0, 3.0, 4.0}};
   CHECK((slant::evaluate(f, y) - VectorXd{{0.0, 2.0, 0.6, 0.8, 3.0, 4.0}}).norm() <= 1e-15);
 
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(6, 6);
+  MatrixXd expected = MatrixXd::Zero(6, 6);
   expected(1, 1) = 1;                                                             // above its bound
   expected.block<2, 2>(2, 2) << 16.0 / 125, -12.0 / 125, -12.0 / 125, 9.0 / 125;  // (1/5)(I − eeᵀ)
   expected.block<2, 2>(4, 4).setIdentity();  // on the circle: inside
@@ -38,18 +30,18 @@ TEST_CASE("a product of half lines and discs: values, slopes, laws, kinks") {
   static_assert(slant::declares_firmly_nonexpansive<slope>);
 
   VectorXd const at_kinks{{0.0, -1.0, 0.6, 0.8, 5.0, 0.0}};
-  slant::testing::check_slanting_laws(f, y, at_kinks, VectorXd(VectorXd::Zero(6)));
+  slant::testing::check_slanting_laws(f, y, at_kinks, test::zeros(6));
 }
 
 TEST_CASE("one block, of fixed size and on dynamic vectors") {
   auto const f = slant::projection(slant::ball<3>(2.0));
-  Eigen::Vector3d const outside(0, 0, 8);
-  CHECK(slant::evaluate(f, outside) == Eigen::Vector3d(0, 0, 2));
-  Eigen::Matrix3d const expected = Eigen::Vector3d(0.25, 0.25, 0).asDiagonal();
+  Vector3d const outside(0, 0, 8);
+  CHECK(slant::evaluate(f, outside) == Vector3d(0, 0, 2));
+  Eigen::Matrix3d const expected = Vector3d(0.25, 0.25, 0).asDiagonal();
   CHECK(dense_slant(f, outside) == expected);
   CHECK(dense_slant(f, VectorXd(outside)) == expected);
   CHECK(f.set().radius() == 2);
-  slant::testing::check_slanting_laws(f, outside, Eigen::Vector3d(2, 0, 0));
+  slant::testing::check_slanting_laws(f, outside, Vector3d(2, 0, 0));
 }
 
 TEST_CASE("archetype vectors") {
@@ -69,8 +61,8 @@ TEST_CASE("a client's set whose slant is a matrix of any size") {
     [[nodiscard]] slant::index size() const { return n; }
     [[nodiscard]] bool contains(VectorXd const& x) const { return std::abs(x.sum()) <= 1e-12; }
     void project(VectorXd const& x, VectorXd& y) const { y = x.array() - x.mean(); }
-    [[nodiscard]] Eigen::MatrixXd slant(VectorXd const&) const {
-      return Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / double(n));
+    [[nodiscard]] MatrixXd slant(VectorXd const&) const {
+      return MatrixXd::Identity(n, n) - MatrixXd::Constant(n, n, 1.0 / double(n));
     }
   };
   auto const f = slant::projection(hyperplane{4});

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <limits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace scaled_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("values and slanting operators are multiplied") {
   auto const f = slant::scale(slant::any_sign(-2.5), slant::positive_part(3));
   VectorXd const y{{1.0, -2.0, 0.0}};
   CHECK(slant::evaluate(f, y) == VectorXd{{-2.5, 0.0, 0.0}});
-  Eigen::MatrixXd const expected = Eigen::Vector3d(-2.5, 0, -2.5).asDiagonal();
+  MatrixXd const expected = Vector3d(-2.5, 0, -2.5).asDiagonal();
   CHECK(slanting_support::dense_slant(f, y) == expected);
   slant::testing::check_slanting_laws(f, y);
   CHECK(slant::evaluate(slant::scale(2, slant::positive_part(3)), y)[0] == 2);
@@ -27,7 +20,7 @@ TEST_CASE("values and slanting operators are multiplied") {
 
 TEST_CASE("a number keeps definiteness, one of any sign and a minus do not") {
   auto const p = slant::positive_part(3);
-  auto const slope = [](auto const& f) { return f.slant(VectorXd(VectorXd::Zero(3))); };
+  auto const slope = [](auto const& f) { return f.slant(test::zeros(3)); };
   auto const plain = slope(2.0 * p);
   auto const any = slope(slant::any_sign(2.0) * p);
   auto const minus = slope(-p);

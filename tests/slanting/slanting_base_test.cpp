@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/projection.hpp>
-#include <slant/slanting/slanting_part.hpp>
+#include <slant/slanting/slanting.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
 
 namespace slanting_base_test {
 
@@ -14,10 +10,8 @@ namespace slanting_base_test {
 struct unmarked {
   [[nodiscard]] slant::index rows() const { return 1; }
   [[nodiscard]] slant::index cols() const { return 1; }
-  [[nodiscard]] Eigen::VectorXd value(Eigen::VectorXd const& y) const { return y; }
-  [[nodiscard]] auto slant(Eigen::VectorXd const& y) const {
-    return slant::identity_operator(y.size());
-  }
+  [[nodiscard]] VectorXd value(VectorXd const& y) const { return y; }
+  [[nodiscard]] auto slant(VectorXd const& y) const { return slant::identity_operator(y.size()); }
 };
 struct marked : unmarked, slant::slanting_base {};
 struct only_marked : slant::slanting_base {};

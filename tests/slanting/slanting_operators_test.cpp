@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // F°(y) of a composition has the capabilities of the operator composition it stands for.
-#include "slanting_support.hpp"
-
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/ball.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/pairs.hpp>
-#include <slant/slanting/projection.hpp>
-#include <slant/slanting/symmetrized.hpp>
+#include <slant/sets/sets.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace slanting_operators_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slanting_support::dense;
 
 MatrixXd const m = slanting_support::random_matrix(4, 4, 1);

@@ -6,13 +6,7 @@
 
 #include <slant/concepts/slanting_function.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-#include <cmath>
-#include <random>
-#include <utility>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
 
 namespace slanting_support {
 
@@ -40,10 +34,10 @@ template <class F, class V>
 
 /// The value, F°(y) renewed and its application allocate nothing; renewed it is as made anew.
 template <class F>
-void check_renewal(F const& f, Eigen::VectorXd const& y) {
-  Eigen::VectorXd v(f.rows()), x(f.rows());
+void check_renewal(F const& f, VectorXd const& y) {
+  VectorXd v(f.rows()), x(f.rows());
   auto w = slant::workspace(f, y);
-  auto g = f.slant(Eigen::VectorXd::Zero(f.cols()).eval());
+  auto g = f.slant(VectorXd::Zero(f.cols()).eval());
   auto gw = slant::workspace(g, y);
   slant::testing::allocation_guard const guard;
   slant::evaluate(f, y, v, w);
@@ -58,10 +52,10 @@ void check_renewal(F const& f, Eigen::VectorXd const& y) {
 /// Of A, a value costs one application, the slant after it none, and each product by the slant one;
 /// nothing allocates.
 template <class F, class A>
-void check_products(F const& f, A const& a, Eigen::VectorXd const& y) {
-  Eigen::VectorXd v(f.rows()), x(f.rows());
+void check_products(F const& f, A const& a, VectorXd const& y) {
+  VectorXd v(f.rows()), x(f.rows());
   auto w = slant::workspace(f, y);
-  auto g = f.slant(Eigen::VectorXd::Zero(f.cols()).eval());
+  auto g = f.slant(VectorXd::Zero(f.cols()).eval());
   auto gw = slant::workspace(g, y);
   a.reset_counts();
   slant::testing::allocation_guard const guard;
@@ -79,20 +73,20 @@ void check_products(F const& f, A const& a, Eigen::VectorXd const& y) {
 }
 
 /// n numbers in [−1, 1].
-[[nodiscard]] inline Eigen::VectorXd random_vector(slant::index n, unsigned seed) {
+[[nodiscard]] inline VectorXd random_vector(slant::index n, unsigned seed) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> number(-1, 1);
-  return Eigen::VectorXd::NullaryExpr(n, [&] { return number(engine); });
+  return VectorXd::NullaryExpr(n, [&] { return number(engine); });
 }
 
-[[nodiscard]] inline Eigen::MatrixXd random_matrix(slant::index m, slant::index n, unsigned seed) {
+[[nodiscard]] inline MatrixXd random_matrix(slant::index m, slant::index n, unsigned seed) {
   return random_vector(m * n, seed).reshaped(m, n);
 }
 
 /// A well-conditioned symmetric positive definite matrix.
-[[nodiscard]] inline Eigen::MatrixXd random_spd(slant::index n, unsigned seed) {
-  Eigen::MatrixXd const b = random_matrix(n, n, seed);
-  return b * b.transpose() + Eigen::MatrixXd::Identity(n, n);
+[[nodiscard]] inline MatrixXd random_spd(slant::index n, unsigned seed) {
+  MatrixXd const b = random_matrix(n, n, seed);
+  return b * b.transpose() + MatrixXd::Identity(n, n);
 }
 
 /// A⁻¹ b by Gaussian elimination with row pivoting. Eigen's decompositions take seconds to compile

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/operators/diagonal.hpp>
 #include <slant/slanting/smooth.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cmath>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace smooth_test {
-
-using Eigen::Vector2d;
-using Eigen::VectorXd;
 
 auto circle_and_line() {
   return slant::smooth(

@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
 #include <slant/operators/counted.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/pairs.hpp>
-#include <slant/slanting/stack.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace stack_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense;
 using slanting_support::dense_slant;
 using slanting_support::random_matrix;
 using slanting_support::random_vector;
 
 TEST_CASE("functions of the same argument, one above the other") {
-  Eigen::MatrixXd const a = random_matrix(2, 3, 1);
+  MatrixXd const a = random_matrix(2, 3, 1);
   auto const f = slant::stack(slant::linear(a), slant::positive_part(3), -slant::positive_part(3));
   CHECK(f.rows() == 8);
   CHECK(f.cols() == 3);
@@ -30,7 +23,7 @@ TEST_CASE("functions of the same argument, one above the other") {
   VectorXd expected(8);
   expected << a * y, 1, 0, 0, -1, 0, 0;
   CHECK((slant::evaluate(f, y) - expected).norm() <= 1e-15);
-  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(8, 3);
+  MatrixXd slope = MatrixXd::Zero(8, 3);
   slope.topRows(2) = a;
   slope(2, 0) = slope(4, 2) = 1;
   slope(5, 0) = slope(7, 2) = -1;
@@ -39,7 +32,7 @@ TEST_CASE("functions of the same argument, one above the other") {
 }
 
 TEST_CASE("the adjoint of its slanting operator, with overwriting") {
-  Eigen::MatrixXd const a = random_matrix(2, 3, 1);
+  MatrixXd const a = random_matrix(2, 3, 1);
   auto const f = slant::stack(slant::linear(a), slant::positive_part(3));
   VectorXd const y{{1.0, -2.0, 0.0}};
   auto const g = f.slant(y);
@@ -50,7 +43,7 @@ TEST_CASE("the adjoint of its slanting operator, with overwriting") {
 }
 
 TEST_CASE("a slant after a value evaluates nothing again; nothing allocates") {
-  Eigen::MatrixXd const m = random_matrix(4, 4, 1);
+  MatrixXd const m = random_matrix(4, 4, 1);
   auto const a = slant::counted(m);
   auto const inner = slant::positive_part(slant::affine(a, random_vector(4, 2)));
   auto const f = slant::stack(slant::positive_part(4), slant::positive_part(4) * inner);

@@ -1,36 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/operators/matrix.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/pairs.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <type_traits>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace sum_test {
 
-using Eigen::VectorXd;
 using slanting_support::dense_slant;
 
 TEST_CASE("values and slanting operators add") {
-  Eigen::MatrixXd const a = slanting_support::random_matrix(3, 3, 1);
+  MatrixXd const a = slanting_support::random_matrix(3, 3, 1);
   VectorXd const y{{1.0, -2.0, 0.0}};
   auto const f = slant::add(slant::affine(a, VectorXd::Ones(3)), slant::positive_part(3));
   VectorXd const expected = a * y + VectorXd{{2.0, 1.0, 1.0}};
   CHECK((slant::evaluate(f, y) - expected).norm() <= 1e-15);
-  Eigen::MatrixXd const slope = a + Eigen::MatrixXd(Eigen::Vector3d(1, 0, 1).asDiagonal());
+  MatrixXd const slope = a + MatrixXd(Vector3d(1, 0, 1).asDiagonal());
   CHECK((dense_slant(f, y) - slope).norm() <= 1e-16);
   slant::testing::check_slanting_laws(f, y);
 }
 
 TEST_CASE("laws of the sum follow from those of the parts") {
-  Eigen::MatrixXd const m = slanting_support::random_spd(3, 1);
+  MatrixXd const m = slanting_support::random_spd(3, 1);
   auto const definite =
       slant::linear(slant::matrix<slant::self_adjoint, slant::positive_definite>(m));
   auto const any = slant::linear(slant::matrix(m));

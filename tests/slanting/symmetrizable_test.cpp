@@ -2,26 +2,14 @@
 //
 // symmetrizable is known from the types: each case that is not differs in one thing from one that
 // is.
+#include <slant/operators/operators.hpp>
+#include <slant/sets/sets.hpp>
+#include <slant/slanting/slanting.hpp>
+
+#include <support/testing.hpp>
 #include "slanting_support.hpp"
 
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/ball.hpp>
-#include <slant/sets/interval.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/slanting/pairs.hpp>
-#include <slant/slanting/projection.hpp>
-#include <slant/slanting/smooth.hpp>
-#include <slant/slanting/symmetrized.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-
 namespace symmetrizable_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 MatrixXd const m = slanting_support::random_spd(4, 1);
 VectorXd const b = slanting_support::random_vector(4, 2);

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "slanting_support.hpp"
-
-#include <slant/operators/counted.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/slanting/projection.hpp>
-#include <slant/slanting/symmetrized.hpp>
+#include <slant/operators/operators.hpp>
+#include <slant/sets/sets.hpp>
+#include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <support/allocation_guard.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
+#include "slanting_support.hpp"
 
 namespace symmetrized_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slanting_support::dense;
 
 struct scene {
