@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
 #include <oracle/certificate.hpp>
 #include <oracle/dense_newton.hpp>
+#include <support/testing.hpp>
 
 namespace certificate_test {
 

@@ -8,14 +8,14 @@ double energy_error(sparse const& K, Eigen::VectorXd const& u, Eigen::VectorXd c
   return std::sqrt(e.dot(K * e) / reference.dot(K * reference));
 }
 
-dense_qp dense_dual(contact_data const& p, envelope_cholesky const& L) {
+dense_qp dense_dual(contact_data const& p, cholesky const& K) {
   Eigen::Index const m = p.m();
   Eigen::Index const n = m + p.T.rows();
-  envelope_cholesky::row_major Y(p.K.rows(), n);
+  Eigen::MatrixXd Y(p.K.rows(), n);
   Y << Eigen::MatrixXd(p.N).transpose(), Eigen::MatrixXd(p.T).transpose();
   Eigen::VectorXd w = p.f;
-  L.forward(Y);
-  L.forward(w);
+  K.matrixL().solveInPlace(Y);
+  K.matrixL().solveInPlace(w);
   dense_qp dual;
   dual.A = Y.transpose() * Y;
   dual.b = (Y.transpose() * w).cast<real>();
@@ -28,26 +28,28 @@ dense_qp dense_dual(contact_data const& p, envelope_cholesky const& L) {
   return dual;
 }
 
-real_vector recover(contact_data const& p, envelope_cholesky const& L, real_vector const& λ) {
+real_vector recover(contact_data const& p, cholesky const& K, real_vector const& λ) {
   real_vector const right = p.f.cast<real>() - multiply(p.N, λ.head(p.m()), true) -
                             multiply(p.T, λ.tail(p.T.rows()), true);
   real_vector u = real_vector::Zero(p.K.rows());
   real_vector rest = right;
   for (int pass = 0; pass < 8 && !rest.isZero(0); ++pass) {
     real const size = rest.cwiseAbs().maxCoeff();
-    u += size * L.solve((rest / size).cast<double>()).cast<real>();
+    Eigen::VectorXd const du = K.solve((rest / size).cast<double>());
+    u += size * du.cast<real>();
     rest = right - multiply(p.K, u);
   }
   return u;
 }
 
 contact_reference solve_contact(contact_data const& p) {
-  envelope_cholesky const L(p.K);
+  cholesky const K(p.K);
+  if (K.info() != Eigen::Success) throw std::runtime_error("solve_contact: K is not definite");
   contact_reference result;
-  result.dual = dense_dual(p, L);
+  result.dual = dense_dual(p, K);
   result.report = solve_dense(result.dual);
   real_vector λ = result.report.x;
-  real_vector u = recover(p, L, λ);
+  real_vector u = recover(p, K, λ);
   for (int pass = 0; pass < 3; ++pass) {
     // The gradient as K sees it; b absorbs what the rounded A misses of it.
     real_vector r(λ.size());
@@ -57,7 +59,7 @@ contact_reference solve_contact(contact_data const& p) {
     result.report.newton_steps += polished.newton_steps;
     result.report.residual = polished.residual;
     λ = polished.x;
-    u = recover(p, L, λ);
+    u = recover(p, K, λ);
   }
   result.report.x = λ;
   result.proof = certify(result.dual, λ);

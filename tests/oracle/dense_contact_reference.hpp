@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // High-accuracy reference for contact with Tresca friction. The dual matrix A = B K⁻¹Bᵀ is formed
-// densely by a Cholesky factorisation of its own, the dual problem is solved by a dense nonsmooth
+// densely from a Cholesky factor of K, the dual problem is solved by a dense nonsmooth
 // Newton method, and the result is corrected until the conditions hold for K, N and T themselves
-// and not only for the rounded A. Shares no factorisation, set or method with the library.
+// and not only for the rounded A. Shares no set or method with the library.
 #pragma once
 
+#include <Eigen/SparseCholesky>
 #include <oracle/certificate.hpp>
 #include <oracle/contact_conditions.hpp>
 #include <oracle/dense_newton.hpp>
-#include <oracle/envelope_cholesky.hpp>
 
 namespace oracle {
 
@@ -35,12 +35,13 @@ struct contact_reference {
 [[nodiscard]] double energy_error(sparse const& K, Eigen::VectorXd const& u,
                                   Eigen::VectorXd const& reference);
 
+using cholesky = Eigen::SimplicialLLT<sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
 /// Dual problem of the contact problem with dense A; c = (d, 0).
-[[nodiscard]] dense_qp dense_dual(contact_data const& p, envelope_cholesky const& L);
+[[nodiscard]] dense_qp dense_dual(contact_data const& p, cholesky const& K);
 
 /// u = K⁻¹(f − Bᵀλ) in the long type by iterative refinement.
-[[nodiscard]] real_vector recover(contact_data const& p, envelope_cholesky const& L,
-                                  real_vector const& λ);
+[[nodiscard]] real_vector recover(contact_data const& p, cholesky const& K, real_vector const& λ);
 
 /// Solves the contact problem. Throws std::runtime_error when K is not positive definite or the
 /// iteration does not converge.

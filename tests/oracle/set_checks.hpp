@@ -3,11 +3,8 @@
 // What tests of sets share: the slanting operator against differences in 50 digits.
 #pragma once
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "precise.hpp"
-
-#include <Eigen/Core>
 
 namespace oracle {
 

@@ -3,28 +3,14 @@
 // Each method of the list below solves every scene from zero to the accuracy that it is asked for:
 // its energy error against the reference is a small multiple of the tolerance, down to where digits
 // end. So any two of them agree to the sum of their errors, and find the same active constraints.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/newton/symmetrized_cg.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <array>
 #include <oracle/certificate.hpp>
 #include <scenes/scene.hpp>
-#include <string>
-#include <support/effort.hpp>
-#include <utility>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace agreement_test {
 
-using Eigen::VectorXd;
 using scenes::scene;
 
 /// What a run leaves behind.

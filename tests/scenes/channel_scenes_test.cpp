@@ -2,20 +2,16 @@
 //
 // A flow in a channel whose wall sticks and slips (g = 10) or only sticks (g = 30).
 #include <slant/factorizations/ldlt.hpp>
-#include "support/folders.hpp"
 
-#include <cmath>
 #include <fem/channel_flow.hpp>
 #include <fem/stokes_dual.hpp>
 #include <fem/wall_preconditioner.hpp>
-#include <oracle/envelope_cholesky.hpp>
 #include <scenes/scene.hpp>
-#include <support/effort.hpp>
-#include <utility>
+#include <support/testing.hpp>
+#include "support/folders.hpp"
 
 namespace channel_scenes_test {
 
-using Eigen::VectorXd;
 using scenes::scene;
 
 /// A flow with factors of its velocity block and its dual problem in balanced units.
@@ -34,16 +30,15 @@ struct flow_data {
   Eigen::Index const n = 2 * m + s.pressure_count();
   VectorXd units = VectorXd::Constant(n, std::sqrt(s.viscosity));
   units.tail(n - 2 * m).array() /= s.pressure_mass.array().sqrt();
-  oracle::envelope_cholesky const L(s.A);
-  oracle::envelope_cholesky::row_major Y(s.A.rows(), n);
-  Y << Eigen::MatrixXd(s.T).transpose(), Eigen::MatrixXd(s.N).transpose(),
-      Eigen::MatrixXd(s.B).transpose();
+  Eigen::LLT<MatrixXd> const K{MatrixXd(s.A)};
+  MatrixXd Y(s.A.rows(), n);
+  Y << MatrixXd(s.T).transpose(), MatrixXd(s.N).transpose(), MatrixXd(s.B).transpose();
   VectorXd w = s.l;
-  L.forward(Y);
-  L.forward(w);
+  K.matrixL().solveInPlace(Y);
+  K.matrixL().solveInPlace(w);
   oracle::dense_qp plain;
   plain.A = Y.transpose() * Y;
-  plain.A.bottomRightCorner(n - 2 * m, n - 2 * m) += Eigen::MatrixXd(s.E);
+  plain.A.bottomRightCorner(n - 2 * m, n - 2 * m) += MatrixXd(s.E);
   plain.A = units.asDiagonal() * plain.A * units.asDiagonal();
   VectorXd b = Y.transpose() * w;
   b.tail(n - 2 * m) -= s.c;
@@ -80,10 +75,8 @@ struct flow_data {
   flow.domain = fem::make_rectangle({5, 3}, {2, 1});
   flow.dirichlet = {"left", "top"};
   flow.wall = "bottom";
-  flow.velocity = [](Eigen::Vector2d const& x) -> Eigen::Vector2d {
-    return {10 * x[1] * (1 - x[1]), 0};
-  };
-  flow.slip_bound = [g](Eigen::Vector2d const& x) { return g * (0.6 + 0.4 * x[0]); };
+  flow.velocity = [](Vector2d const& x) -> Vector2d { return {10 * x[1] * (1 - x[1]), 0}; };
+  flow.slip_bound = [g](Vector2d const& x) { return g * (0.6 + 0.4 * x[0]); };
   return flow;
 }
 

@@ -3,22 +3,17 @@
 // Contact of bodies, against the dense reference.
 #include <slant/contact/dual.hpp>
 #include <slant/contact/preconditioners.hpp>
-#include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/inverse.hpp>
+#include <slant/slant.hpp>
 
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
 #include <oracle/dense_contact_reference.hpp>
 #include <scenes/scene.hpp>
-#include <support/effort.hpp>
-#include <type_traits>
-#include <utility>
+#include <support/testing.hpp>
 
 namespace contact_scenes_test {
 
-using Eigen::VectorXd;
 using scenes::scene;
 
 /// A contact scene with factors of K and its dual problem.

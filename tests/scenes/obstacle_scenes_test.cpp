@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The lecture's first example, all cells of the wire's tables, and membranes.
-#include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/slant.hpp>
 
-#include <cmath>
 #include <fem/double_obstacle.hpp>
 #include <fem/elastic_torsion.hpp>
 #include <fem/incomplete_five_point.hpp>
@@ -16,13 +13,11 @@
 #include <oracle/dense_wire.hpp>
 #include <oracle/naive_membrane.hpp>
 #include <scenes/scene.hpp>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 #include <tridiagonal/example_1.hpp>
-#include <utility>
 
 namespace obstacle_scenes_test {
 
-using Eigen::VectorXd;
 using scenes::make_set;
 using scenes::scene;
 using sparse = Eigen::SparseMatrix<double>;
@@ -42,7 +37,7 @@ using sparse = Eigen::SparseMatrix<double>;
   auto const A = std::make_shared<sparse const>(P * sparse(example_1::matrix() * P.transpose()));
   VectorXd const g = example_1::radii();
   VectorXd const b = P * example_1::right_hand_side();
-  oracle::dense_qp plain{Eigen::MatrixXd(*A), b.cast<long double>()};
+  oracle::dense_qp plain{MatrixXd(*A), b.cast<long double>()};
   for (Eigen::Index i = 0; i < 6; ++i) plain.circles.push_back({2 * i, 2 * i + 1, g[i]});
   return {"tridiagonal",
           A,
