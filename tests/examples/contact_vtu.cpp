@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
 // The file for ParaView, read back: every point has the numbers of its contact node.
-#include <doctest/doctest.h>
-
 #include <fem/contact_vtu.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
 #include <io/io_support.hpp>
 #include <pugixml.hpp>
-#include <sstream>
+#include <support/testing.hpp>
 
 namespace contact_vtu {
 namespace {
 
 /// The numbers of a data array of points, one column per point.
-Eigen::MatrixXd point_data(pugi::xml_document const& file, char const* name) {
+MatrixXd point_data(pugi::xml_document const& file, char const* name) {
   auto const piece = file.child("VTKFile").child("UnstructuredGrid").child("Piece");
   auto const array = piece.child("PointData").find_child_by_attribute("Name", name);
   auto const points = piece.attribute("NumberOfPoints").as_int();
-  Eigen::MatrixXd values(array.attribute("NumberOfComponents").as_int(), points);
+  MatrixXd values(array.attribute("NumberOfComponents").as_int(), points);
   std::istringstream text(array.child_value());
   for (Eigen::Index point = 0; point < points; ++point)
     for (Eigen::Index i = 0; i < values.rows(); ++i) text >> values(i, point);
@@ -31,8 +29,8 @@ Eigen::MatrixXd point_data(pugi::xml_document const& file, char const* name) {
 template <int D>
 void check_points(fem::contact_scene<D> const& scene) {
   Eigen::Index const m = scene.contact_count();
-  Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(scene.unknowns.count, -1, 1);
-  Eigen::VectorXd const λ = Eigen::VectorXd::LinSpaced(D * m, 0, 1);
+  VectorXd const u = VectorXd::LinSpaced(scene.unknowns.count, -1, 1);
+  VectorXd const λ = VectorXd::LinSpaced(D * m, 0, 1);
   auto const field = fem::make_contact_field(scene, u, λ.head(m), λ.tail((D - 1) * m));
 
   io_test::temporary_folder const folder;
@@ -40,12 +38,12 @@ void check_points(fem::contact_scene<D> const& scene) {
   pugi::xml_document file;
   REQUIRE(file.load_file((folder / "a.vtu").c_str()));
 
-  Eigen::MatrixXd const displacement = point_data(file, "displacement");
+  MatrixXd const displacement = point_data(file, "displacement");
   REQUIRE(displacement.rows() == 3);
   CHECK(displacement.topRows(D).isApprox(scene.displacement(u), 1e-14));
-  Eigen::MatrixXd pressure = point_data(file, "contact_pressure");
-  Eigen::MatrixXd friction = point_data(file, "friction");
-  Eigen::MatrixXd state = point_data(file, "contact_state");
+  MatrixXd pressure = point_data(file, "contact_pressure");
+  MatrixXd friction = point_data(file, "friction");
+  MatrixXd state = point_data(file, "contact_state");
   REQUIRE(friction.rows() == 3);
   auto const check = [&](int node, std::size_t at, double sign) {
     auto const i = static_cast<Eigen::Index>(at);

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The program coulomb: bodies pressed, dragged and released.
-#include <doctest/doctest.h>
-
-#include <io/io_support.hpp>
 #include <pugixml.hpp>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "run_program.hpp"
 
 namespace coulomb {
 namespace {
 
-using examples_test::contains;
-using examples_test::has_gnuplot;
-using examples_test::run;
-using examples_test::word;
+using namespace examples_test;
 
 /// A line of the table.
 struct row {
@@ -73,21 +63,19 @@ std::vector<row> check_run(std::string const& options, int steps, int contacts) 
 TEST_CASE("coulomb: orthotropic friction on a brick, and the files") {
   io_test::temporary_folder const folder;
   auto const ran =
-      run("coulomb", "--cells 2 --steps 2 --friction 0.3 --friction-across 0.5 --output " +
-                         word(folder.path().string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
+      output_of("coulomb", "--cells 2 --steps 2 --friction 0.3 --friction-across 0.5 --output " +
+                               word(folder.path().string()));
   for (auto const* expected : {"in 6 load steps", "0.5 along y (orthotropic)", "144 tetrahedra",
                                "converged", "K was factored once"})
-    CHECK(contains(ran.out, expected));
-  for (auto const& r : rows_of(ran.out)) CHECK(r.by == "radii");
+    CHECK(contains(ran, expected));
+  for (auto const& r : rows_of(ran)) CHECK(r.by == "radii");
   // What the drag has left behind after it has gone: the path counts, that is what friction is.
-  CHECK(left_behind(ran.out) > 0);
+  CHECK(left_behind(ran) > 0);
   auto const list = io_test::get(folder / "coulomb.pvd");
   CHECK(contains(list, "timestep=\"0.5\""));
   CHECK(contains(list, "coulomb_005.vtu"));
   CHECK(contains(io_test::get(folder / "coulomb_005.vtu"), "contact_state"));
-  CHECK(contains(ran.out, "wrote " + (folder / "slip.png").string()) == has_gnuplot());
+  CHECK(contains(ran, "wrote " + (folder / "slip.png").string()) == has_gnuplot());
 }
 
 TEST_CASE("coulomb: two plates, by two methods the same, and the files") {
@@ -143,9 +131,7 @@ TEST_CASE("coulomb: two bricks in space, by two methods the same") {
 }
 
 TEST_CASE("coulomb refuses bad options in one line") {
-  auto const check = [](std::string const& options, std::string const& expected) {
-    examples_test::check_refused(run("coulomb", options), expected);
-  };
+  auto const check = [](auto const&... with) { check_refused("coulomb", with...); };
   check("--friction -1", "--friction: got -1, expected a finite number >= 0");
   check("--friction inf", "--friction: got inf, expected a finite number >= 0");
   check("--friction-across nan", "--friction-across: got nan, expected a finite number >= 0");

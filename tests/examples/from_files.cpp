@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // from_files on problems that can be solved, or at least attempted: statuses, JSON, files.
-#include <doctest/doctest.h>
-
-#include <nlohmann/json.hpp>
 #include <oracle/dense_contact_reference.hpp>
-#include <slant/io/text_vector.hpp>
-#include <support/effort.hpp>
-#include <vector>
-
 #include "problem_files.hpp"
 
 namespace from_files {
 namespace {
 
-using examples_test::contains;
-using examples_test::coordinate;
-using examples_test::is_one_line;
-using examples_test::plane_scene;
-using examples_test::problem_files;
-using examples_test::run;
-using examples_test::solved;
+using namespace examples_test;
 using nlohmann::json;
 
 /// One spring K = 4 pulled by f = 2 towards an obstacle at 0.25: u = 0.25, λ = 2 − 4 · 0.25 = 1.
@@ -39,11 +26,11 @@ void check_against_reference(problem_files const& files, fem::contact_scene<D> c
                              json const& result) {
   oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};
   auto const reference = oracle::solve_contact(data);
-  Eigen::VectorXd const u = files.read("u.txt");
-  Eigen::VectorXd const λ = files.read("lambda.txt");
+  VectorXd const u = files.read("u.txt");
+  VectorXd const λ = files.read("lambda.txt");
   REQUIRE(λ.size() == scene.N.rows() + scene.T.rows());
   CHECK(oracle::energy_error(scene.K, u, reference.u) < 1e-6);
-  Eigen::VectorXd const exact = reference.multipliers();
+  VectorXd const exact = reference.multipliers();
   CHECK((λ - exact).norm() < 1e-5 * exact.norm());
   CHECK(oracle::check_contact(data, u.cast<oracle::real>(), λ.cast<oracle::real>()).largest() <
         1e-5);
@@ -110,7 +97,7 @@ TEST_CASE("from_files: every method by its name, from zero and after a first pha
 }
 
 TEST_CASE("from_files: a bound that is proven") {
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   for (auto const* const method : {"symmetric_newton", "kprgp"}) {
     json const result = json::parse(files.solve(std::string("--prove --method ") + method).out);
     CHECK(result["status"] == "converged");
@@ -145,13 +132,13 @@ TEST_CASE("from_files: a known answer, and none asked for in files") {
   CHECK(files.read("u.txt")[0] == doctest::Approx(0.25).epsilon(1e-14));
   CHECK(files.read("lambda.txt")[0] == doctest::Approx(1).epsilon(1e-14));
 
-  auto const silent = run("from_files", examples_test::word(files.input().string()));
+  auto const silent = run("from_files", word(files.input().string()));
   CHECK(silent.status == 0);
   CHECK(json::parse(silent.out)["output"] == nullptr);
 }
 
 TEST_CASE("from_files: a run that stops early says so, with its last iterate") {
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   for (std::string const limit : {"0", "2"}) {
     auto const ran = files.solve("--max-iterations " + limit);
     CHECK(ran.status == 1);
@@ -205,7 +192,7 @@ TEST_CASE("from_files: numbers at the end of their range give valid JSON and no 
 }
 
 TEST_CASE("from_files: numbers may have a plus sign; tolerance 0 ends where rounding does") {
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   json const result = json::parse(files.solve("--tolerance +1e-3 --max-iterations +500").out);
   CHECK(result["status"] == "converged");
   CHECK(result["tolerance"] == 1e-3);
@@ -233,8 +220,7 @@ TEST_CASE("from_files: a folder whose name is no text") {
   io_test::temporary_folder const folder;
   one_spring const files;
   std::string const output = (folder / "caf\xe9").string();  // Latin-1, so no UTF-8
-  auto const ran = run("from_files", examples_test::word(files.input().string()) + " --output " +
-                                         examples_test::word(output));
+  auto const ran = run("from_files", word(files.input().string()) + " --output " + word(output));
   CHECK(ran.status == 0);
   REQUIRE(is_one_line(ran.out));
   CHECK(contains(json::parse(ran.out)["output"].get<std::string>(), "/caf"));

@@ -1,40 +1,31 @@
 // SPDX-License-Identifier: MIT
 //
 // from_files on bodies with Coulomb friction.
-#include <doctest/doctest.h>
-
-#include <nlohmann/json.hpp>
 #include <oracle/dense_contact_reference.hpp>
-#include <string>
-#include <utility>
-
 #include "problem_files.hpp"
 
 namespace from_files_coulomb {
 namespace {
 
-using examples_test::check_refusal;
-using examples_test::problem_files;
-using examples_test::solved;
+using namespace examples_test;
 using nlohmann::json;
 
 /// F.txt beside the problem, and the option that names it.
-std::string put_coefficients(problem_files const& files, Eigen::VectorXd const& F) {
+std::string put_coefficients(problem_files const& files, VectorXd const& F) {
   slant::write_text_vector(files.input() / "F.txt", F);
-  return "--coulomb " + examples_test::word((files.input() / "F.txt").string());
+  return "--coulomb " + word((files.input() / "F.txt").string());
 }
 
 /// The result is the solution of Tresca's problem with the slip bounds F λ_ν: then it is one with
 /// Coulomb friction.
 template <int D>
-void check_fixed_point(problem_files const& files, fem::contact_scene<D> scene,
-                       Eigen::VectorXd const& F) {
-  Eigen::VectorXd const λ = files.read("lambda.txt");
+void check_fixed_point(problem_files const& files, fem::contact_scene<D> scene, VectorXd const& F) {
+  VectorXd const λ = files.read("lambda.txt");
   scene.g = F.cwiseProduct(λ.head(F.size()).cwiseMax(0));
   auto const reference =
       oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
   CHECK(oracle::energy_error(scene.K, files.read("u.txt"), reference.u) < 1e-6);
-  Eigen::VectorXd const exact = reference.multipliers();
+  VectorXd const exact = reference.multipliers();
   CHECK((λ - exact).norm() < 1e-5 * exact.norm());
 }
 
@@ -48,7 +39,7 @@ TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
   auto const scene = brick();
   problem_files const files(scene);
   files.remove("g.txt");  // has no meaning here
-  Eigen::VectorXd const F = Eigen::VectorXd::LinSpaced(scene.N.rows(), 0, 0.6);
+  VectorXd const F = VectorXd::LinSpaced(scene.N.rows(), 0, 0.6);
   json const result = solved(files, put_coefficients(files, F));
   CHECK(result["status"] == "converged");
   CHECK(result["method"] == "coulomb");
@@ -60,9 +51,9 @@ TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
 }
 
 TEST_CASE("from_files: Coulomb friction in the plane, by every method") {
-  auto const scene = examples_test::plane_scene();
+  auto const scene = plane_scene();
   problem_files const files(scene);
-  Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.4);
+  VectorXd const F = VectorXd::Constant(scene.N.rows(), 0.4);
   std::string const option = put_coefficients(files, F) + " --tolerance 1e-10";
   using pair = std::pair<std::string, std::string>;
   for (auto const& [method, solved_by] : {pair{"coulomb", "newton"}, pair{"newton", "newton"},
@@ -79,9 +70,9 @@ TEST_CASE("from_files: Coulomb friction in the plane, by every method") {
 }
 
 TEST_CASE("from_files: Coulomb friction, too few steps and all digits") {
-  auto const scene = examples_test::plane_scene();
+  auto const scene = plane_scene();
   problem_files const files(scene);
-  Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.4);
+  VectorXd const F = VectorXd::Constant(scene.N.rows(), 0.4);
   std::string const option = put_coefficients(files, F);
   for (std::string const method : {"coulomb", "newton", "radii", "cones"}) {
     CAPTURE(method);
@@ -96,15 +87,15 @@ TEST_CASE("from_files: Coulomb friction, too few steps and all digits") {
 
 TEST_CASE("from_files: coefficients that cannot be used") {
   auto const scene = brick();
-  Eigen::VectorXd const F = Eigen::VectorXd::Constant(scene.N.rows(), 0.3);
+  VectorXd const F = VectorXd::Constant(scene.N.rows(), 0.3);
   problem_files const files(scene);
-  Eigen::VectorXd wrong = F;
+  VectorXd wrong = F;
   wrong[3] = -0.25;
   check_refusal(files, put_coefficients(files, wrong),
                 "F.txt: got -0.25 at node 3, expected numbers >= 0");
   check_refusal(files, put_coefficients(files, F.head(5)),
                 "F.txt:6: got the end of the file after 5 numbers, expected 18 numbers");
-  check_refusal(files, put_coefficients(files, Eigen::VectorXd::Constant(20, 0.3)),
+  check_refusal(files, put_coefficients(files, VectorXd::Constant(20, 0.3)),
                 "F.txt:19: got number 19, expected 18 numbers");
   std::string const option = put_coefficients(files, F);
   for (std::string const bad : {"nan", "inf"}) {

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // from_files on contacts with Coulomb friction in local coordinates.
-#include <doctest/doctest.h>
-
-#include <nlohmann/json.hpp>
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
-#include <sstream>
-#include <support/folders.hpp>
 #include <support/friction_cases.hpp>
-
 #include "problem_files.hpp"
 
 namespace from_files_friction {
 namespace {
 
-using examples_test::check_refusal;
-using examples_test::is_one_line;
-using examples_test::problem_files;
-using examples_test::run;
-using examples_test::solved;
+using namespace examples_test;
 using nlohmann::json;
 
 /// A problem in a folder, and one for results.
@@ -32,7 +22,7 @@ struct friction_files : problem_files {
 
 /// What the report says is what the checker makes of the files that were written.
 void check_report(problem_files const& files, test::friction_problem const& p, json const& result) {
-  Eigen::VectorXd const r = files.read("r.txt"), u = files.read("u.txt");
+  VectorXd const r = files.read("r.txt"), u = files.read("u.txt");
   CHECK((u - (p.W * r + p.q)).norm() <= 1e-15 * p.q.norm());
   auto const check = slant::contact::verify(p, r);
   json const& said = result["check"];
@@ -118,7 +108,7 @@ TEST_CASE("from_files: contacts that cannot be used") {
 
   auto const rover = slant::read_friction_problem(test::data("friction/Rover4396"));
   check_refusal(friction_files(rover), "--symmetric", "W.mtx: got a matrix of asymmetry ");
-  check_refusal(examples_test::small_brick(), "--symmetric", "--symmetric: got ");
+  check_refusal(small_brick(), "--symmetric", "--symmetric: got ");
 }
 
 }  // namespace from_files_friction

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // from_files on data that are valid and look wrong, and on bodies that supports do not hold.
-#include <doctest/doctest.h>
-
 #include <contact/loose_brick.hpp>
-#include <nlohmann/json.hpp>
-#include <string>
-
 #include "problem_files.hpp"
 
 namespace from_files_plausibility {
 namespace {
 
-using examples_test::check_refusal;
-using examples_test::contains;
-using examples_test::is_one_line;
-using examples_test::problem_files;
-using examples_test::solved;
-using examples_test::word;
+using namespace examples_test;
 using nlohmann::json;
 
 fem::contact_scene<3> brick() {
@@ -77,8 +67,8 @@ TEST_CASE("from_files: warnings in the report and on standard error, refusals wi
   scene.N *= 1000;
   check_warned(scene, "other_units", 0);
   scene = brick();
-  Eigen::MatrixXd const rows(scene.N);
-  Eigen::MatrixXd reversed = rows.colwise().reverse();
+  MatrixXd const rows(scene.N);
+  MatrixXd reversed = rows.colwise().reverse();
   scene.N = reversed.sparseView();
   check_warned(scene, "different_nodes", 0);
   reversed = rows;

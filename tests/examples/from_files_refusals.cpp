@@ -2,23 +2,17 @@
 //
 // from_files on input that cannot be used: exit status 2, nothing on standard output, one line on
 // standard error that says what is wrong, and no file written.
-#include <doctest/doctest.h>
-
-#include <string>
-
 #include "problem_files.hpp"
 
 namespace from_files_refusals {
 namespace {
 
 namespace fs = std::filesystem;
-using examples_test::check_refusal;
-using examples_test::coordinate;
-using examples_test::problem_files;
+using namespace examples_test;
 
 /// The small brick with one file replaced.
 void check_file(std::string const& name, std::string const& text, std::string const& expected) {
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   files.put(name, text);
   check_refusal(files, "", expected);
 }
@@ -54,7 +48,7 @@ TEST_CASE("from_files refuses files that are damaged or do not fit together") {
   // Sizes that would need terabytes, and letters for a terminal.
   check_file("K.mtx", coordinate + "2000000000 2000000000 4000000000\n1 1 1\n", "K.mtx:2: got");
   check_file("K.mtx", "\x1b[2J evil\n", "K.mtx:1: got '\\x1b[2J evil'");
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   files.put("N.mtx", coordinate + "6 36 1\n1 1 1\n");
   files.put("d.txt", numbers(4, "0") + "-0.25\n0\n");
   check_refusal(files.solve(), "d[4]: got -0.25, expected a number >= 0, since row 4 of N is zero");
@@ -93,25 +87,25 @@ TEST_CASE("from_files refuses K that is not symmetric or not definite") {
 
 TEST_CASE("from_files refuses files that are missing or no text") {
   for (std::string const name : {"K.mtx", "N.mtx", "f.txt", "d.txt", "g.txt", "T.mtx"}) {
-    auto const files = examples_test::small_brick();
+    auto const files = small_brick();
     files.remove(name);
     check_refusal(files.solve(), name + ": got no such file");
     CHECK(files.files_written() == 0);
   }
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   files.remove("K.mtx");
   std::filesystem::create_directory(files.input() / "K.mtx");
   check_refusal(files.solve(), "K.mtx: got a directory, expected a readable text file");
   check_file("d.txt", std::string(6, '\0'), "d.txt: got binary data");
   check_file("f.txt", "", "f.txt: got an empty file");
-  check_refusal(examples_test::run("from_files", "/no/such/folder"),
+  check_refusal(run("from_files", "/no/such/folder"),
                 "/no/such/folder: got no such folder, expected a folder with K.mtx");
   // A name with a line feed still makes one line.
-  check_refusal(examples_test::run("from_files", "'no\nsuch\nfolder'"), "no\\x0asuch\\x0afolder");
+  check_refusal(run("from_files", "'no\nsuch\nfolder'"), "no\\x0asuch\\x0afolder");
 }
 
 TEST_CASE("from_files refuses options that make no sense") {
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   auto const with = [&](std::string const& options, std::string const& expected) {
     check_refusal(files.solve(options), expected);
     CHECK(files.files_written() == 0);
@@ -131,21 +125,20 @@ TEST_CASE("from_files refuses options that make no sense") {
   with("another_folder", "argument: got another_folder, expected one of those that --help lists");
   with("--tolerance 1e-3 --tolerance 1e-4", "--tolerance: got 2 values, expected one");
   with("--method kprgp --method kprgp", "--method: got 2 values, expected one");
-  check_refusal(examples_test::run("from_files", ""), "DIR: got nothing, expected the folder");
-  check_refusal(examples_test::run("from_files", ". --tolerance"),
-                "--tolerance: got nothing, expected one");
+  check_refusal(run("from_files", ""), "DIR: got nothing, expected the folder");
+  check_refusal(run("from_files", ". --tolerance"), "--tolerance: got nothing, expected one");
 }
 
 TEST_CASE("from_files refuses an output that cannot be written") {
-  auto const files = examples_test::small_brick();
-  std::string const input = examples_test::word(files.input().string());
+  auto const files = small_brick();
+  std::string const input = word(files.input().string());
   auto const with = [&](std::string const& output, std::string const& expected) {
-    check_refusal(examples_test::run("from_files", input + " --output " + output), expected);
+    check_refusal(run("from_files", input + " --output " + output), expected);
   };
   io_test::temporary_folder const folder;
   io_test::put(folder / "file", "content\n");
-  with(examples_test::word((folder / "file").string()), "--output: got ");
-  with(examples_test::word((folder / "file/below").string()), "--output: got ");
+  with(word((folder / "file").string()), "--output: got ");
+  with(word((folder / "file/below").string()), "--output: got ");
   with("/dev/null", "--output: got /dev/null (Not a directory)");
   with("''", "--output: got nothing, expected a name");
   CHECK(io_test::get(folder / "file") == "content\n");
@@ -162,21 +155,19 @@ TEST_CASE("from_files on a full disk leaves the earlier results as they were") {
   io_test::put(files.output() / "u.txt", "earlier\n");
   // One block of 512 or 1024 bytes per file: u.txt needs more than 3000. The signal is ignored, as
   // then the write fails the way it does on a full disk.
-  auto const ran = examples_test::run_command(
-      "ulimit -f 1; trap '' XFSZ; " + examples_test::program("from_files") + " " +
-      examples_test::word(files.input().string()) + " --output " +
-      examples_test::word(files.output().string()));
+  auto const ran =
+      run_command("ulimit -f 1; trap '' XFSZ; " + program("from_files") + " " +
+                  word(files.input().string()) + " --output " + word(files.output().string()));
   check_refusal(ran, "writing " + (files.output() / "u.txt").string());
   CHECK(files.files_written() == 1);
   CHECK(io_test::get(files.output() / "u.txt") == "earlier\n");
 }
 
 TEST_CASE("from_files: refused is refused, no file or folder comes of it") {
-  auto const files = examples_test::small_brick();
+  auto const files = small_brick();
   auto const with_output = [&](fs::path const& output, std::string const& rest) {
-    return examples_test::run_command(examples_test::program("from_files") + " " +
-                                      examples_test::word(files.input().string()) + " --output " +
-                                      examples_test::word(output.string()) + rest);
+    return run_command(program("from_files") + " " + word(files.input().string()) + " --output " +
+                       word(output.string()) + rest);
   };
   fs::path const deep = files.output() / "new/folder/";
   SUBCASE("the report has no room") {

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // lasso: solutions beside coordinate descent in long double, and what the program prints.
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <lasso/sparse_signal.hpp>
 #include <slant/methods/forward_backward.hpp>
 #include <slant/methods/solve_program.hpp>
-#include <sstream>
-#include <string>
-
 #include "run_program.hpp"
 
 namespace lasso_programs {
 namespace {
 
+using namespace examples_test;
 using Eigen::Index;
 using vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
@@ -44,7 +38,7 @@ vector by_coordinate_descent(lasso::sight const& s, double μ) {
 }
 
 /// That x is the solution, and zero at the same entries. Returns its relative error in the energy norm.
-double check_solution(lasso::sight const& s, Eigen::VectorXd const& x, double μ, double accuracy) {
+double check_solution(lasso::sight const& s, VectorXd const& x, double μ, double accuracy) {
   vector const exact = by_coordinate_descent(s, μ), found = x.cast<long double>();
   CAPTURE(μ);
   CHECK((found - exact).norm() <= accuracy * exact.norm());
@@ -62,7 +56,6 @@ TEST_CASE("lasso: the solution of coordinate descent, and a certificate that is 
     auto const run = slant::solve(lasso::program(s, share * largest), 1e-10);
     CHECK(run.converged());
     double const error = check_solution(s, run.x(), share * largest, 1e-9);
-    MESSAGE("mu / max = ", share, ": error ", error, ", certified ", run.error.relative());
     CHECK(error <= 1.5 * run.error.relative());  // it is an estimate
   }
   auto const none = slant::solve(lasso::program(s, 1.0001 * largest), 1e-10);
@@ -75,29 +68,26 @@ TEST_CASE("lasso: fewer measurements than entries, by forward-backward splitting
   double const largest = (s.M.transpose() * s.y).lpNorm<Eigen::Infinity>();
   for (double const share : {0.5, 0.05}) {
     auto const program = lasso::program(s, share * largest);
-    auto const run =
-        slant::solve(slant::forward_backward{program}, Eigen::VectorXd(Eigen::VectorXd::Zero(400)),
-                     slant::reduced_gradient_below(1e-11) || slant::at_most(5000));
+    auto const run = slant::solve(slant::forward_backward{program}, VectorXd(VectorXd::Zero(400)),
+                                  slant::reduced_gradient_below(1e-11) || slant::at_most(5000));
     CHECK(run.converged());
     CHECK(check_solution(s, run.x(), share * largest, 1e-9) <= 1e-9);
   }
 }
 
 TEST_CASE("lasso: the program finds all spikes and none but them") {
-  auto const ran = examples_test::run("lasso", "");
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  std::istringstream lines(ran.out);
+  auto const ran = output_of("lasso", "");
+  std::istringstream lines(ran);
   int converged = 0, exact = 0;
   for (std::string line; std::getline(lines, line);) {
     double share = 0, free = 0, spikes = 0;
     if (!(std::istringstream(line) >> share >> free >> spikes)) continue;
-    converged += examples_test::contains(line, "  converged");
-    exact += examples_test::contains(line, "  converged") && free == 12 && spikes == 12;
+    converged += contains(line, "  converged");
+    exact += contains(line, "  converged") && free == 12 && spikes == 12;
   }
   CHECK(converged == 10);
   CHECK(exact >= 3);
-  CHECK(examples_test::run("lasso", "--tolerance nonsense").status == 2);
+  CHECK(run("lasso", "--tolerance nonsense").status == 2);
 }
 
 }  // namespace lasso_programs

@@ -2,24 +2,15 @@
 //
 // The program membranes: values beside printed ones, files, statuses; and its file for ParaView,
 // read back.
-#include <doctest/doctest.h>
-
 #include <fem/double_obstacle.hpp>
 #include <fem/membrane_vtu.hpp>
-#include <io/io_support.hpp>
 #include <pugixml.hpp>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "run_program.hpp"
 
 namespace membranes {
 namespace {
 
-using examples_test::contains;
-using examples_test::run;
-using examples_test::word;
+using namespace examples_test;
 
 /// The words of the line that begins with "nx × ny".
 std::vector<std::string> row(std::string const& text, std::string const& grid) {
@@ -49,35 +40,31 @@ std::vector<double> point_data(pugi::xml_document const& file, char const* name)
 
 TEST_CASE("membranes: printed values beside ours, by both methods") {
   for (std::string const method : {"newton", "kprgp"}) {
-    auto const ran = run("membranes", "--problem bearing --size 8 12 --method " + method);
-    CHECK(ran.status == 0);
-    CHECK(ran.err == "");
-    auto const words = row(ran.out, "8 × 12");
+    auto const ran = output_of("membranes", "--problem bearing --size 8 12 --method " + method);
+    auto const words = row(ran, "8 × 12");
     REQUIRE(words.size() == 10);
     CHECK(std::stod(words[0]) == doctest::Approx(-0.1834372196).epsilon(1e-8));
     CHECK(words[1] + " " + words[2] == "-0.183437 PETSc");
     CHECK(words[3] + " " + words[4] + " " + words[5] == "36 60 0");  // lower, free, upper
     CHECK(words[9] == "converged");
-    CHECK(contains(ran.out, "all problems converged\n"));
+    CHECK(contains(ran, "all problems converged\n"));
   }
 }
 
 TEST_CASE("membranes: all problems by nested iteration, and their files") {
   io_test::temporary_folder const folder;
   auto const output = folder / "new";
-  auto const ran = run("membranes", "--size 40 --output " + word(output.string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  bool const drawn = examples_test::has_gnuplot();
+  auto const ran = output_of("membranes", "--size 40 --output " + word(output.string()));
+  bool const drawn = has_gnuplot();
   for (std::string const name : {"torsion", "bearing", "lower_obstacle", "double_obstacle"}) {
-    CHECK(contains(ran.out, name + ", newton by nested iteration\n"));
+    CHECK(contains(ran, name + ", newton by nested iteration\n"));
     CHECK(contains(io_test::get(output / (name + ".vtu")), "\"contact\""));
     CHECK(io_test::get(output / (name + ".png")).starts_with("\x89PNG") == drawn);
   }
-  CHECK(row(ran.out, "10 × 10").size() == 9);
-  CHECK(row(ran.out, "20 × 20").size() == 9);
-  CHECK(row(ran.out, "40 × 40").size() == 9);
-  CHECK(contains(ran.out, "no picture: ") == !drawn);
+  CHECK(row(ran, "10 × 10").size() == 9);
+  CHECK(row(ran, "20 × 20").size() == 9);
+  CHECK(row(ran, "40 × 40").size() == 9);
+  CHECK(contains(ran, "no picture: ") == !drawn);
 }
 
 TEST_CASE("membranes: one grid from zero; not converged is not success") {
@@ -85,15 +72,11 @@ TEST_CASE("membranes: one grid from zero; not converged is not success") {
   CHECK(zero.status == 0);
   CHECK(row(zero.out, "10 × 10").empty());
   CHECK(row(zero.out, "20 × 20").size() == 9);
-  auto const impatient = run("membranes", "--problem torsion --size 20 --max-iterations 1");
-  CHECK(impatient.status == 1);
-  CHECK(contains(impatient.out, "iteration_limit"));
+  check_failed("membranes", "--problem torsion --size 20 --max-iterations 1", "iteration_limit");
 }
 
 TEST_CASE("membranes refuses bad options in one line") {
-  auto const check = [](std::string const& options, std::string const& expected) {
-    examples_test::check_refused(run("membranes", options), expected);
-  };
+  auto const check = [](auto const&... with) { check_refused("membranes", with...); };
   check("--problem drum", "--problem: got drum, expected torsion, bearing, lower_obstacle, double");
   check("--method sor", "--method: got sor, expected newton or kprgp");
   check("--size 0", "--size: got 0, expected a whole number from 1 to 2000");
@@ -104,7 +87,7 @@ TEST_CASE("membranes refuses bad options in one line") {
 
 TEST_CASE("a membrane for ParaView: every node with its numbers, zero on the edges") {
   auto const m = fem::make_double_obstacle<>(3, 2);
-  Eigen::VectorXd const v = Eigen::VectorXd::LinSpaced(6, 1, 6);
+  VectorXd const v = VectorXd::LinSpaced(6, 1, 6);
   fem::membrane_contact<> contact{Eigen::VectorXi::LinSpaced(6, 0, 5), 10 * v};
   contact.state.array() = contact.state.array().min(2) - 1;
   io_test::temporary_folder const folder;

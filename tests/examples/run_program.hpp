@@ -3,16 +3,12 @@
 // Runs one of the example programs through the shell and keeps what it says.
 #pragma once
 
-#include <doctest/doctest.h>
 #include <sys/wait.h>
-
-#include <algorithm>
 #include <cstdlib>
 #include <fem/plots/gnuplot.hpp>
 #include <io/io_support.hpp>
-#include <string>
-#include <string_view>
 #include <support/folders.hpp>
+#include <support/testing.hpp>
 
 namespace examples_test {
 
@@ -71,6 +67,28 @@ inline void check_refused(program_result const& ran, std::string const& expected
   CHECK(ran.out == "");
   CHECK(is_one_line(ran.err));
   CHECK(contains(ran.err, expected));
+}
+
+inline void check_refused(std::string_view name, std::string const& options,
+                          std::string const& expected) {
+  check_refused(run(name, options), expected);
+}
+
+/// What a program prints that does what it should, without a complaint and, as there is no terminal,
+/// without progress on standard error.
+[[nodiscard]] inline std::string output_of(std::string_view name, std::string const& options) {
+  auto const ran = run(name, options);
+  CAPTURE(ran.out);
+  CHECK(ran.status == 0);
+  CHECK(ran.err == "");
+  return ran.out;
+}
+
+/// Not converged is not success: exit status 1, and this on standard output.
+inline void check_failed(std::string_view name, std::string const& options, std::string_view part) {
+  auto const ran = run(name, options);
+  CHECK(ran.status == 1);
+  CHECK(contains(ran.out, part));
 }
 
 }  // namespace examples_test

@@ -1,37 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
 // The program stokes: does it run, say the right thing, write its files, and name what is missing?
-#include <doctest/doctest.h>
-
-#include <sstream>
-#include <string>
-
 #include "run_program.hpp"
 
 namespace stokes {
-namespace {
-
-using examples_test::contains;
-using examples_test::run;
-using examples_test::word;
-
-}  // namespace
+using namespace examples_test;
 
 TEST_CASE("stokes: problem, result, proof and files") {
   io_test::temporary_folder const folder;
   auto const output = folder / "new/flow";
-  auto const ran = run("stokes", "--refinement 1 --g 10 --output " + word(output.string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
+  auto const ran = output_of("stokes", "--refinement 1 --g 10 --output " + word(output.string()));
   for (auto const* expected :
        {"862 velocities, 526 pressures, 30 wall nodes", "586 unknowns, 30 of them bounded",
         "status         converged", "6 stick, 24 slip", "u_n = 0",
         "flow           in 0.07875, out "
         "0.07875"})
-    CHECK(contains(ran.out, expected));
+    CHECK(contains(ran, expected));
   CHECK(contains(io_test::get(output / "flow.vtu"), "wall_state"));
-  bool const drawn = examples_test::has_gnuplot();
-  CHECK(contains(ran.out, "wrote " + (output / "flow.png").string()) == drawn);
+  bool const drawn = has_gnuplot();
+  CHECK(contains(ran, "wrote " + (output / "flow.png").string()) == drawn);
   CHECK(io_test::get(output / "flow.png").starts_with("\x89PNG") == drawn);
 }
 
@@ -67,15 +54,12 @@ TEST_CASE("stokes: path following takes no more products than the lecture's") {
 }
 
 TEST_CASE("stokes: not converged is not success") {
-  auto const ran = run("stokes", "--refinement 1 --method active_set --max-iterations 3");
-  CHECK(ran.status == 1);
-  CHECK(contains(ran.out, "iteration_limit: reached the limit of 3 steps"));
+  check_failed("stokes", "--refinement 1 --method active_set --max-iterations 3",
+               "iteration_limit: reached the limit of 3 steps");
 }
 
 TEST_CASE("stokes: what cannot be used is named in one line") {
-  auto const refused = [](std::string const& options, std::string const& expected) {
-    examples_test::check_refused(run("stokes", options), expected);
-  };
+  auto const refused = [](auto const&... with) { check_refused("stokes", with...); };
   io_test::temporary_folder const folder;
   auto const empty = word(folder.path().string());
   refused("--meshes " + empty + " --refinement 3", "examples/stokes/make_mesh 3 makes it");

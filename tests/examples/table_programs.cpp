@@ -2,19 +2,12 @@
 //
 // The programs behind the tables of the documents: printed numbers, ours beside them, and the right
 // status.
-#include <doctest/doctest.h>
-
-#include <sstream>
-#include <string>
-
 #include "run_program.hpp"
 
 namespace table_programs {
 namespace {
 
-using examples_test::contains;
-using examples_test::run;
-using examples_test::word;
+using namespace examples_test;
 
 /// Is there a line with these words, in this order, at its beginning? Blanks do not count.
 bool has_line(std::string const& text, std::string const& words) {
@@ -41,16 +34,14 @@ double number_behind(std::string const& text, std::string const& caption) {
 }  // namespace
 
 TEST_CASE("wire_tables: all tables of small meshes, and the printed active sets") {
-  auto const ran = run("wire_tables", "--unknowns 64");
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  CHECK(contains(ran.out, "all runs converged, to the printed active sets\n"));
+  auto const ran = output_of("wire_tables", "--unknowns 64");
+  CHECK(contains(ran, "all runs converged, to the printed active sets\n"));
   for (auto const* title : {"Table 4.1", "Table 4.2", "Table 4.3", "Table 4.4",
                             "Tables 4.5 and 4.8", "Table 4.6", "Table 4.7"})
-    CHECK(contains(ran.out, title));
-  CHECK(has_line(ran.out, "0 0.1 64 16:0/13:3 16:0/13:3 ×"));  // l = 0, g = 0.1, n = 64
-  CHECK(has_line(ran.out, "0.3 64 14:2/9:7 14:2/9:7 5(6)"));   // g = 0.3 after QPC
-  CHECK(has_line(ran.out, "64 243/9 128/10 137/11 910/12 425/13"));
+    CHECK(contains(ran, title));
+  CHECK(has_line(ran, "0 0.1 64 16:0/13:3 16:0/13:3 ×"));  // l = 0, g = 0.1, n = 64
+  CHECK(has_line(ran, "0.3 64 14:2/9:7 14:2/9:7 5(6)"));   // g = 0.3 after QPC
+  CHECK(has_line(ran, "64 243/9 128/10 137/11 910/12 425/13"));
 }
 
 TEST_CASE("wire_tables: one table only; not converged is not success") {
@@ -58,40 +49,34 @@ TEST_CASE("wire_tables: one table only; not converged is not success") {
   CHECK(one.status == 0);
   CHECK(contains(one.out, "Table 4.2"));
   CHECK_FALSE(contains(one.out, "Table 4.1"));
-  auto const impatient = run("wire_tables", "--unknowns 32 --table 4.4 --max-iterations 3");
-  CHECK(impatient.status == 1);
-  CHECK(contains(impatient.out, "iteration_limit"));
+  check_failed("wire_tables", "--unknowns 32 --table 4.4 --max-iterations 3", "iteration_limit");
 }
 
 TEST_CASE("brick_tables: sizes and printed numbers of both documents") {
-  auto const ran = run("brick_tables", "--cells 5 --load pull --tolerance 1e-3");
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  CHECK(contains(ran.out, "load \"pull\""));
-  CHECK_FALSE(contains(ran.out, "load \"press\""));
-  CHECK(has_line(ran.out, "4 900/180 - - - 187 87/15"));
-  CHECK(has_line(ran.out, "5 1620/270 796/16 182/14 802/10 - -"));
-  CHECK(contains(ran.out, "all runs converged\n"));
+  auto const ran = output_of("brick_tables", "--cells 5 --load pull --tolerance 1e-3");
+  CHECK(contains(ran, "load \"pull\""));
+  CHECK_FALSE(contains(ran, "load \"press\""));
+  CHECK(has_line(ran, "4 900/180 - - - 187 87/15"));
+  CHECK(has_line(ran, "5 1620/270 796/16 182/14 802/10 - -"));
+  CHECK(contains(ran, "all runs converged\n"));
 }
 
 TEST_CASE("two_bodies: both tables and their pictures") {
   io_test::temporary_folder const folder;
   auto const output = folder / "new";
-  auto const ran = run(
+  auto const ran = output_of(
       "two_bodies", "--plates 4 6 --bricks 3 --tolerance 1e-4 --output " + word(output.string()));
-  CHECK(ran.status == 0);
-  CHECK(ran.err == "");
-  CHECK(has_line(ran.out, "240/24"));
-  CHECK(has_line(ran.out, "504/36"));
-  CHECK(has_line(ran.out, "162/9"));
-  CHECK(contains(ran.out, "all runs converged\n"));
-  bool const drawn = examples_test::has_gnuplot();
+  CHECK(has_line(ran, "240/24"));
+  CHECK(has_line(ran, "504/36"));
+  CHECK(has_line(ran, "162/9"));
+  CHECK(contains(ran, "all runs converged\n"));
+  bool const drawn = has_gnuplot();
   for (auto const* scene : {"plates", "bricks"})
     for (auto const* picture : {"_residual.png", "_energy.png", "_contact.png"}) {
       auto const file = output / (std::string(scene) + picture);
       CHECK(io_test::get(file).starts_with("\x89PNG") == drawn);
     }
-  CHECK(contains(ran.out, "no picture: ") == !drawn);
+  CHECK(contains(ran, "no picture: ") == !drawn);
 }
 
 TEST_CASE("two_bodies: one scene only; not converged is not success") {
@@ -105,38 +90,32 @@ TEST_CASE("decomposed_brick: the displacements of the whole brick, by both metho
   for (std::string const options :
        {"", " --frictionless", " --method smalse", " --frictionless --method smalse"}) {
     CAPTURE(options);
-    auto const ran = run("decomposed_brick", "--cubes 2 1 1 --cells 2 --tolerance 1e-10" + options);
-    CHECK(ran.status == 0);
-    CHECK(ran.err == "");
-    CHECK(contains(ran.out, "status                 converged\n"));
-    CHECK(number_behind(ran.out, "coarse problem") == 12);
-    CHECK(number_behind(ran.out, "largest jump") <= 1e-8);
-    double const difference = number_behind(ran.out, "beside the whole brick");
+    auto const ran =
+        output_of("decomposed_brick", "--cubes 2 1 1 --cells 2 --tolerance 1e-10" + options);
+    CHECK(contains(ran, "status                 converged\n"));
+    CHECK(number_behind(ran, "coarse problem") == 12);
+    CHECK(number_behind(ran, "largest jump") <= 1e-8);
+    double const difference = number_behind(ran, "beside the whole brick");
     CHECK(difference >= 0);
     CHECK(difference <= 1e-8);
   }
 }
 
 TEST_CASE("decomposed_brick: too few steps, and bad options") {
-  auto const impatient = run("decomposed_brick", "--cubes 2 1 1 --cells 2 --max-iterations 1");
-  CHECK(impatient.status == 1);
-  CHECK(contains(impatient.out, "iteration_limit"));
+  check_failed("decomposed_brick", "--cubes 2 1 1 --cells 2 --max-iterations 1", "iteration_limit");
   for (std::string const options :
        {"--cubes 2 1", "--cubes 2 1 0", "--load push", "--method ssn"}) {
-    examples_test::check_refused(run("decomposed_brick", options),
-                                 options.substr(0, options.find(' ')));
+    check_refused(run("decomposed_brick", options), options.substr(0, options.find(' ')));
   }
 }
 
 TEST_CASE("stacked_bricks: a stack that stands, and loads without equilibrium") {
   io_test::temporary_folder const folder;
   auto const held =
-      run("stacked_bricks", "--bricks 2 --cells 2 --output " + word(folder.path().string()));
-  CHECK(held.status == 0);
-  CHECK(held.err == "");
+      output_of("stacked_bricks", "--bricks 2 --cells 2 --output " + word(folder.path().string()));
   for (auto const* expected : {"load \"hold\"", "factors        2,", "status         converged",
                                "equilibrium", "of the projector"})
-    CHECK(contains(held.out, expected));
+    CHECK(contains(held, expected));
   CHECK(contains(io_test::get(folder / "stack.vtu"), "contact_force"));
   for (auto const* load : {"lift", "tip"}) {
     CAPTURE(load);
@@ -148,10 +127,7 @@ TEST_CASE("stacked_bricks: a stack that stands, and loads without equilibrium") 
 }
 
 TEST_CASE("the programs of tables refuse bad options in one line") {
-  auto const check = [](std::string const& name, std::string const& options,
-                        std::string const& expected) {
-    examples_test::check_refused(run(name, options), expected);
-  };
+  auto const check = [](auto const&... with) { check_refused(with...); };
   check("wire_tables", "--unknowns 48", "--unknowns: got 48, expected 32, 64, 128");
   check("wire_tables", "--table 4.9", "--table: got 4.9, expected 4.1 to 4.7, or all");
   check("brick_tables", "--cells 3", "--cells: got 3, expected a whole number from 4 to 16");
