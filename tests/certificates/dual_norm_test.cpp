@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <support/allocation_guard.hpp>
+#include <slant/slant.hpp>
 
-#include <slant/certificates/dual_norm.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
-
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-
-#include <cmath>
-#include <limits>
+#include <support/testing.hpp>
 
 namespace dual_norm_test {
-
-using Eigen::VectorXd;
 
 auto spd(VectorXd const& d) {
   return slant::diagonal<slant::positive_definite>(d);

@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "made_programs.hpp"
-
-#include <slant/certificates/energy_certificate.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <utility>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
+#include "made_programs.hpp"
 
 namespace energy_certificate_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("with A⁻¹ itself the bound is never below the error, and near the solution close to it") {
   std::mt19937 random(2026);
@@ -80,8 +66,8 @@ TEST_CASE("at the end of a run the estimate is the error, whatever the tolerance
     auto const qp = test::program(p);
     slant::energy_certificate certificate(qp);
     for (double const tolerance : {1e-2, 1e-4, 1e-6, 1e-9}) {
-      auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(p.b.size())),
-                                  slant::reduced_gradient_below(tolerance) || slant::at_most(300));
+      auto const r =
+          test::minimise(slant::symmetric_newton{qp}, test::zeros(p.b.size()), tolerance, 300);
       double const error = test::energy_norm(p.A, r.x() - p.solution);
       if (!(error > 100 * p.lost)) continue;
       auto const e = certificate(r.x());

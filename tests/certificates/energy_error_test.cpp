@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/certificates/energy_error.hpp>
+#include <slant/slant.hpp>
 
-#include <slant/certificates/energy_certificate.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "made_programs.hpp"
 
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-
 namespace energy_error_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("relative errors: of a solution that is zero, of one about which nothing is known") {
   CHECK(slant::energy_error<double>{.bound = 0, .size = 0}.relative() == 0);
@@ -64,7 +52,7 @@ TEST_CASE("energy_error_below: what the certificate denies is no success") {
   auto const hopeless = [](VectorXd const&) {
     return slant::energy_error<double>{.bound = 0.5, .size = 1};
   };
-  auto const run = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(p.b.size())),
+  auto const run = slant::solve(slant::kprgp{qp}, test::zeros(p.b.size()),
                                 slant::energy_error_below(1e-6, hopeless) || slant::at_most(5000));
   CHECK(run.status != slant::status::converged);
   CHECK_THROWS_AS(slant::energy_error_below(-1.0, hopeless), slant::bad_input);

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <support/allocation_guard.hpp>
+#include <slant/slant.hpp>
 
-#include <slant/certificates/newton_estimate.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/curved_face.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
 #include <methods/sliding_discs.hpp>
-#include <optional>
+#include <support/testing.hpp>
 
 namespace face_correction_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 using test::dense_face;
 using test::sliding_discs;

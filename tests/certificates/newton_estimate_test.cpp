@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "made_programs.hpp"
-
 #include <slant/certificates/newton_estimate.hpp>
 #include <slant/operators/diagonal.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <random>
+#include <support/testing.hpp>
+#include "made_programs.hpp"
 
 namespace newton_estimate_test {
-
-using Eigen::VectorXd;
 
 /// What the estimate says of x with ‖rest‖_{A⁻¹} from the inverse, for a gradient that is off by d.
 double estimate(test::made_program const& p, VectorXd const& x, VectorXd const& d, double step,

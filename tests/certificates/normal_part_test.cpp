@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <slant/certificates/energy_error.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/point.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
+#include <support/testing.hpp>
 
 namespace normal_part_test {
 
@@ -25,7 +18,7 @@ long double gap_on_disc(vec2 const& x, vec2 const& s, double radius) {
          static_cast<long double>(radius) * std::hypot(static_cast<long double>(s(0)), s(1));
 }
 
-double value(double m, Eigen::VectorXd const& rest, double gap) {
+double value(double m, VectorXd const& rest, double gap) {
   return m * rest.squaredNorm() + 4 * gap;
 }
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The folder of a contact problem: what is read, and every way in which it can be wrong.
-#include <doctest/doctest.h>
-
 #include <from_files/problem_folder.hpp>
 #include <io/io_support.hpp>
-#include <limits>
-#include <string>
-#include <string_view>
-#include <support/message.hpp>
+#include <support/testing.hpp>
 
 namespace problem_folder_test {
 
@@ -55,7 +50,7 @@ TEST_CASE("problem folder: friction in space") {
   CHECK(Eigen::Matrix3d(p.K) == K);
   CHECK(Eigen::RowVector3d(p.contact.N) == Eigen::RowVector3d(0, 0, -1));
   CHECK(Eigen::Matrix<double, 2, 3>(p.contact.T) == Eigen::Matrix<double, 2, 3>::Identity());
-  CHECK(p.contact.f == Eigen::Vector3d(1, 2, -3));
+  CHECK(p.contact.f == Vector3d(1, 2, -3));
   CHECK(p.contact.d[0] == 0.5);
   CHECK(p.contact.g[0] == 0.3);
   CHECK(p.contact.nodes() == 1);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/bicgstab.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/diagonal.hpp>
+#include <slant/operators/operators.hpp>
 
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace bicgstab_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 MatrixXd nonsymmetric(Eigen::Index n, double skewness) {
   MatrixXd m = test::with_spectrum(test::log_spaced(n, 20));
@@ -33,7 +28,7 @@ TEST_CASE("bicgstab agrees with a dense solve on nonsymmetric systems") {
     VectorXd const b = test::random_vector(40);
     VectorXd const exact = M.fullPivLu().solve(b);
     auto const A = slant::matrix(M);
-    auto const r = slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(40)),
+    auto const r = slant::solve(slant::bicgstab{A, b}, test::zeros(40),
                                 slant::residual_below(1e-12) || slant::at_most(400));
     REQUIRE(r.converged());
     CHECK((r.x() - exact).norm() <= 1e-9 * exact.norm());
@@ -46,8 +41,7 @@ TEST_CASE("work is counted: two applications a full step") {
   auto const inner = slant::matrix(M);
   auto const A = slant::counted(inner);
   VectorXd const b = test::random_vector(40);
-  auto const r =
-      slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(40)), slant::at_most(6));
+  auto const r = slant::solve(slant::bicgstab{A, b}, test::zeros(40), slant::at_most(6));
   CHECK(r.state.work.operator_applications == 12);
   CHECK(A.applications() == 12);
 }
@@ -61,7 +55,7 @@ TEST_CASE("a right preconditioner changes the work, not the solution") {
   auto const A = slant::matrix(M);
   VectorXd const weights = M.diagonal().cwiseInverse();
   auto const D = slant::diagonal(weights);
-  auto const r = slant::solve(slant::bicgstab{A, b, D}, VectorXd(VectorXd::Zero(40)),
+  auto const r = slant::solve(slant::bicgstab{A, b, D}, test::zeros(40),
                               slant::residual_below(1e-11) || slant::at_most(200));
   REQUIRE(r.converged());
   VectorXd const exact = M.fullPivLu().solve(b);
@@ -76,7 +70,7 @@ TEST_CASE("rᵀA r = 0 for all r: a turned shadow residual solves what r̂ = r c
     auto const n = skew.rows();
     auto const A = slant::matrix(skew);
     VectorXd const b = test::random_vector(n, 6);
-    auto const r = slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(n)),
+    auto const r = slant::solve(slant::bicgstab{A, b}, test::zeros(n),
                                 slant::residual_below(1e-8) || slant::at_most(60));
     CAPTURE(n);
     REQUIRE(r.converged());
@@ -113,7 +107,7 @@ TEST_CASE("a shadow residual that becomes orthogonal is renewed") {
   VectorXd b(4);
   b << 1, 0, 0, 0;
   auto const A = slant::matrix(M);
-  auto const r = slant::solve(slant::bicgstab{A, b}, VectorXd(VectorXd::Zero(4)),
+  auto const r = slant::solve(slant::bicgstab{A, b}, test::zeros(4),
                               slant::residual_below(1e-10) || slant::at_most(200));
   REQUIRE(r.converged());
   CHECK((M * r.x() - b).norm() <= 1e-9);

@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/diagonal.hpp>
+#include <slant/operators/operators.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace cg_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("cg agrees with a dense solve") {
   for (double κ : {1.0, 1e2, 1e6}) {
     auto const M = test::with_spectrum(test::log_spaced(40, κ));
     VectorXd const x = test::random_vector(40), b = M * x;
     auto const A = test::spd(M);
-    auto const r = slant::solve(slant::cg{A, b}, VectorXd(VectorXd::Zero(40)),
+    auto const r = slant::solve(slant::cg{A, b}, test::zeros(40),
                                 slant::residual_below(1e-13) || slant::at_most(2000));
     REQUIRE(r.converged());
     CHECK((r.x() - x).norm() <= 1e-12 * κ * x.norm());
@@ -33,7 +27,7 @@ TEST_CASE("cg ends after as many steps as there are distinct eigenvalues") {
   auto const M = test::with_spectrum(spectrum);
   VectorXd const b = test::random_vector(30);
   auto const A = test::spd(M);
-  auto const r = slant::solve(slant::cg{A, b}, VectorXd(VectorXd::Zero(30)),
+  auto const r = slant::solve(slant::cg{A, b}, test::zeros(30),
                               slant::residual_below(1e-12) || slant::at_most(30));
   CHECK(r.converged());
   CHECK(r.iterations() == 3);
@@ -44,7 +38,7 @@ TEST_CASE("one application a step, none for a zero start") {
   auto const inner = test::spd(M);
   auto const A = slant::counted(inner);
   VectorXd const b = test::random_vector(20);
-  auto const cold = slant::solve(slant::cg{A, b}, VectorXd(VectorXd::Zero(20)), slant::at_most(7));
+  auto const cold = slant::solve(slant::cg{A, b}, test::zeros(20), slant::at_most(7));
   CHECK(cold.state.work.operator_applications == 7);
   CHECK(A.applications() == 7);
   auto const warm = slant::solve(slant::cg{A, b}, VectorXd(VectorXd::Ones(20)), slant::at_most(7));
@@ -89,10 +83,10 @@ TEST_CASE("the inverse of the diagonal as preconditioner undoes bad scaling") {
 }
 
 TEST_CASE("an operator that breaks its promise is reported, not trusted") {
-  Eigen::MatrixXd M = Eigen::Vector2d(1, -1).asDiagonal();
+  MatrixXd M = Vector2d(1, -1).asDiagonal();
   VectorXd const b = VectorXd::Ones(2);
   auto const A = test::spd(M);
-  auto const r = slant::solve(slant::cg{A, b}, VectorXd(VectorXd::Zero(2)), slant::at_most(10));
+  auto const r = slant::solve(slant::cg{A, b}, test::zeros(2), slant::at_most(10));
   CHECK(r.status == slant::status::breakdown);
   CHECK(r.reason == "pᵀA p = 0 for a direction p, where a positive definite A has a number > 0");
 }

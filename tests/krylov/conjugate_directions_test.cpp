@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
 #include <slant/krylov/conjugate_directions.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace conjugate_directions_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("each direction is conjugate to its predecessor, whatever gradient comes in") {
   auto const M = test::with_spectrum(test::log_spaced(12, 1e3));

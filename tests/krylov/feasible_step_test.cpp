@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/krylov/conjugate_directions.hpp>
-#include <slant/krylov/feasible_step.hpp>
+#include <slant/krylov/krylov.hpp>
 #include <slant/operators/diagonal.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
+#include <support/testing.hpp>
 
 namespace feasible_step_test {
 
-using Eigen::VectorXd;
 using end = slant::feasible_step_end;
 
 /// What the parts need of a state; r = A x − b in units of 2, A a diagonal.

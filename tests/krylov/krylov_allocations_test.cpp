@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // No Krylov method allocates between its first and its last step, composed operators included.
+#include <slant/factorizations/dense_ldlt.hpp>
+#include <slant/krylov/krylov.hpp>
+#include <slant/operators/operators.hpp>
+
+#include <support/testing.hpp>
 #include "spd_matrices.hpp"
 
-#include <slant/factorizations/dense_ldlt.hpp>
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/sum.hpp>
-
-#include <doctest/doctest.h>
-
-#include <support/allocation_guard.hpp>
-
 namespace krylov_allocations_test {
-
-using Eigen::VectorXd;
 
 template <class Method>
 std::size_t allocations_of(Method const& method, VectorXd const& x0, int steps) {
@@ -31,7 +23,7 @@ std::size_t allocations_of(Method const& method, VectorXd const& x0, int steps) 
 TEST_CASE("cg, preconditioned cg and bicgstab do not allocate") {
   auto const M = test::with_spectrum(test::log_spaced(40, 1e4));
   auto const K = slant::dense_ldlt(test::with_spectrum(test::log_spaced(60, 100), 3));
-  Eigen::MatrixXd const B = test::random_vector(40 * 60, 4).reshaped(40, 60);
+  MatrixXd const B = test::random_vector(40 * 60, 4).reshaped(40, 60);
   auto const plain = test::spd(M);
   auto const A = slant::sum(plain, slant::congruence(B, slant::inverse(K)));
   auto const preconditioner = slant::scaled(slant::positive(0.5), plain);

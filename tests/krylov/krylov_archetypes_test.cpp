@@ -2,25 +2,21 @@
 //
 // The Krylov methods ask their archetypes for nothing more than the concepts name, and compute with
 // a scalar that converts to no other number silently.
-#include "spd_matrices.hpp"
-
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/krylov.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace krylov_archetypes_test {
 
 namespace archetype = slant::testing::archetype;
-using Eigen::VectorXd;
 
-Eigen::MatrixXd const M = test::with_spectrum(test::log_spaced(6, 10));
+MatrixXd const M = test::with_spectrum(test::log_spaced(6, 10));
 VectorXd const solution = test::random_vector(6);
 archetype::vector const b(M* solution);
-archetype::vector const zero(VectorXd(VectorXd::Zero(6)));
+archetype::vector const zero(test::zeros(6));
 auto const stop = slant::residual_below(1e-13) || slant::at_most(100);
 
 TEST_CASE("cg, also with a preconditioner") {

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
-#include <slant/base/report.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/krylov/linear_system.hpp>
+#include <slant/krylov/krylov.hpp>
 #include <slant/operators/counted.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace linear_system_test {
-
-using Eigen::VectorXd;
 
 template <class W>
 struct minimal_state {
@@ -95,7 +87,7 @@ TEST_CASE("one product confirms success, none where r comes from x already") {
 }
 
 TEST_CASE("a norm that overflows is a breakdown, not a solution") {
-  auto const A = test::spd(Eigen::MatrixXd(Eigen::MatrixXd::Identity(10, 10)));
+  auto const A = test::spd(MatrixXd(MatrixXd::Identity(10, 10)));
   VectorXd const b = VectorXd::Constant(10, 1.5e308), zero = VectorXd::Zero(10);
   auto const stop = slant::residual_below(1e-12) || slant::at_most(5);
   CHECK(slant::solve(slant::cg{A, b}, zero, stop).status == slant::status::breakdown);

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
 #include <slant/krylov/mean_diagonal.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace mean_diagonal_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("exact, without a product, where the operator gives its diagonal") {
   MatrixXd const M = test::with_spectrum(test::log_spaced(12, 1e3), 3);
   auto const A = slant::counted(test::spd(M));
-  auto const mean = slant::mean_diagonal(A, VectorXd(VectorXd::Zero(12)));
+  auto const mean = slant::mean_diagonal(A, test::zeros(12));
   CHECK(mean.value == doctest::Approx(M.trace() / 12));
   CHECK(mean.applications == 0);
   CHECK(A.applications() == 0);

@@ -3,17 +3,11 @@
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
+#include <support/testing.hpp>
 
 namespace preconditioner_for_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// The exact inverse on every face, by dense algebra.
 struct exact_on_faces {
@@ -56,7 +50,7 @@ TEST_CASE("with the inverse on faces a Newton step is one product of the inner i
   exact_on_faces const M{A, &entered};
   auto const spd = slant::matrix<slant::self_adjoint, slant::positive_definite>(A);
   slant::separable_qp const qp{spd, b, slant::half_lines(40)};
-  auto const r = slant::solve(slant::symmetric_newton{qp, M}, VectorXd(VectorXd::Zero(40)),
+  auto const r = slant::solve(slant::symmetric_newton{qp, M}, test::zeros(40),
                               slant::reduced_gradient_below(1e-12) || slant::at_most(50));
   REQUIRE(r.converged());
   CHECK(entered > 0);

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "spd_matrices.hpp"
-
 #include <slant/factorizations/conjugate_projector.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/krylov/range_cg.hpp>
+#include <slant/krylov/krylov.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
+#include "spd_matrices.hpp"
 
 namespace range_cg_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 
 /// The matrix as an operator that promises to be symmetric positive semidefinite.
@@ -115,7 +106,7 @@ TEST_CASE("kernels of small and of large stiffness, from the first step on") {
     auto const K = psd(MatrixXd(scale * k));
     VectorXd const load = scale * VectorXd{{0, 0, 0, 1, 1, 1}};
     auto const r = slant::solve(slant::range_cg{K, load, slant::identity_operator(6)},
-                                VectorXd(VectorXd::Zero(6)), slant::at_most(20));
+                                test::zeros(6), slant::at_most(20));
     CHECK(r.status == slant::status::unbounded);
     VectorXd const d = r.state.descent.normalized();
     CHECK((d - VectorXd{{0, 0, 0, 1, 1, 1}} / std::sqrt(3)).norm() <= 1e-13);
@@ -167,7 +158,7 @@ TEST_CASE("a soft mode beside a kernel hides neither") {
       VectorXd const load{{1, 1, push, push}};
       auto const K = psd(k);
       auto const r = slant::solve(slant::range_cg{K, load, slant::identity_operator(4)},
-                                  VectorXd(VectorXd::Zero(4)), slant::at_most(50));
+                                  test::zeros(4), slant::at_most(50));
       CAPTURE(r.reason);
       REQUIRE(r.status == slant::status::unbounded);
       VectorXd const d = r.state.descent.normalized();
@@ -229,7 +220,7 @@ TEST_CASE("no allocation; archetypes; data that do not fit") {
   auto const I = slant::identity_operator(8);
   VectorXd const b = VectorXd::LinSpaced(8, -1, 1);
   slant::range_cg const method{K, b, I};
-  auto s = method.start(VectorXd(VectorXd::Zero(8)));
+  auto s = method.start(test::zeros(8));
   slant::testing::allocation_guard guard;
   for (int i = 0; i < 5; ++i) method.step(s);
   method.refresh(s);
@@ -238,7 +229,7 @@ TEST_CASE("no allocation; archetypes; data that do not fit") {
 
   archetype::psd_operator const A(m);
   archetype::psd_operator const C(MatrixXd(MatrixXd::Identity(8, 8)));
-  archetype::vector const right(b), start(VectorXd(VectorXd::Zero(8)));
+  archetype::vector const right(b), start(test::zeros(8));
   auto const r = slant::solve(slant::range_cg{A, right, C}, start, stop);
   CHECK(r.converged());
   CHECK((m * r.x().local() - b).norm() <= 1e-12 * b.norm());

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <slant/krylov/spectral_bound.hpp>
+#include <slant/operators/operators.hpp>
 
-#include <slant/operators/counted.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/diagonal.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 #include "spd_matrices.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
 
 namespace spectral_bound_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::detail::largest_tridiagonal_eigenvalue;
 using slant::detail::smallest_tridiagonal_eigenvalue;
 
@@ -107,14 +94,14 @@ TEST_CASE("zero operator, no unknowns, broken operators") {
 }
 
 /// All eigenvalues, ascending.
-Eigen::VectorXd by_eigen(std::vector<double> const& a, std::vector<double> const& b) {
+VectorXd by_eigen(std::vector<double> const& a, std::vector<double> const& b) {
   auto const n = Eigen::Index(a.size());
-  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
+  MatrixXd T = MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     T(i, i) = a[std::size_t(i)];
     if (i + 1 < n) T(i, i + 1) = T(i + 1, i) = b[std::size_t(i)];
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(T).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(T).eigenvalues();
 }
 
 TEST_CASE("random matrices of all sizes, as by a dense eigenvalue solver") {
@@ -124,7 +111,7 @@ TEST_CASE("random matrices of all sizes, as by a dense eigenvalue solver") {
     std::vector<double> a(n), b(n - 1);
     for (auto& e : a) e = gaussian(generator);
     for (auto& e : b) e = std::exp(3 * gaussian(generator));
-    Eigen::VectorXd const expected = by_eigen(a, b);
+    VectorXd const expected = by_eigen(a, b);
     double const tolerance = 1e-14 * double(n) * (expected.cwiseAbs().maxCoeff() + 1);
     CHECK(std::abs(largest_tridiagonal_eigenvalue(a, b) - expected(expected.size() - 1)) <=
           tolerance);
@@ -175,7 +162,7 @@ TEST_CASE(
 
 TEST_CASE("zero operator, operators out of range") {
   auto const nothing = slant::declare<slant::self_adjoint, slant::positive_semidefinite>(
-      slant::diagonal(VectorXd(VectorXd::Zero(3))));
+      slant::diagonal(test::zeros(3)));
   CHECK(slant::safe_gradient_step(nothing, VectorXd(3), 1.9).length == 1);
   auto const tiny =
       slant::diagonal<slant::positive_definite>(VectorXd(VectorXd::Constant(3, 1e-310)));

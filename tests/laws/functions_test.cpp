@@ -5,12 +5,7 @@
 #include <slant/sets/sets.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
+#include <support/testing.hpp>
 
 namespace functions_test {
 
@@ -19,7 +14,7 @@ using slant::support;
 using slant::testing::check_function_laws;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-Eigen::VectorXd const radii = Eigen::Vector3d(1, 0.3, 0);
+VectorXd const radii = Vector3d(1, 0.3, 0);
 
 slant::testing::set_options few(unsigned seed = 1, double size = 1) {
   return {.seed = seed, .points = 24, .directions = 3, .size = size};
@@ -36,7 +31,7 @@ TEST_CASE("laws: support functions of blocks") {
         support(slant::ball<2>{}), support(slant::ball<2>{0.0}), support(slant::ball<3>{0.7}),
         support(slant::ellipse<>{1.0, 0.2}), support(slant::second_order_cone<3>{0.4}),
         support(slant::free_space<2>{}),
-        support(slant::shifted(slant::ball<2>{}, Eigen::Vector2d(0.5, -2))));
+        support(slant::shifted(slant::ball<2>{}, Vector2d(0.5, -2))));
   check_function_laws(support(slant::ball<2>{1e3}), few(2, 1e3));
   check_function_laws(support(slant::ball<2>{1e-7}), few(3, 1e-7));
 }
@@ -57,12 +52,12 @@ TEST_CASE("support: the soft threshold, the norm, and a kink that is met exactly
     CHECK(σ.prox(0.5, point(z))[0] == doctest::Approx(expected).epsilon(1e-15));
   }
   auto const norm = support(slant::ball<3>{0.1});
-  Eigen::Vector3d const z(3, 4, 12);
+  Vector3d const z(3, 4, 12);
   CHECK((norm.prox(10.0, z) - z * (12.0 / 13.0)).norm() <= 1e-15 * z.norm());
   CHECK(norm.value(z) == doctest::Approx(1.3));
   // 0.1 · 3 is not 0.3: in Λ is decided at z/ρ, and what is in it sticks without rest.
   for (double const ρ : {0.1, 0.3, 3.0, 1e-7, 1e9}) {
-    Eigen::Vector3d const x = norm.prox(ρ, Eigen::Vector3d(z * (ρ * 0.0999999 / 13.0)));
+    Vector3d const x = norm.prox(ρ, Vector3d(z * (ρ * 0.0999999 / 13.0)));
     CHECK((x.array() == 0.0).all());
   }
 }

@@ -6,17 +6,11 @@
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
-
+#include <support/testing.hpp>
 #include "oracle/precise.hpp"
 
 namespace sets_test {
 
-using Eigen::Vector2d;
 using slant::cartesian;
 using slant::power;
 using slant::rotated;
@@ -26,7 +20,7 @@ using slant::testing::check_set_laws;
 using slant::testing::set_options;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-Eigen::VectorXd const radii = Eigen::Vector3d(1, 0.3, 0);
+VectorXd const radii = Vector3d(1, 0.3, 0);
 
 /// Fewer points than a client would take, for there are many sets.
 set_options few(unsigned seed = 1, double size = 1) {
@@ -84,7 +78,7 @@ TEST_CASE("laws: images of blocks, images of images, and their products") {
       shifted(scaled(3.0, rotated(slant::ellipse<>{1.0, 0.2}, turn(0.7))), Vector2d(1, 2));
   check(tilted, cartesian(slant::half_line<>{}, power<slant::planar>(tilted, 2)));
   auto const product = cartesian(slant::half_lines(2), slant::discs<slant::planar>(radii));
-  Eigen::VectorXd const centre = Eigen::VectorXd::LinSpaced(8, -2, 5);
+  VectorXd const centre = VectorXd::LinSpaced(8, -2, 5);
   check(scaled(0.5, shifted(product, centre)));
 }
 
@@ -99,8 +93,8 @@ TEST_CASE("laws: powers in both layouts, cartesian products of blocks and of pro
 
 TEST_CASE("laws: on vectors that are no Eigen vectors") {
   auto const set = shifted(cartesian(slant::half_lines(2), slant::discs(radii)),
-                           Eigen::VectorXd(Eigen::VectorXd::LinSpaced(8, -2, 5)));
-  check_set_laws(set, slant::testing::archetype::vector(Eigen::VectorXd::Zero(8)), few());
+                           VectorXd(VectorXd::LinSpaced(8, -2, 5)));
+  check_set_laws(set, slant::testing::archetype::vector(VectorXd::Zero(8)), few());
 }
 
 TEST_CASE_TEMPLATE("laws: a product in other scalars", S, float, long double, oracle::float_50) {

@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "methods/mixture.hpp"
-
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/solve_program.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/any_qp.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/methods/methods.hpp>
 
 #include <krylov/spd_matrices.hpp>
-#include <support/allocation_guard.hpp>
+#include <support/testing.hpp>
+#include "methods/mixture.hpp"
 
 namespace any_qp_test {
 
-using Eigen::VectorXd;
-
 /// Half lines, intervals and discs, n of each.
 struct usual_program {
-  Eigen::MatrixXd A;
+  MatrixXd A;
   VectorXd b, g;
   usual_program(Eigen::Index n, double κ)
       : A(test::with_spectrum(test::log_spaced(4 * n, κ), 7)),
@@ -38,7 +24,7 @@ struct usual_program {
 /// A x and no more: no diagonal, which any_operator forgets.
 struct product_only {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
-  Eigen::MatrixXd const& A;
+  MatrixXd const& A;
   Eigen::Index rows() const { return A.rows(); }
   Eigen::Index cols() const { return A.cols(); }
   void apply(auto const& x, auto& y) const { y.noalias() = A * x; }
@@ -157,7 +143,7 @@ TEST_CASE("erased programs: solve by a tolerance, with units chosen and without"
     // Half lines of very different units; the other blocks keep theirs.
     VectorXd units = VectorXd::Ones(p.b.size());
     for (Eigen::Index i = 0; i < p.g.size(); ++i) units[i] = i % 2 == 0 ? spread : 1;
-    Eigen::MatrixXd scaled = units.asDiagonal() * p.A * units.asDiagonal();
+    MatrixXd scaled = units.asDiagonal() * p.A * units.asDiagonal();
     scaled = (0.5 * (scaled + scaled.transpose())).eval();
     auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(scaled);
     slant::separable_qp const qp{A, p.b, set};

@@ -2,21 +2,11 @@
 #include <slant/methods/parts/active_rows.hpp>
 #include <slant/problems/polyhedral_qp.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
 #include <oracle/small_polyhedra.hpp>
-#include <string>
-
-#include "support/allocation_guard.hpp"
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace constraint_rows_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 slant::constraint_rows<double> rows_of(MatrixXd const& b, VectorXd const& c) {

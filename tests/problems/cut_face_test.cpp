@@ -2,18 +2,12 @@
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/cut_face.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <random>
+#include <support/testing.hpp>
 
 namespace cut_face_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {

@@ -2,20 +2,11 @@
 #include <slant/problems/equality_constraints.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/QR>
-
-#include <support/allocation_guard.hpp>
 #include <support/dense_of.hpp>
-
-#include <string>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace equality_constraints_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 MatrixXd rows() {

@@ -3,20 +3,14 @@
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/equilibrated.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
 #include <krylov/spd_matrices.hpp>
-#include <limits>
 #include <oracle/dense_newton.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
 namespace equilibrated_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// Contact with friction at 8 nodes whose stiffness grows from 1 to `spread`: bounds, then discs.
 struct uneven {
@@ -80,8 +74,7 @@ TEST_CASE("without it the stiff blocks decide the length of every step") {
     auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A);
     auto const set = p.set();
     slant::separable_qp const qp{A, p.b, set};
-    return slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(qp.size())),
-                        slant::reduced_gradient_below(1e-12) || slant::at_most(most));
+    return test::minimise(slant::symmetric_newton{qp}, test::zeros(qp.size()), 1e-12, most);
   };
   auto const even = solve_plainly(1, 30).state.work.operator_applications;
   auto const stiff = solve_plainly(1e6, 2000).state.work.operator_applications;

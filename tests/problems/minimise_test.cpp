@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/constrained_newton.hpp>
-#include <slant/methods/smalse.hpp>
-#include <slant/methods/solve_program.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/problems/minimise.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/methods/methods.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/SparseCore>
-#include <sstream>
-#include <string>
-#include <type_traits>
+#include <support/testing.hpp>
 
 namespace minimise_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("a program as on paper is separable_qp, with parts kept by the same rule") {
   VectorXd const d{{1.0, 2.0, 4.0}}, b{{-1.0, 4.0, 8.0}};
@@ -39,7 +27,7 @@ TEST_CASE("a program as on paper is separable_qp, with parts kept by the same ru
 /// the multiplier 1, and the bound of x₀ has the force 2.
 struct simplex {
   VectorXd const d{{1.0, 2.0, 4.0}}, b{{-1.0, 3.0, 9.0}}, e{{3.0}}, x{{0.0, 1.0, 2.0}};
-  Eigen::SparseMatrix<double> const G = Eigen::MatrixXd::Ones(1, 3).sparseView();
+  Eigen::SparseMatrix<double> const G = MatrixXd::Ones(1, 3).sparseView();
   [[nodiscard]] auto program() const {
     return slant::minimise(slant::quadratic(slant::diagonal<slant::positive_definite>(d), b))
         .over(slant::half_lines(3))
@@ -64,7 +52,7 @@ TEST_CASE("a program with equations is solved, by solve and by the methods for s
   slant::constrained_newton const newton{program.qp(), program.constraints()};
   CHECK(newton.multipliers(slant::solve(program, 1e-12).state)(0) == doctest::Approx(1.0));
   auto const other =
-      slant::solve(slant::smalse{program.qp(), program.constraints()}, VectorXd(VectorXd::Zero(3)),
+      slant::solve(slant::smalse{program.qp(), program.constraints()}, test::zeros(3),
                    (slant::reduced_gradient_below(1e-10) && slant::feasibility_below(1e-10)) ||
                        slant::at_most(100));
   CHECK(other.converged());
@@ -92,7 +80,7 @@ TEST_CASE("equations of another size are refused") {
         .over(slant::half_lines(3))
         .subject_to(G, e);
   };
-  CHECK_THROWS_WITH_AS(static_cast<void>(with(Eigen::MatrixXd::Ones(1, 2).sparseView(), p.e)),
+  CHECK_THROWS_WITH_AS(static_cast<void>(with(MatrixXd::Ones(1, 2).sparseView(), p.e)),
                        "columns of G: got 2, expected the size of b, 3", slant::bad_input);
   CHECK_THROWS_WITH_AS(static_cast<void>(with(p.G, VectorXd::Ones(2))),
                        "e: got 2, expected the rows of G, 1", slant::bad_input);

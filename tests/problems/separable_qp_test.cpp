@@ -1,31 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/concepts/bad_input.hpp>
-
-#include <slant/operators/counted.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/quadratic_program.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/ball.hpp>
-#include <slant/sets/blocks.hpp>
+#include <slant/operators/operators.hpp>
+#include <slant/problems/problems.hpp>
 #include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/power.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "methods/mixture.hpp"
-
-#include <cmath>
 
 namespace separable_qp_test {
 
-using Eigen::VectorXd;
 using vector = Eigen::VectorXd;
 
 TEST_CASE("lvalues are referenced, rvalues owned") {
@@ -71,7 +54,7 @@ constexpr bool classified = slant::has_block_states<C, vector>;
 /// A block that cannot say in which state a point of it is.
 struct stateless {
   static constexpr int dimension = 2;
-  Eigen::Vector2d project(auto const& x) const { return x; }
+  Vector2d project(auto const& x) const { return x; }
   bool contains(auto const&) const { return true; }
 };
 
@@ -119,8 +102,8 @@ TEST_CASE("vectors and sets of other kinds are asked in their own terms") {
 
 TEST_CASE("a problem of KPRGP has an operator that declares to be semidefinite") {
   using identity = slant::identity_operator;
-  using undeclared = decltype(slant::matrix(Eigen::MatrixXd()));
-  using self_adjoint = decltype(slant::declare<slant::self_adjoint>(Eigen::MatrixXd()));
+  using undeclared = decltype(slant::matrix(MatrixXd()));
+  using self_adjoint = decltype(slant::declare<slant::self_adjoint>(MatrixXd()));
   CHECK(slant::kprgp_problem<problem<identity>>);
   CHECK(slant::quadratic_program<problem<undeclared>>);
   CHECK_FALSE(slant::kprgp_problem<problem<undeclared>>);
