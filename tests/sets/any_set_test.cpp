@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/any_set.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/curved_face.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/face.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/point.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
 #include <krylov/spd_matrices.hpp>
-#include <limits>
-#include <vector>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
 
 namespace any_set_test {
 
-using Eigen::VectorXd;
 using slant::any_set;
 
 double const inf = std::numeric_limits<double>::infinity();

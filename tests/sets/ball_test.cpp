@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/ball.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace ball_test {
 
@@ -78,9 +74,8 @@ TEST_CASE("ball: slanting function, off the kink and on it [K (50), (51)]") {
   oracle::number_source<double> source(10);
   for (int i = 0; i < 60; ++i) {
     double const g = source.positive_of_size(-1, 1);
-    Eigen::Vector3d const x =
-        (i % 3 == 0 ? 0.9 * source.uniform(0, 1) : 1.1 + source.uniform(0, 5)) * g *
-        source.direction<3>();
+    Vector3d const x = (i % 3 == 0 ? 0.9 * source.uniform(0, 1) : 1.1 + source.uniform(0, 5)) * g *
+                       source.direction<3>();
     auto const naive_project = [&](auto const& z) {
       return naive::project_ball<float_50, 3>(z, float_50(g));
     };

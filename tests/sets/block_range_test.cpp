@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/any_set.hpp>
-#include <slant/sets/block_range.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/point.hpp>
-#include <slant/sets/syntax.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <range/v3/algorithm/count_if.hpp>
 #include <range/v3/numeric/accumulate.hpp>
 #include <range/v3/range/conversion.hpp>
@@ -19,14 +10,10 @@
 #include <range/v3/view/transform.hpp>
 #include <range/v3/view/zip.hpp>
 #include <ranges>
-#include <utility>
-#include <vector>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
 
 namespace block_range_test {
 
-using Eigen::VectorXd;
 using slant::block_state;
 
 auto const is_sliding = [](auto const& b) { return b.state() == block_state::sliding; };
@@ -175,7 +162,7 @@ TEST_CASE("values are those of x as it is; segments may be points; another size 
   CHECK(slant::blocks(Λ.part<0>(), part)[3].value()(0) == 3);
   VectorXd twice(30);
   twice << x, VectorXd::Zero(15);
-  twice = Eigen::VectorXd(twice.reshaped(15, 2).transpose().reshaped());
+  twice = VectorXd(twice.reshaped(15, 2).transpose().reshaped());
   Eigen::Map<VectorXd const, 0, Eigen::InnerStride<2>> const spread(twice.data(), 15);
   CHECK(slant::blocks(Λ, spread)[8].value() == slant::blocks(Λ, x)[8].value());
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::blocks(Λ, part)),

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
-
-#include <slant/sets/blocks.hpp>
-#include <slant/sets/face.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/interval.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <type_traits>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace blocks_test {
 
@@ -26,7 +15,7 @@ using slant::detail::takes_parameters;
 /// A client's block that names no scalar.
 struct nameless {
   static constexpr int dimension = 2;
-  Eigen::Vector2d project(auto const& x) const { return x; }
+  Vector2d project(auto const& x) const { return x; }
   bool contains(auto const&) const { return true; }
 };
 
@@ -58,9 +47,9 @@ struct without_form {
 
 TEST_CASE("blocks: only a block that says whole_space is passed over") {
   static_assert(!slant::whole_space<without_form>);
-  Eigen::Vector3d x(-1, 1, -2);
+  Vector3d x(-1, 1, -2);
   slant::project(slant::power(without_form{}, 3), x, x);
-  CHECK(x == Eigen::Vector3d(0, 1, 0));
+  CHECK(x == Vector3d(0, 1, 0));
   CHECK(slant::face_of(slant::power(without_form{}, 3), x).free_count() == 1);
 }
 
@@ -102,12 +91,12 @@ TEST_CASE("blocks: the smallest of several steps") {
 TEST_CASE("block_list: what counts as a list of parameters") {
   static_assert(parameter_list<std::vector<double>>);
   static_assert(parameter_list<Eigen::VectorXf>);
-  static_assert(parameter_list<decltype(-Eigen::VectorXd())>);
+  static_assert(parameter_list<decltype(-VectorXd())>);
   static_assert(parameter_list<slant::testing::archetype::vector>);
   static_assert(!parameter_list<double>);
   static_assert(takes_parameters<slant::ball<2>, std::vector<double>>);
-  static_assert(takes_parameters<slant::interval<>, double, Eigen::VectorXd>);
-  static_assert(!takes_parameters<slant::interval<>, Eigen::VectorXd>);
+  static_assert(takes_parameters<slant::interval<>, double, VectorXd>);
+  static_assert(!takes_parameters<slant::interval<>, VectorXd>);
   static_assert(!takes_parameters<slant::ball<2>, std::vector<const char*>>);
 }
 
@@ -115,7 +104,7 @@ TEST_CASE("block_list: entries of all kinds of lists") {
   using slant::detail::parameter_at;
   CHECK(parameter_at(std::vector<double>{1, 2}, 1) == 2.0);
   CHECK(parameter_at(7.0, 5) == 7.0);
-  Eigen::VectorXd const g = Eigen::Vector2d(3, 4);
+  VectorXd const g = Vector2d(3, 4);
   CHECK(parameter_at(-g, 1) == -4.0);
   CHECK(parameter_at(slant::testing::archetype::vector(g), 0) == 3.0);
   CHECK(slant::detail::parameter_count(1.0, g, 2.0, g) == 2);
@@ -141,32 +130,32 @@ TEST_CASE("place: consecutive blocks own a segment, planar ones a component of e
 }
 
 TEST_CASE("place: views read and write the block's part only") {
-  Eigen::VectorXd x(6);
+  VectorXd x(6);
   x << 0, 1, 2, 3, 4, 5;
   auto const p = slant::block_place<2, planar>(2, 3);
-  CHECK(p.in(x) == Eigen::Vector2d(2, 5));
-  CHECK(p.value(x) == Eigen::Vector2d(2, 5));
+  CHECK(p.in(x) == Vector2d(2, 5));
+  CHECK(p.value(x) == Vector2d(2, 5));
   auto view = p.in(x);
   view *= 10;
-  p.put(x, Eigen::Vector2d(7, 8));
+  p.put(x, Vector2d(7, 8));
   slant::block_place<2, consecutive>(0, 3).in(x).setConstant(-1);
-  CHECK(x == (Eigen::VectorXd(6) << -1, -1, 7, 3, 4, 8).finished());
-  Eigen::VectorXd const& unwritable = x;
-  CHECK(p.in(unwritable) == Eigen::Vector2d(7, 8));
+  CHECK(x == (VectorXd(6) << -1, -1, 7, 3, 4, 8).finished());
+  VectorXd const& unwritable = x;
+  CHECK(p.in(unwritable) == Vector2d(7, 8));
   static_assert(!std::is_assignable_v<decltype(p.in(unwritable)(0)), double>);
 }
 
 TEST_CASE("place: views of strided parts, expressions and vectors that are no Eigen vectors") {
-  Eigen::VectorXd x(12);
+  VectorXd x(12);
   x << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11;
   auto const p = slant::block_place<2, planar>(1, 3);
-  Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<2>> every_other(x.data(), 6);
-  CHECK(p.in(every_other) == Eigen::Vector2d(2, 8));
+  Eigen::Map<VectorXd, 0, Eigen::InnerStride<2>> every_other(x.data(), 6);
+  CHECK(p.in(every_other) == Vector2d(2, 8));
   auto const expression = every_other + every_other;
-  CHECK(p.in(expression) == Eigen::Vector2d(4, 16));
+  CHECK(p.in(expression) == Vector2d(4, 16));
   slant::testing::archetype::vector v(x.head(6));
   p.in(v).setZero();
-  CHECK(v.local() == (Eigen::VectorXd(6) << 0, 0, 2, 3, 0, 5).finished());
+  CHECK(v.local() == (VectorXd(6) << 0, 0, 2, 3, 0, 5).finished());
 }
 
 TEST_CASE("place: nested places compose") {

@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/interval.hpp>
-#include <slant/sets/point.hpp>
-#include <slant/sets/power.hpp>
-
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <limits>
-#include <vector>
 
 namespace cartesian_test {
 
@@ -31,7 +19,7 @@ struct bounded_above {
 };
 
 TEST_CASE("cartesian: parts follow one another") {
-  vec<> const g = Eigen::Vector3d(1, 2, 0);
+  vec<> const g = Vector3d(1, 2, 0);
   auto const set = cartesian(power(slant::half_line<>{}, 3), power(slant::ball<2>{}, g));
   CHECK(set.size() == 9);
   CHECK(set.block_count() == 6);
@@ -49,7 +37,7 @@ TEST_CASE("cartesian: parts follow one another") {
 }
 
 TEST_CASE("cartesian: visit reaches the innermost blocks, numbered through") {
-  vec<> const g = Eigen::Vector2d(1, 2);
+  vec<> const g = Vector2d(1, 2);
   auto const node = cartesian(slant::half_line<>{}, slant::ball<2>{3.0});
   auto const set = cartesian(power(slant::free_space<1>{}, 2), power(node, 2),
                              power<slant::planar>(slant::ball<2>{}, g), slant::ball<2>{5.0});
@@ -83,7 +71,7 @@ TEST_CASE("cartesian: offsets are constants as far as the types tell") {
 }
 
 TEST_CASE("cartesian: capabilities are those of the parts") {
-  vec<> const g = Eigen::Vector3d(1, 2, 0.5);
+  vec<> const g = Vector3d(1, 2, 0.5);
   auto const normal = power(slant::half_line<>{}, 3);
   auto const friction = power(slant::ball<2>{}, g);
   auto const set = cartesian(normal, friction);
@@ -141,8 +129,8 @@ TEST_CASE("cartesian: products passed as lvalues are referenced, rvalues and blo
 
 TEST_CASE("cartesian: a part may be any convex set") {
   auto const set = cartesian(bounded_above{2}, slant::half_line<>{});
-  vec<> const x = Eigen::Vector3d(2, 0, -1);
-  CHECK(slant::project(set, x) == Eigen::Vector3d(1, 0, 0));
+  vec<> const x = Vector3d(2, 0, -1);
+  CHECK(slant::project(set, x) == Vector3d(1, 0, 0));
   CHECK(!set.contains(x));
   static_assert(!slant::has_slant<decltype(set), vec<>>);
   static_assert(!slant::has_step_to_boundary<decltype(set), vec<>>);
@@ -154,10 +142,10 @@ TEST_CASE("block_product: a product of blocks is a block") {
   using node_type = std::remove_cvref_t<decltype(node)>;
   static_assert(node_type::dimension == 3);
   static_assert(slant::set_block<node_type>);
-  static_assert(std::is_same_v<decltype(node.project(Eigen::Vector3d())), Eigen::Vector3d>);
-  Eigen::Vector3d const x(-1, 3, 4);
-  Eigen::Vector3d const p = node.project(x);
-  CHECK((p - Eigen::Vector3d(0, 1.2, 1.6)).norm() <= 1e-15);
+  static_assert(std::is_same_v<decltype(node.project(Vector3d())), Vector3d>);
+  Vector3d const x(-1, 3, 4);
+  Vector3d const p = node.project(x);
+  CHECK((p - Vector3d(0, 1.2, 1.6)).norm() <= 1e-15);
   CHECK(node.contains(p));
   CHECK(!node.contains(x));
 }
@@ -183,15 +171,15 @@ TEST_CASE("block_product: the inequalities of all parts") {
   using set_type = std::remove_cvref_t<decltype(set)>;
   static_assert(set_type::inequalities == 3);
   Eigen::Vector4d const x(0.5, 9, 1, 2);
-  CHECK(set.inequality(x) == Eigen::Vector3d(-1.5, -1.5, 5 - 9));
+  CHECK(set.inequality(x) == Vector3d(-1.5, -1.5, 5 - 9));
   Eigen::Matrix<double, 4, 3> gradient;
   gradient << -1, 1, 0, 0, 0, 0, 0, 0, 2, 0, 0, 4;
   CHECK(set.inequality_gradient(x) == gradient);
   Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
   hessian(2, 2) = hessian(3, 3) = 14;
-  CHECK(set.inequality_hessian(x, Eigen::Vector3d(1, 2, 7)) == hessian);
+  CHECK(set.inequality_hessian(x, Vector3d(1, 2, 7)) == hessian);
   using with_point = decltype(cartesian(slant::half_line<>{}, slant::point<1>{}));
-  static_assert(!slant::has_inequality_form<with_point, Eigen::Vector2d>);
+  static_assert(!slant::has_inequality_form<with_point, Vector2d>);
   using unconstrained = decltype(cartesian(slant::free_space<1>{}, slant::free_space<2>{}));
   static_assert(slant::whole_space<unconstrained>);
 }

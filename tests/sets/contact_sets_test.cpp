@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/contact_sets.hpp>
 
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
 #include "oracle/precise.hpp"
-#include "support/message.hpp"
-
-#include <doctest/doctest.h>
-
-#include <vector>
 
 namespace contact_sets_test {
 
@@ -35,7 +31,7 @@ TEST_CASE("contact_sets: discs in both layouts") {
 }
 
 TEST_CASE("contact_sets: bad data is named") {
-  vec<> const g = Eigen::Vector2d(1, -2);
+  vec<> const g = Vector2d(1, -2);
   CHECK(test::complaint([&] { static_cast<void>(slant::discs(g)); }) ==
         "radius[1]: got -2, expected a number >= 0");
   CHECK(test::complaint([&] { static_cast<void>(slant::intervals(g)); }) ==

@@ -1,25 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/base/entries.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/curved_face.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/sets/second_order_cone.hpp>
-#include <slant/sets/slants.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
 #include <krylov/spd_matrices.hpp>
-#include <limits>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
 
 namespace curved_face_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// The matrix of x ↦ f(x, y).
 template <class F>
@@ -124,7 +109,7 @@ TEST_CASE("reassigning does not allocate") {
 TEST_CASE("small eigenvalues are as accurate as large ones") {
   // diag(1, 1e-12) turned by 30°: the small one is what remains of cancelling entries.
   double const c = std::sqrt(3.0) / 2, s = 0.5;
-  Eigen::Matrix3d g = Eigen::Vector3d(1e-3, 2.0, 5e-7).asDiagonal();
+  Eigen::Matrix3d g = Vector3d(1e-3, 2.0, 5e-7).asDiagonal();
   Eigen::Matrix3d Q;
   Q << c, -s, 0, s, c, 0, 0, 0, 1;
   slant::detail::symmetric_eigen<double, 3> const e(Q * g * Q.transpose());
@@ -132,7 +117,7 @@ TEST_CASE("small eigenvalues are as accurate as large ones") {
       (e.vectors * e.values.asDiagonal() * e.vectors.transpose() - Q * g * Q.transpose()).norm() <=
       1e-14);
   CHECK((e.vectors.transpose() * e.vectors - Eigen::Matrix3d::Identity()).norm() <= 1e-14);
-  Eigen::Vector3d sorted = e.values;
+  Vector3d sorted = e.values;
   std::sort(sorted.data(), sorted.data() + 3);
   CHECK(sorted(0) == doctest::Approx(5e-7).epsilon(1e-12));
   CHECK(sorted(1) == doctest::Approx(1e-3).epsilon(1e-12));

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/ellipse.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace ellipse_test {
 

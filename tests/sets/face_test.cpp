@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/face.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace face_test {
 
@@ -23,7 +15,7 @@ using indices = std::vector<slant::index>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST_CASE("face: a product of half lines and discs") {
-  vec<> const g = Eigen::Vector3d(1, 5, 0);
+  vec<> const g = Vector3d(1, 5, 0);
   auto const set = slant::cartesian(slant::half_lines(3), slant::discs(g));
   vec<> x(9);
   x << 1, 0, 2, 0.6, 0.8, 3, 3, 0, 0;
@@ -52,12 +44,12 @@ TEST_CASE("face: a product of half lines and discs") {
 
 TEST_CASE("face: what is not kept is 0 even if it was not finite") {
   auto const set = slant::half_lines(2);
-  vec<> const x = Eigen::Vector2d(0, 1);
+  vec<> const x = Vector2d(0, 1);
   auto const face = face_of(set, x);
-  vec<> y = Eigen::Vector2d(infinity, infinity);
+  vec<> y = Vector2d(infinity, infinity);
   face.keep(y, y);
-  CHECK(y == Eigen::Vector2d(0, infinity));
-  y = Eigen::Vector2d(2, std::numeric_limits<double>::quiet_NaN());
+  CHECK(y == Vector2d(0, infinity));
+  y = Vector2d(2, std::numeric_limits<double>::quiet_NaN());
   face.keep(y, y);
   CHECK(std::isnan(y[1]));
 }
@@ -104,11 +96,11 @@ TEST_CASE("face: a set of the same size with another layout is another set") {
 }
 
 TEST_CASE("face: a single block, and a point whose state differs only between sliding and fixed") {
-  auto const moving = face_of(slant::ball<2>{1.0}, Eigen::Vector2d(1, 0));
+  auto const moving = face_of(slant::ball<2>{1.0}, Vector2d(1, 0));
   CHECK(moving.size() == 1);
   CHECK(moving.sliding_count() == 1);
   auto face = moving;
-  CHECK(face.assign(slant::ball<2>{0.0}, Eigen::Vector2d(0, 0)));
+  CHECK(face.assign(slant::ball<2>{0.0}, Vector2d(0, 0)));
   CHECK(face.fixed_count() == 1);
   CHECK(face.components().empty());
   CHECK(!(face == moving));
@@ -116,13 +108,13 @@ TEST_CASE("face: a single block, and a point whose state differs only between sl
 
 TEST_CASE("face: the archetypes of a set and a vector") {
   slant::testing::archetype::separable_set const set(3);
-  slant::testing::archetype::vector x(vec<>(Eigen::Vector3d(1, 2, 3)));
+  slant::testing::archetype::vector x(vec<>(Vector3d(1, 2, 3)));
   auto const face = face_of(set, x);
   CHECK(face.size() == 1);
   CHECK(face.components() == indices{0, 1, 2});
   slant::testing::archetype::vector y = x;
   face.keep_complement(x, y);
-  CHECK(y.local() == Eigen::Vector3d(0, 0, 0));
+  CHECK(y.local() == Vector3d(0, 0, 0));
 }
 
 TEST_CASE("face: free components ask nobody, frictionless products never ask a disc") {

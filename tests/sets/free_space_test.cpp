@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/free_space.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
+#include <support/testing.hpp>
 
 namespace free_space_test {
 
@@ -23,7 +21,7 @@ TEST_CASE_TEMPLATE("free space: everything is inside", S, float, double, long do
 TEST_CASE("free space: no inequality, an empty one for those who loop over them") {
   slant::free_space<2> const space;
   static_assert(slant::free_space<2>::inequalities == 0);
-  Eigen::Vector2d const x(1, 2);
+  Vector2d const x(1, 2);
   CHECK(space.inequality(x).size() == 0);
   CHECK(space.inequality_gradient(x).rows() == 2);
   CHECK(space.inequality_gradient(x).cols() == 0);

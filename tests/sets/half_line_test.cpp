@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/half_line.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/precise.hpp"
-
-#include <doctest/doctest.h>
-
-#include <limits>
 
 namespace half_line_test {
 

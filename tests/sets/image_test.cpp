@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/face.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/parts/image.hpp>
-#include <slant/sets/point.hpp>
-#include <slant/sets/second_order_cone.hpp>
-
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <limits>
-#include <vector>
 
 namespace image_test {
 
 using Vector1d = Eigen::Matrix<double, 1, 1>;
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 using slant::scaled;
 using slant::shifted;
 using namespace products;
@@ -52,13 +35,13 @@ TEST_CASE("image_block: the blocks of a product stay blocks if the map does not 
   auto const node = cartesian(slant::half_line<>{}, slant::ball<2>{});
   auto const moved = shifted(node, Vector3d(1, 2, 3));
   CHECK(moved.block_count() == 2);
-  std::vector<Eigen::VectorXd> centres;
+  std::vector<VectorXd> centres;
   moved.visit([&](auto const& block, auto const& p) {
     CHECK(p.index() == slant::index(centres.size()));
     centres.emplace_back(block.map().centre());
   });
   REQUIRE(centres.size() == 2);
-  CHECK(centres[0] == Eigen::VectorXd::Constant(1, 1.0));
+  CHECK(centres[0] == VectorXd::Constant(1, 1.0));
   CHECK(centres[1] == Vector2d(2, 3));
   auto const turned = rotated(node, Eigen::Matrix3d::Identity());
   CHECK(turned.block_count() == 1);
@@ -116,7 +99,7 @@ struct small_mean {
 };
 
 TEST_CASE("image_product: of a set that is no product") {
-  vec<> const c = Eigen::Vector3d(1e6, 2e6, 3e6);
+  vec<> const c = Vector3d(1e6, 2e6, 3e6);
   auto const set = shifted(small_mean{3}, c);
   vec<> const x = c + numbers(3, 1) + vec<>::Constant(3, 10.0);
   vec<> const p = slant::project(set, x);
@@ -152,12 +135,11 @@ TEST_CASE("image_product: images of images, in place and without allocation") {
 
 TEST_CASE("image_product: infinite bounds stay infinite") {
   double const infinity = std::numeric_limits<double>::infinity();
-  auto const set = shifted(slant::half_lines(vec<>(Eigen::Vector2d(-infinity, 0))),
-                           vec<>(Eigen::Vector2d(5, 5)));
-  vec<> const x = Eigen::Vector2d(-1e300, -1);
-  CHECK(slant::project(set, x) == Eigen::Vector2d(-1e300, 5));
-  CHECK(set.support(vec<>(Eigen::Vector2d(-1, 0))) == infinity);
-  CHECK(set.support(vec<>(Eigen::Vector2d(0, -2))) == -10.0);
+  auto const set = shifted(slant::half_lines(vec<>(Vector2d(-infinity, 0))), vec<>(Vector2d(5, 5)));
+  vec<> const x = Vector2d(-1e300, -1);
+  CHECK(slant::project(set, x) == Vector2d(-1e300, 5));
+  CHECK(set.support(vec<>(Vector2d(-1, 0))) == infinity);
+  CHECK(set.support(vec<>(Vector2d(0, -2))) == -10.0);
 }
 
 TEST_CASE("rounding_reach: membership within a distance") {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/interval.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <slant/sets/power.hpp>
-
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "oracle/precise.hpp"
-
-#include <limits>
 
 namespace interval_test {
 
@@ -102,12 +97,12 @@ TEST_CASE_TEMPLATE("symmetric_interval: an interval with one parameter", S, floa
 }
 
 TEST_CASE("symmetric_interval: in a power it has one parameter per block") {
-  Eigen::VectorXd const g = Eigen::Vector3d(1, 2, 0);
+  VectorXd const g = Vector3d(1, 2, 0);
   auto set = slant::power(slant::symmetric_interval<>{}, g);
-  Eigen::VectorXd const x = Eigen::Vector3d(-5, 5, 5);
-  CHECK(slant::project(set, x) == Eigen::Vector3d(-1, 2, 0));
-  set.update(Eigen::VectorXd(3 * g));
-  CHECK(slant::project(set, x) == Eigen::Vector3d(-3, 5, 0));
+  VectorXd const x = Vector3d(-5, 5, 5);
+  CHECK(slant::project(set, x) == Vector3d(-1, 2, 0));
+  set.update(VectorXd(3 * g));
+  CHECK(slant::project(set, x) == Vector3d(-3, 5, 0));
 }
 
 }  // namespace interval_test

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/point.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/precise.hpp"
-
-#include <doctest/doctest.h>
-
-#include <limits>
 
 namespace point_test {
 
@@ -29,14 +26,14 @@ TEST_CASE_TEMPLATE("point: known answers", S, float, double, long double, oracle
 TEST_CASE("point: membership is relative to the size of the point") {
   double const ε = std::numeric_limits<double>::epsilon();
   for (double scale : {1e-300, 1e-150, 1.0, 1e150, 1e300}) {
-    Eigen::Vector2d const p(3 * scale, -4 * scale), off(scale, scale);
+    Vector2d const p(3 * scale, -4 * scale), off(scale, scale);
     slant::point<2> const set(p);
     CHECK(set.contains(p + 4 * ε * off));
     CHECK_FALSE(set.contains(p + 400 * ε * off));
   }
   slant::point<2> const origin;
-  CHECK(origin.contains(Eigen::Vector2d(0, 0)));
-  CHECK_FALSE(origin.contains(Eigen::Vector2d(0, 5e-324)));
+  CHECK(origin.contains(Vector2d(0, 0)));
+  CHECK_FALSE(origin.contains(Vector2d(0, 5e-324)));
 }
 
 }  // namespace point_test

@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
-
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/interval.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
 #include "oracle/precise.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace power_test {
 
@@ -124,7 +111,7 @@ TEST_CASE("power: free components are neither looked at nor stored") {
   auto const set = power(slant::free_space<1>{}, 3);
   static_assert(sizeof(set) <= 2 * sizeof(slant::index));
   vec<> const nan = vec<>::Constant(3, std::numeric_limits<double>::quiet_NaN());
-  vec<> const x = Eigen::Vector3d(1, -2, 3);
+  vec<> const x = Vector3d(1, -2, 3);
   CHECK(slant::project(set, x) == x);
   CHECK(set.contains(x));
   CHECK(!set.contains(nan));
@@ -168,10 +155,10 @@ TEST_CASE("power: copies of one block, and parameters that are lists or one numb
   CHECK(power(slant::half_line<>{}, 0).size() == 0);
   std::vector<double> const upper{1, 2, 3};
   auto const boxes = power(slant::interval<>{}, 0.0, upper);
-  CHECK(slant::project(boxes, vec<>(vec<>::Constant(3, 9.0))) == Eigen::Vector3d(1, 2, 3));
-  CHECK(slant::project(boxes, vec<>(vec<>::Constant(3, -9.0))) == Eigen::Vector3d(0, 0, 0));
+  CHECK(slant::project(boxes, vec<>(vec<>::Constant(3, 9.0))) == Vector3d(1, 2, 3));
+  CHECK(slant::project(boxes, vec<>(vec<>::Constant(3, -9.0))) == Vector3d(0, 0, 0));
   auto const ellipses = power(slant::ellipse<>{1.0, 1.0}, vec<>(vec<>::Ones(2)), 2.0);
-  CHECK(ellipses.block(1).project(Eigen::Vector2d(0, 9))(1) == doctest::Approx(2.0));
+  CHECK(ellipses.block(1).project(Vector2d(0, 9))(1) == doctest::Approx(2.0));
   auto const ints = power(slant::half_line<>{}, std::vector<int>{1, 2});
   CHECK(ints.block(1).lower() == 2.0);
 }

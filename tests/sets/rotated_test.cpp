@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/interval.hpp>
-#include <slant/sets/power.hpp>
+#include <slant/sets/sets.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/precise.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
 
 namespace rotated_test {
 
 using Eigen::Matrix2d;
-using Eigen::Vector2d;
 using slant::block_state;
 using slant::rotated;
 

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/product.hpp>  // the other `scaled`: the two must live side by side
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/images.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
 #include "oracle/precise.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <limits>
 
 namespace scaled_test {
 
 using namespace products;
-using Eigen::Vector2d;
-using Eigen::VectorXd;
 using slant::scaled;
 
 TEST_CASE_TEMPLATE("scaled: a disc of c times the radius", S, float, double, long double,
@@ -51,9 +42,9 @@ TEST_CASE("scaled: f(x/c) and its derivatives") {
 }
 
 TEST_CASE("scaled: operators and sets") {
-  Eigen::VectorXd const x = Vector2d(1, 2);
-  auto const operator_a = scaled(3.0, Eigen::MatrixXd(Eigen::Matrix2d::Identity()));
-  Eigen::VectorXd y(2);
+  VectorXd const x = Vector2d(1, 2);
+  auto const operator_a = scaled(3.0, MatrixXd(Eigen::Matrix2d::Identity()));
+  VectorXd y(2);
   slant::apply(operator_a, x, y);
   CHECK(y == 3 * x);
   CHECK(scaled(3, slant::half_line<>{2.0}).project(Eigen::Matrix<double, 1, 1>(0.0))(0) == 6.0);

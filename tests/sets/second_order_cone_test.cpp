@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/second_order_cone.hpp>
-
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "oracle/precise.hpp"
 #include "oracle/projection_errors.hpp"
 #include "oracle/set_checks.hpp"
-
-#include <limits>
 
 namespace second_order_cone_test {
 
@@ -18,7 +13,6 @@ using oracle::float_50;
 using slant::block_state;
 using cone = slant::second_order_cone<3>;
 using vec3 = Eigen::Vector3d;
-using Eigen::Vector2d;
 using plane = slant::plane_cone<>;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double ε = std::numeric_limits<double>::epsilon();
@@ -170,13 +164,13 @@ TEST_CASE("plane cone: linear inequalities") {
 }
 
 TEST_CASE("friction cones of many contacts, plane and spatial, by name") {
-  Eigen::Vector3d const mu(0.5, 0, 2);
+  Vector3d const mu(0.5, 0, 2);
   auto const spatial = slant::friction_cones<3>(mu);
   CHECK(spatial.size() == 9);
   CHECK(spatial.block(2).mu() == 2.0);
   auto const flat = slant::friction_cones<2>(mu);
   CHECK(flat.size() == 6);
-  Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(6, -3, 2);
+  VectorXd const x = VectorXd::LinSpaced(6, -3, 2);
   CHECK(slant::project(flat, x).head<2>() == plane(0.5).project(x.head<2>()));
 }
 

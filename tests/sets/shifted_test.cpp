@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/face.hpp>
-#include <slant/sets/images.hpp>
+#include <slant/sets/sets.hpp>
 
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace shifted_test {
 
 using namespace products;
-using Eigen::Vector2d;
 using slant::block_state;
 using slant::shifted;
 
@@ -108,7 +97,7 @@ TEST_CASE("shifted: long vectors and products are referenced, so updates show") 
 }
 
 TEST_CASE("shifted: powers of shifted blocks keep the centre") {
-  vec<> const g = Eigen::Vector2d(1, 2);
+  vec<> const g = Vector2d(1, 2);
   auto const set = slant::power(shifted(slant::ball<2>{}, Vector2d(5, 5)), g);
   vec<> const x = Eigen::Vector4d(5, 9, 5, 9);
   CHECK(slant::project(set, x) == Eigen::Vector4d(5, 6, 5, 7));

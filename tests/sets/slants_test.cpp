@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/concepts/capabilities.hpp>
-
-#include <slant/concepts/linear_operator.hpp>
 #include <slant/operators/sum.hpp>
-#include <slant/sets/ball.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/free_space.hpp>
-#include <slant/sets/slants.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "counting_disc.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <limits>
 
 namespace slants_test {
 
@@ -63,9 +53,9 @@ TEST_CASE("block_diagonal_slant: without allocation, on matrices and on other ve
   vec<> const x = numbers(4, 1);
   vec<> y(4);
   CHECK(test::allocations_of([&] { g.apply(x, y); }) == 0);
-  Eigen::MatrixXd many(4, 2);
+  MatrixXd many(4, 2);
   many << x, 2 * x;
-  Eigen::MatrixXd product(4, 2);
+  MatrixXd product(4, 2);
   g.apply(many, product);
   CHECK(product.col(0) == y);
   CHECK(product.col(1) == 2 * y);
@@ -84,7 +74,7 @@ TEST_CASE("block_diagonal_slant: declares its laws and has what operators have")
   static_assert(slant::has_accumulate<general, vec<>>);
   static_assert(slant::has_diagonal<general, vec<>>);
   static_assert(slant::has_adjoint<general, vec<>>);
-  static_assert(slant::applies_to_many<general, Eigen::MatrixXd>);
+  static_assert(slant::applies_to_many<general, MatrixXd>);
 }
 
 TEST_CASE("block_diagonal_slant: blocks without constraint store nothing") {
@@ -118,19 +108,19 @@ TEST_CASE("direct_sum_slant: each part works on its own components") {
   slant::direct_sum_slant<bounds, whole> g(zero_one(), whole(1));
   CHECK(g.rows() == 3);
   CHECK(g.cols() == 3);
-  vec<> const x = Eigen::Vector3d(5, 6, 7);
+  vec<> const x = Vector3d(5, 6, 7);
   vec<> y = vec<>::Constant(3, std::numeric_limits<double>::quiet_NaN());
   g.apply(x, y);
-  CHECK(y == Eigen::Vector3d(0, 6, 7));
+  CHECK(y == Vector3d(0, 6, 7));
   g.apply_add(-1.0, x, y);
-  CHECK(y == Eigen::Vector3d(0, 0, 0));
+  CHECK(y == Vector3d(0, 0, 0));
   g.diagonal(y);
-  CHECK(y == Eigen::Vector3d(0, 1, 1));
+  CHECK(y == Vector3d(0, 1, 1));
   g.part<0>().assign(0, Eigen::Matrix<double, 1, 1>(1.0));
   g.apply(x, y);
   CHECK(y == x);
-  Eigen::MatrixXd const many = Eigen::MatrixXd::Constant(3, 2, 2.0);
-  Eigen::MatrixXd product(3, 2);
+  MatrixXd const many = MatrixXd::Constant(3, 2, 2.0);
+  MatrixXd product(3, 2);
   g.apply(many, product);
   CHECK(product == many);
 }
@@ -181,8 +171,8 @@ TEST_CASE("direct_sum_slant: can do what all parts can, and claims no more") {
 
 TEST_CASE("projection_slant: a block gives an operator with one block") {
   slant::ball<2> const disc{1.0};
-  vec<> const x = Eigen::Vector2d(3, 4);
-  vec<> const h = Eigen::Vector2d(1, 2);
+  vec<> const x = Vector2d(3, 4);
+  vec<> const h = Vector2d(1, 2);
   auto g = slant::projection_slant(disc, x);
   static_assert(slant::psd_operator<decltype(g), vec<>>);
   vec<> y(2);
@@ -196,7 +186,7 @@ TEST_CASE("projection_slant: a block gives an operator with one block") {
 TEST_CASE("projection_slant: the whole space gives the identity without storage") {
   auto const g = slant::projection_slant(slant::free_space<2>{}, vec<>(vec<>::Zero(2)));
   static_assert(slant::spd_operator<decltype(g), vec<>>);
-  vec<> const x = Eigen::Vector2d(1, 2);
+  vec<> const x = Vector2d(1, 2);
   vec<> y(2);
   g.apply(x, y);
   CHECK(y == x);

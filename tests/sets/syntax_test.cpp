@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/syntax.hpp>
+#include <slant/sets/sets.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <type_traits>
+#include <support/testing.hpp>
 
 namespace syntax_of_sets_test {
-
-using Eigen::VectorXd;
 
 VectorXd const x = VectorXd::LinSpaced(6, -3, 3);
 
