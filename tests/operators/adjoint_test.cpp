@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/letter.hpp>
-
-#include <slant/operators/diagonal.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
 
 namespace adjoint_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("the adjoint is the transposed matrix") {

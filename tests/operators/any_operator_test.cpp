@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/any_operator.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/sum.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <memory>
-#include <vector>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
 
 namespace any_operator_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using any = slant::any_operator<VectorXd>;
 using any_spd =
     slant::any_operator<VectorXd, slant::laws<slant::self_adjoint, slant::positive_definite>>;

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "operators/letters.hpp"
-#include "support/allocation_guard.hpp"
-
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
+#include "operators/letters.hpp"
 
 namespace applied_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("A * x is what Eigen computes, wherever it is written to") {
   SLANT_TEST_LETTERS;

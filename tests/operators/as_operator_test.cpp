@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/matrix.hpp>
+#include <slant/operators/operators.hpp>
 
-#include <slant/operators/identity.hpp>
-#include <slant/operators/sum.hpp>
-
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace as_operator_test {
 
-using Eigen::MatrixXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 static_assert(

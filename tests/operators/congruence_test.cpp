@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/product.hpp>
-
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/inverse.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace congruence_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("the congruence is B A Bᵀ") {

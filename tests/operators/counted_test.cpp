@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/counted.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/sum.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <functional>
+#include <support/testing.hpp>
 #include <thread>
-#include <vector>
-
 #include "operators/dense_oracle.hpp"
 
 namespace counted_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("applications are counted by right-hand sides") {
   MatrixXd const m = test::random_dense(3, 4, 1);

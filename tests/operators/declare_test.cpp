@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/declare.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/product.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace declare_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("a product of commuting matrices is declared to be what it is") {
   using namespace slant;

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/small_blocks.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/hard_points.hpp"
 #include "oracle/precise.hpp"
-
-#include <doctest/doctest.h>
-
-#include <Eigen/LU>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace definite_inverse_test {
 
@@ -44,7 +37,7 @@ TEST_CASE("definite inverse: a stiff direction beside soft ones") {
   oracle::number_source<double> source(12);
   double worst = 0;
   for (int i = 0; i < 400; ++i) {
-    Eigen::Vector3d const e = source.direction<3>();
+    Vector3d const e = source.direction<3>();
     double const stiffness = std::pow(10.0, i % 9);
     Eigen::Matrix3d const a = Eigen::Matrix3d::Identity() + stiffness * e * e.transpose();
     worst = std::max(worst, inverse_error<double, 3>(a) / stiffness);
@@ -54,9 +47,9 @@ TEST_CASE("definite inverse: a stiff direction beside soft ones") {
 
 TEST_CASE("definite inverse: known ones; of zero it is zero") {
   CHECK(slant::detail::definite_inverse(Eigen::Matrix<double, 1, 1>(4.0))(0, 0) == 0.25);
-  Eigen::Matrix3d const d = Eigen::Vector3d(2, 0x1p900, 0x1p-900).asDiagonal();
+  Eigen::Matrix3d const d = Vector3d(2, 0x1p900, 0x1p-900).asDiagonal();
   CHECK(slant::detail::definite_inverse(d) ==
-        Eigen::Matrix3d(Eigen::Vector3d(0.5, 0x1p-900, 0x1p900).asDiagonal()));
+        Eigen::Matrix3d(Vector3d(0.5, 0x1p-900, 0x1p900).asDiagonal()));
   Eigen::Matrix2d a;
   a << 2, 99, 1, 1;  // the upper triangle is not read
   Eigen::Matrix2d expected;
@@ -64,9 +57,9 @@ TEST_CASE("definite inverse: known ones; of zero it is zero") {
   CHECK(slant::detail::definite_inverse(a) == expected);
   CHECK(slant::detail::definite_inverse(Eigen::Matrix2d(Eigen::Matrix2d::Zero())) ==
         Eigen::Matrix2d::Zero());
-  Eigen::Matrix2d const singular = Eigen::Vector2d(4, 0).asDiagonal();
+  Eigen::Matrix2d const singular = Vector2d(4, 0).asDiagonal();
   CHECK(slant::detail::definite_inverse(singular) ==
-        Eigen::Matrix2d(Eigen::Vector2d(0.25, 0).asDiagonal()));
+        Eigen::Matrix2d(Vector2d(0.25, 0).asDiagonal()));
 }
 
 }  // namespace definite_inverse_test

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/block_diagonal.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <support/allocation_guard.hpp>
 #include <support/dense_of.hpp>
-
-#include <array>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace diagonal_blocks_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 MatrixXd numbers(Eigen::Index rows, Eigen::Index cols) {
   return MatrixXd::NullaryExpr(rows, cols, [](auto i, auto j) {

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/diagonal.hpp>
-
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace diagonal_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("a diagonal matrix") {
   VectorXd d = VectorXd::LinSpaced(6, -2, 3);
   auto const a = slant::diagonal(d);
-  CHECK(test::matches(a, Eigen::MatrixXd(d.asDiagonal()), 0));
+  CHECK(test::matches(a, MatrixXd(d.asDiagonal()), 0));
   static_assert(slant::self_adjoint_operator<decltype(a), VectorXd>);
   static_assert(!slant::has_inverse<decltype(a), VectorXd>);
   slant::testing::check_operator_laws(a);
@@ -28,10 +21,10 @@ TEST_CASE("a diagonal matrix") {
 
 TEST_CASE("temporaries are owned, expressions evaluated") {
   VectorXd const d = VectorXd::LinSpaced(4, 1, 4);
-  CHECK(test::matches(slant::diagonal(VectorXd(d)), Eigen::MatrixXd(d.asDiagonal()), 0));
-  CHECK(test::matches(slant::diagonal(2 * d), Eigen::MatrixXd((2 * d).asDiagonal()), 0));
+  CHECK(test::matches(slant::diagonal(VectorXd(d)), MatrixXd(d.asDiagonal()), 0));
+  CHECK(test::matches(slant::diagonal(2 * d), MatrixXd((2 * d).asDiagonal()), 0));
   auto const expression = d.cwiseInverse();
-  CHECK(test::matches(slant::diagonal(expression), Eigen::MatrixXd(expression.asDiagonal()), 0));
+  CHECK(test::matches(slant::diagonal(expression), MatrixXd(expression.asDiagonal()), 0));
 }
 
 TEST_CASE("definite ones have an inverse") {
@@ -43,7 +36,7 @@ TEST_CASE("definite ones have an inverse") {
 }
 
 TEST_CASE("an inverse that would not be finite is refused") {
-  VectorXd const d = Eigen::Vector3d(1, 1e-310, 2);
+  VectorXd const d = Vector3d(1, 1e-310, 2);
   auto const a = slant::diagonal<slant::positive_definite>(d);
   CHECK(test::message<slant::bad_input>([&] { (void)a.inverse(); }) ==
         "d[1]: got 1e-310, expected a number with a finite reciprocal");

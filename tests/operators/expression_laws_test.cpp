@@ -2,18 +2,13 @@
 //
 // Expressions with the laws that a reader would write beside them: exactly those are inferred, all of
 // them hold, and A x is what Eigen computes from the matrices.
+#include <slant/operators/operators.hpp>
+
+#include <support/testing.hpp>
 #include "operators/letters.hpp"
-
-#include <slant/operators/product.hpp>
-#include <slant/operators/restriction.hpp>
-#include <slant/operators/sum.hpp>
-
-#include <doctest/doctest.h>
 
 namespace laws_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::any_sign;
 using slant::full_column_rank;
 using slant::full_row_rank;

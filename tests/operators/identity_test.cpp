@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/identity.hpp>
-
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace identity_test {
 
 TEST_CASE("the identity") {
   auto const a = slant::identity(5);
-  static_assert(slant::spd_operator<slant::identity_operator, Eigen::VectorXd>);
+  static_assert(slant::spd_operator<slant::identity_operator, VectorXd>);
   static_assert(slant::declares_projector<slant::identity_operator>);
   static_assert(slant::declares_firmly_nonexpansive<slant::identity_operator>);
-  CHECK(test::matches(a, Eigen::MatrixXd(Eigen::MatrixXd::Identity(5, 5)), 0));
+  CHECK(test::matches(a, MatrixXd(MatrixXd::Identity(5, 5)), 0));
   slant::testing::check_operator_laws(a);
   slant::testing::check_operator_laws(a, Eigen::VectorXf());
-  slant::testing::check_operator_laws(a, slant::testing::archetype::vector(Eigen::VectorXd()));
+  slant::testing::check_operator_laws(a, slant::testing::archetype::vector(VectorXd()));
   CHECK(slant::identity(0).rows() == 0);
   CHECK(test::message<slant::bad_input>([] { (void)slant::identity(-1); }) ==
         "n: got -1, expected a size >= 0");

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/inverse.hpp>
-
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/block.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
 
 namespace inverse_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("the inverse of a factorisation") {
@@ -64,12 +56,12 @@ TEST_CASE("a factorisation may have cols") {
   auto const a = slant::inverse(half{});
   static_assert(slant::spd_operator<decltype(a), VectorXd>);
   VectorXd y(2);
-  slant::apply(a, VectorXd(Eigen::Vector2d(2, 4)), y);
-  CHECK(y == Eigen::Vector2d(1, 2));
+  slant::apply(a, VectorXd(Vector2d(2, 4)), y);
+  CHECK(y == Vector2d(1, 2));
   auto const s =
       slant::schur_complement(half{}, slant::identity_operator(2), slant::identity_operator(2));
-  slant::apply(s, VectorXd(Eigen::Vector2d(2, 4)), y);
-  CHECK(y == Eigen::Vector2d(3, 6));
+  slant::apply(s, VectorXd(Vector2d(2, 4)), y);
+  CHECK(y == Vector2d(3, 6));
 }
 
 /// A nonsymmetric factorisation that can also solve with the transposed matrix.

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/kronecker.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/allocation_guard.hpp"
 
 namespace kronecker_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// By its definition.
 MatrixXd kronecker(MatrixXd const& a, MatrixXd const& b) {

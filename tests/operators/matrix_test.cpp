@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/matrix.hpp>
-
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace matrix_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using row_major_sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using row_major_dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // All operators together: every scalar, lifetimes of nested compositions, and no allocation.
+#include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/operators.hpp>
 
-#include <slant/factorizations/ldlt.hpp>
-
-#include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-
-#include <vector>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/allocation_guard.hpp"
 
 namespace operators_test {
 
@@ -76,8 +71,8 @@ TEST_CASE("no allocation once the workspace exists") {
   test::dense<double> const k = test::random_spd(5, 1);
   Eigen::SparseMatrix<double> const b = test::random_sparse(3, 5, 2);
   auto const a = composition<double>(b, k);
-  Eigen::VectorXd x = test::random_column(6, 3);
-  Eigen::VectorXd y(6);
+  VectorXd x = test::random_column(6, 3);
+  VectorXd y(6);
   auto w = slant::workspace(a, x);
   slant::testing::allocation_guard guard;
   for (int k_th = 0; k_th < 3; ++k_th) {
@@ -89,16 +84,16 @@ TEST_CASE("no allocation once the workspace exists") {
 }
 
 TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense matrices") {
-  Eigen::MatrixXd const m = test::random_dense(40, 40, 4);
+  MatrixXd const m = test::random_dense(40, 40, 4);
   auto const b = test::random_sparse(20, 40, 5);
   auto const a = slant::sum(slant::product(b, m), slant::scaled(2.0, slant::product(b, m, m)),
                             slant::difference(b, slant::product(b, slant::adjoint(m))));
-  Eigen::VectorXd const x = test::random_column(40, 6);
-  Eigen::VectorXd const z = test::random_column(20, 7);
-  Eigen::VectorXd y(20);
-  Eigen::VectorXd u(40);
-  Eigen::MatrixXd const several = test::random_dense(40, 3, 8);
-  Eigen::MatrixXd images(20, 3);
+  VectorXd const x = test::random_column(40, 6);
+  VectorXd const z = test::random_column(20, 7);
+  VectorXd y(20);
+  VectorXd u(40);
+  MatrixXd const several = test::random_dense(40, 3, 8);
+  MatrixXd images(20, 3);
   auto w = slant::workspace(a, x);
   auto w_adjoint = slant::adjoint_workspace(a, z);
   auto w_several = slant::workspace(a, several);
@@ -108,7 +103,7 @@ TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense m
   slant::apply(a, several, images, w_several);
   auto const allocations = guard.count();
   CHECK(allocations == 0);
-  Eigen::MatrixXd const expected = b * m + 2 * b * m * m + b - b * m.transpose();
+  MatrixXd const expected = b * m + 2 * b * m * m + b - b * m.transpose();
   CHECK((y - expected * x).norm() < 1e-12);
   CHECK((u - expected.transpose() * z).norm() < 1e-12);
   CHECK((images - expected * several).norm() < 1e-12);

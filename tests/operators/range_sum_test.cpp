@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/range_sum.hpp>
-
-#include <slant/operators/declare.hpp>
-#include <slant/operators/product.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
 #include <ranges>
-#include <vector>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace range_sum_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("a sum over a range is the sum of the matrices") {
   std::vector<MatrixXd> matrices;

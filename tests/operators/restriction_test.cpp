@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/restriction.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <vector>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
 
 namespace restriction_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 
 MatrixXd rows_of_identity(std::vector<int> const& components, int n) {

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/product.hpp>
-
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <type_traits>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace scaled_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("a multiple is the multiple of the matrix") {
   MatrixXd const m = test::random_dense(4, 4, 1);

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/block.hpp>
-
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace schur_complement_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("the general Schur complement, D + B₂ K⁻¹ B₁ᵀ, has no laws") {
   MatrixXd const k = test::random_spd(6, 1);

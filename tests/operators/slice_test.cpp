@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/product.hpp>
-#include <slant/operators/restriction.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <support/allocation_guard.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
 
 namespace slice_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("consecutive components, and back among zeros") {
   auto const s = slant::slice(5, 1, 3);

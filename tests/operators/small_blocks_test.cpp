@@ -2,12 +2,9 @@
 #include <slant/operators/small_blocks.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
 
 namespace small_blocks_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("blocks of one, two and three components among others: the matrix it stands for") {
   // 0 1 2 3 4 5 6 7: a block (1), a block (0, 4), a block (2, 5, 7 − …) with stride 2: (3, 5, 7).

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // What is refused, printed, found by lookup; handles.
-#include "operators/letters.hpp"
-#include "support/message.hpp"
-
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/operators/describe.hpp>
 #include <slant/slanting/arithmetic.hpp>
 
-#include <doctest/doctest.h>
-
-#include <sstream>
+#include <support/testing.hpp>
+#include "operators/letters.hpp"
 
 // Names of a client that it calls without a namespace: for formulas it gets its own functions, not
 // what the library is made of.
@@ -44,8 +40,6 @@ slant::index all(A const& a) {
 
 namespace syntax_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::bad_input;
 using slant::identity;
 
@@ -59,7 +53,7 @@ template <class A, class B> concept multiplies = requires(A const& a, B const& b
 template <class A, class B> concept adds = requires(A const& a, B const& b) { a + b; };
 
 TEST_CASE("functions of a client are not mixed up with those of the library") {
-  Eigen::MatrixXd const m = Eigen::MatrixXd::Identity(2, 2);
+  MatrixXd const m = MatrixXd::Identity(2, 2);
   auto const A = slant::op<"A">(m);
   CHECK(client::all(A) == 10);
   CHECK(client::all(2 * A + A) == 10);
@@ -168,8 +162,8 @@ TEST_CASE("what has no name is printed by its kind, and so is what holds many op
     out << a;
     return out.str();
   };
-  auto const saddle = slant::block(slant::block_row(S, adjoint(B)),
-                                   slant::block_row(B, slant::zero(m)));
+  auto const saddle =
+      slant::block(slant::block_row(S, adjoint(B)), slant::block_row(B, slant::zero(m)));
   CHECK(text(saddle) == "block_operator   (11 × 11, no laws)");
   CHECK(text(op<"C">(saddle)) == "C   (11 × 11, no laws)");
   CHECK(text(slant::counted(S + P)) == "S + P   (7 × 7, spd)");

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/identity.hpp>
-
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace zero_test {
 
 TEST_CASE("the zero operator") {
   auto const wide = slant::zero(2, 3);
-  CHECK(test::matches(wide, Eigen::MatrixXd(Eigen::MatrixXd::Zero(2, 3)), 0));
+  CHECK(test::matches(wide, MatrixXd(MatrixXd::Zero(2, 3)), 0));
   static_assert(slant::laws_of<decltype(wide)> == slant::law_set{});
   slant::testing::check_operator_laws(wide);
   auto const square = slant::zero(3);
-  static_assert(slant::psd_operator<decltype(square), Eigen::VectorXd>);
-  static_assert(!slant::spd_operator<decltype(square), Eigen::VectorXd>);
+  static_assert(slant::psd_operator<decltype(square), VectorXd>);
+  static_assert(!slant::spd_operator<decltype(square), VectorXd>);
   static_assert(slant::declares_projector<decltype(square)>);
   slant::testing::check_operator_laws(square);
   CHECK(test::message<slant::bad_input>([] { (void)slant::zero(2, -1); }) ==
