@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/methods/successive_approximations.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-
-#include <support/allocation_guard.hpp>
+#include <support/testing.hpp>
 
 namespace anderson_mixing_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// Ψ(p) = M p + c with a fixed point of size `unit`.
 struct affine_map {

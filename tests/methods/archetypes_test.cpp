@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Methods ask their archetypes for nothing more than the concepts name.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/smalse.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <type_traits>
-
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "example_one.hpp"
 
 namespace archetypes_test {
 
 namespace archetype = slant::testing::archetype;
-using Eigen::VectorXd;
 using one_block = archetype::basic_active_set_set<VectorXd>;
 
 /// Points without negative entries, with one block an entry: faces of their own.
@@ -36,11 +25,10 @@ struct entrywise : one_block {
 static_assert(slant::face_for<archetype::face, entrywise, VectorXd, archetype::vector>);
 
 TEST_CASE("operator, vector and set that can do the least") {
-  archetype::psd_operator const A(Eigen::MatrixXd{{2.0, 1.0}, {1.0, 2.0}});
+  archetype::psd_operator const A(MatrixXd{{2.0, 1.0}, {1.0, 2.0}});
   archetype::vector const b(VectorXd{{3.0, -3.0}}), x0(VectorXd{{1.0, 1.0}});
   auto const check = [&](auto const& method) {
-    auto const r =
-        slant::solve(method, x0, slant::reduced_gradient_below(1e-12) || slant::at_most(100));
+    auto const r = test::minimise(method, x0, 1e-12, 100);
     REQUIRE(r.converged());
     CHECK(r.x().local()(0) == doctest::Approx(1.5));
     CHECK(r.x().local()(1) == 0.0);
@@ -66,15 +54,13 @@ TEST_CASE("operator, vector and set that can do the least") {
 }
 
 TEST_CASE("interior_point, symmetric_newton: blocks of the library on vectors of another kind") {
-  archetype::psd_operator const A(
-      Eigen::MatrixXd{{4.0, 0.0, 0.0}, {0.0, 4.0, 1.0}, {0.0, 1.0, 4.0}});
-  archetype::psd_operator const M(Eigen::MatrixXd::Identity(3, 3));
+  archetype::psd_operator const A(MatrixXd{{4.0, 0.0, 0.0}, {0.0, 4.0, 1.0}, {0.0, 1.0, 4.0}});
+  archetype::psd_operator const M(MatrixXd::Identity(3, 3));
   archetype::vector const b(VectorXd{{-3.0, 8.0, 8.0}}), zero(VectorXd::Zero(3));
   auto const set = slant::cartesian(slant::half_lines(1), slant::discs(VectorXd{{1.0}}));
   slant::separable_qp const qp{A, b, set};
   auto const check = [&](auto const& method) {
-    auto const r =
-        slant::solve(method, zero, slant::reduced_gradient_below(1e-10) || slant::at_most(50));
+    auto const r = test::minimise(method, zero, 1e-10, 50);
     REQUIRE(r.converged());
     CHECK((r.x().local() - VectorXd{{0.0, std::sqrt(0.5), std::sqrt(0.5)}}).norm() <= 1e-9);
   };
@@ -90,8 +76,8 @@ struct of_given_sum {
 
   of_given_sum(Eigen::Index n, double sum)
       : point(VectorXd::Constant(n, sum / double(n))),
-        Q(Eigen::MatrixXd::Constant(n, n, 1.0 / double(n))),
-        P(Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / double(n))) {}
+        Q(MatrixXd::Constant(n, n, 1.0 / double(n))),
+        P(MatrixXd::Identity(n, n) - MatrixXd::Constant(n, n, 1.0 / double(n))) {}
   [[nodiscard]] Eigen::Index size() const { return point.local().size(); }
   [[nodiscard]] archetype::psd_operator range_projector() const { return Q; }
   [[nodiscard]] archetype::psd_operator kernel_projector() const { return P; }
@@ -99,8 +85,7 @@ struct of_given_sum {
 };
 
 TEST_CASE("smalse: an affine space that can do the least") {
-  archetype::psd_operator const A(
-      Eigen::MatrixXd{{2.0, 1.0, 0.0}, {1.0, 2.0, 0.0}, {0.0, 0.0, 1.0}});
+  archetype::psd_operator const A(MatrixXd{{2.0, 1.0, 0.0}, {1.0, 2.0, 0.0}, {0.0, 0.0, 1.0}});
   archetype::vector const b(VectorXd{{3.0, -3.0, 0.0}});
   one_block const set(3);
   auto const qp = slant::separable_qp{A, b, set};
@@ -123,10 +108,8 @@ TEST_CASE("a scalar without silent conversions gives the bits of double") {
   auto const qp = slant::separable_qp{strict.a(), strict.b, strict.set()};
   auto const reference = slant::separable_qp{plain.a(), plain.b, plain.set()};
   auto const check = [&](auto const& method, auto const& twin, double tolerance) {
-    auto const r = slant::solve(method, strict.zero(),
-                                slant::reduced_gradient_below(S(tolerance)) || slant::at_most(500));
-    auto const expected = slant::solve(
-        twin, plain.zero(), slant::reduced_gradient_below(tolerance) || slant::at_most(500));
+    auto const r = test::minimise(method, strict.zero(), S(tolerance), 500);
+    auto const expected = test::minimise(twin, plain.zero(), tolerance, 500);
     REQUIRE(r.converged());
     CHECK(r.iterations() == expected.iterations());
     VectorXd const x = r.x().unaryExpr([](S const& x_i) { return x_i.value(); });

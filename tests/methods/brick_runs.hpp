@@ -6,13 +6,10 @@
 #include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
-#include <slant/factorizations/factorize.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <contact/scenes.hpp>
+#include <support/testing.hpp>
 
 namespace test {
 
@@ -34,9 +31,9 @@ void check_brick(int k, fem::brick_load load, brick_demand const& demand, Run co
   auto const data = test::contact_data(scene);
   slant::contact::dual const dual(slant::contact::friction_disc{}, slant::factorize(scene.K), data);
   auto const A = dual.a();
-  Eigen::VectorXd const exact = test::reference(scene.K, data).multipliers();
-  auto const error = [&](Eigen::VectorXd const& λ) {
-    return energy_norm(A, Eigen::VectorXd(λ - exact)) / energy_norm(A, exact);
+  VectorXd const exact = test::reference(scene.K, data).multipliers();
+  auto const error = [&](VectorXd const& λ) {
+    return energy_norm(A, VectorXd(λ - exact)) / energy_norm(A, exact);
   };
   slant::index steps = -1, products = -1;
   auto const watch = [&](auto const& s) {

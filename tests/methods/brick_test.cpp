@@ -2,10 +2,7 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
 
-#include <doctest/doctest.h>
-
-#include <support/effort.hpp>
-
+#include <support/testing.hpp>
 #include "brick_runs.hpp"
 
 namespace brick_test {

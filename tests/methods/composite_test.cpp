@@ -3,36 +3,15 @@
 // q + φ with functions that are no indicators. References: the dual problem min ½ (b − v)ᵀA⁻¹(b − v)
 // over v ∈ Λ by KPRGP, whose x = A⁻¹(b − v) minimises q + σ_Λ; and the optimality conditions,
 // written down by hand.
-#include <slant/iteration/solve.hpp>
-
-#include <slant/certificates/energy_certificate.hpp>
-#include <slant/methods/forward_backward.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/solve_program.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/minimise.hpp>
-#include <slant/sets/sets.hpp>
-#include <slant/slanting/projection.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <krylov/spd_matrices.hpp>
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
 namespace composite_test {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::support;
 
 /// 24 unknowns: a box, discs (one of radius 0), balls in space, a half line, which bounds from above.
@@ -56,8 +35,7 @@ struct scene {
     auto const S = test::spd(MatrixXd((inverse + inverse.transpose()) / 2));
     auto const Λ = set();
     slant::separable_qp const dual{S, VectorXd(inverse * b), Λ};
-    auto const v = slant::solve(slant::kprgp{dual}, VectorXd(VectorXd::Zero(24)),
-                                slant::reduced_gradient_below(1e-14) || slant::at_most(200000));
+    auto const v = test::minimise(slant::kprgp{dual}, test::zeros(24), 1e-14, 200000);
     return inverse * (b - v.x());
   }
 };
@@ -73,16 +51,15 @@ TEST_CASE("q + σ: the solution of the dual problem, in a few superlinear steps"
       auto const program = slant::minimise(slant::quadratic(A, s.b) + support(s.set()));
       for (double const size : {0.0, 10.0, 1e8}) {
         VectorXd const x0 = size * test::random_vector(24, seed + 90);
-        auto const r = slant::solve(
-            slant::symmetric_newton{program}, x0,
-            slant::reduced_gradient_below(κ > 1e4 ? 1e-10 : 1e-12) || slant::at_most(80));
+        auto const r =
+            test::minimise(slant::symmetric_newton{program}, x0, κ > 1e4 ? 1e-10 : 1e-12, 80);
         CAPTURE(size);
         CHECK(r.converged());
         CHECK((r.x() - exact).norm() <= 1e-10 * κ * exact.norm());
         CHECK(r.iterations() <= (κ > 1e4 ? 60 : 40));
       }
-      auto const slow = slant::solve(slant::forward_backward{program}, VectorXd(VectorXd::Zero(24)),
-                                     slant::reduced_gradient_below(1e-10) || slant::at_most(50000));
+      auto const slow =
+          test::minimise(slant::forward_backward{program}, test::zeros(24), 1e-10, 50000);
       CHECK(slow.converged());
       CHECK((slow.x() - exact).norm() <= 1e-9 * κ * exact.norm());
     }
@@ -97,8 +74,7 @@ TEST_CASE("sets and functions side by side: normal gaps and friction") {
   VectorXd const g = VectorXd::LinSpaced(m, 0, 4);
   auto const φ = slant::separable_sum(slant::half_lines(m), support(slant::discs(g)));
   slant::separable_qp const program{A, b, φ};
-  auto const r = slant::solve(slant::symmetric_newton{program}, VectorXd(VectorXd::Zero(3 * m)),
-                              slant::reduced_gradient_below(1e-13) || slant::at_most(60));
+  auto const r = test::minimise(slant::symmetric_newton{program}, test::zeros(3 * m), 1e-13, 60);
   REQUIRE(r.converged());
   VectorXd const force = b - M * r.x();  // ∈ ∂φ(x)
   double const size = b.norm();
@@ -109,7 +85,7 @@ TEST_CASE("sets and functions side by side: normal gaps and friction") {
     CHECK(f <= 1e-11 * size);
     CHECK(std::abs(x * f) <= 1e-11 * size);
     touches += x == 0;
-    Eigen::Vector2d const u = r.x().segment<2>(m + 2 * i), t = force.segment<2>(m + 2 * i);
+    Vector2d const u = r.x().segment<2>(m + 2 * i), t = force.segment<2>(m + 2 * i);
     CHECK(t.norm() <= g[i] + 1e-11 * size);
     CHECK(std::abs(t.dot(u) - g[i] * u.norm()) <= 1e-11 * size);
     (u.norm() == 0 ? sticks : slides) += 1;
@@ -160,7 +136,7 @@ TEST_CASE("units do not matter, steps do not allocate, products are counted") {
           support(slant::power(slant::ellipse(2.0 * unit, 0.25 * unit), 2)));
       slant::separable_qp const program{A, b, φ};
       slant::symmetric_newton const method{program};
-      auto s = method.start(VectorXd(VectorXd::Zero(24)));
+      auto s = method.start(test::zeros(24));
       for (int k = 0; k < 40 && s.status == slant::status::running; ++k) {
         auto const before = A.applications();
         std::size_t allocations = 0;
@@ -222,7 +198,7 @@ TEST_CASE("products that M knows roughly: used where they are good enough, and o
     rough_inverse const M(p.A);
     static_assert(slant::multiplies_roughly<rough_inverse, VectorXd>);
     slant::envelope_newton const method{program, M};
-    auto s = method.start(VectorXd(VectorXd::Zero(24)));
+    auto s = method.start(test::zeros(24));
     auto const before = A.applications();
     for (int k = 0; k < 100 && s.status == slant::status::running; ++k) {
       method.step(s);
@@ -244,11 +220,10 @@ TEST_CASE("the certificate: never below the error by more than it may be, and no
       auto const φ = support(p.set());
       slant::separable_qp const program{A, p.b, φ};
       slant::symmetric_newton const method{program};
-      auto const end = slant::solve(method, VectorXd(VectorXd::Zero(24)),
-                                    slant::reduced_gradient_below(1e-14) || slant::at_most(200));
+      auto const end = test::minimise(method, test::zeros(24), 1e-14, 200);
       VectorXd const exact = end.x();
       slant::energy_certificate certificate(program);
-      auto s = method.start(VectorXd(VectorXd::Zero(24)));
+      auto s = method.start(test::zeros(24));
       for (int k = 0; k < 40 && s.status == slant::status::running; ++k) {
         method.step(s);
         VectorXd const e = s.x - exact;
@@ -282,8 +257,7 @@ TEST_CASE("forward–backward: the projected gradient method, options, and what 
   auto const Λ = p.set();
   slant::separable_qp const qp{A, p.b, Λ};
   VectorXd const x0 = VectorXd::Zero(24);
-  auto const reference = slant::solve(slant::kprgp{qp}, x0,
-                                      slant::reduced_gradient_below(1e-13) || slant::at_most(5000));
+  auto const reference = test::minimise(slant::kprgp{qp}, x0, 1e-13, 5000);
   auto const stop = slant::reduced_gradient_below(1e-11) || slant::at_most(20000);
   auto const fast = slant::solve(slant::forward_backward{qp}, x0, stop);
   slant::forward_backward_options<double> plain;
@@ -354,10 +328,8 @@ TEST_CASE("singular A: as many zeros as it takes, by Newton's method as by forwa
     VectorXd const w = VectorXd::Constant(60, μ);
     slant::separable_qp const program{A, b, support(slant::intervals(w))};
     VectorXd const x0 = VectorXd::Zero(60);
-    auto const r = slant::solve(slant::symmetric_newton{program}, x0,
-                                slant::reduced_gradient_below(1e-9) || slant::at_most(300));
-    auto const slow = slant::solve(slant::forward_backward{program}, x0,
-                                   slant::reduced_gradient_below(1e-10) || slant::at_most(50000));
+    auto const r = test::minimise(slant::symmetric_newton{program}, x0, 1e-9, 300);
+    auto const slow = test::minimise(slant::forward_backward{program}, x0, 1e-10, 50000);
     CAPTURE(μ);
     CHECK(r.converged());
     REQUIRE(slow.converged());

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "equality_scenes.hpp"
-
 #include <slant/methods/constrained_newton.hpp>
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
+#include <support/testing.hpp>
+#include "equality_scenes.hpp"
 
 namespace constrained_newton_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using test::accurate;
 using test::known_problem;
 
@@ -40,8 +34,8 @@ TEST_CASE("a wedge that is met at a small angle takes no more steps than a wide 
     CAPTURE(θ);
     test::wedge const w(θ);
     auto const qp = w.qp();
-    auto const r = slant::solve(slant::constrained_newton{qp, w.constraints},
-                                VectorXd(VectorXd::Zero(2)), accurate(1e-10));
+    auto const r =
+        slant::solve(slant::constrained_newton{qp, w.constraints}, test::zeros(2), accurate(1e-10));
     CAPTURE(r.reason);
     CHECK(r.converged());
     CHECK(!r.state.infeasible);
@@ -81,8 +75,8 @@ TEST_CASE("where the face has lost what an equation depends on, SMALSE-M finds a
   p.A(4, 4) = p.A(6, 6) = 1;
   auto const qp = p.qp();
   auto const constraints = p.constraints();
-  auto const r = slant::solve(slant::constrained_newton{qp, constraints},
-                              VectorXd(VectorXd::Zero(p.n)), accurate(1e-10));
+  auto const r =
+      slant::solve(slant::constrained_newton{qp, constraints}, test::zeros(p.n), accurate(1e-10));
   CAPTURE(r.reason);
   CHECK(r.converged());
   CHECK(r.state.fallback_count >= 1);

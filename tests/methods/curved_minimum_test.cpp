@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/parts/curved_minimum.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/curved_face.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <methods/sliding_discs.hpp>
+#include <support/testing.hpp>
 
 namespace curved_minimum_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 using test::sliding_discs;
 

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Two processes take the same steps and reach the solution of one.
-#include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <array>
+#include <support/testing.hpp>
 #include <support/two_processes.hpp>
-
 #include "mixture.hpp"
 
 namespace distributed_test {
 
-using Eigen::VectorXd;
 using test::shared_matrix;
 using test::shared_vector;
 using test::two_processes;
@@ -27,7 +16,7 @@ using test::two_processes;
 /// Runs run(A, b, x0, rank) with the first `split` unknowns on one process, the rest on the other;
 /// x of both together, after the steps of a run alone.
 template <class Run>
-VectorXd together(Eigen::MatrixXd const& M, VectorXd const& b, Eigen::Index split, Run const& run) {
+VectorXd together(MatrixXd const& M, VectorXd const& b, Eigen::Index split, Run const& run) {
   two_processes group;
   std::array<VectorXd, 2> parts;
   std::array<slant::index, 2> steps{};
@@ -60,7 +49,7 @@ void check_half_lines(std::initializer_list<Eigen::Index> splits, Make const& ma
     VectorXd const b = test::random_vector(40, 5);
     auto const set = slant::half_lines(40);
     slant::separable_qp const qp{test::spd(M), b, set};
-    auto const alone = slant::solve(make(qp, 1U), VectorXd(VectorXd::Zero(40)), stop);
+    auto const alone = slant::solve(make(qp, 1U), test::zeros(40), stop);
     REQUIRE(alone.converged());
     auto const x =
         together(M, b, split, [&](auto const& A, auto const& f, auto const& x0, int rank) {
@@ -95,7 +84,7 @@ void check_discs(Eigen::Index first, double tolerance, double error, Make const&
   auto const M = test::with_spectrum(test::log_spaced(40, 200), unsigned(first));
   auto const set = slant::discs(radii);
   slant::separable_qp const qp{test::spd(M), b, set};
-  auto const alone = slant::solve(make(qp), VectorXd(VectorXd::Zero(40)), stop);
+  auto const alone = slant::solve(make(qp), test::zeros(40), stop);
   REQUIRE(alone.converged());
   auto const slides = [&](Eigen::Index i) {
     return alone.x().template segment<2>(2 * i).norm() > radii(i) * (1 - 1e-6);
@@ -126,7 +115,7 @@ TEST_CASE("semismooth_newton: as many steps as alone") {
   VectorXd const b = test::random_vector(21, 5);
   auto const stop = slant::residual_below(1e-11) || slant::at_most(40);
   auto const F = slant::natural_residual(test::spd(M), b, slant::half_lines(21), 1.0);
-  auto const alone = slant::solve(slant::semismooth_newton{F}, VectorXd(VectorXd::Zero(21)), stop);
+  auto const alone = slant::solve(slant::semismooth_newton{F}, test::zeros(21), stop);
   REQUIRE(alone.converged());
   auto const x = together(M, b, 8, [&](auto const& A, auto const& f, auto const& x0, int) {
     auto const G = slant::natural_residual(A, f, slant::half_lines(A.rows()), 1.0);

@@ -2,19 +2,13 @@
 //
 // What the methods for equality constraints, SMALSE-M and the constrained Newton method, have in
 // common.
-#include <slant/methods/constrained_newton.hpp>
-#include <slant/methods/smalse.hpp>
+#include <slant/methods/methods.hpp>
 
-#include <doctest/doctest.h>
-
-#include <support/allocation_guard.hpp>
-
+#include <support/testing.hpp>
 #include "equality_scenes.hpp"
 
 namespace equality_methods_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using test::accurate;
 using test::known_problem;
 using test::sparse;
@@ -27,7 +21,7 @@ template <class Make>
 auto solved(known_problem const& p, Make const& make) {
   auto const qp = p.qp();
   auto const constraints = p.constraints();
-  auto r = slant::solve(make(qp, constraints), VectorXd(VectorXd::Zero(p.n)), accurate(1e-10));
+  auto r = slant::solve(make(qp, constraints), test::zeros(p.n), accurate(1e-10));
   CAPTURE(r.reason);
   return r;
 }
@@ -41,7 +35,7 @@ TEST_CASE("as many equations as unknowns: the point that they leave") {
       slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b,
       slant::cartesian(slant::free_components(4), slant::half_lines(0), slant::discs(VectorXd()))};
   auto const check = [&](auto const& method, double error) {
-    auto const r = slant::solve(method, VectorXd(VectorXd::Zero(4)), accurate(1e-12));
+    auto const r = slant::solve(method, test::zeros(4), accurate(1e-12));
     CHECK(r.converged());
     CHECK((r.x() - x).norm() <= error);
   };
@@ -83,7 +77,7 @@ TEST_CASE("a start is projected, a step does not allocate, bad input is refused"
   known_problem const p;
   auto const qp = p.qp();
   auto const constraints = p.constraints();
-  slant::equality_constraints const other(sparse(1, 3), VectorXd(VectorXd::Zero(1)));
+  slant::equality_constraints const other(sparse(1, 3), test::zeros(1));
   auto const check = [&](auto const& make) {
     auto const method = make(qp, constraints);
     auto state = method.start(VectorXd::Constant(p.n, -3.0));

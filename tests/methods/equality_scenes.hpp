@@ -3,22 +3,12 @@
 // Problems with equality constraints whose solutions are known.
 #pragma once
 
-#include <slant/iteration/solve.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/equality_constraints.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <random>
+#include <support/testing.hpp>
 
 namespace test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 inline MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
@@ -79,7 +69,7 @@ inline auto accurate(double tolerance) {
 /// Runs a method from zero and compares with the solution that is known.
 template <class Method>
 auto check_solution(Method const& method, known_problem const& p, double tolerance = 1e-11) {
-  auto const r = slant::solve(method, VectorXd(VectorXd::Zero(p.n)), accurate(tolerance));
+  auto const r = slant::solve(method, test::zeros(p.n), accurate(tolerance));
   CAPTURE(r.reason);
   CHECK(r.converged());
   CHECK((r.x() - p.x).stableNorm() <= 100 * tolerance * p.x.stableNorm());

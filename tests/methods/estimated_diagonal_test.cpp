@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/interior_point_state.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/images.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
 #include <krylov/spd_matrices.hpp>
+#include <support/testing.hpp>
 
 namespace estimated_diagonal_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// Two parts of 40 and 20 unknowns, the second a hundred times as stiff.
 MatrixXd two_scales() {

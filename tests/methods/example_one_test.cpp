@@ -2,21 +2,13 @@
 //
 // Example 1 of the lecture: every method that has no test of its own on it finds the solution, in
 // any scalar, with the products that are printed.
-#include "example_one.hpp"
+#include <slant/slant.hpp>
 
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-
-#include <doctest/doctest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
+#include "example_one.hpp"
 
 namespace example_one_test {
 
@@ -53,8 +45,7 @@ TEST_CASE_TEMPLATE("KPRGP in every precision", S, float, double, long double, wi
   test::example_one<S> const p;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
   S const ε = std::numeric_limits<S>::epsilon();
-  auto const r = slant::solve(slant::kprgp{qp}, p.zero(),
-                              slant::reduced_gradient_below(S(4) * ε) || slant::at_most(5000));
+  auto const r = test::minimise(slant::kprgp{qp}, p.zero(), S(4) * ε, 5000);
   REQUIRE(r.converged());
   CHECK(error_of(r.x()) <= wide(16) * wide(ε));
   check_active(p, r.x());
@@ -64,8 +55,7 @@ TEST_CASE_TEMPLATE("symmetric Newton method in every precision", S, float, wide)
   test::example_one<S> const p;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
   S const ε = std::numeric_limits<S>::epsilon();
-  auto const r = slant::solve(slant::symmetric_newton{qp}, p.zero(),
-                              slant::reduced_gradient_below(S(100) * ε) || slant::at_most(50));
+  auto const r = test::minimise(slant::symmetric_newton{qp}, p.zero(), S(100) * ε, 50);
   REQUIRE(r.converged());
   CHECK(error_of(r.x()) <= wide(1000) * wide(ε));
   check_active(p, r.x());
@@ -77,8 +67,7 @@ TEST_CASE("MSSN, IMSSN, GIMSSN and QPC find the solution") {
   test::example_one<double> const p;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
   auto const check = [&](auto const& method, double tolerance, slant::index steps, double allowed) {
-    auto const r = slant::solve(method, p.zero(),
-                                slant::reduced_gradient_below(tolerance) || slant::at_most(steps));
+    auto const r = test::minimise(method, p.zero(), tolerance, steps);
     REQUIRE(r.converged());
     CHECK(error_of(r.x()) <= wide(allowed));
     return r;

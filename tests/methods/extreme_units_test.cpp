@@ -2,25 +2,17 @@
 //
 // Data and starts anywhere in the range of double, by the methods that keep gradients in a unit of
 // their own (methods/parts/gradient_point.hpp): what is called converged is the solution.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
+#include <support/testing.hpp>
 
 namespace extreme_units_test {
 
-using Eigen::VectorXd;
 using slant::status;
 
 /// f(report) of both methods from x0, over x ≥ 0.
 template <class F>
-void with_both(Eigen::MatrixXd const& A, VectorXd const& b, VectorXd const& x0, F const& f) {
+void with_both(MatrixXd const& A, VectorXd const& b, VectorXd const& x0, F const& f) {
   auto const a = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A);
   auto const set = slant::half_lines<double>(b.size());
   slant::separable_qp const qp{a, b, set};
@@ -30,7 +22,7 @@ void with_both(Eigen::MatrixXd const& A, VectorXd const& b, VectorXd const& x0, 
 }
 
 TEST_CASE("A, b and starts of 1e-300 to 1e300: converged only at the solution, never unbounded") {
-  Eigen::MatrixXd const A{{2.0, 1.0}, {1.0, 2.0}};
+  MatrixXd const A{{2.0, 1.0}, {1.0, 2.0}};
   VectorXd const b{{1.0, -4.0}}, x{{0.5, 0.0}};
   int runs = 0, solved = 0;
   for (int of_A = -1000; of_A <= 1000; of_A += 250) {
@@ -62,7 +54,7 @@ TEST_CASE("A, b and starts of 1e-300 to 1e300: converged only at the solution, n
 }
 
 TEST_CASE("solutions below the smallest number: what KPRGP hands back is computed from x") {
-  Eigen::MatrixXd const A{
+  MatrixXd const A{
       {1.8125, -0.9375, 0.9375}, {-0.9375, 0.8125, -0.5625}, {0.9375, -0.5625, 0.8125}};
   VectorXd const b{{std::ldexp(1.0, -646), -std::ldexp(1.0, -968), 0.0}};
   with_both(std::ldexp(1.0, 426) * A, b, VectorXd::Zero(3), [&](auto const& r) {

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <slant/slant.hpp>
+
+#include <support/testing.hpp>
 #include "mixture.hpp"
 
-#include <slant/methods/parts/gradient_point.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/problems/separable_qp.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-
 namespace gradient_point_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("begin: the projected start, a power-of-two unit, the scale of the point next to 0") {
   test::mixture const p(30);
@@ -26,7 +19,7 @@ TEST_CASE("begin: the projected start, a power-of-two unit, the scale of the poi
   CHECK(point.x == slant::project(set, x0));
   CHECK((point.unit * point.r - (p.A * point.x - p.b)).norm() <= 1e-14 * p.b.norm());
   CHECK(std::ldexp(1.0, std::ilogb(point.unit)) == point.unit);
-  VectorXd const origin = slant::project(set, VectorXd(VectorXd::Zero(20)));
+  VectorXd const origin = slant::project(set, test::zeros(20));
   VectorXd const there = slant::project(set, VectorXd(origin - 0.7 * (p.A * origin - p.b)));
   CHECK(point.gradient_scale == doctest::Approx((origin - there).norm() / 0.7));
 }

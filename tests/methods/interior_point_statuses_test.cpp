@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <cmath>
 #include <krylov/spd_matrices.hpp>
-#include <limits>
-#include <string>
-
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "scales.hpp"
-#include "support/message.hpp"
 
 namespace interior_point_statuses_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -68,16 +55,13 @@ TEST_CASE("a slip bound 0 and an interval with equal ends are held") {
   p.g(1) = 0;
   p.above(1) = p.below(1);
   auto const qp = p.qp();
-  auto const r = slant::solve(slant::interior_point{qp}, zero(),
-                              slant::reduced_gradient_below(1e-9) || slant::at_most(60));
-  auto const exact = slant::solve(slant::symmetric_newton{qp}, zero(),
-                                  slant::reduced_gradient_below(1e-13) || slant::at_most(100));
+  auto const r = test::minimise(slant::interior_point{qp}, zero(), 1e-9, 60);
+  auto const exact = test::minimise(slant::symmetric_newton{qp}, zero(), 1e-13, 100);
   CHECK(r.converged());
   CHECK((r.x() - exact.x()).norm() <= 1e-7 * exact.x().norm());
   MatrixXd const inverse = p.A.inverse();
   auto const M = test::spd(MatrixXd((inverse + inverse.transpose()) / 2));
-  auto const fast = slant::solve(slant::interior_point{qp, M}, zero(),
-                                 slant::reduced_gradient_below(1e-9) || slant::at_most(60));
+  auto const fast = test::minimise(slant::interior_point{qp, M}, zero(), 1e-9, 60);
   CHECK(fast.converged());
   CHECK((fast.x() - exact.x()).norm() <= 1e-7 * exact.x().norm());
   for (VectorXd const& x : {r.x(), fast.x()}) {
@@ -93,10 +77,8 @@ TEST_CASE("a nearly empty interior: the same solution as another method's") {
     p.g(0) = tiny;
     p.above(0) = p.below(0) + tiny;
     auto const qp = p.qp();
-    auto const exact = slant::solve(slant::symmetric_newton{qp}, zero(),
-                                    slant::reduced_gradient_below(1e-13) || slant::at_most(100));
-    auto const r = slant::solve(slant::interior_point{qp}, zero(),
-                                slant::reduced_gradient_below(1e-9) || slant::at_most(100));
+    auto const exact = test::minimise(slant::symmetric_newton{qp}, zero(), 1e-13, 100);
+    auto const r = test::minimise(slant::interior_point{qp}, zero(), 1e-9, 100);
     REQUIRE(exact.converged());
     CHECK((r.x() - exact.x()).norm() <= 1e-7 * exact.x().norm());
     CHECK((r.converged() || r.status == slant::status::stalled));
@@ -110,8 +92,8 @@ TEST_CASE("a nearly empty interior: the same solution as another method's") {
 TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
   auto const solve_in = [](int stiffness, int length) {
     problem const p{.t = std::ldexp(1.0, length)};
-    auto r = slant::solve(slant::interior_point{p.qp(std::ldexp(1.0, stiffness))}, zero(),
-                          slant::reduced_gradient_below(1e-10) || slant::at_most(60));
+    auto r =
+        test::minimise(slant::interior_point{p.qp(std::ldexp(1.0, stiffness))}, zero(), 1e-10, 60);
     for (int i = 0; i < 3; ++i) {
       CHECK(r.x()(i) > p.lower(i));
       CHECK(r.x()(3 + i) > p.below(i));
@@ -127,8 +109,7 @@ TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
 TEST_CASE("all digits: stalled at the floor, in the interior") {
   problem const p;
   auto const qp = p.qp();
-  auto const r = slant::solve(slant::interior_point{qp}, zero(),
-                              slant::reduced_gradient_below(0.0) || slant::at_most(300));
+  auto const r = test::minimise(slant::interior_point{qp}, zero(), 0.0, 300);
   CHECK(r.status == slant::status::stalled);
   double const ε = std::numeric_limits<double>::epsilon();
   CHECK(r.state.reduced_gradient_norm <= 100 * ε * (p.b.norm() + p.A.norm() * r.x().norm()));
@@ -141,7 +122,7 @@ TEST_CASE("a semidefinite A: with a minimum, and without") {
   auto const run = [&](MatrixXd const& M) {
     auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
     slant::separable_qp const qp{A, b, slant::half_lines(2)};
-    return slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(2)), stop);
+    return slant::solve(slant::interior_point{qp}, test::zeros(2), stop);
   };
   auto const r = run(MatrixXd{{1.0, 1.0}, {1.0, 1.0}});
   CHECK(r.converged());
@@ -161,8 +142,7 @@ TEST_CASE("no minimum along unknowns without constraint: the direction at which 
   MatrixXd const M = MatrixXd::Identity(6, 6) - k * k.transpose();
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
   slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(6)), slant::free_components(6)};
-  auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(6)),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(50));
+  auto const r = test::minimise(slant::interior_point{qp}, test::zeros(6), 1e-10, 50);
   CHECK(r.status == slant::status::unbounded);
   VectorXd const d = r.state.step.normalized();
   CHECK((M * d).norm() <= 1e-7);
@@ -176,8 +156,7 @@ TEST_CASE("no minimum over a large kernel, seen through rounding") {
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(
       MatrixXd((M + M.transpose()) / 2));
   slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(40)), slant::free_components(40)};
-  auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(40)),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(50));
+  auto const r = test::minimise(slant::interior_point{qp}, test::zeros(40), 1e-10, 50);
   CHECK(r.status == slant::status::unbounded);
 }
 
@@ -187,11 +166,9 @@ TEST_CASE("a semidefinite A whose kernel holds the first gradient up to rounding
   MatrixXd const M = MatrixXd::Identity(5, 5) - k * k.transpose();
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
   slant::separable_qp const qp{A, k, slant::half_lines(VectorXd::Constant(5, -3.0).eval())};
-  auto const r = slant::solve(slant::interior_point{qp}, VectorXd(VectorXd::Zero(5)),
-                              slant::reduced_gradient_below(1e-9) || slant::at_most(60));
+  auto const r = test::minimise(slant::interior_point{qp}, test::zeros(5), 1e-9, 60);
   CHECK(r.converged());
-  auto const exact = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(5)),
-                                  slant::reduced_gradient_below(1e-12) || slant::at_most(200));
+  auto const exact = test::minimise(slant::symmetric_newton{qp}, test::zeros(5), 1e-12, 200);
   REQUIRE(exact.converged());
   auto const q = [&](VectorXd const& x) { return x.dot(M * x) / 2 - k.dot(x); };
   CHECK(q(r.x()) == doctest::Approx(q(exact.x())).epsilon(1e-7));
@@ -202,8 +179,7 @@ TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   p.b.setZero();
   p.lower.setConstant(-1);
   p.below(1) = -1;
-  auto const r = slant::solve(slant::interior_point{p.qp()}, zero(),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(5));
+  auto const r = test::minimise(slant::interior_point{p.qp()}, zero(), 1e-10, 5);
   CHECK(r.converged());
   CHECK(r.iterations() == 0);
   problem free;
@@ -211,9 +187,7 @@ TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   free.below.setConstant(-infinity);
   free.above.setConstant(infinity);
   free.g.setConstant(infinity);
-  auto const unconstrained =
-      slant::solve(slant::interior_point{free.qp()}, zero(),
-                   slant::reduced_gradient_below(1e-12) || slant::at_most(50));
+  auto const unconstrained = test::minimise(slant::interior_point{free.qp()}, zero(), 1e-12, 50);
   CHECK(unconstrained.converged());
   CHECK(unconstrained.state.constraints == 0);
   CHECK((free.A * unconstrained.x() - free.b).norm() <= 1e-11 * free.b.norm());

@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve.hpp>
-
-#include <slant/factorizations/dense_ldlt.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/sets.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <krylov/spd_matrices.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "example_one.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <cmath>
-#include <limits>
 
 namespace interior_point_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 TEST_CASE("Example 1: the solution, products counted, every iterate in the interior") {
   test::example_one<double> const p;
@@ -75,8 +56,8 @@ auto every_kind() {
       slant::half_lines(VectorXd{{0.0, -1.0, 0.5, -infinity}}), slant::interval<>(-0.1, 0.2),
       slant::interval<>(0.3, infinity), slant::discs<slant::planar>(VectorXd{{0.5, infinity, 2.0}}),
       slant::ellipse<>(2.0, 0.1), slant::power(slant::second_order_cone<3>(0.5), 2),
-      slant::shifted(slant::rotated(slant::ellipse<>(1.0, 0.3), turn), Eigen::Vector2d(1.0, 1.0)),
-      slant::scaled(0.25, slant::ball<3>(1.0)), slant::point<2>(Eigen::Vector2d(0.7, -0.2)),
+      slant::shifted(slant::rotated(slant::ellipse<>(1.0, 0.3), turn), Vector2d(1.0, 1.0)),
+      slant::scaled(0.25, slant::ball<3>(1.0)), slant::point<2>(Vector2d(0.7, -0.2)),
       slant::free_components(3));
 }
 
@@ -91,11 +72,9 @@ TEST_CASE("a product of all blocks: the solution of the symmetric Newton method"
     for (double size : {0.0, 1e3}) {
       CAPTURE(size);
       VectorXd const x0 = size * test::random_vector(n, 5);
-      auto const exact = slant::solve(slant::symmetric_newton{qp}, x0,
-                                      slant::reduced_gradient_below(1e-13) || slant::at_most(200));
+      auto const exact = test::minimise(slant::symmetric_newton{qp}, x0, 1e-13, 200);
       REQUIRE(exact.converged());
-      auto const r = slant::solve(slant::interior_point{qp}, x0,
-                                  slant::reduced_gradient_below(1e-10) || slant::at_most(60));
+      auto const r = test::minimise(slant::interior_point{qp}, x0, 1e-10, 60);
       CHECK(r.converged());
       CHECK((r.x() - exact.x()).norm() <= 1e-7 * exact.x().norm());
       CHECK(set.contains(r.x()));
@@ -116,8 +95,7 @@ TEST_CASE("along curved boundaries the reduced gradient falls as fast as the pro
     auto const A = test::spd(test::with_spectrum(test::log_spaced(n, 100), seed));
     slant::separable_qp const qp{A, VectorXd(2 * test::random_vector(n, seed + 10)), set};
     auto const steps = [&](double target) {
-      auto const r = slant::solve(slant::interior_point{qp}, zero,
-                                  slant::reduced_gradient_below(target) || slant::at_most(60));
+      auto const r = test::minimise(slant::interior_point{qp}, zero, target, 60);
       CHECK(r.converged());
       return r.iterations();
     };
@@ -140,11 +118,11 @@ TEST_CASE(
   VectorXd const b = test::random_vector(n);
   slant::separable_qp const qp{A, b, set};
   slant::interior_point const method{qp};
-  auto s = method.start(VectorXd(VectorXd::Zero(n)));
+  auto s = method.start(test::zeros(n));
   CHECK(s.constraints == 15);
   for (int k = 0; k < 5; ++k) method.step(s);
   CHECK((s.multipliers.array() == 0).count() == 3);
-  CHECK(s.x.segment(n - 5, 2) == Eigen::Vector2d(0.7, -0.2));
+  CHECK(s.x.segment(n - 5, 2) == Vector2d(0.7, -0.2));
 }
 
 TEST_CASE("cones: apex, mantle and interior; at an angle, no axis leads from the apex inside") {
@@ -152,11 +130,9 @@ TEST_CASE("cones: apex, mantle and interior; at an angle, no axis leads from the
     auto const A = test::spd(M);
     slant::separable_qp const qp{A, VectorXd(test::random_vector(M.rows(), seed)), set};
     VectorXd const zero = VectorXd::Zero(M.rows());
-    auto const exact = slant::solve(slant::symmetric_newton{qp}, zero,
-                                    slant::reduced_gradient_below(1e-13) || slant::at_most(300));
+    auto const exact = test::minimise(slant::symmetric_newton{qp}, zero, 1e-13, 300);
     REQUIRE(exact.converged());
-    auto const r = slant::solve(slant::interior_point{qp}, zero,
-                                slant::reduced_gradient_below(1e-9) || slant::at_most(80));
+    auto const r = test::minimise(slant::interior_point{qp}, zero, 1e-9, 80);
     CHECK(r.converged());
     CHECK((r.x() - exact.x()).norm() <= 1e-6 * exact.x().norm());
   };

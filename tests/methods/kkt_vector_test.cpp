@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/kprgp.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/second_order_cone.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
+#include <support/testing.hpp>
 
 namespace kkt_vector_test {
-
-using Eigen::VectorXd;
 
 /// β for gradients r at x, with r̃ for the step length α.
 template <class Set>

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve.hpp>
-
 #include <slant/iteration/iterates.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/point.hpp>
-#include <slant/sets/second_order_cone.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
 #include <krylov/spd_matrices.hpp>
 #include <oracle/certificate.hpp>
 #include <oracle/dense_newton.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "example_one.hpp"
 #include "mixture.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace kprgp_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using test::mixture;
 
 TEST_CASE("KPRGP and AS-S agree with Newton's method on dense data, whatever their options") {
@@ -47,8 +28,7 @@ TEST_CASE("KPRGP and AS-S agree with Newton's method on dense data, whatever the
           slant::kprgp_options<double>{.half_step = false},
           slant::kprgp_options<double>{.refresh = 1}, slant::kprgp_options<double>{.refresh = 0}}) {
       auto const check = [&](auto const& method, int steps, double error) {
-        auto const r = slant::solve(method, VectorXd(VectorXd::Zero(20)),
-                                    slant::reduced_gradient_below(1e-13) || slant::at_most(steps));
+        auto const r = test::minimise(method, test::zeros(20), 1e-13, steps);
         REQUIRE(r.converged());
         CHECK((r.x() - reference.x.cast<double>()).norm() <= error * r.x().norm());
         CHECK(oracle::certify(p.plain(), r.x().template cast<long double>()).energy_error < 1e-6);
@@ -64,8 +44,7 @@ TEST_CASE("without constraints kprgp is the method of conjugate gradients") {
   VectorXd const x = test::random_vector(30), b = M * x;
   auto const A = test::spd(M);
   auto const qp = slant::separable_qp{A, b, slant::free_components(30)};
-  auto const r = slant::solve(slant::kprgp{qp, {.step_length = 1.0}}, VectorXd(VectorXd::Zero(30)),
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(60));
+  auto const r = test::minimise(slant::kprgp{qp, {.step_length = 1.0}}, test::zeros(30), 1e-12, 60);
   REQUIRE(r.converged());
   CHECK((r.x() - x).norm() <= 1e-9 * x.norm());
   CHECK(r.state.work.operator_applications == r.iterations() + r.iterations() / 50 + 1);
@@ -81,8 +60,8 @@ TEST_CASE("cones, ellipses, points and other blocks") {
                                     slant::point<1>(Eigen::Matrix<double, 1, 1>(0.25)),
                                     slant::interval<>(0.5, 0.5), slant::ball<1>(0.0));
   auto const qp = slant::separable_qp{A, b, set};
-  auto const r = slant::solve(slant::kprgp{qp, {.step_factor = 1.0}}, VectorXd(VectorXd::Zero(11)),
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(20000));
+  auto const r =
+      test::minimise(slant::kprgp{qp, {.step_factor = 1.0}}, test::zeros(11), 1e-12, 20000);
   REQUIRE(r.converged());
   // Variational inequality against many feasible points: rᵀ(z − x) ≥ 0.
   VectorXd const gradient = M * r.x() - b;
@@ -102,8 +81,7 @@ TEST_CASE("the report counts every product, and a given step length saves those 
   auto const run = [&](auto const& options) {
     auto const counting = slant::counted(A);
     auto const qp = slant::separable_qp{counting, p.b, set};
-    auto const r =
-        slant::solve(slant::kprgp{qp, options}, VectorXd(VectorXd::Zero(20)), slant::at_most(100));
+    auto const r = slant::solve(slant::kprgp{qp, options}, test::zeros(20), slant::at_most(100));
     CHECK(counting.applications() ==
           r.state.work.operator_applications + r.state.work.setup_applications);
     return r.state.work;
@@ -178,8 +156,7 @@ TEST_CASE("what the constraints absorb does not make the tolerance looser") {
 TEST_CASE("a solution next to the origin is found there, wherever the run starts") {
   VectorXd const d{{1.0, 2.0}}, zero = VectorXd::Zero(2);
   slant::separable_qp const qp{spd(d), zero, slant::half_lines(VectorXd(VectorXd::Ones(2)))};
-  auto const r = slant::solve(slant::kprgp{qp}, VectorXd{{1e8, 1e8}},
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(10));
+  auto const r = test::minimise(slant::kprgp{qp}, VectorXd{{1e8, 1e8}}, 1e-12, 10);
   CHECK(r.converged());
   CHECK(r.iterations() == 0);
   CHECK(r.x() == VectorXd::Ones(2));
@@ -191,7 +168,7 @@ TEST_CASE("a huge bound elsewhere, or a tiny step, does not make the first point
   auto const stop = slant::reduced_gradient_below(1e-8) || slant::at_most(100);
   for (auto const& options :
        {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.step_length = 1e-12}}) {
-    auto const r = slant::solve(slant::kprgp{qp, options}, VectorXd(VectorXd::Zero(2)), stop);
+    auto const r = slant::solve(slant::kprgp{qp, options}, test::zeros(2), stop);
     CHECK(r.converged());
     CHECK(r.x()(1) == doctest::Approx(1));
   }
@@ -201,8 +178,7 @@ TEST_CASE("an operator that declares to be definite is never called unbounded") 
   for (double κ : {1e14, 1e16, 1e20}) {
     VectorXd const b = VectorXd::Ones(2);
     slant::separable_qp const qp{spd(VectorXd{{κ, 1.0}}), b, slant::free_components(2)};
-    auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(2)),
-                                slant::reduced_gradient_below(1e-12) || slant::at_most(100));
+    auto const r = test::minimise(slant::kprgp{qp}, test::zeros(2), 1e-12, 100);
     CHECK(r.converged());
     CHECK(r.x()(0) == doctest::Approx(1 / κ));
     CHECK(r.x()(1) == doctest::Approx(1));
@@ -216,8 +192,7 @@ TEST_CASE("a kernel is told from a soft direction by A, not by the step length a
   slant::separable_qp const qp{A, b, slant::half_lines(2)};
   for (double step : {1.0, 1e-6, 1e-10}) {
     auto const r =
-        slant::solve(slant::kprgp{qp, {.step_length = step}}, VectorXd(VectorXd::Zero(2)),
-                     slant::reduced_gradient_below(1e-8) || slant::at_most(100));
+        test::minimise(slant::kprgp{qp, {.step_length = step}}, test::zeros(2), 1e-8, 100);
     CHECK(r.converged());
     CHECK(r.x()(1) == doctest::Approx(1e7));
   }
@@ -258,8 +233,7 @@ TEST_CASE("slow is not stalled: q still falls where the reduced gradient does no
       slant::declare<slant::self_adjoint, slant::positive_semidefinite>(slant::matrix(p.M));
   slant::separable_qp const qp{A, p.b, discs_beside_free_components()};
   auto const q_after = [&](slant::index steps) {
-    auto const r = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(12)),
-                                slant::reduced_gradient_below(1e-10) || slant::at_most(steps));
+    auto const r = test::minimise(slant::kprgp{qp}, test::zeros(12), 1e-10, steps);
     CHECK(r.status == slant::status::iteration_limit);
     VectorXd const x = r.x();
     return 0.5 * x.dot(p.M * x) - p.b.dot(x);
@@ -267,14 +241,14 @@ TEST_CASE("slow is not stalled: q still falls where the reduced gradient does no
   CHECK(q_after(6000) < q_after(2000));
 }
 
-double q_of(Eigen::MatrixXd const& A, VectorXd const& b, VectorXd const& x) {
+double q_of(MatrixXd const& A, VectorXd const& b, VectorXd const& x) {
   return x.dot(0.5 * (A * x) - b);
 }
 
 /// Does q fall by the factor of [K Theorem 1] in every step? Returns the number of steps seen.
 template <class Method>
-int check_decrease(Method const& method, Eigen::MatrixXd const& M, VectorXd const& b,
-                   VectorXd const& x0, VectorXd const& solution, double η) {
+int check_decrease(Method const& method, MatrixXd const& M, VectorXd const& b, VectorXd const& x0,
+                   VectorXd const& solution, double η) {
   double const q_min = q_of(M, b, solution);
   double const gap0 = q_of(M, b, x0) - q_min;
   double last = gap0;
@@ -293,8 +267,8 @@ TEST_CASE("AS-S: the decrease of q of Theorem 1, discs and intervals") {
   test::example_one<double> const p;
   test::example_one_solution<double> const solution;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
-  Eigen::MatrixXd const M = p.A;
-  VectorXd const σ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues();
+  MatrixXd const M = p.A;
+  VectorXd const σ = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
   auto const box = slant::intervals(VectorXd(VectorXd::Constant(12, 1.5)));
   auto const plane = slant::separable_qp{p.a(), p.b, box};
   oracle::dense_qp plain{M, p.b.cast<long double>(), {}, {}};
@@ -316,7 +290,7 @@ TEST_CASE("AS-S: the decrease of q of Theorem 1, discs and intervals") {
 
 TEST_CASE("a block on its boundary that the gradient pulls inside is free for AS-S at once") {
   VectorXd const b{{3.0, 1.0}};
-  Eigen::MatrixXd const M{{2.0, 1.0}, {1.0, 2.0}};
+  MatrixXd const M{{2.0, 1.0}, {1.0, 2.0}};
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(M);
   auto const set = slant::half_lines(2);
   auto const qp = slant::separable_qp{A, b, set};
@@ -377,8 +351,7 @@ TEST_CASE("bounds and intervals only: to the last digits, agreeing with dense Ne
   auto const reference = oracle::solve_dense(plain);
   auto const counting = slant::counted(A);
   auto const qp = slant::separable_qp{counting, b, set};
-  auto const r = slant::solve(slant::qpq{qp}, VectorXd(VectorXd::Zero(20)),
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(1000));
+  auto const r = test::minimise(slant::qpq{qp}, test::zeros(20), 1e-12, 1000);
   REQUIRE(r.converged());
   CHECK((r.x() - reference.x.cast<double>()).norm() <= 1e-10 * r.x().norm());
   CHECK(counting.applications() ==

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
 namespace lorentz_pairs_test {
-
-using Eigen::VectorXd;
 
 /// min ½(x² + 1.06 y²) − bᵀx over the unit disc, by the radius as a function of the multiplier.
 VectorXd on_the_circle(VectorXd const& b) {
@@ -25,15 +20,15 @@ VectorXd on_the_circle(VectorXd const& b) {
 
 TEST_CASE("a disc whose solution lies aside of the way to it: 15 steps from anywhere") {
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(
-      Eigen::MatrixXd{{1.0, 0.0}, {0.0, 1.06}});
+      MatrixXd{{1.0, 0.0}, {0.0, 1.06}});
   auto const set = slant::discs(VectorXd{{1.0}});
   for (double const size : {1.01, 1.5, 2.0, 3.0, 1e3}) {
     CAPTURE(size);
     VectorXd const b = size * VectorXd{{0.6, 0.8}};
     slant::separable_qp const qp{A, b, set};
     for (double const far : {0.0, 1e8}) {
-      auto const r = slant::solve(slant::interior_point{qp}, VectorXd(far * VectorXd{{1.0, 0.3}}),
-                                  slant::reduced_gradient_below(1e-6) || slant::at_most(40));
+      auto const r =
+          test::minimise(slant::interior_point{qp}, VectorXd(far * VectorXd{{1.0, 0.3}}), 1e-6, 40);
       CHECK(r.converged());
       CHECK(r.iterations() <= 18);
       CHECK((r.x() - on_the_circle(b)).norm() <= 2e-6);
@@ -52,13 +47,13 @@ void check_form(Block const& block, X const& x) {
 }
 
 TEST_CASE("sections of the Lorentz cone: the first inequality is its determinant") {
-  check_form(slant::ball<2>(3.0), Eigen::Vector2d(0.5, -1.0));
-  check_form(slant::ellipse<>(3.0, 0.5), Eigen::Vector2d(0.5, -0.1));
-  check_form(slant::second_order_cone<3>(0.3), Eigen::Vector3d(2.0, 0.1, 0.2));
+  check_form(slant::ball<2>(3.0), Vector2d(0.5, -1.0));
+  check_form(slant::ellipse<>(3.0, 0.5), Vector2d(0.5, -0.1));
+  check_form(slant::second_order_cone<3>(0.3), Vector3d(2.0, 0.1, 0.2));
   Eigen::Matrix2d const turn{{0.6, -0.8}, {0.8, 0.6}};
   check_form(slant::shifted(slant::rotated(slant::scaled(0.25, slant::ellipse<>(3.0, 0.5)), turn),
-                            Eigen::Vector2d(1.0, 2.0)),
-             Eigen::Vector2d(1.1, 2.05));
+                            Vector2d(1.0, 2.0)),
+             Vector2d(1.1, 2.05));
   // Its sides are flat: two multipliers do.
   static_assert(!slant::lorentz_block<slant::plane_cone<>>);
 }

@@ -1,45 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
 // MSSN, IMSSN and GIMSSN: each alone, what they have in common, and plane friction.
-#include <slant/iteration/solve.hpp>
-
 #include <slant/contact/dual.hpp>
 #include <slant/contact/optimality.hpp>
-#include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/iterates.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <contact/scenes.hpp>
 #include <fem/string_1d.hpp>
 #include <oracle/certificate.hpp>
 #include <oracle/dense_newton.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "example_one.hpp"
 #include "mixture.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 namespace mssn_test {
 
-using Eigen::VectorXd;
 using test::mixture;
 
 /// λ^(k+1) of [K (57)–(61)] with dense algebra: discs of radii g at the components (i, i+6).
 VectorXd dense_step(test::example_one<double> const& p, VectorXd const& λ, double ρ) {
-  Eigen::MatrixXd const A = p.A;
+  MatrixXd const A = p.A;
   VectorXd const z = λ - ρ * (A * λ - p.b);
   VectorXd next = VectorXd::Zero(12);
   std::vector<Eigen::Index> active, frozen;
@@ -51,7 +33,7 @@ VectorXd dense_step(test::example_one<double> const& p, VectorXd const& λ, doub
     }
   }
   VectorXd const right = (p.b - A * next)(active);
-  VectorXd const exact = Eigen::MatrixXd(A(active, active)).llt().solve(right);
+  VectorXd const exact = MatrixXd(A(active, active)).llt().solve(right);
   next(active) = exact;
   return next;
 }
@@ -85,8 +67,7 @@ TEST_CASE("the parts combine freely: a projected start, unlimited CG, another fo
   using problem = decltype(qp);
   slant::modified_newton<problem&, slant::projected_start, slant::unlimited_cg,
                          slant::eisenstat_walker> const mixed{qp};
-  auto const r =
-      slant::solve(mixed, p.zero(), slant::reduced_gradient_below(1e-12) || slant::at_most(100));
+  auto const r = test::minimise(mixed, p.zero(), 1e-12, 100);
   REQUIRE(r.converged());
   CHECK((r.x() - solution.x).norm() <= 1e-10 * solution.x.norm());
 }
@@ -129,7 +110,7 @@ TEST_CASE("active sets that recur end as stalled, with a reason") {
       slant::solve(slant::imssn{qp, {.step_length = 1.9 * wire.h() / 4}}, zero, stop).converged());
 }
 
-double q_of(Eigen::MatrixXd const& A, VectorXd const& b, VectorXd const& x) {
+double q_of(MatrixXd const& A, VectorXd const& b, VectorXd const& x) {
   return x.dot(0.5 * (A * x) - b);
 }
 
@@ -137,8 +118,8 @@ TEST_CASE("the bounds of Theorem 7, on both sides of 1/σ_max") {
   test::example_one<double> const p;
   test::example_one_solution<double> const solution;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
-  Eigen::MatrixXd const M = p.A;
-  VectorXd const σ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues();
+  MatrixXd const M = p.A;
+  VectorXd const σ = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
   double const σ_min = σ(0), σ_max = σ(11), q_min = q_of(M, p.b, solution.x);
   for (double β : {0.5, 1.0, 1.5, 1.9}) {
     CAPTURE(β);
@@ -189,8 +170,7 @@ TEST_CASE("all kinds of blocks: agreement with Newton's method on dense data") {
   auto const qp = slant::separable_qp{A, p.b, p.set()};
   for_each_method(qp, [&](std::string const& name, auto const& method) {
     CAPTURE(name);
-    auto const r = slant::solve(method, VectorXd(VectorXd::Constant(20, 1e6)),
-                                slant::reduced_gradient_below(1e-13) || slant::at_most(1000));
+    auto const r = test::minimise(method, VectorXd(VectorXd::Constant(20, 1e6)), 1e-13, 1000);
     REQUIRE(r.converged());
     CHECK((r.x() - reference.x.cast<double>()).norm() <= 1e-10 * r.x().norm());
     VectorXd const x = r.x();
@@ -239,8 +219,7 @@ TEST_CASE("a start that keeps λ keeps its gradient as well") {
   VectorXd const b = test::random_vector(20);
   auto const A = test::spd(M);
   auto const qp = slant::separable_qp{A, b, slant::free_components(20)};
-  auto const r = slant::solve(slant::imssn{qp}, VectorXd(VectorXd::Zero(20)),
-                              slant::reduced_gradient_below(1e-9) || slant::at_most(40));
+  auto const r = test::minimise(slant::imssn{qp}, test::zeros(20), 1e-9, 40);
   REQUIRE(r.converged());
   CHECK((r.x() - VectorXd(M.ldlt().solve(b))).norm() <= 1e-6 * r.x().norm());
   // One more computes r from x before success is claimed.
@@ -252,8 +231,7 @@ TEST_CASE("a limit of inner iterations is kept, and does not end the run") {
   mixture const p(300);
   auto const A = test::spd(p.A);
   auto const qp = slant::separable_qp{A, p.b, p.set()};
-  auto const r = slant::solve(slant::gimssn{qp, {.max_inner = 2}}, VectorXd(VectorXd::Zero(20)),
-                              slant::reduced_gradient_below(1e-8) || slant::at_most(5000));
+  auto const r = test::minimise(slant::gimssn{qp, {.max_inner = 2}}, test::zeros(20), 1e-8, 5000);
   CHECK(r.converged());
   CHECK(r.state.work.inner_iterations <= 2 * r.iterations());
 }
@@ -282,8 +260,7 @@ TEST_CASE("plane friction: all reach the independent reference, with few product
   auto const qp = dual.qp();
   auto const check = [&](std::string const& name, auto const& method, slant::index products) {
     CAPTURE(name);
-    auto const r = slant::solve(method, dual.zero(),
-                                slant::reduced_gradient_below(1e-9) || slant::at_most(2000));
+    auto const r = test::minimise(method, dual.zero(), 1e-9, 2000);
     REQUIRE(r.converged());
     auto const u = dual.displacement(r.x());
     CHECK(oracle::energy_error(scene.K, u, reference.u) <= 1e-6);

@@ -3,20 +3,13 @@
 // Nested iteration on the wire [T §4.1]: Newton's method on every mesh from n = 32 on.
 #pragma once
 
-#include <slant/iteration/nested.hpp>
-#include <slant/newton/direct_solver.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/projection.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <fem/active_counts.hpp>
 #include <fem/wire_counts.hpp>
 #include <fem/wire_prolongation.hpp>
 #include <ranges>
+#include <support/testing.hpp>
 
 namespace test {
 
@@ -25,8 +18,8 @@ class wire_level {
  public:
   wire_level(fem::wire_counts const& row, std::size_t entry)
       : wire_(fem::make_wire(row.m(entry))),
-        set_(slant::cartesian(slant::half_lines(Eigen::VectorXd::Constant(wire_.m, row.l).eval()),
-                              slant::discs(Eigen::VectorXd::Constant(wire_.m, row.g).eval()),
+        set_(slant::cartesian(slant::half_lines(VectorXd::Constant(wire_.m, row.l).eval()),
+                              slant::discs(VectorXd::Constant(wire_.m, row.g).eval()),
                               slant::free_components(wire_.m))) {
     if (entry > 0) P_ = fem::wire_prolongation(fem::make_wire(row.m(entry - 1)), wire_);
   }
@@ -40,13 +33,13 @@ class wire_level {
   static auto stop() { return slant::residual_below(1e-10) || slant::at_most(100); }
   auto prolongation() const { return slant::matrix(P_); }
 
-  fem::active_counts count(Eigen::VectorXd const& x) const {
+  fem::active_counts count(VectorXd const& x) const {
     return fem::count_active(set_, wire_.A, wire_.b, x);
   }
 
  private:
   fem::wire<> wire_;
-  decltype(slant::cartesian(slant::half_lines(Eigen::VectorXd()), slant::discs(Eigen::VectorXd()),
+  decltype(slant::cartesian(slant::half_lines(VectorXd()), slant::discs(VectorXd()),
                             slant::free_components(1))) set_;
   Eigen::SparseMatrix<double> P_;
 };
@@ -57,7 +50,7 @@ inline void check_nested_newton(std::size_t meshes) {
   for (auto const& row : fem::printed_wire_counts) {
     auto const levels = std::views::iota(std::size_t(0), meshes) |
                         std::views::transform([&](std::size_t e) { return wire_level(row, e); });
-    auto const nested = slant::solve_nested(levels, Eigen::VectorXd::Zero(32).eval());
+    auto const nested = slant::solve_nested(levels, test::zeros(32));
     REQUIRE(nested.levels.size() == meshes);
     for (std::size_t e = 0; e < meshes; ++e) {
       CAPTURE(row.l);

@@ -2,16 +2,13 @@
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/sets/contact_sets.hpp>
 
-#include <doctest/doctest.h>
-
 #include <krylov/spd_matrices.hpp>
+#include <support/testing.hpp>
 
 namespace newton_segment_test {
 
-using Eigen::VectorXd;
-
 TEST_CASE("the residual along a segment, with exact ends") {
-  Eigen::MatrixXd const A = test::with_spectrum(test::log_spaced(12, 200), 2);
+  MatrixXd const A = test::with_spectrum(test::log_spaced(12, 200), 2);
   VectorXd const b = test::random_vector(12, 4);
   double const ρ = 0.8;
   auto const set = slant::discs(VectorXd{{0.5, 1.0, 3.0, 0.0, 0.1, 2.0}});

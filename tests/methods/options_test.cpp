@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Options out of range are named with their value and what was expected.
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/successive_approximations.hpp>
-#include <slant/methods/symmetric_newton.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace options_test {
 

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <slant/base/report.hpp>
-#include <slant/methods/parts/recession.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-
-#include <tuple>
+#include <support/testing.hpp>
 
 namespace recession_test {
-
-using Eigen::VectorXd;
 
 /// A = diag(1, soft), b = (0, 1): q falls for ever along (0, 1) if soft = 0.
 template <class Set>

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "mixture.hpp"
-
 #include <slant/methods/parts/gradient_point.hpp>
 
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
+#include "mixture.hpp"
 
 namespace reduced_gradient_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("by its definition; exactly r where no constraint is felt") {
   test::mixture const p(10);

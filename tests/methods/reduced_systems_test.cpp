@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/barrier.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/ellipse.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <krylov/spd_matrices.hpp>
+#include <support/dense_of.hpp>
+#include <support/testing.hpp>
 
 namespace reduced_systems_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-/// The matrix of an operator, column by column.
-template <class A>
-MatrixXd dense(A const& a) {
-  MatrixXd m(a.rows(), a.cols());
-  VectorXd y(a.rows());
-  for (Eigen::Index j = 0; j < m.cols(); ++j) {
-    VectorXd const e = VectorXd::Unit(a.cols(), j);
-    auto w = slant::workspace(a, e);
-    slant::apply(a, e, y, w);
-    m.col(j) = y;
-  }
-  return m;
-}
+using test::dense_of;
 
 /// Iterations of preconditioned conjugate gradients, for matrices that need not be definite, until
 /// the first n entries of the residual are small.
@@ -69,17 +48,17 @@ TEST_CASE(
 
   slant::separable_qp const qp{A, b, set};
   slant::interior_point const method{qp};
-  auto s = method.start(VectorXd(VectorXd::Zero(16)));
+  auto s = method.start(test::zeros(16));
   double worst_without = 0;
   while (s.reduced_gradient_norm > 1e-8 * s.gradient_scale) {
     // The matrices of the next step: those at s.x.
     auto barrier = s.barrier;
     barrier.assemble(set, s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
     auto const d22 = slant::complementarity_diagonal(s.multipliers, s.slacks, s.unit);
-    MatrixXd const J_SC = dense(slant::schur_system(A, barrier));
-    MatrixXd const P_SC_inverse = dense(barrier.preconditioner());
-    MatrixXd const G = dense(barrier.jacobian()).transpose();
-    MatrixXd const H = dense(barrier.curvature());
+    MatrixXd const J_SC = dense_of(slant::schur_system(A, barrier));
+    MatrixXd const P_SC_inverse = dense_of(barrier.preconditioner());
+    MatrixXd const G = dense_of(barrier.jacobian()).transpose();
+    MatrixXd const H = dense_of(barrier.curvature());
     CHECK((J_SC - M - H - G * d22.cwiseInverse().asDiagonal() * G.transpose()).norm() <=
           1e-14 * J_SC.norm());
     MatrixXd const P_SC = J_SC - M + MatrixXd(M.diagonal().asDiagonal());
@@ -94,9 +73,9 @@ TEST_CASE(
     Eigen::SelfAdjointEigenSolver<MatrixXd> const plain(J_SC);
     worst_without = std::max(worst_without, plain.eigenvalues()(15) / plain.eigenvalues()(0));
 
-    MatrixXd const J_AM = dense(slant::augmented_system(A, barrier, d22));
+    MatrixXd const J_AM = dense_of(slant::augmented_system(A, barrier, d22));
     slant::augmented_preconditioner const P_AM(barrier, d22);
-    MatrixXd const P_AM_inverse = dense(P_AM);
+    MatrixXd const P_AM_inverse = dense_of(P_AM);
     auto const m = d22.size();
     MatrixXd J(16 + m, 16 + m);
     J << M + H, G, G.transpose(), -MatrixXd(d22.asDiagonal());

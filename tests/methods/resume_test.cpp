@@ -1,31 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // resume(state, x0) after the linear term and the set have changed: what start(x0) would give.
+#include <slant/slant.hpp>
+
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "mixture.hpp"
 
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/sets/contact_sets.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include <support/allocation_guard.hpp>
-
 namespace resume_test {
-
-using Eigen::VectorXd;
 
 /// Steps of one method, then another b and other discs in the same places, then the two ways on.
 template <class Make>
 void check_same_as_start(Make make) {
   Eigen::Index const m = 8;
   test::mixture const p(30);
-  Eigen::MatrixXd const dense = p.A.topLeftCorner(2 * m, 2 * m);
+  MatrixXd const dense = p.A.topLeftCorner(2 * m, 2 * m);
   auto const A = slant::counted(test::spd(dense));
   VectorXd b = 4 * test::random_vector(2 * m, 5);
   auto set = slant::discs(VectorXd::Constant(m, 0.5).eval());
@@ -59,7 +48,7 @@ void check_same_as_start(Make make) {
     method.step(fresh);
   }
   // From a state at rest.
-  auto end = slant::solve(method, x0, slant::reduced_gradient_below(1e-9) || slant::at_most(5000));
+  auto end = test::minimise(method, x0, 1e-9, 5000);
   CHECK(end.converged());
   b.setZero();
   method.resume(end.state, x0);

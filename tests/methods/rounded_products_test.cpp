@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/symmetric_newton.hpp>
-
 #include <slant/factorizations/static_condensation.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-
-#include <cmath>
-#include <numeric>
-#include <vector>
-
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "factorizations/spd_examples.hpp"
 #include "second_differences.hpp"
 
 namespace rounded_products_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::index;
 
 /// An operator whose twin is wrong by a relative 2⁻²⁰.
@@ -44,13 +32,13 @@ TEST_CASE("a method with rounded products finds the solution of the exact ones")
   MatrixXd const A = test::second_differences(n);
   VectorXd b(n);
   for (index i = 0; i < n; ++i) b[i] = std::sin(double(i));
-  auto const set = slant::half_lines(VectorXd(VectorXd::Zero(n)));
+  auto const set = slant::half_lines(test::zeros(n));
   auto const rule = slant::reduced_gradient_below(1e-13) || slant::at_most(60);
   slant::separable_qp const exact{slant::matrix<slant::self_adjoint, slant::positive_definite>(A),
                                   b, set};
   slant::separable_qp const rounded{imprecise{A}, b, set};
-  auto const r = slant::solve(slant::symmetric_newton{exact}, VectorXd(VectorXd::Zero(n)), rule);
-  auto const q = slant::solve(slant::symmetric_newton{rounded}, VectorXd(VectorXd::Zero(n)), rule);
+  auto const r = slant::solve(slant::symmetric_newton{exact}, test::zeros(n), rule);
+  auto const q = slant::solve(slant::symmetric_newton{rounded}, test::zeros(n), rule);
   REQUIRE(r.converged());
   REQUIRE(q.converged());
   CHECK((r.x() - q.x()).norm() <= 1e-11 * r.x().norm());
@@ -64,9 +52,8 @@ TEST_CASE("a twin that is of no use is given up") {
   struct useless : imprecise {
     [[nodiscard]] imprecise rounded() const { return {-100 * a, 0}; }
   };
-  slant::separable_qp const qp{useless{{A, 0}}, b, slant::half_lines(VectorXd(VectorXd::Zero(n)))};
-  auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(n)),
-                              slant::reduced_gradient_below(1e-12) || slant::at_most(60));
+  slant::separable_qp const qp{useless{{A, 0}}, b, slant::half_lines(test::zeros(n))};
+  auto const r = test::minimise(slant::symmetric_newton{qp}, test::zeros(n), 1e-12, 60);
   CHECK(r.converged());
   CHECK(!r.state.products.at_work());
 }
@@ -85,11 +72,10 @@ void check_ill_conditioned(double shift, index unknowns, double tolerance) {
   slant::apply(slant::inverse(factor), f, u);
   VectorXd const b = B * u;
   auto const a = factor.restricted(B);
-  auto const set = slant::half_lines(VectorXd(VectorXd::Zero(unknowns)));
+  auto const set = slant::half_lines(test::zeros(unknowns));
   slant::separable_qp const qp{a, b, set};
   auto const rule = slant::reduced_gradient_below(tolerance) || slant::at_most(60);
-  auto const r =
-      slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(unknowns)), rule);
+  auto const r = slant::solve(slant::symmetric_newton{qp}, test::zeros(unknowns), rule);
   CHECK(r.converged());
 }
 

@@ -3,9 +3,7 @@
 // The same problem in other units: powers of two change no bit of a run.
 #pragma once
 
-#include <doctest/doctest.h>
-
-#include <utility>
+#include <support/testing.hpp>
 
 namespace test {
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Methods do not know units.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "mixture.hpp"
 #include "scales.hpp"
 
@@ -29,8 +23,8 @@ void check(double tolerance, int far, Make const& make) {
     auto const A = test::spd(scaled);
     auto const set =
         slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<S>(6));
-    auto r = slant::solve(make(slant::separable_qp{A, b, set}), vector(vector::Zero(20)),
-                          slant::reduced_gradient_below(S(tolerance)) || slant::at_most(2000));
+    auto r = test::minimise(make(slant::separable_qp{A, b, set}), vector(vector::Zero(20)),
+                            S(tolerance), 2000);
     r.state.x /= t;
     return r;
   };

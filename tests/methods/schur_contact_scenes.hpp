@@ -4,23 +4,13 @@
 // once, and their solutions by every active set.
 #pragma once
 
-#include <slant/factorizations/conjugate_projector.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/schur_contact.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <memory>
 #include <oracle/small_polyhedra.hpp>
-#include <utility>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace schur_contact_scenes {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::status;
 constexpr double infinity = std::numeric_limits<double>::infinity();

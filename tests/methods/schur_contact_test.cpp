@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include <support/two_processes.hpp>
 #include "schur_contact_scenes.hpp"
-#include "support/allocation_guard.hpp"
-#include "support/message.hpp"
-
-#include <algorithm>
-#include <array>
-#include <vector>
 
 namespace schur_contact_test {
 
@@ -50,7 +43,7 @@ TEST_CASE("a corner where more rows are tight than there are directions: no cycl
   for (int const turn : {0, 1, 2, 3, 5, 7}) {
     small_problem p{MatrixXd::Zero(3, 3), VectorXd::Zero(3), MatrixXd::Zero(8, 3),
                     VectorXd::Zero(8)};
-    p.K = chain(3) + MatrixXd(Eigen::Vector3d(0.1, 0, 0.1).asDiagonal());
+    p.K = chain(3) + MatrixXd(Vector3d(0.1, 0, 0.1).asDiagonal());
     for (int i = 0; i < 8; ++i) {
       p.B(i, 0) = std::cos(0.3 * i);
       p.B(i, 2) = std::sin(0.3 * i);
@@ -233,7 +226,7 @@ TEST_CASE("vectors that are no Eigen objects") {
   VectorXd const c{{1, 0}}, f{{2, 0, -1}};
   slant::constraint_rows<double> const rows(b.sparseView(), c);
   archetype::psd_operator const K(k);
-  archetype::vector const load(f), zero(VectorXd(VectorXd::Zero(3)));
+  archetype::vector const load(f), zero(test::zeros(3));
   auto const r = slant::solve(slant::schur_contact{slant::polyhedral_qp{K, load, rows, injected{}}},
                               zero, slant::residual_below(1e-13) || slant::at_most(20));
   REQUIRE(r.converged());
@@ -419,7 +412,7 @@ TEST_CASE("no solution, with a soft mode beside the kernel") {
     // How fast j falls along the kernel at least as fast as it leaves the rows.
     double margin = -1;
     for (int k = 0; k < 360; ++k) {
-      VectorXd const d = Z * Eigen::Vector2d(std::cos(k * 0.017453), std::sin(k * 0.017453));
+      VectorXd const d = Z * Vector2d(std::cos(k * 0.017453), std::sin(k * 0.017453));
       margin = std::max(margin, std::min(p.f.dot(d), -(p.B * d).maxCoeff()));
     }
     if (margin < 0.02) continue;

@@ -3,26 +3,14 @@
 // What all methods for separable programs have in common: feasible iterates of falling energy, no
 // allocation, states that can be copied, and how runs end that cannot end well.
 #include <slant/iteration/iterates.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/diagonal.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <support/allocation_guard.hpp>
-
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "mixture.hpp"
 
 namespace separable_methods_test {
 
-using Eigen::VectorXd;
 using slant::status;
 using test::mixture;
 
@@ -172,9 +160,8 @@ TEST_CASE("an accuracy beyond reach ends as stalled or converged, at the floor")
     mixture const p(κ);
     auto const A = test::spd(p.A);
     auto const set = p.set();
-    auto const r =
-        slant::solve(make(slant::separable_qp{A, p.b, set}), VectorXd(VectorXd::Zero(20)),
-                     slant::stop_when([](auto const&) { return false; }, ""));
+    auto const r = slant::solve(make(slant::separable_qp{A, p.b, set}), test::zeros(20),
+                                slant::stop_when([](auto const&) { return false; }, ""));
     CHECK((r.status == status::stalled || r.converged()));
     CHECK(r.state.reduced_gradient_norm <= floor * p.b.norm());
   };
@@ -242,8 +229,7 @@ TEST_CASE("numbers beyond the range of the scalar are a breakdown, not a solutio
   auto const set = slant::free_components(10);
   for_each_method(slant::separable_qp{A, b, set}, [&](std::string const& name, auto const& method) {
     CAPTURE(name);
-    auto const r = slant::solve(method, VectorXd(VectorXd::Zero(10)),
-                                slant::reduced_gradient_below(1e-8) || slant::at_most(10));
+    auto const r = test::minimise(method, test::zeros(10), 1e-8, 10);
     CHECK(r.status == status::breakdown);
   });
 }
@@ -269,8 +255,7 @@ TEST_CASE("a NaN that the operator makes later is a breakdown, not a result") {
     CAPTURE(good);
     auto const run = [&](auto make) {
       fragile const A{good};
-      auto const r = slant::solve(make(slant::separable_qp{A, b, set}), zero,
-                                  slant::reduced_gradient_below(1e-10) || slant::at_most(10));
+      auto const r = test::minimise(make(slant::separable_qp{A, b, set}), zero, 1e-10, 10);
       CHECK(r.status == status::breakdown);
       CHECK(r.reason.find("left the range") != std::string::npos);
     };

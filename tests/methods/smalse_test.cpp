@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "equality_scenes.hpp"
-
 #include <slant/methods/smalse.hpp>
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
+#include "equality_scenes.hpp"
 
 namespace smalse_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::status;
 using test::accurate;
 using test::known_problem;
@@ -48,7 +43,7 @@ TEST_CASE("semidefinite A, redundant rows") {
   slant::equality_constraints const constraints(sparse(rows.sparseView()), e);
   CHECK(constraints.redundant().size() == 2);
   slant::smalse const method{qp, constraints};
-  auto const r = slant::solve(method, VectorXd(VectorXd::Zero(p.n)), accurate(1e-11));
+  auto const r = slant::solve(method, test::zeros(p.n), accurate(1e-11));
   CHECK(r.converged());
   CHECK((r.x() - p.x).norm() <= 1e-8);
   CHECK((rows.transpose() * method.multipliers(r.state) - p.G.transpose() * p.μ).norm() <= 1e-8);
@@ -60,8 +55,7 @@ TEST_CASE(
     CAPTURE(θ);
     test::wedge const w(θ);
     auto const qp = w.qp();
-    auto const r =
-        slant::solve(slant::smalse{qp, w.constraints}, VectorXd(VectorXd::Zero(2)), accurate(1e-8));
+    auto const r = slant::solve(slant::smalse{qp, w.constraints}, test::zeros(2), accurate(1e-8));
     CAPTURE(r.reason);
     CHECK(!r.state.infeasible);
     CHECK((r.converged() || r.status == status::iteration_limit));
@@ -77,7 +71,7 @@ TEST_CASE("going on from another point and multiplier") {
   slant::smalse const method{qp, constraints};
   auto state = method.start(VectorXd::Zero(p.n));
   method.step(state);
-  auto const solution = slant::solve(method, VectorXd(VectorXd::Zero(p.n)), accurate(1e-12));
+  auto const solution = slant::solve(method, test::zeros(p.n), accurate(1e-12));
   method.resume(state, solution.x(), solution.state.ν);
   CHECK(state.reduced_gradient_norm <= 1e-10 * state.gradient_scale);
   CHECK(state.feasibility_norm <= 1e-11);
@@ -127,8 +121,7 @@ TEST_CASE("a function without minimum is told from one with") {
   MatrixXd const G{{0.0, 1.0, 1.0}};
   slant::equality_constraints const constraints(sparse(G.sparseView()),
                                                 VectorXd(VectorXd::Ones(1)));
-  auto const r =
-      slant::solve(slant::smalse{qp, constraints}, VectorXd(VectorXd::Zero(3)), accurate(1e-10));
+  auto const r = slant::solve(slant::smalse{qp, constraints}, test::zeros(3), accurate(1e-10));
   CHECK(r.status == status::unbounded);
 }
 
@@ -136,10 +129,8 @@ TEST_CASE("no equations at all: the solution of KPRGP") {
   known_problem const p;
   auto const qp = p.qp();
   slant::equality_constraints const none(sparse(0, p.n), VectorXd(0));
-  auto const free_run =
-      slant::solve(slant::smalse{qp, none}, VectorXd(VectorXd::Zero(p.n)), accurate(1e-10));
-  auto const plain = slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(p.n)),
-                                  slant::reduced_gradient_below(1e-11) || slant::at_most(5000));
+  auto const free_run = slant::solve(slant::smalse{qp, none}, test::zeros(p.n), accurate(1e-10));
+  auto const plain = test::minimise(slant::kprgp{qp}, test::zeros(p.n), 1e-11, 5000);
   CHECK(free_run.converged());
   CHECK((free_run.x() - plain.x()).norm() <= 1e-8);
 }

@@ -1,32 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/factorizations/ldlt.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/methods/solve_program.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
 #include <oracle/random_programs.hpp>
-#include <random>
-#include <sstream>
-#include <string>
 #include <support/program_sets.hpp>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace solve_program_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// Half lines and discs around a known solution: pressed, open, sliding and sticking nodes, with
 /// the stiffness of the nodes from 1 to `contrast`.
@@ -267,7 +246,7 @@ TEST_CASE("multigrid of a scaled matrix: what was constant is in its near kernel
   Eigen::SparseMatrix<double> const scaled = d.asDiagonal() * m.A * d.asDiagonal();
   auto const steps = [](auto const& A, VectorXd const& b, auto const& M) {
     auto const K = slant::matrix<slant::self_adjoint, slant::positive_definite>(A);
-    auto const run = slant::solve(slant::cg{K, b, M}, VectorXd(VectorXd::Zero(b.size())),
+    auto const run = slant::solve(slant::cg{K, b, M}, test::zeros(b.size()),
                                   slant::residual_below(1e-8) || slant::at_most(200));
     return run.iterations();
   };

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-#include <fem/thesis_ssnm.hpp>
-#include <slant/newton/saddle_solvers.hpp>
-#include <slant/newton/semismooth_newton.hpp>
+#include <slant/newton/newton.hpp>
 
-#include <support/allocation_guard.hpp>
+#include <fem/thesis_ssnm.hpp>
+#include <support/testing.hpp>
 
 namespace ssnm_test {
-
-using Eigen::VectorXd;
 
 /// Variant B, and its steps, allocate nothing.
 TEST_CASE("variant B: BiCGSTAB on the whole system, nothing factored, nothing allocated") {
@@ -42,7 +38,7 @@ TEST_CASE("the function of [T] with the generic Newton method ends at the same p
   auto const F = slant::kkt(w.A, w.b, set, 1.0);
   slant::semismooth_newton const method{F, slant::saddle_direct{}, slant::full_step{},
                                         slant::fixed_forcing{1e-10}};
-  auto const r = slant::solve(method, VectorXd::Zero(F.cols()).eval(),
+  auto const r = slant::solve(method, test::zeros(F.cols()),
                               slant::residual_below(1e-12) || slant::at_most(50));
   REQUIRE(r.converged());
   auto const direct = fem::run_wire_ssnm(w, 0, 0.5, slant::saddle_direct{}, {});
@@ -95,12 +91,12 @@ TEST_CASE("at the last digits the run stalls, with a residual of rounding errors
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
   slant::separable_qp const qp{A, w.b, set};
   slant::ssnm const method{qp, slant::saddle_direct{}};
-  auto const r = slant::solve(method, VectorXd::Zero(32).eval(), slant::at_most(100));
+  auto const r = slant::solve(method, test::zeros(32), slant::at_most(100));
   CHECK((r.status == slant::status::stalled || r.status == slant::status::converged ||
          r.status == slant::status::iteration_limit));
   CHECK(r.state.residual_norm <= 1e-14 * r.state.residual_scale);
-  auto const to = slant::solve(method, VectorXd::Zero(32).eval(),
-                               slant::residual_below(1e-12) || slant::at_most(100));
+  auto const to =
+      slant::solve(method, test::zeros(32), slant::residual_below(1e-12) || slant::at_most(100));
   CHECK(to.converged());
 }
 

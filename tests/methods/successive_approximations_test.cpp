@@ -2,27 +2,12 @@
 //
 // Obstacles that move with the solution: min ½ xᵀA x − bᵀx over x ≥ l, l = S x, a quasi-variational
 // inequality whose answer is found besides by relaxation to the last digits.
-#include <slant/methods/successive_approximations.hpp>
+#include <slant/slant.hpp>
 
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/contact_sets.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <Eigen/Dense>
-#include <support/allocation_guard.hpp>
-
-#include <string>
+#include <support/testing.hpp>
 
 namespace successive_approximations_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 constexpr Eigen::Index n = 12;
 
 MatrixXd laplacian() {
@@ -50,7 +35,7 @@ struct moving_obstacle {
       : rate(r),
         unit(u),
         b(-unit * VectorXd::LinSpaced(n, 0.2, 2)),
-        set(slant::half_lines(VectorXd(VectorXd::Zero(n)))),
+        set(slant::half_lines(test::zeros(n))),
         qp_(A, b, set) {}
 
   [[nodiscard]] auto const& qp() const { return qp_; }
@@ -95,7 +80,7 @@ TEST_CASE("the solution of the problem that belongs to it, at any scale") {
     CAPTURE(unit);
     moving_obstacle family(0.5, unit);
     slant::successive_approximations const method(family, newton(family));
-    auto const r = slant::solve(method, VectorXd(VectorXd::Zero(n)), stop(1e-12));
+    auto const r = slant::solve(method, test::zeros(n), stop(1e-12));
     REQUIRE(r.converged());
     CHECK((r.x() / unit - expected).norm() <= 1e-10 * expected.norm());
     CHECK(r.state.work.inner_iterations > 0);
@@ -106,7 +91,7 @@ TEST_CASE("any inner method whose states keep the gradient") {
   moving_obstacle family(0.5);
   auto const kprgp = [&](double) { return slant::kprgp{family.qp()}; };
   slant::successive_approximations const method(family, kprgp);
-  auto const r = slant::solve(method, VectorXd(VectorXd::Zero(n)), stop(1e-11));
+  auto const r = slant::solve(method, test::zeros(n), stop(1e-11));
   REQUIRE(r.converged());
   CHECK((r.x() - family.by_relaxation()).norm() <= 1e-9);
 }
@@ -119,7 +104,7 @@ TEST_CASE("acceleration: no more steps than the plain iteration") {
       slant::successive_options<double> o;
       o.window = window;
       slant::successive_approximations const method(family, newton(family), o);
-      auto const r = slant::solve(method, VectorXd(VectorXd::Zero(n)), stop(1e-12));
+      auto const r = slant::solve(method, test::zeros(n), stop(1e-12));
       CHECK(r.converged());
       return r.iterations();
     };
@@ -133,10 +118,10 @@ TEST_CASE("parameters that do not depend on x: one problem, and no product more 
   slant::successive_options<double> o;
   o.forcing.goal = goal;
   slant::successive_approximations const method(family, newton(family), o);
-  auto const r = slant::solve(method, VectorXd(VectorXd::Zero(n)), stop(goal));
+  auto const r = slant::solve(method, test::zeros(n), stop(goal));
   CHECK(r.converged());
   CHECK(r.iterations() == 1);
-  auto const one = slant::solve(newton(family)(goal), VectorXd(VectorXd::Zero(n)), stop(goal));
+  auto const one = slant::solve(newton(family)(goal), test::zeros(n), stop(goal));
   CHECK(r.state.work.operator_applications == one.state.work.operator_applications);
 }
 
@@ -155,8 +140,7 @@ TEST_CASE("a first guess that was P of the start, but does not stay, is not solv
   moving_obstacle guessed(0.5);  // the problem of that guess
   guessed.guess(VectorXd::Zero(n), l);
   guessed.assign(l);
-  auto const one =
-      slant::solve(slant::kprgp{guessed.qp()}, VectorXd(VectorXd::Zero(n)), stop(goal));
+  auto const one = slant::solve(slant::kprgp{guessed.qp()}, test::zeros(n), stop(goal));
   REQUIRE(one.converged());
   CHECK(2 * s.inner_iterations <= one.iterations());
   // The family is left with P(x).
@@ -208,7 +192,7 @@ TEST_CASE("goes on from a solution after the data have changed") {
 }
 
 struct inner_state {};
-using state = slant::successive_state<inner_state, Eigen::VectorXd>;
+using state = slant::successive_state<inner_state, VectorXd>;
 
 TEST_CASE("what a status means here; where the inner method is to blame, its own") {
   state s{};

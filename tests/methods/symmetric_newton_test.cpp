@@ -1,37 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <slant/iteration/solve.hpp>
-
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/ellipse.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/point.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/sets/second_order_cone.hpp>
-#include <slant/slanting/projection.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <krylov/spd_matrices.hpp>
 #include <oracle/dense_newton.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 #include "mixture.hpp"
-#include "support/message.hpp"
-
-#include <limits>
-#include <string>
 
 namespace symmetric_newton_test {
 
-using Eigen::MatrixXd;
-using Eigen::Vector2d;
-using Eigen::VectorXd;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// All inner systems solved to the last digit that the scalar has.
@@ -65,8 +42,7 @@ TEST_CASE("the same steps as Newton's method for the natural residual") {
   }
   CHECK(compared >= 3);
   auto const r = slant::solve(generic, x0, slant::residual_below(1e-13) || slant::at_most(100));
-  auto const ours =
-      slant::solve(method, x0, slant::reduced_gradient_below(1e-13) || slant::at_most(100));
+  auto const ours = test::minimise(method, x0, 1e-13, 100);
   REQUIRE(r.converged());
   REQUIRE(ours.converged());
   CHECK((ours.x() - r.x()).norm() <= 1e-11 * r.x().norm());
@@ -81,8 +57,8 @@ TEST_CASE("a mixture of all constraints, from anywhere, with any preconditioner"
     slant::separable_qp const qp{A, p.b, set};
     auto const reference = oracle::solve_dense(p.plain());
     VectorXd const exact = reference.x.cast<double>();
-    Eigen::MatrixXd const inverse = p.A.inverse();
-    auto const M = test::spd(Eigen::MatrixXd((inverse + inverse.transpose()) / 2));
+    MatrixXd const inverse = p.A.inverse();
+    auto const M = test::spd(MatrixXd((inverse + inverse.transpose()) / 2));
     auto const stop = slant::reduced_gradient_below(1e-11) || slant::at_most(500);
     for (double size : {0.0, 1.0, 1e10}) {
       CAPTURE(size);
@@ -104,7 +80,7 @@ TEST_CASE("what is counted, and one product a Newton step besides those of its i
   auto const A = slant::counted(test::spd(p.A));
   slant::separable_qp const qp{A, p.b, p.set()};
   slant::symmetric_newton method{qp};
-  auto s = method.start(VectorXd(VectorXd::Zero(20)));
+  auto s = method.start(test::zeros(20));
   CHECK(s.work.setup_applications == 0);  // A knows its diagonal
   // P_Λ(0) is not 0 in this set: its gradient and, in the first step, that of P_Λ(z).
   CHECK(A.applications() == 1);
@@ -144,11 +120,9 @@ TEST_CASE("every set: the solution of projected gradients, in a few superlinear 
     VectorXd const b = 4 * test::random_vector(n, seed + 50);
     slant::separable_qp const qp{A, b, set};
     VectorXd const x0 = 10 * test::random_vector(n, seed + 90);
-    auto const exact = slant::solve(slant::kprgp{qp}, x0,
-                                    slant::reduced_gradient_below(1e-13) || slant::at_most(50000));
+    auto const exact = test::minimise(slant::kprgp{qp}, x0, 1e-13, 50000);
     REQUIRE(exact.converged());
-    auto const r = slant::solve(slant::symmetric_newton{qp}, x0,
-                                slant::reduced_gradient_below(1e-13) || slant::at_most(60));
+    auto const r = test::minimise(slant::symmetric_newton{qp}, x0, 1e-13, 60);
     CHECK(r.converged());
     CHECK(r.state.descent.count() == 0);
     CHECK(r.iterations() <= 25);
@@ -165,11 +139,11 @@ TEST_CASE("warm start: from the solution of a neighbour, and from the solution i
   VectorXd const b = 4 * test::random_vector(n, 53),
                  neighbour = b + 1e-3 * test::random_vector(n, 7);
   auto const stop = slant::reduced_gradient_below(1e-11) || slant::at_most(60);
-  auto const first = slant::solve(slant::symmetric_newton{slant::separable_qp{A, b, set}},
-                                  VectorXd(VectorXd::Zero(n)), stop);
+  auto const first =
+      slant::solve(slant::symmetric_newton{slant::separable_qp{A, b, set}}, test::zeros(n), stop);
   REQUIRE(first.converged());
   slant::separable_qp const qp{A, neighbour, set};
-  auto const cold = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(n)), stop);
+  auto const cold = slant::solve(slant::symmetric_newton{qp}, test::zeros(n), stop);
   auto const warm = slant::solve(slant::symmetric_newton{qp}, first.x(), stop);
   REQUIRE(cold.converged());
   REQUIRE(warm.converged());
@@ -190,8 +164,7 @@ TEST_CASE("where Newton's method fails KPRGP takes over, and hands back") {
   slant::symmetric_newton_options<double> o;
   o.halvings = 0;
   o.sufficient = 0.99;
-  auto const r = slant::solve(slant::symmetric_newton{qp, o}, VectorXd(VectorXd::Zero(20)),
-                              slant::reduced_gradient_below(1e-11) || slant::at_most(5000));
+  auto const r = test::minimise(slant::symmetric_newton{qp, o}, test::zeros(20), 1e-11, 5000);
   CHECK(r.converged());
   CHECK(r.state.descent.count() >= 1);
   CHECK((r.x() - exact).norm() <= 1e-8 * exact.norm());
@@ -209,8 +182,7 @@ TEST_CASE(
   slant::symmetric_newton_options<double> o;
   o.halvings = 0;
   o.sufficient = 0.999;
-  auto const r = slant::solve(slant::symmetric_newton{qp, o}, VectorXd(VectorXd::Zero(3)),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(5000));
+  auto const r = test::minimise(slant::symmetric_newton{qp, o}, test::zeros(3), 1e-10, 5000);
   CHECK(r.status == slant::status::unbounded);
 
   test::mixture const p(1e3);
@@ -222,9 +194,8 @@ TEST_CASE(
       slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<float>(6));
   slant::symmetric_newton_options<float> of;
   of.sufficient = 0.95F;
-  auto const rf = slant::solve(slant::symmetric_newton{slant::separable_qp{Af, bf, set}, of},
-                               Eigen::VectorXf(Eigen::VectorXf::Zero(20)),
-                               slant::reduced_gradient_below(1e-3F) || slant::at_most(5000));
+  auto const rf = test::minimise(slant::symmetric_newton{slant::separable_qp{Af, bf, set}, of},
+                                 Eigen::VectorXf(Eigen::VectorXf::Zero(20)), 1e-3F, 5000);
   CHECK(rf.converged());
 }
 
@@ -234,8 +205,7 @@ TEST_CASE("the precision is exhausted: stalled, at the floor") {
     test::mixture const p(κ);
     auto const A = test::spd(p.A);
     slant::separable_qp const qp{A, p.b, p.set()};
-    auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(20)),
-                                slant::reduced_gradient_below(0.0) || slant::at_most(3000));
+    auto const r = test::minimise(slant::symmetric_newton{qp}, test::zeros(20), 0.0, 3000);
     CHECK((r.status == slant::status::stalled || r.status == slant::status::converged));
     CHECK(r.iterations() <= 1000);
     // 100 ε times what the entries of A x − b are rounded against.
@@ -251,8 +221,7 @@ TEST_CASE("no minimum: unbounded, with the direction") {
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
   VectorXd const b = VectorXd::Ones(2);
   slant::separable_qp const qp{A, b, slant::half_lines(2)};
-  auto const r = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(2)),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(1000));
+  auto const r = test::minimise(slant::symmetric_newton{qp}, test::zeros(2), 1e-10, 1000);
   CHECK(r.status == slant::status::unbounded);
   REQUIRE(r.state.descent.state().has_value());
   VectorXd const d = -r.state.descent.state()->directions.p;
@@ -267,9 +236,8 @@ TEST_CASE("a matrix that breaks its promise is no convergence") {
   VectorXd const b{{1.0, 1.0, 1.0}};
   slant::separable_qp const qp{A, b, slant::free_components(3)};
   auto const message = test::complaint([&] {
-    auto const r =
-        slant::solve(slant::symmetric_newton{qp, {.step_length = 0.3}}, VectorXd(VectorXd::Zero(3)),
-                     slant::reduced_gradient_below(1e-10) || slant::at_most(1000));
+    auto const r = test::minimise(slant::symmetric_newton{qp, {.step_length = 0.3}}, test::zeros(3),
+                                  1e-10, 1000);
     CHECK_FALSE(r.converged());
     CHECK(r.status != slant::status::running);
   });

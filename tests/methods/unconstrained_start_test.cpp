@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/unconstrained_start.hpp>
+#include <slant/slant.hpp>
 
-#include <slant/operators/counted.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/contact_sets.hpp>
-
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <utility>
-
+#include <support/testing.hpp>
 #include "second_differences.hpp"
-#include "support/allocation_guard.hpp"
 
 namespace unconstrained_start_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::index;
 
 auto positive(MatrixXd a) {
@@ -30,7 +18,7 @@ TEST_CASE("the projection of the minimum without constraints, as accurate as ask
   VectorXd const b = VectorXd::LinSpaced(n, -1, 1);
   VectorXd const x = A.partialPivLu().solve(b);
   auto const a = slant::counted(positive(A));
-  slant::separable_qp const qp{a, b, slant::half_lines(VectorXd(VectorXd::Zero(n)))};
+  slant::separable_qp const qp{a, b, slant::half_lines(test::zeros(n))};
   auto const exact = slant::unconstrained_start(qp, 1e-12);
   CHECK((exact.x - x.cwiseMax(0)).norm() <= 1e-10 * x.norm());
   CHECK(exact.applications == a.applications());
@@ -61,7 +49,7 @@ TEST_CASE("nothing to do, no curvature, numbers out of range: a point of the set
 
 TEST_CASE("bad input") {
   slant::separable_qp const qp{positive(test::second_differences(3)), VectorXd(VectorXd::Ones(3)),
-                               slant::half_lines(VectorXd(VectorXd::Zero(3)))};
+                               slant::half_lines(test::zeros(3))};
   CHECK_THROWS_AS((void)slant::unconstrained_start(qp, 0.0), slant::bad_input);
   CHECK_THROWS_AS((void)slant::unconstrained_start(qp, 0.1, -1), slant::bad_input);
   CHECK_THROWS_AS((void)slant::unconstrained_start(qp, positive(test::second_differences(4))),
@@ -72,7 +60,7 @@ TEST_CASE("steps allocate nothing: the vectors are those of the start") {
   index const n = 12;
   VectorXd const b = VectorXd::LinSpaced(n, -1, 1);
   slant::separable_qp const qp{positive(test::second_differences(n)), b,
-                               slant::half_lines(VectorXd(VectorXd::Zero(n)))};
+                               slant::half_lines(test::zeros(n))};
   auto const allocations_of = [&](index most) {
     slant::testing::allocation_guard const guard;
     auto const start = slant::unconstrained_start(qp, 1e-12, most);

@@ -3,19 +3,12 @@
 // Verdicts of the projected gradient family on random programs and from starts far away:
 // `converged` beside an independent residual, no `unbounded` for a definite A, and an end at the
 // rounding floor.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <oracle/random_programs.hpp>
-#include <string>
+#include <support/minimise.hpp>
 #include <support/program_sets.hpp>
+#include <support/testing.hpp>
 
 namespace verdicts_test {
 
@@ -40,20 +33,19 @@ void solve_with_each(oracle::random_program const& p, double start, double toler
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A);
   auto const set = test::set_of(p);
   slant::separable_qp const qp{A, p.b, set};
-  Eigen::VectorXd const x0 = Eigen::VectorXd::Constant(p.size(), start);
+  VectorXd const x0 = VectorXd::Constant(p.size(), start);
   with_each_method(qp, [&](char const* name, auto const& method) {
     CAPTURE(name);
-    f(name,
-      slant::solve(method, x0, slant::reduced_gradient_below(tolerance) || slant::at_most(limit)));
+    f(name, test::minimise(method, x0, tolerance, limit));
   });
 }
 
 /// A = [2 1; 1 2], b = (1, 1), x ≥ 0, from (size, size): the solution is (1/3, 1/3).
 oracle::random_program two_half_lines() {
   oracle::random_program p;
-  p.A = Eigen::MatrixXd{{2.0, 1.0}, {1.0, 2.0}};
-  p.b = Eigen::VectorXd::Ones(2);
-  p.lower = Eigen::VectorXd::Zero(2);
+  p.A = MatrixXd{{2.0, 1.0}, {1.0, 2.0}};
+  p.b = VectorXd::Ones(2);
+  p.lower = VectorXd::Zero(2);
   return p;
 }
 
@@ -63,7 +55,7 @@ TEST_CASE("starts far away: solved, and never called solved at a point that the 
     CAPTURE(size);
     solve_with_each(p, size, 1e-8, 2000, [&](char const*, auto const& r) {
       CHECK(r.converged());
-      CHECK((r.x() - Eigen::VectorXd::Constant(2, 1.0 / 3)).norm() <= 1e-7);
+      CHECK((r.x() - VectorXd::Constant(2, 1.0 / 3)).norm() <= 1e-7);
       CHECK(oracle::relative_residual(p, r.x()) <= 1e-7);
     });
   }
@@ -102,8 +94,7 @@ TEST_CASE("A of 1e-307: curvatures that vanish are no proof that there is no min
     auto const definite = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.A);
     auto const set = test::set_of(p);
     slant::separable_qp const qp{definite, p.b, set};
-    auto const r = slant::solve(slant::gimssn{qp}, Eigen::VectorXd(Eigen::VectorXd::Zero(p.size())),
-                                slant::reduced_gradient_below(1e-8) || slant::at_most(300));
+    auto const r = test::minimise(slant::gimssn{qp}, test::zeros(p.size()), 1e-8, 300);
     CHECK(r.status != status::unbounded);
   }
 }

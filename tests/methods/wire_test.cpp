@@ -2,28 +2,15 @@
 //
 // The wire [T §4.1] from zero: every method finds the printed numbers of active constraints, the
 // cells where the thesis failed included. Others than these run in tests/scenes.
-#include <slant/factorizations/ldlt.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/direct_solver.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/projection.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <fem/active_counts.hpp>
 #include <fem/string_1d.hpp>
 #include <fem/wire_counts.hpp>
-#include <support/effort.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
 namespace wire_test {
-
-using Eigen::VectorXd;
 
 /// run(program, wire) for the first `entries` cells of each row of the tables.
 template <class Run>
@@ -54,8 +41,8 @@ VectorXd zero(fem::wire<> const& wire) {
 
 TEST_CASE("mssn") {
   check_cells(2, [](auto const& qp, auto const& wire) {
-    return slant::solve(slant::mssn{qp, {.step_length = 1.9 * wire.h() / 4}}, zero(wire),
-                        slant::reduced_gradient_below(1e-9) || slant::at_most(20000));
+    return test::minimise(slant::mssn{qp, {.step_length = 1.9 * wire.h() / 4}}, zero(wire), 1e-9,
+                          20000);
   });
 }
 
@@ -63,8 +50,7 @@ TEST_CASE("symmetric_newton with A⁻¹: no descent step is needed") {
   check_cells(test::effort(7, 3), [](auto const& qp, auto const& wire) {  // n = 2048 or 128
     slant::symmetric_newton const method{
         qp, slant::inverse(slant::ldlt(wire.A)), {.step_factor = 2.0}};
-    auto const r = slant::solve(method, zero(wire),
-                                slant::reduced_gradient_below(1e-10) || slant::at_most(400));
+    auto const r = test::minimise(method, zero(wire), 1e-10, 400);
     CHECK(r.state.descent.count() == 0);
     // The thesis needs up to 223 steps where bounds alone are active; the front moves by a node.
     CHECK(r.iterations() <= 8 + wire.m / 2);
