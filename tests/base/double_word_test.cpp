@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/double_word.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
+#include <support/testing.hpp>
 #include "oracle/hard_points.hpp"
 #include "oracle/precise.hpp"
-
-#include <limits>
 
 namespace double_word_test {
 

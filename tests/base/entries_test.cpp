@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/entries.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
+#include <support/testing.hpp>
 
 namespace entries_test {
 
@@ -43,11 +41,11 @@ TEST_CASE_TEMPLATE("entries: what Eigen's expressions say", M, Eigen::Matrix<dou
 }
 
 TEST_CASE("entries: parts of a long vector") {
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(9, 1, 9);
-  CHECK(entries::entries_at<3>(x.data() + 3) == Eigen::Vector3d(4, 5, 6));
-  entries::put_entries(Eigen::Vector2d(-1, -2), x.data() + 7);
-  CHECK(x.tail(3) == Eigen::Vector3d(7, -1, -2));
-  CHECK(entries::tail_of(Eigen::Vector3d(1, 2, 3)) == Eigen::Vector2d(2, 3));
+  VectorXd x = VectorXd::LinSpaced(9, 1, 9);
+  CHECK(entries::entries_at<3>(x.data() + 3) == Vector3d(4, 5, 6));
+  entries::put_entries(Vector2d(-1, -2), x.data() + 7);
+  CHECK(x.tail(3) == Vector3d(7, -1, -2));
+  CHECK(entries::tail_of(Vector3d(1, 2, 3)) == Vector2d(2, 3));
   CHECK(entries::largest_of(x) == 7.0);
 }
 
@@ -58,15 +56,15 @@ TEST_CASE("entries: zeros, infinities and NaN, in vectors of fixed and other siz
     CHECK(entries::all_zero(v) == zero);
     CHECK(entries::all_finite(v) == finite);
     CHECK(entries::has_nan(v) == has_nan);
-    Eigen::VectorXd const dynamic = v;
+    VectorXd const dynamic = v;
     CHECK(entries::all_zero(dynamic) == zero);
     CHECK(entries::all_finite(dynamic) == finite);
     CHECK(entries::has_nan(dynamic) == has_nan);
   };
-  check(Eigen::Vector3d(0, -0.0, 0), true, true, false);
-  check(Eigen::Vector3d(0, 5e-324, 0), false, true, false);
-  check(Eigen::Vector2d(1, -inf), false, false, false);
-  check(Eigen::Vector2d(nan, 0), false, false, true);
+  check(Vector3d(0, -0.0, 0), true, true, false);
+  check(Vector3d(0, 5e-324, 0), false, true, false);
+  check(Vector2d(1, -inf), false, false, false);
+  check(Vector2d(nan, 0), false, false, true);
   check(Eigen::Matrix<double, 0, 1>(), true, true, false);
 }
 

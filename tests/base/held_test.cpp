@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/held.hpp>
 
-#include <doctest/doctest.h>
-
-#include <memory>
-#include <type_traits>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace held_test {
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/partitions.hpp>
 
-#include <doctest/doctest.h>
-
-#include <vector>
+#include <support/testing.hpp>
 
 namespace node_blocks_test {
 

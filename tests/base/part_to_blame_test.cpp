@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <slant/base/diagnosis.hpp>
 #include <slant/operators/operators.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-
-#include <type_traits>
+#include <support/testing.hpp>
 
 namespace part_to_blame_test {
 
-using Eigen::VectorXd;
 using Eigen::VectorXf;
 
 /// Two rows and columns, on vectors of type V.

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/progress_watch.hpp>
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
+#include <support/testing.hpp>
 
 namespace progress_watch_test {
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "iteration/toy_method.hpp"
-
 #include <slant/base/report.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <sstream>
-#include <string>
+#include <support/testing.hpp>
+#include "iteration/toy_method.hpp"
 
 namespace report_test {
 
@@ -29,7 +24,7 @@ TEST_CASE("a report answers from its state, and only success is convergence") {
 
 /// The state of a method on vectors.
 struct vector_state {
-  Eigen::VectorXd x;
+  VectorXd x;
   slant::index iteration;
   slant::status status;
   slant::work work;
@@ -49,7 +44,7 @@ TEST_CASE("a report prints how it ended and what was spent, and nothing that is 
   CHECK(printed(slant::report<toy::state>{last, status::stalled, "because"}) ==
         "stalled: because\n"
         "  steps                  7\n");
-  vector_state s{Eigen::VectorXd::Zero(12), 9, status::running, {}};
+  vector_state s{VectorXd::Zero(12), 9, status::running, {}};
   s.work = {.operator_applications = 51};
   CHECK(printed(slant::report<vector_state>{s, status::converged, "done"}) ==
         "converged: done\n"

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/scaling.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/hard_points.hpp"
 #include "oracle/precise.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
 
 namespace scaled_norm_test {
 

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <slant/iteration/solve.hpp>
+#include <slant/krylov/krylov.hpp>
+
+#include <support/testing.hpp>
 #include "krylov/spd_matrices.hpp"
 
-#include <slant/base/scaling.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
-
 namespace unit_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("the unit is a power of two next to the size, whose reciprocal is finite") {
   CHECK(slant::unit_near(1.0) == 2);
@@ -36,7 +26,7 @@ TEST_CASE("A and b of size 1e±150: the same bits after the same steps") {
   VectorXd const b = test::random_vector(40);
   auto const runs = [&](int stiffness, int load) {
     double const s = std::ldexp(1.0, stiffness), t = std::ldexp(1.0, load);
-    auto const A = test::spd(Eigen::MatrixXd(s * M));
+    auto const A = test::spd(MatrixXd(s * M));
     VectorXd const right = t * b, zero = VectorXd::Zero(40);
     auto const stop = slant::residual_below(1e-12) || slant::at_most(400);
     struct run {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <slant/base/vector_algebra.hpp>
 
-#include <doctest/doctest.h>
-
-#include "support/allocation_guard.hpp"
+#include <support/testing.hpp>
 
 namespace {
 
-using Eigen::VectorXd;
 namespace vectors = slant::vectors;
 using strided = Eigen::Map<VectorXd, 0, Eigen::InnerStride<3>>;
 
@@ -88,9 +85,9 @@ TEST_CASE("results in place, entries apart from each other, and parts of vectors
 
 TEST_CASE("several columns, whatever the order they are stored in") {
   using by_rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::MatrixXd const a = Eigen::MatrixXd::Random(4, 3), b = Eigen::MatrixXd::Random(4, 3);
+  MatrixXd const a = MatrixXd::Random(4, 3), b = MatrixXd::Random(4, 3);
   by_rows const c = b;
-  Eigen::MatrixXd d;
+  MatrixXd d;
   vectors::difference(a, b, d);
   CHECK(d == a - b);
   vectors::difference(a, c, d);
@@ -98,7 +95,7 @@ TEST_CASE("several columns, whatever the order they are stored in") {
   by_rows e = c;
   vectors::waxpy(2, c, e, e);
   CHECK(e == 3 * c);
-  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(6, 3);
+  MatrixXd wide = MatrixXd::Zero(6, 3);
   auto middle = wide.middleRows(1, 4);
   vectors::copy(a, middle);
   CHECK(wide.middleRows(1, 4) == a);

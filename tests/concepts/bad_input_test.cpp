@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/bad_input.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <stdexcept>
-#include <string>
+#include <support/testing.hpp>
 
 namespace bad_input_test {
 

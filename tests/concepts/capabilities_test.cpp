@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/capabilities.hpp>
-
 #include <slant/operators/restriction.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace capabilities_test {
 
-using Eigen::VectorXd;
 using slant::bad_input;
 
 TEST_CASE("adjoints and accumulations name the argument whose size is wrong") {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <slant/concepts/convex_set.hpp>
-
-#include <slant/sets/ball.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace convex_set_test {
 
-using Eigen::VectorXd;
 using slant::bad_input;
 
 TEST_CASE("project names the argument whose size is wrong, and resizes nothing") {

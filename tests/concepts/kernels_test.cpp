@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/kernels.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-
-#include <cmath>
-#include <limits>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace {
 

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <slant/concepts/linear_operator.hpp>
-
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/operators/inverse.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/operators/restriction.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace linear_operator_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::bad_input;
 
 /// What apply says of arguments with these sizes.
@@ -50,8 +42,8 @@ TEST_CASE("apply names the argument whose size is wrong, and resizes nothing") {
 TEST_CASE("sizes are those of the local parts") {
   using slant::testing::archetype::vector;
   slant::testing::archetype::linear_operator const a(test::random_dense(2, 3, 3));
-  vector const x(VectorXd(VectorXd::Zero(3)));
-  vector const y(VectorXd(VectorXd::Zero(2)));
+  vector const x(test::zeros(3));
+  vector const y(test::zeros(2));
   CHECK(complaint(a, x, y) == "nothing thrown");
   CHECK(complaint(a, y, y) == "x: got 2 rows, expected 3 (cols() of the operator)");
   CHECK(complaint(a, x, x) == "y: got 3 rows, expected 2 (rows() of the operator)");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 #include <slant/concepts/member_names.hpp>
+
+#include <support/testing.hpp>
 
 namespace member_names_test {
 

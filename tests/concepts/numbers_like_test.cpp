@@ -2,19 +2,12 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/vector.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/Core>
-
-#include <array>
-#include <cstddef>
+#include <support/testing.hpp>
 
 namespace numbers_like_test {
 
 using Eigen::Matrix2d;
-using Eigen::Vector2d;
 using Eigen::Vector2f;
-using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 TEST_CASE("numbers_like: the scalar is the same, sizes agree as far as types tell") {
   static_assert(slant::numbers_like<Vector2d, VectorXd, 2, 1>);

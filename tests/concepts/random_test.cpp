@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/random.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <random>
+#include <support/testing.hpp>
 
 TEST_CASE("random_bits are the numbers of std::mt19937_64") {
   for (std::uint64_t const seed : {0ULL, 1ULL, 5489ULL, 19905ULL, ~0ULL}) {

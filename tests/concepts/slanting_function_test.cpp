@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <slant/concepts/slanting_function.hpp>
-
 #include <slant/slanting/affine.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
-#include "support/message.hpp"
 
 namespace slanting_function_test {
 
-using Eigen::VectorXd;
 using slant::bad_input;
 
 TEST_CASE("evaluate and update_slant name the argument whose size is wrong") {

@@ -2,29 +2,16 @@
 //
 // A vector whose entries belong to another library: methods and sets use it
 // through the Eigen::Map that it keeps.
-#include <slant/concepts/vector.hpp>
-
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/methods/kprgp.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace vector_test {
 
-using Eigen::VectorXd;
 using own_vector = slant::testing::archetype::vector;
 
 class foreign {

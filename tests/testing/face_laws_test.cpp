@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/face.hpp>
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <string>
+#include <support/testing.hpp>
 
 namespace face_laws_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("the face of the library and the least face keep their word") {
   auto const set = slant::cartesian(slant::half_lines(3), slant::discs(VectorXd{{1.0, 0.0}}));

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // The law checks must find operators that lie: one liar per law, and honest operators that pass.
+#include <slant/operators/operators.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/testing/archetypes.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/QR>
-
-#include <string>
+#include <support/testing.hpp>
 
 namespace operator_laws_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 using archetype::vector;
 

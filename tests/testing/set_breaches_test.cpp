@@ -5,11 +5,8 @@
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/set_breaches.hpp>
 
+#include <support/testing.hpp>
 #include "lying_sets.hpp"
-
-#include <doctest/doctest.h>
-
-#include <string>
 
 namespace set_breaches_test {
 
@@ -118,7 +115,7 @@ TEST_CASE("set_breaches: products that are not what their blocks are") {
 
 TEST_CASE("set_breaches: a set that takes no Eigen vectors") {
   namespace archetype = slant::testing::archetype;
-  archetype::vector const prototype(Eigen::VectorXd::Zero(3));
+  archetype::vector const prototype(VectorXd::Zero(3));
   CHECK(slant::testing::set_breaches(archetype::separable_set(3), prototype).empty());
 }
 

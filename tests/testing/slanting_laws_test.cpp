@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The law check itself: it passes right functions, also at kinks, and finds wrong ones.
-#include <slant/operators/diagonal.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include <support/testing.hpp>
 
 namespace slanting_laws_test {
-
-using Eigen::VectorXd;
 
 using slant::testing::slanting_breaches;
 
@@ -87,7 +79,7 @@ TEST_CASE("float, long double and fixed sizes") {
   slant::testing::check_slanting_laws(as_long, vector(vector::Constant(3, 0.7L)));
   auto const in_plane =
       pointwise{2, [](double a) { return std::sin(a); }, [](double a) { return std::cos(a); }};
-  slant::testing::check_slanting_laws(in_plane, Eigen::Vector2d(0.4, -1.0));
+  slant::testing::check_slanting_laws(in_plane, Vector2d(0.4, -1.0));
 }
 
 TEST_CASE("the archetype keeps the laws, on archetype vectors") {
@@ -176,7 +168,7 @@ TEST_CASE("broken protocol is found") {
 
   struct too_wide : square_base {
     [[nodiscard]] auto slant(VectorXd const&) const {
-      return slant::matrix(Eigen::MatrixXd::Zero(2, 3).eval());
+      return slant::matrix(MatrixXd::Zero(2, 3).eval());
     }
   };
   CHECK(finds("sizes", too_wide{}, y));

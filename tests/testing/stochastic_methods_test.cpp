@@ -2,9 +2,8 @@
 //
 // Every method takes the stochastic scalar unchanged, and what it says of the digits is true where
 // the truth is known.
+#include <support/testing.hpp>
 #include "stochastic_scene.hpp"
-
-#include <doctest/doctest.h>
 
 namespace stochastic_methods_test {
 

@@ -3,9 +3,7 @@
 // The stochastic scalar knows what rounding has left of computations whose errors are known.
 #include <slant/testing/stochastic.hpp>
 
-#include <doctest/doctest.h>
-
-#include <vector>
+#include <support/testing.hpp>
 
 namespace stochastic_test {
 
