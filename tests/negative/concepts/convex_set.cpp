@@ -12,9 +12,7 @@
 //
 // A disc minus the test of membership; one whose projection returns three components, whose slanting
 // operator has one row, or that announces one inequality and returns two.
-#include <slant/concepts/convex_set.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct disc {
   static constexpr int dimension = 2;

@@ -5,9 +5,7 @@
 // max-lines-clang: 30
 //
 // A factorisation minus its solve.
-#include <slant/concepts/factorization.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct half {
   Eigen::Index rows() const { return 2; }

@@ -4,9 +4,7 @@
 // max-lines-clang: 30
 //
 // A slanting function whose F°(y) is a matrix, and not an operator that could be applied.
-#include <slant/concepts/slanting_function.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct twice {
   Eigen::Index rows() const { return 2; }

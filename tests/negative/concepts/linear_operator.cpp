@@ -11,9 +11,7 @@
 //
 // An operator minus its sizes, with a misspelt apply, or not const while it is applied: two threads
 // could not share it; minus the copy of its workspace: no state of a method could be saved.
-#include <slant/concepts/linear_operator.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct room {
   room() = default;

@@ -6,9 +6,7 @@
 //
 // A stopping rule minus the sentence that says why it fired, or one that answers yes or no, from
 // which nobody learns whether that is success.
-#include <slant/concepts/iterative_method.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct state {
   Eigen::VectorXd x;

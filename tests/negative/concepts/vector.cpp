@@ -12,11 +12,7 @@
 // A vector of its own kind minus the part of it on which Eigen works, the way to make another one, or
 // its inner product; or one whose inner product is no number. Of the operator of conjugate gradients
 // nothing is said then.
-#include <slant/krylov/cg.hpp>
-
-#include <Eigen/Core>
-
-#include <string>
+#include <slant/slant.hpp>
 
 struct distributed {
   Eigen::VectorXd entries;

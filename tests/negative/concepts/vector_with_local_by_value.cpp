@@ -4,11 +4,7 @@
 // max-lines-clang: 20
 //
 // A vector with foreign storage that makes a new view at each call instead of keeping one.
-#include <slant/concepts/vector.hpp>
-
-#include <Eigen/Core>
-
-#include <vector>
+#include <slant/slant.hpp>
 
 struct foreign {
   using view = Eigen::Map<Eigen::VectorXd>;

@@ -10,9 +10,7 @@
 //
 // B K⁻¹ B where B K⁻¹ Bᵀ is meant: the first line shows the formula and the place. Two matrices that
 // happen to be one: the compiler sees two. A maximum written as a minimum.
-#include <slant/factorizations/dense_ldlt.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/operators.hpp>
+#include <slant/slant.hpp>
 
 auto method(Eigen::MatrixXd const& matrix, Eigen::MatrixXd const& stiffness,
             Eigen::VectorXd const& b) {

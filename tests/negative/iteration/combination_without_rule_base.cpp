@@ -5,9 +5,7 @@
 // max-lines-clang: 25
 //
 // A rule of its own that is not derived from slant::rule and so has no part in || and &&.
-#include <slant/iteration/stopping.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 #ifdef SLANT_COMPLETE
 struct never : slant::rule {

@@ -15,10 +15,7 @@
 // A method minus its step or its start, a state minus what says how things stand, or, for a progress
 // bar, minus a measure of accuracy.
 #include <slant/iteration/iterates.hpp>
-#include <slant/iteration/observers.hpp>
-#include <slant/iteration/solve.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct halving_state {
   Eigen::VectorXd x;

@@ -8,13 +8,7 @@
 //
 // A level with an Eigen matrix where an operator is needed, for which the call of slant::matrix is
 // missing; a level minus its prolongation.
-#include <slant/iteration/nested.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/matrix.hpp>
-
-#include <Eigen/Core>
-#include <vector>
+#include <slant/slant.hpp>
 
 struct level {
   Eigen::VectorXd b;

@@ -9,11 +9,7 @@
 //
 // The rule of KPRGP for conjugate gradients, whose state has a residual and no reduced gradient: alone,
 // in a combination of rules, for the second of two methods.
-#include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/identity.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 #ifdef REDUCED_GRADIENT
 auto const accurate = slant::reduced_gradient_below(1e-8);

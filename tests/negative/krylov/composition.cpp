@@ -15,11 +15,7 @@
 // A matrix is not an operator, and promises nothing: slant::matrix<laws…>(K) does. B A Bᵀ where nobody
 // has asserted that the rows of B are independent; a multiple by a number of any sign; a right-hand
 // side that is an expression and has no entries of its own.
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/product.hpp>
+#include <slant/slant.hpp>
 
 auto with_a_matrix(Eigen::MatrixXd const& K, Eigen::VectorXd const& b) {
 #ifdef MATRIX

@@ -18,12 +18,7 @@
 // rows; on vectors of float, where its laws are not to blame; or that returns its result instead of
 // writing it. Conjugate gradients with it and with it as preconditioner, and its largest eigenvalue,
 // beside which there may be negative ones of larger modulus.
-#include <slant/iteration/solve.hpp>
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/krylov/range_cg.hpp>
-#include <slant/krylov/spectral_bound.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/slant.hpp>
 
 struct twice {
 #if defined(WITHOUT_SELF_ADJOINTNESS)

@@ -11,13 +11,7 @@
 //
 // Compositions of which one part is to blame, and named: a factorisation whose solve returns its result,
 // a factor whose adjoint does, an operator on vectors of float in a sum of multiples.
-#include <slant/krylov/bicgstab.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/sum.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 using vector = Eigen::VectorXd;
 #ifdef APPLY_OF_OTHER_SCALAR

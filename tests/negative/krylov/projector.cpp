@@ -4,8 +4,7 @@
 // max-lines-clang: 30
 //
 // A projector minus the minimum over what it projects along.
-#include <slant/krylov/range_cg.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/slant.hpp>
 
 struct without_first {
   Eigen::Index rows() const { return 2; }

@@ -4,8 +4,7 @@
 // max-lines-clang: 14
 //
 // An operator that does not give its diagonal.
-#include <slant/problems/equilibrated.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 struct twice {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;

@@ -6,14 +6,7 @@
 // max-lines-clang: 20
 //
 // A norm where a method follows the faces of a set.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/problems/minimise.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/sets/support.hpp>
+#include <slant/slant.hpp>
 
 auto solution(Eigen::VectorXd const& b) {
   auto const q = slant::quadratic(slant::identity_operator(b.size()), b);

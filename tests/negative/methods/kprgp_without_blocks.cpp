@@ -5,9 +5,7 @@
 // max-lines-clang: 30
 //
 // A set that is neither a block with states nor a product of such blocks.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/operators/identity.hpp>
+#include <slant/slant.hpp>
 
 struct nonnegative {
   slant::index n;

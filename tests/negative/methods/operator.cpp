@@ -16,12 +16,7 @@
 // q(x) = ½ xᵀA x − bᵀx is convex, minus its columns, or with a misspelt apply; the operator alone
 // instead of the program; a problem of another kind, which has vectors and a scalar as well. An
 // observer may add nothing to the complaint.
-#include <slant/iteration/observers.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/problems/polyhedral_qp.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 struct twice {
 #if defined(WITHOUT_SEMIDEFINITENESS)

@@ -6,10 +6,7 @@
 // max-lines-clang: 30
 //
 // A function minus the slanting operator of its proximal map, and what is neither a set nor a function.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/problems/separable_qp.hpp>
+#include <slant/slant.hpp>
 
 struct half_square {
   static constexpr int dimension = 2;

@@ -5,11 +5,7 @@
 // max-lines-clang: 30
 //
 // A preconditioner minus its promise to be self-adjoint and semidefinite.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 struct smoother {
 #ifndef WITHOUT_LAWS

@@ -26,14 +26,7 @@
 // Programs with equations and of contact whose operator has not promised to be semidefinite, of which
 // solve asks that q is convex; G alone, or a dense one, instead of G x = e; a stiffness instead of a
 // problem; a block that any_set, a list of known kinds, does not have.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/constrained_newton.hpp>
-#include <slant/methods/schur_contact.hpp>
-#include <slant/methods/smalse.hpp>
-#include <slant/problems/any_qp.hpp>
-#include <slant/problems/equality_constraints.hpp>
-#include <slant/problems/minimise.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 struct twice {
 #ifdef WITHOUT_SEMIDEFINITENESS

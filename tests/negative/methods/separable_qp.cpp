@@ -10,8 +10,7 @@
 //
 // A matrix is not an operator: slant::matrix(A) makes one of it. A linear term that is an expression:
 // nothing is said of A and the set. A set minus its projection.
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/separable_qp.hpp>
+#include <slant/slant.hpp>
 
 struct nonnegative {
   slant::index n;

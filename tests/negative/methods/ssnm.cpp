@@ -7,12 +7,7 @@
 //
 // The operator alone instead of the quadratic program; variant A, which factors A, for an operator
 // that is no matrix.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/ssnm.hpp>
-#include <slant/newton/krylov_solvers.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 auto solution(Eigen::SparseMatrix<double> const& K, Eigen::VectorXd const& b) {
 #ifdef ACTION

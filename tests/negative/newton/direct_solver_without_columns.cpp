@@ -4,9 +4,7 @@
 // max-lines-clang: 50
 //
 // A derivative that can only be applied.
-#include <slant/iteration/solve.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/affine.hpp>
+#include <slant/slant.hpp>
 
 struct twice {
   Eigen::Index rows() const { return 2; }

@@ -6,11 +6,7 @@
 //
 // The gradient of a convex function whose Hessian nobody has declared definite; a natural residual
 // with a matrix that promises to be semidefinite alone.
-#include <slant/iteration/solve.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/slant.hpp>
 
 auto function_for(slant::cg_solver const&, auto const& A, Eigen::VectorXd const& b) {
   return slant::affine(A, -b);

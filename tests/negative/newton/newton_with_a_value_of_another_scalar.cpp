@@ -4,8 +4,7 @@
 // max-lines-clang: 40
 //
 // A function of vectors of float, started from one of double.
-#include <slant/iteration/solve.hpp>
-#include <slant/newton/semismooth_newton.hpp>
+#include <slant/slant.hpp>
 
 struct squares {
 #ifdef SLANT_COMPLETE

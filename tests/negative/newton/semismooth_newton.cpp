@@ -11,9 +11,7 @@
 // A tolerance in the place of a forcing rule; a client's globalisation minus what it does after a
 // refusal; a client's solver minus the state that it works in. A matrix is not a function F: for
 // A y = b there is affine(A, -b).
-#include <slant/iteration/solve.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/slanting/affine.hpp>
+#include <slant/slant.hpp>
 
 struct monotone {
   int first_length() const { return 1; }

@@ -12,10 +12,7 @@
 //
 // An operator minus apply_adjoint, so that nobody knows its adjoint; as the outer factor of B A Bᵀ, and
 // as B₁ of D + B₂ K⁻¹ B₁ᵀ.
-#include <slant/operators/block.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/operators/letter.hpp>
-#include <slant/operators/product.hpp>
+#include <slant/slant.hpp>
 
 struct first_two {
   Eigen::Index rows() const { return 2; }

@@ -8,9 +8,7 @@
 //
 // An operator that cannot be inverted: it is no factorisation, and has no inverse(). A factorisation
 // minus its solve.
-#include <slant/operators/inverse.hpp>
-
-#include <Eigen/Core>
+#include <slant/slant.hpp>
 
 struct twice {
   Eigen::Index rows() const { return 2; }

@@ -7,9 +7,7 @@
 //
 // A term minus the number of its columns, the right factor of a product minus apply: noticed where the
 // composition is made.
-#include <slant/operators/identity.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/operators/sum.hpp>
+#include <slant/slant.hpp>
 
 struct twice {
   Eigen::Index rows() const { return 2; }

@@ -32,18 +32,7 @@
 // the next block begins; a product has a slanting operator and steps if its parts have them; functions
 // and methods ask for the slanting operator of its projection, a smooth inequality form, the state of
 // its points, by which a face is known, and the step to its boundary.
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/identity.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/face.hpp>
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/power.hpp>
-#include <slant/slanting/kkt_function.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/slant.hpp>
 
 struct upper_half_plane {
 #ifndef WITHOUT_DIMENSION

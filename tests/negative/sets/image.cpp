@@ -9,11 +9,7 @@
 //
 // A set of run-time dimension minus its size; a product of run-time size where a rotation, which mixes
 // components, needs a block; a block with a parameter minus the way to give each copy its own.
-#include <slant/sets/ball.hpp>
-#include <slant/sets/images.hpp>
-#include <slant/sets/power.hpp>
-
-#include <vector>
+#include <slant/slant.hpp>
 
 struct nonnegative {
   slant::index n;

@@ -7,10 +7,7 @@
 //
 // The inner function of a composition minus its slanting operator; a row of a stack minus its value.
 // An operator is not a function: a sum needs y ↦ A y, slant::linear(A).
-#include <slant/slanting/affine.hpp>
-#include <slant/slanting/arithmetic.hpp>
-#include <slant/slanting/composition.hpp>
-#include <slant/slanting/stack.hpp>
+#include <slant/slant.hpp>
 
 struct doubling {
   slant::index rows() const { return 2; }

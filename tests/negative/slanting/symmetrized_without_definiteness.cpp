@@ -4,10 +4,7 @@
 // max-lines-clang: 30
 //
 // A Newton operator I − G (I − ρ A) whose A has not promised to be definite.
-#include <slant/operators/declare.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/projection.hpp>
-#include <slant/slanting/symmetrized.hpp>
+#include <slant/slant.hpp>
 
 auto newton(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& b) {
 #ifdef SLANT_COMPLETE
