@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/mssn.hpp>
+#include <slant/slant.hpp>
 
 #include <stability/methods.hpp>
 #include <stability/stopping.hpp>

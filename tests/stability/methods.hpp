@@ -5,13 +5,8 @@
 // runs are stopped is a matter of stopping.hpp alone.
 #pragma once
 
-#include <slant/certificates/energy_certificate.hpp>
-#include <slant/concepts/iterative_method.hpp>
 #include <slant/contact/dual.hpp>
-#include <slant/factorizations/ldlt.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <slant/slant.hpp>
 
 #include <limits>
 #include <optional>

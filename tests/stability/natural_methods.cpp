@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/primal_dual.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
-#include <slant/methods/ssnm.hpp>
-#include <slant/newton/krylov_solvers.hpp>
-#include <slant/newton/saddle_solvers.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/slant.hpp>
 
 #include <stability/methods.hpp>
 #include <stability/stopping.hpp>

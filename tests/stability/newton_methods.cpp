@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/solve.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/solve_program.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/equilibrated.hpp>
+#include <slant/slant.hpp>
 
 #include <stability/methods.hpp>
 #include <stability/stopping.hpp>

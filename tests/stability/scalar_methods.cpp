@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Some methods in other scalars than double, on programs without contact.
-#include <slant/certificates/energy_certificate.hpp>
-#include <slant/certificates/energy_error.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
-#include <slant/methods/interior_point.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/slanting/projection.hpp>
+#include <slant/slant.hpp>
 
 #include <algorithm>
 #include <limits>

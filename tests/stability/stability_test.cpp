@@ -6,12 +6,7 @@
 #include <stability/regressions.hpp>
 #include <stability/scenes.hpp>
 #include <stability/verdict.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <optional>
-#include <utility>
+#include <support/testing.hpp>
 
 namespace stability_test {
 
@@ -43,12 +38,12 @@ judgement judge_run(judged const& j, method const& m, request const& asked, tall
 
 program identity() {
   program p;
-  p.A = Eigen::MatrixXd::Identity(4, 4);
-  p.b = Eigen::VectorXd{{-1, 2, 3, 4}};
-  p.lower = Eigen::VectorXd{{0}};
-  p.low = Eigen::VectorXd{{-1}};
-  p.high = Eigen::VectorXd{{0.5}};
-  p.radius = Eigen::VectorXd{{1}};
+  p.A = MatrixXd::Identity(4, 4);
+  p.b = VectorXd{{-1, 2, 3, 4}};
+  p.lower = VectorXd{{0}};
+  p.low = VectorXd{{-1}};
+  p.high = VectorXd{{0.5}};
+  p.radius = VectorXd{{1}};
   return p;
 }
 
@@ -58,8 +53,8 @@ TEST_CASE("the reference of a program that is solved by hand") {
   CHECK(r.bound < 1e-25);
   CHECK(r.condition == doctest::Approx(1));
   CHECK(r.floor < 1e-14);
-  CHECK(relative_error(p, r, Eigen::VectorXd{{0, 0.5, 0.6, 0.8}}) < 1e-15);
-  CHECK(relative_error(p, r, Eigen::VectorXd{{0, 0.5, 0.6, 0.8 + 1e-9}}) ==
+  CHECK(relative_error(p, r, VectorXd{{0, 0.5, 0.6, 0.8}}) < 1e-15);
+  CHECK(relative_error(p, r, VectorXd{{0, 0.5, 0.6, 0.8 + 1e-9}}) ==
         doctest::Approx(1e-9 / std::sqrt(1.25)).epsilon(1e-6));
 }
 
@@ -91,7 +86,7 @@ TEST_CASE("what is wrong is called wrong") {
   auto const said = [&](slant::status s, double error, double claimed) {
     outcome o;
     o.status = s;
-    o.x = Eigen::VectorXd{{0, 0.5, 0.6, 0.8 + error}};
+    o.x = VectorXd{{0, 0.5, 0.6, 0.8 + error}};
     o.claimed = claimed;
     return judge(j.ready, j.exact, m, asked, o);
   };
