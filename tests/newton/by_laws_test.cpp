@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Which solver the compiler chooses, and that a client's own takes part.
-#include "newton_scene.hpp"
-
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/operators/product.hpp>
-#include <slant/slanting/smooth.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <type_traits>
+#include <support/testing.hpp>
+#include "newton_scene.hpp"
 
 namespace by_laws_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 template <class G, class V = VectorXd>
 using choice = slant::chosen_solver_t<slant::by_laws, G, V>;

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Newton systems by factorisation: dense and sparse matrices, columns, inverses.
-#include "newton_scene.hpp"
-
 #include <slant/newton/direct_solver.hpp>
 #include <slant/operators/diagonal.hpp>
 
-#include <doctest/doctest.h>
-
-#include <utility>
+#include <support/testing.hpp>
+#include "newton_scene.hpp"
 
 namespace direct_solver_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::direct_solver;
 using slant::sparse_direct_solver;
 using sparse_matrix = Eigen::SparseMatrix<double>;

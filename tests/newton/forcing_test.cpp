@@ -2,11 +2,7 @@
 #include <slant/newton/forcing.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace forcing_test {
 

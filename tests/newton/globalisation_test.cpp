@@ -2,10 +2,7 @@
 #include <slant/newton/globalisation.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace globalisation_test {
 

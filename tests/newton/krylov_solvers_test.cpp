@@ -2,25 +2,14 @@
 //
 // CG, BiCGSTAB and GMRES as linear solvers of Newton's method: as accurate as asked for, with a report
 // that is true; statuses where there is nothing to solve.
-#include <slant/newton/krylov_solvers.hpp>
-#include <slant/operators/counted.hpp>
-#include <slant/operators/matrix.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <slanting/slanting_support.hpp>
-#include <support/allocation_guard.hpp>
-#include <support/message.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
+#include <support/testing.hpp>
 
 namespace krylov_solvers_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::bicgstab_solver;
 using slant::cg_solver;
 using slant::gmres_solver;
@@ -50,15 +39,15 @@ result solve_in(Prepared& p, Solver const& solver, G const& g, VectorXd const& f
   return {dy, report, counted.applications()};
 }
 template <class Solver, class G>
-result solve(Solver const& solver, G const& g, VectorXd const& f, double η) {
+result solved(Solver const& solver, G const& g, VectorXd const& f, double η) {
   solver.validate();
   auto p = solver.prepare(slant::counted(g), f);
   return solve_in(p, solver, g, f, η);
 }
 /// The same of a matrix, with the residual that is reported.
 template <class Solver>
-result solve(Solver const& solver, MatrixXd const& m, VectorXd const& f, double η) {
-  auto r = solve(solver, slant::matrix(m), f, η);
+result solved(Solver const& solver, MatrixXd const& m, VectorXd const& f, double η) {
+  auto r = solved(solver, slant::matrix(m), f, η);
   double const rounding = 1e-14 * (f.norm() + m.norm() * r.dy.norm());
   CHECK(std::abs((f + m * r.dy).norm() - r.report.residual_norm) <= rounding + 1e-10 * f.norm());
   return r;
@@ -111,7 +100,7 @@ TEST_CASE("bicgstab_solver: a nonsymmetric system, as accurately as asked for") 
   VectorXd const f = random_vector(20, 3);
   VectorXd const exact = slanting_support::solve(m, VectorXd(-f));
   for (double η : {0.5, 1e-4, 1e-11}) {
-    auto const r = solve(bicgstab_solver{}, m, f, η);
+    auto const r = solved(bicgstab_solver{}, m, f, η);
     CHECK(r.report.status == status::converged);
     CHECK(r.report.residual_norm <= η * f.norm());
     CHECK(r.applications <= 2 * r.report.iterations);
@@ -125,7 +114,7 @@ TEST_CASE("gmres_solver: an application a step, and one for a small residual") {
   VectorXd const f = VectorXd::LinSpaced(40, -1, 2);
   for (double const η : {1e-2, 1e-6, 1e-12}) {
     CAPTURE(η);
-    auto const r = solve(gmres_solver{}, A, f, η);
+    auto const r = solved(gmres_solver{}, A, f, η);
     CHECK(r.report.status == status::converged);
     CHECK(r.applications == r.report.iterations + (η < 1e-8 ? 1 : 0));
     CHECK((f + A * r.dy).norm() <= 1.001 * η * f.norm() + 1e-14);
@@ -141,7 +130,7 @@ TEST_CASE("gmres_solver: of all vectors of the Krylov space the one with the sma
     VectorXd v = f;
     for (Eigen::Index j = 0; j < steps; ++j) images.col(j) = v = A * v;
     VectorXd const best = f - images * images.colPivHouseholderQr().solve(f);
-    auto const r = solve(gmres_solver{.max_iterations = steps}, A, f, 0);
+    auto const r = solved(gmres_solver{.max_iterations = steps}, A, f, 0);
     CHECK(r.report.status == status::iteration_limit);
     CHECK(r.report.iterations == steps);
     CHECK((f + A * r.dy).norm() == doctest::Approx(best.norm()).epsilon(1e-8));
@@ -151,8 +140,8 @@ TEST_CASE("gmres_solver: of all vectors of the Krylov space the one with the sma
 TEST_CASE("gmres_solver: few vectors: begins anew, arrives later, an application more a restart") {
   MatrixXd const A = nonsymmetric(40);
   VectorXd const f = VectorXd::LinSpaced(40, -1, 2);
-  auto const whole = solve(gmres_solver{}, A, f, 1e-10);
-  auto const r = solve(gmres_solver{.restart = 6}, A, f, 1e-10);
+  auto const whole = solved(gmres_solver{}, A, f, 1e-10);
+  auto const r = solved(gmres_solver{.restart = 6}, A, f, 1e-10);
   CHECK(r.report.status == status::converged);
   CHECK(r.report.iterations > whole.report.iterations);
   CHECK(r.applications == r.report.iterations + (r.report.iterations + 5) / 6);
@@ -169,7 +158,7 @@ TEST_CASE("gmres_solver: nearly singular: the residual reported is that of dy") 
     for (slant::index const restart : {60, 5}) {
       CAPTURE(η);
       CAPTURE(restart);
-      auto const r = solve(gmres_solver{.restart = restart}, slant::matrix(hilbert), f, η);
+      auto const r = solved(gmres_solver{.restart = restart}, slant::matrix(hilbert), f, η);
       double const residual = (f + hilbert * r.dy).norm();
       CHECK(std::fabs(r.report.residual_norm - residual) <=
             1e-14 * (f.norm() + hilbert.norm() * r.dy.norm()));
@@ -183,10 +172,10 @@ TEST_CASE("gmres_solver: nearly singular: the residual reported is that of dy") 
 TEST_CASE("gmres_solver: any scale, of the operator and of the right-hand side") {
   MatrixXd const A = nonsymmetric(10);
   VectorXd const f = VectorXd::LinSpaced(10, 1, 2);
-  auto const plain = solve(gmres_solver{}, A, f, 1e-10);
+  auto const plain = solved(gmres_solver{}, A, f, 1e-10);
   for (double const a : {1e-150, 1e150}) {
     for (double const b : {1e-100, 1e100}) {
-      auto const r = solve(gmres_solver{}, slant::matrix(MatrixXd(a * A)), b * f, 1e-10);
+      auto const r = solved(gmres_solver{}, slant::matrix(MatrixXd(a * A)), b * f, 1e-10);
       CHECK(r.report.status == status::converged);
       CHECK((r.dy * (a / b) - plain.dy).norm() <= 1e-9 * plain.dy.norm());
     }
@@ -203,11 +192,11 @@ struct no_numbers {
 TEST_CASE("what cannot be solved is a status, and dy the best there was") {
   VectorXd const first = VectorXd::Unit(3, 0);
   auto const check = [&](auto const& solver) {
-    auto const zero = solve(solver, MatrixXd(MatrixXd::Zero(3, 3)), first, 1e-10);
+    auto const zero = solved(solver, MatrixXd(MatrixXd::Zero(3, 3)), first, 1e-10);
     CHECK(zero.report.status == status::breakdown);
     CHECK(zero.report.residual_norm == 1);
     CHECK(zero.dy == VectorXd::Zero(3));
-    auto const infinite = solve(solver, no_numbers{}, first, 0.1);
+    auto const infinite = solved(solver, no_numbers{}, first, 0.1);
     CHECK(infinite.report.status == status::breakdown);
     CHECK(infinite.dy == VectorXd::Zero(3));
     // An equation that holds for nothing, and one that holds for everything.
@@ -215,11 +204,11 @@ TEST_CASE("what cannot be solved is a status, and dy the best there was") {
     A.row(5).setZero();
     A.col(5).setZero();
     VectorXd f = VectorXd::Ones(6);
-    auto const part = solve(solver, A, f, 1e-12);
+    auto const part = solved(solver, A, f, 1e-12);
     CHECK(part.report.status != status::converged);
     CHECK((f + A * part.dy).norm() <= 1.001 * f.norm());
     f(5) = 0;
-    auto const consistent = solve(solver, A, f, 1e-12);
+    auto const consistent = solved(solver, A, f, 1e-12);
     CHECK(consistent.report.status == status::converged);
     CHECK((f + A * consistent.dy).norm() <= 1e-11);
   };
@@ -228,23 +217,23 @@ TEST_CASE("what cannot be solved is a status, and dy the best there was") {
 
   MatrixXd nilpotent = MatrixXd::Zero(3, 3);
   nilpotent(1, 0) = 1;
-  auto const none = solve(bicgstab_solver{}, nilpotent, first, 1e-10);
+  auto const none = solved(bicgstab_solver{}, nilpotent, first, 1e-10);
   CHECK(none.report.status != status::converged);
   CHECK(none.report.residual_norm == 1);
   CHECK(none.dy == VectorXd::Zero(3));
   MatrixXd half = MatrixXd::Identity(4, 4);
   half(2, 2) = half(3, 3) = 0;
-  auto const part = solve(bicgstab_solver{}, half, VectorXd::Ones(4), 1e-10);
+  auto const part = solved(bicgstab_solver{}, half, VectorXd::Ones(4), 1e-10);
   CHECK(part.report.status != status::converged);
   CHECK(part.report.residual_norm == doctest::Approx(std::sqrt(2.0)));
   MatrixXd const indefinite = VectorXd{{1.0, -1.0}}.asDiagonal();
-  CHECK(solve(cg_solver{}, spd(indefinite), VectorXd::Ones(2), 1e-8).report.status ==
+  CHECK(solved(cg_solver{}, spd(indefinite), VectorXd::Ones(2), 1e-8).report.status ==
         status::breakdown);
 }
 
 TEST_CASE("limits and options; who is taken") {
-  auto const limited = solve(bicgstab_solver{.max_iterations = 3},
-                             MatrixXd(random_matrix(30, 30, 6)), random_vector(30, 7), 1e-12);
+  auto const limited = solved(bicgstab_solver{.max_iterations = 3},
+                              MatrixXd(random_matrix(30, 30, 6)), random_vector(30, 7), 1e-12);
   CHECK(limited.report.status == status::iteration_limit);
   CHECK(limited.report.iterations == 3);
   auto const message = [](auto const& solver) {

@@ -4,15 +4,12 @@
 // by CG, variant C.
 #include <slant/newton/saddle_solvers.hpp>
 
-#include <doctest/doctest.h>
-
-#include <cmath>
 #include <fem/thesis_ssnm.hpp>
 #include <oracle/wire_reference.hpp>
+#include <support/testing.hpp>
 
 namespace saddle_solvers_test {
 
-using Eigen::VectorXd;
 using slant::schur_bicgstab;
 using slant::schur_cg;
 
@@ -86,7 +83,7 @@ TEST_CASE("the report of variant A is true, and a direction comes with it") {
 TEST_CASE("variant C: the same direction as by LU, whatever is active; here with a dense A") {
   auto const w = fem::make_thesis_wire(8);
   auto const set = fem::wire_set(w, -0.2, 0.6);
-  auto const F = slant::kkt(Eigen::MatrixXd(w.A), w.b, set, 2.0);
+  auto const F = slant::kkt(MatrixXd(w.A), w.b, set, 2.0);
   schur_cg const cg;
   slant::saddle_direct const lu;
   for (double const shift : {-0.5, 0.0, 0.7}) {

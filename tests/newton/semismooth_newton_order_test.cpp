@@ -5,11 +5,7 @@
 #include <slant/newton/semismooth_newton.hpp>
 
 #include <newton/newton_scene.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace semismooth_newton_order_test {
 

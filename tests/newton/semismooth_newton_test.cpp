@@ -1,30 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Classical Newton: the smooth special case, its rates, and the ways in which it fails.
-#include <slant/iteration/solve.hpp>
-
-#include <slant/iteration/stopping.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/sets/contact_sets.hpp>
-#include <slant/slanting/smooth.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
 #include <newton/newton_scene.hpp>
 #include <oracle/certificate.hpp>
-#include <support/allocation_guard.hpp>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace semismooth_newton_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace archetype = slant::testing::archetype;
 constexpr int m = 8;
 constexpr double smallest_radius = 1e-3;
@@ -141,7 +126,7 @@ TEST_CASE("a singular F° is a breakdown with a reason, whatever the solver") {
   // Half of F can be reduced, which is direction enough for an inexact Newton method.
   slant::semismooth_newton const inexact{F, slant::bicgstab_solver{}};
   CHECK(slant::solve(inexact, y0, stop).converged());
-  check(slant::solve(inexact, VectorXd(VectorXd::Zero(2)), stop));
+  check(slant::solve(inexact, test::zeros(2), stop));
 }
 
 TEST_CASE("steps out of the domain: a breakdown, or shortened") {
@@ -185,7 +170,7 @@ TEST_CASE("the scale of the residual: ‖F(0)‖, so that a good start is not as
   auto const near = method.start(VectorXd{{1.0, 1.0 + 1e-9}});
   CHECK(near.residual_scale == 2);
   CHECK(near.work.setup_applications == 1);
-  CHECK(method.start(VectorXd(VectorXd::Zero(2))).work.setup_applications == 0);
+  CHECK(method.start(test::zeros(2)).work.setup_applications == 0);
   slant::semismooth_newton const by_start{curve(),
                                           slant::by_laws{},
                                           slant::full_step{},
@@ -265,7 +250,7 @@ TEST_CASE("bad input is named") {
                        slant::bad_input);
   auto const F = curve();
   slant::semismooth_newton const method{F};
-  CHECK_THROWS_WITH_AS(static_cast<void>(method.start(VectorXd(VectorXd::Zero(3)))),
+  CHECK_THROWS_WITH_AS(static_cast<void>(method.start(test::zeros(3))),
                        "x0: got 3, expected F.cols() 2", slant::bad_input);
   CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd{{std::nan(""), 0.0}})), slant::bad_input);
   auto const pole = equation([](double y) { return 1 / y; }, [](double y) { return -1 / (y * y); });

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "newton_scene.hpp"
-
-#include <slant/newton/symmetrized_cg.hpp>
-#include <slant/sets/second_order_cone.hpp>
-#include <slant/slanting/symmetrized.hpp>
+#include <slant/slant.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
+#include <support/testing.hpp>
+#include "newton_scene.hpp"
 
 namespace slant_preconditioner_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 VectorXd eigenvalues(MatrixXd const& m) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "newton_scene.hpp"
-
 #include <slant/newton/symmetrized_cg.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/testing/archetypes.hpp>
 
-#include <support/allocation_guard.hpp>
-
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
+#include "newton_scene.hpp"
 
 namespace symmetrized_cg_test {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// The Newton system of a natural residual at a point where bounds and discs are in all states.
 struct system {
