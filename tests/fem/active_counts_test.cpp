@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
+#include <slant/sets/sets.hpp>
 
 #include <fem/active_counts.hpp>
-#include <slant/sets/cartesian.hpp>
-#include <slant/sets/contact_sets.hpp>
+#include <support/testing.hpp>
 
 namespace active_counts_test {
 
 TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
-  Eigen::MatrixXd const A = Eigen::Vector4d(2, 4, 4, 1).asDiagonal();
-  auto const set = slant::cartesian(slant::half_lines(1), slant::discs(Eigen::VectorXd::Ones(1)),
+  MatrixXd const A = Eigen::Vector4d(2, 4, 4, 1).asDiagonal();
+  auto const set = slant::cartesian(slant::half_lines(1), slant::discs(VectorXd::Ones(1)),
                                     slant::free_components(1));
-  auto const counts = [&](Eigen::VectorXd const& b, Eigen::VectorXd const& x) {
+  auto const counts = [&](VectorXd const& b, VectorXd const& x) {
     return fem::count_active(set, A, b, x);
   };
-  Eigen::VectorXd const origin = Eigen::VectorXd::Zero(4);
+  VectorXd const origin = VectorXd::Zero(4);
   // z = x − (A x − b)/A_ii = b/A_ii for a diagonal matrix.
   CHECK(counts(Eigen::Vector4d(2, 0, 0, 5), origin) == fem::active_counts{0, 0});
   CHECK(counts(Eigen::Vector4d(-2, 0, 0, 5), origin) == fem::active_counts{1, 0});
@@ -22,14 +21,14 @@ TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
   CHECK(counts(Eigen::Vector4d(0, 4, 0.5, 5), origin) == fem::active_counts{0, 1});
   // The step belongs to the block, not to the matrix: with 1/2 for all the disc would be active.
   CHECK(counts(Eigen::Vector4d(0, 3, 0, 5), origin) == fem::active_counts{0, 0});
-  CHECK((fem::active_blocks(set, A, Eigen::VectorXd(Eigen::Vector4d(-1, 9, 0, 5)), origin) ==
+  CHECK((fem::active_blocks(set, A, VectorXd(Eigen::Vector4d(-1, 9, 0, 5)), origin) ==
          std::vector<bool>{true, true, false}));
 }
 
 TEST_CASE("sizes are checked") {
   auto const set = slant::half_lines(2);
-  Eigen::MatrixXd const A = Eigen::MatrixXd::Identity(2, 2);
-  Eigen::VectorXd const two = Eigen::VectorXd::Zero(2), three = Eigen::VectorXd::Zero(3);
+  MatrixXd const A = MatrixXd::Identity(2, 2);
+  VectorXd const two = VectorXd::Zero(2), three = VectorXd::Zero(3);
   CHECK_THROWS_WITH_AS((void)fem::active_blocks(set, A, two, three),
                        "x: got 3, expected the dimension of the set", std::invalid_argument);
   CHECK_THROWS_AS((void)fem::active_blocks(set, A, three, two), std::invalid_argument);

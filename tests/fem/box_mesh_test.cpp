@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
 #include <fem/brick_mesh.hpp>
 #include <fem/simplex_mesh.hpp>
-
-#include <cmath>
 #include <map>
 #include <set>
+#include <support/testing.hpp>
 
 namespace box_mesh_test {
 
@@ -51,8 +48,8 @@ TEST_CASE("all cells are positively oriented and fill the box") {
   for (Eigen::Index cell = 0; cell < plate.cell_count(); ++cell)
     CHECK(fem::element_of<2>(plate, cell).volume > 0);
   CHECK(volume_of<2>(plate) == doctest::Approx(2).epsilon(1e-14));
-  CHECK(plate.nodes.rowwise().minCoeff() == Eigen::Vector2d(-1, 4));
-  CHECK(plate.nodes.rowwise().maxCoeff() == Eigen::Vector2d(1, 5));
+  CHECK(plate.nodes.rowwise().minCoeff() == Vector2d(-1, 4));
+  CHECK(plate.nodes.rowwise().maxCoeff() == Vector2d(1, 5));
 }
 
 TEST_CASE("neighbours fit: inner facets belong to two cells, those of the sides to one") {
@@ -77,7 +74,7 @@ TEST_CASE("neighbours fit: inner facets belong to two cells, those of the sides 
 
 TEST_CASE("every cell has the diagonal of its cube, in the same direction everywhere") {
   auto const brick = fem::make_brick_mesh(2);
-  Eigen::Vector3d const diagonal(0.5, 0.5, 0.5);
+  Vector3d const diagonal(0.5, 0.5, 0.5);
   for (Eigen::Index cell = 0; cell < brick.cell_count(); ++cell) {
     bool found = false;
     for (int a = 0; a < 4; ++a)

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The channel with a round obstacle [K Ex 4] on the shipped meshes.
-#include <doctest/doctest.h>
-#include "support/folders.hpp"
+#include <slant/factorizations/factorize.hpp>
+#include <slant/methods/methods.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
 #include <fem/channel_flow.hpp>
 #include <fem/stokes_balance.hpp>
 #include <fem/stokes_dual.hpp>
@@ -14,16 +12,10 @@
 #include <fem/stokes_vtu.hpp>
 #include <fem/wall_preconditioner.hpp>
 #include <io/io_support.hpp>
-#include <slant/factorizations/factorize.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/kprgp.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <string>
-#include <utility>
+#include <support/testing.hpp>
+#include "support/folders.hpp"
 
 namespace channel_flow_test {
-
-using Eigen::Vector2d;
 
 fem::planar_domain const& shipped_mesh(int refinement) {
   static auto const read = [](int k) {
@@ -135,21 +127,21 @@ double condition(int refinement, bool preconditioned) {
   auto const factor = slant::factorize(scene.A);
   fem::stokes_dual const dual(factor, scene);
   Eigen::Index const m = scene.wall_count();
-  Eigen::MatrixXd A(2 * m, 2 * m);
-  Eigen::VectorXd y(dual.b().size());
+  MatrixXd A(2 * m, 2 * m);
+  VectorXd y(dual.b().size());
   auto const a = dual.a();
   for (Eigen::Index j = 0; j < 2 * m; ++j) {
-    slant::apply(a, Eigen::VectorXd(Eigen::VectorXd::Unit(y.size(), j)), y);
+    slant::apply(a, VectorXd(VectorXd::Unit(y.size(), j)), y);
     A.col(j) = y.head(2 * m);
   }
   if (preconditioned) {
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(2 * m, 2 * m);
+    MatrixXd M = MatrixXd::Zero(2 * m, 2 * m);
     M.topLeftCorner(m, m) = fem::wall_half_norm(flow.domain, scene);
     M.bottomRightCorner(m, m) = M.topLeftCorner(m, m);
-    Eigen::MatrixXd const L = M.llt().matrixL();
+    MatrixXd const L = M.llt().matrixL();
     A = (L.transpose() * A * L).eval();
   }
-  Eigen::VectorXd const λ = A.selfadjointView<Eigen::Lower>().eigenvalues();
+  VectorXd const λ = A.selfadjointView<Eigen::Lower>().eigenvalues();
   return λ.maxCoeff() / λ.minCoeff();
 }
 

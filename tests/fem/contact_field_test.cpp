@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <algorithm>
 #include <fem/contact_field.hpp>
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
+#include <support/testing.hpp>
 
 namespace contact_field_test {
 
@@ -49,9 +47,9 @@ TEST_CASE("the states do not depend on units") {
 
 TEST_CASE("sizes are checked") {
   auto const scene = fem::make_steel_brick({.k = 1});
-  Eigen::VectorXd const u = Eigen::VectorXd::Zero(36);
-  Eigen::VectorXd const normal = Eigen::VectorXd::Zero(6);
-  Eigen::VectorXd const tangential = Eigen::VectorXd::Zero(12);
+  VectorXd const u = VectorXd::Zero(36);
+  VectorXd const normal = VectorXd::Zero(6);
+  VectorXd const tangential = VectorXd::Zero(12);
   CHECK_NOTHROW((void)fem::make_contact_field(scene, u, normal, tangential));
   CHECK_THROWS_WITH_AS((void)fem::make_contact_field(scene, normal, normal, tangential),
                        "u: got 6, expected one entry per unknown of the scene",

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <algorithm>
-
 #include <fem/decomposition.hpp>
 #include <fem/steel_brick.hpp>
-
-#include <stdexcept>
+#include <support/testing.hpp>
 
 namespace decomposition_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 auto const steel = fem::lame(2.119e5, 0.277);

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 #include <fem/brick_mesh.hpp>
 #include <fem/elasticity.hpp>
 #include <fem/surface.hpp>
+#include <support/testing.hpp>
 
 namespace elasticity_test {
 
@@ -17,21 +13,21 @@ fem::unknown_map all_unknown(fem::simplex_mesh<D> const& mesh) {
 
 // Nodal values of x ↦ G x + c.
 template <int D>
-Eigen::VectorXd affine(fem::simplex_mesh<D> const& mesh, Eigen::Matrix<double, D, D> const& G,
-                       Eigen::Matrix<double, D, 1> const& c) {
+VectorXd affine(fem::simplex_mesh<D> const& mesh, Eigen::Matrix<double, D, D> const& G,
+                Eigen::Matrix<double, D, 1> const& c) {
   Eigen::Matrix<double, D, Eigen::Dynamic> const values = (G * mesh.nodes).colwise() + c;
-  return Eigen::Map<Eigen::VectorXd const>(values.data(), values.size());
+  return Eigen::Map<VectorXd const>(values.data(), values.size());
 }
 
 fem::lame_parameters const steel = fem::lame(2.119e5, 0.277);
 
 TEST_CASE("the stiffness is symmetric bit for bit and positive semidefinite") {
   auto const mesh = fem::make_brick_mesh(1, {2.9, 1.1, 0.7});
-  Eigen::MatrixXd const K(fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel));
+  MatrixXd const K(fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel));
   bool const symmetric = K == K.transpose();
   CHECK(symmetric);
   // As many zero pivots in LDLᵀ as there are rigid motions, and the others are positive.
-  Eigen::VectorXd pivots = K.ldlt().vectorD();
+  VectorXd pivots = K.ldlt().vectorD();
   std::sort(pivots.begin(), pivots.end());
   double const largest = pivots[pivots.size() - 1];
   CHECK(pivots.head(6).cwiseAbs().maxCoeff() < 1e-14 * largest);
@@ -59,8 +55,8 @@ TEST_CASE("constant strains are exact in space") {
       Eigen::Matrix3d const ε = (G + G.transpose()) / 2;
       Eigen::Matrix3d const σ =
           steel.lambda * ε.trace() * Eigen::Matrix3d::Identity() + 2 * steel.mu * ε;
-      Eigen::VectorXd const u = affine<3>(mesh, G, {0.1, -0.2, 0.3});
-      Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns.count);
+      VectorXd const u = affine<3>(mesh, G, {0.1, -0.2, 0.3});
+      VectorXd load = VectorXd::Zero(unknowns.count);
       for (int axis = 0; axis < 3; ++axis) {
         fem::add_traction<3>(mesh, unknowns, {axis, true}, σ.col(axis), load);
         fem::add_traction<3>(mesh, unknowns, {axis, false}, -σ.col(axis), load);
@@ -77,11 +73,11 @@ TEST_CASE("a plate in plane stress stretches and narrows as Hooke's law says") {
   auto const mesh = fem::make_box_mesh<2>({3, 4}, {2, 1});
   auto const unknowns = all_unknown<2>(mesh);
   auto const K = fem::stiffness<2>(mesh, unknowns, fem::lame_plane_stress(E, ν));
-  Eigen::Matrix2d const ε = Eigen::Vector2d(1 / E, -ν / E).asDiagonal();
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns.count);
+  Eigen::Matrix2d const ε = Vector2d(1 / E, -ν / E).asDiagonal();
+  VectorXd load = VectorXd::Zero(unknowns.count);
   fem::add_traction<2>(mesh, unknowns, {0, true}, {1, 0}, load);
   fem::add_traction<2>(mesh, unknowns, {0, false}, {-1, 0}, load);
-  Eigen::VectorXd const u = affine<2>(mesh, ε, Eigen::Vector2d::Zero());
+  VectorXd const u = affine<2>(mesh, ε, Vector2d::Zero());
   CHECK((K * u - load).cwiseAbs().maxCoeff() < 1e-12 * load.cwiseAbs().maxCoeff());
 }
 
@@ -90,11 +86,11 @@ TEST_CASE("fixing one side makes the stiffness positive definite") {
   auto const unknowns = fem::number_unknowns(
       mesh, [&](Eigen::Index node) { return mesh.on(fem::brick_side::left, node); });
   CHECK(unknowns.count == 3 * 6 * 3 * 3);
-  Eigen::MatrixXd const K(fem::stiffness<3>(mesh, unknowns, steel));
+  MatrixXd const K(fem::stiffness<3>(mesh, unknowns, steel));
   CHECK(K.llt().info() == Eigen::Success);
 
   // Elimination leaves out rows and columns and changes nothing else.
-  Eigen::MatrixXd const full(fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel));
+  MatrixXd const full(fem::stiffness<3>(mesh, all_unknown<3>(mesh), steel));
   bool same = true;
   for (Eigen::Index a = 0; a < mesh.node_count(); ++a)
     for (Eigen::Index b = 0; b < mesh.node_count(); ++b)
@@ -109,11 +105,11 @@ TEST_CASE("displacements return to their nodes") {
   auto const unknowns = fem::number_unknowns(mesh, [&](Eigen::Index node) {
     return mesh.on({0, false}, node);
   });
-  Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(unknowns.count, 1, 8);
+  VectorXd const u = VectorXd::LinSpaced(unknowns.count, 1, 8);
   auto const nodal = fem::nodal_displacement<2>(unknowns, u);
   CHECK(nodal.leftCols<2>().isZero(0));  // the last axis runs fastest: nodes 0 and 1 are at x = 0
-  CHECK(nodal.col(2) == Eigen::Vector2d(1, 2));
-  CHECK(nodal.col(5) == Eigen::Vector2d(7, 8));
+  CHECK(nodal.col(2) == Vector2d(1, 2));
+  CHECK(nodal.col(5) == Vector2d(7, 8));
 }
 
 TEST_CASE("material constants") {

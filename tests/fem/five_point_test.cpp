@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <Eigen/Cholesky>
-#include <cmath>
-#include <fem/five_point.hpp>
-#include <limits>
-#include <oracle/naive_membrane.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include "support/allocation_guard.hpp"
+#include <fem/five_point.hpp>
+#include <oracle/naive_membrane.hpp>
+#include <support/testing.hpp>
 
 namespace five_point_test {
 
@@ -28,42 +23,42 @@ fem::five_point<> some_operator(int nx, int ny) {
 }
 
 TEST_CASE("it keeps its word") {
-  static_assert(slant::spd_operator<fem::five_point<>, Eigen::VectorXd>);
-  static_assert(slant::has_diagonal<fem::five_point<>, Eigen::VectorXd>);
-  static_assert(!slant::linear_operator<fem::five_point<float>, Eigen::VectorXd>);
+  static_assert(slant::spd_operator<fem::five_point<>, VectorXd>);
+  static_assert(slant::has_diagonal<fem::five_point<>, VectorXd>);
+  static_assert(!slant::linear_operator<fem::five_point<float>, VectorXd>);
   slant::testing::check_operator_laws(some_operator(7, 5));
   slant::testing::check_operator_laws(some_operator(1, 4));
   slant::testing::check_operator_laws(some_operator(3, 1));
   slant::testing::check_operator_laws(some_operator(1, 1));
   slant::testing::check_operator_laws(some_operator(4, 3),
-                                      slant::testing::archetype::vector(Eigen::VectorXd()));
+                                      slant::testing::archetype::vector(VectorXd()));
 }
 
 TEST_CASE("without a matrix the same as with one, and as the sum over the triangles") {
   for (auto const& [nx, ny] : {std::pair{6, 4}, {1, 5}, {5, 1}, {1, 1}}) {
     auto const a = some_operator(nx, ny);
     Eigen::SparseMatrix<double> const A = a.matrix();
-    Eigen::MatrixXd const naive =
+    MatrixXd const naive =
         oracle::naive_stiffness(nx, ny, 6.2L, 3, weight<long double>).cast<double>();
-    CHECK((Eigen::MatrixXd(A) - naive).cwiseAbs().maxCoeff() <= 8 * ε * naive.maxCoeff());
-    CHECK((Eigen::MatrixXd(A) - Eigen::MatrixXd(A).transpose()).isZero(0));
+    CHECK((MatrixXd(A) - naive).cwiseAbs().maxCoeff() <= 8 * ε * naive.maxCoeff());
+    CHECK((MatrixXd(A) - MatrixXd(A).transpose()).isZero(0));
 
-    Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(nx * ny, -1, 3).array().sin();
-    Eigen::VectorXd y(nx * ny), d(nx * ny);
+    VectorXd const x = VectorXd::LinSpaced(nx * ny, -1, 3).array().sin();
+    VectorXd y(nx * ny), d(nx * ny);
     a.apply(x, y);
     a.diagonal(d);
-    Eigen::VectorXd const terms = A.cwiseAbs() * x.cwiseAbs();
+    VectorXd const terms = A.cwiseAbs() * x.cwiseAbs();
     CHECK(((y - A * x).cwiseAbs() - 8 * ε * terms).maxCoeff() <= 0);
-    CHECK((d - Eigen::VectorXd(A.diagonal())).isZero(0));
+    CHECK((d - VectorXd(A.diagonal())).isZero(0));
   }
 }
 
 TEST_CASE("the bound of the spectrum holds where the weight varies, and is not far off") {
   auto const a = some_operator(8, 9);
   double const bound = a.largest_eigenvalue_bound();
-  Eigen::MatrixXd const A = a.matrix();
-  CHECK((bound * Eigen::MatrixXd::Identity(72, 72) - A).llt().info() == Eigen::Success);
-  Eigen::VectorXd zigzag(72);  // where the weight is large
+  MatrixXd const A = a.matrix();
+  CHECK((bound * MatrixXd::Identity(72, 72) - A).llt().info() == Eigen::Success);
+  VectorXd zigzag(72);  // where the weight is large
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 9; ++j) zigzag[i + 8 * j] = i < 2 ? ((i + j) % 2 == 0 ? 1 : -1) : 0;
   CHECK(zigzag.dot(A * zigzag) > bound / 2 * zigzag.squaredNorm());
@@ -71,8 +66,8 @@ TEST_CASE("the bound of the spectrum holds where the weight varies, and is not f
 
 TEST_CASE("an application does not allocate") {
   auto const a = some_operator(6, 5);
-  Eigen::VectorXd const x = Eigen::VectorXd::Ones(30);
-  Eigen::VectorXd y(30);
+  VectorXd const x = VectorXd::Ones(30);
+  VectorXd y(30);
   CHECK(test::allocations_of([&] { a.apply(x, y); }) == 0);
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
 #include <fem/gmsh_mesh.hpp>
 #include <io/io_support.hpp>
-#include <string>
-#include <support/message.hpp>
+#include <support/testing.hpp>
 
 namespace gmsh_mesh_test {
 
@@ -47,9 +44,8 @@ TEST_CASE("a square: nodes, triangles turned the right way, parts of the boundar
     bool const floor = domain.mesh.nodes(1, edge.from) == 0 && domain.mesh.nodes(1, edge.to) == 0;
     CHECK(edge.part == (floor ? 0 : 1));
     CHECK(domain.outward(edge).norm() == doctest::Approx(1));
-    Eigen::Vector2d const middle =
-        (domain.mesh.nodes.col(edge.from) + domain.mesh.nodes.col(edge.to)) / 2;
-    CHECK(domain.outward(edge).dot(middle - Eigen::Vector2d(0.5, 0.5)) == doctest::Approx(0.5));
+    Vector2d const middle = (domain.mesh.nodes.col(edge.from) + domain.mesh.nodes.col(edge.to)) / 2;
+    CHECK(domain.outward(edge).dot(middle - Vector2d(0.5, 0.5)) == doctest::Approx(0.5));
   }
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The obstacle problems against values that others have printed and against the naive method.
-#include <doctest/doctest.h>
+#include <slant/iteration/solve.hpp>
+#include <slant/methods/symmetric_newton.hpp>
+#include <slant/operators/matrix.hpp>
+#include <slant/problems/separable_qp.hpp>
+#include <slant/sets/contact_sets.hpp>
 
-#include <cmath>
 #include <fem/double_obstacle.hpp>
 #include <fem/elastic_torsion.hpp>
 #include <fem/grid_prolongation.hpp>
@@ -13,17 +16,10 @@
 #include <fem/membrane_contact.hpp>
 #include <fem/printed_membranes.hpp>
 #include <oracle/naive_membrane.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/separable_qp.hpp>
-#include <slant/sets/contact_sets.hpp>
-
-#include "support/effort.hpp"
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
 namespace membrane_test {
-
-using Eigen::VectorXd;
 
 /// The solution for A, b, l and u, with the preconditioner and ρ of m.
 template <class A>
@@ -31,10 +27,10 @@ auto run_newton(fem::membrane<> const& m, A const& a, VectorXd const& start,
                 double tolerance = 1e-12) {
   auto const set = slant::intervals(m.lower, m.upper);
   auto const report =
-      slant::solve(slant::symmetric_newton{slant::separable_qp{a, m.b, set},
-                                           fem::incomplete_five_point<>(m.A),
-                                           {.step_length = 2 / m.A.largest_eigenvalue_bound()}},
-                   start, slant::reduced_gradient_below(tolerance) || slant::at_most(300));
+      test::minimise(slant::symmetric_newton{slant::separable_qp{a, m.b, set},
+                                             fem::incomplete_five_point<>(m.A),
+                                             {.step_length = 2 / m.A.largest_eigenvalue_bound()}},
+                     start, tolerance, 300);
   CHECK(report.converged());
   return report;
 }
@@ -161,9 +157,9 @@ TEST_CASE("data out of range are refused") {
   CHECK_THROWS_WITH_AS((void)fem::make_journal_bearing<>(3, 3, {.b = -1}),
                        "b: got -1, expected a number > 0", std::invalid_argument);
   CHECK_THROWS_AS((void)fem::make_elastic_torsion<>(0, 3), std::invalid_argument);
-  CHECK_THROWS_WITH_AS(
-      (void)fem::find_contact(fem::make_lower_obstacle<>(3, 3), VectorXd(VectorXd::Zero(8))),
-      "v: got 8, expected one number for each interior node", std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)fem::find_contact(fem::make_lower_obstacle<>(3, 3), test::zeros(8)),
+                       "v: got 8, expected one number for each interior node",
+                       std::invalid_argument);
 }
 
 }  // namespace membrane_test

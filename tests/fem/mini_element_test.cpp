@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <Eigen/LU>
-#include <cmath>
 #include <fem/mini_element.hpp>
 #include <fem/triangle_quadrature.hpp>
+#include <support/testing.hpp>
 
 namespace mini_element_test {
 
 using Eigen::Matrix3d;
-using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 Eigen::Matrix<double, 2, 3> const corners{{0.1, 1.3, 0.4}, {-0.2, 0.3, 1.1}};
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The numbers copied from the documents, where they can be checked against each other.
-#include <doctest/doctest.h>
-
-#include <algorithm>
 #include <fem/lecture_tables.hpp>
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
+#include <support/testing.hpp>
 
 namespace printed_tables_test {
 

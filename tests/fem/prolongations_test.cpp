@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/matrix.hpp>
-
 #include <slant/testing/laws.hpp>
-
-#include <doctest/doctest.h>
 
 #include <fem/contact_prolongation.hpp>
 #include <fem/grid_prolongation.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/wire_prolongation.hpp>
 #include <oracle/wire_reference.hpp>
-#include <support/effort.hpp>
-
-#include <cmath>
+#include <support/testing.hpp>
 
 namespace prolongations_test {
 
@@ -21,21 +16,21 @@ using grid = fem::rectangle_grid<>;
 TEST_CASE("as an operator it keeps its word, with the adjoint as restriction") {
   Eigen::SparseMatrix<double> const P = fem::grid_prolongation(grid{3, 2, 2, 5}, grid{8, 6, 2, 5});
   auto const prolongation = slant::matrix(P);
-  static_assert(slant::has_adjoint<decltype(prolongation), Eigen::VectorXd>);
+  static_assert(slant::has_adjoint<decltype(prolongation), VectorXd>);
   slant::testing::check_operator_laws(prolongation);
 }
 
 TEST_CASE("the same as the naive interpolation, the identity on the same grid") {
   grid const coarse{4, 3, 3, 2};
-  Eigen::VectorXd const v = Eigen::VectorXd::LinSpaced(12, -2, 5).array().sin();
+  VectorXd const v = VectorXd::LinSpaced(12, -2, 5).array().sin();
   auto const value = [&](Eigen::Index i, Eigen::Index j) {
     bool const interior = i >= 0 && j >= 0 && i < 4 && j < 3;
     return interior ? v[coarse.unknown(i, j)] : 0.0;
   };
   for (auto const& fine :
        {grid{11, 6, 3, 2}, {4, 4, 3, 2}, {7, 9, 3, 2}, {2, 13, 3, 2}, {1, 1, 3, 2}}) {
-    Eigen::VectorXd const to = fem::grid_prolongation(coarse, fine) * v;
-    Eigen::VectorXd const naive = fem::at_nodes(fine, [&](double x, double y) {
+    VectorXd const to = fem::grid_prolongation(coarse, fine) * v;
+    VectorXd const naive = fem::at_nodes(fine, [&](double x, double y) {
       auto const i = static_cast<Eigen::Index>(std::floor(x / coarse.hx())) - 1;
       auto const j = static_cast<Eigen::Index>(std::floor(y / coarse.hy())) - 1;
       double const right = x / coarse.hx() - static_cast<double>(i + 1);
@@ -45,7 +40,7 @@ TEST_CASE("the same as the naive interpolation, the identity on the same grid") 
     });
     CHECK((to - naive).cwiseAbs().maxCoeff() < 1e-14);
   }
-  CHECK(Eigen::MatrixXd(fem::grid_prolongation(coarse, coarse)).isIdentity(1e-15));
+  CHECK(MatrixXd(fem::grid_prolongation(coarse, coarse)).isIdentity(1e-15));
 }
 
 TEST_CASE("what does not fit is refused") {
@@ -59,9 +54,9 @@ TEST_CASE("what does not fit is refused") {
 
 /// Forces of a stress that is linear in the place, different in each component.
 template <int D>
-Eigen::VectorXd forces(fem::contact_scene<D> const& scene, double slope) {
+VectorXd forces(fem::contact_scene<D> const& scene, double slope) {
   Eigen::Index const m = scene.contact_count();
-  Eigen::VectorXd λ(D * m);
+  VectorXd λ(D * m);
   for (Eigen::Index i = 0; i < m; ++i) {
     double const along = scene.contact_patches[static_cast<std::size_t>(i)].centre.sum();
     double const stress = 2 + slope * along;
@@ -101,7 +96,7 @@ TEST_CASE("contact: from fine to coarse and in the plane, with the laws of an op
 
 TEST_CASE("the prolongation of the wire keeps the laws of an operator and of its adjoint") {
   auto const P = slant::matrix(fem::wire_prolongation(fem::make_wire(4), fem::make_wire(8)));
-  static_assert(slant::has_adjoint<decltype(P), Eigen::VectorXd>);
+  static_assert(slant::has_adjoint<decltype(P), VectorXd>);
   slant::testing::check_operator_laws(P);
 }
 

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <fem/stacked_bricks.hpp>
-
 #include <fem/plate_chain.hpp>
-
-#include <doctest/doctest.h>
-#include <Eigen/Geometry>
-
-#include <limits>
-#include <stdexcept>
+#include <fem/stacked_bricks.hpp>
+#include <support/testing.hpp>
 
 namespace stacked_bricks_test {
-
-using Eigen::VectorXd;
 
 /// The same displacement of all nodes, or a rotation about an axis through the origin.
 VectorXd rigid_motion(fem::stack_scene const& scene, int which) {
   VectorXd motion(scene.K.rows());
   for (Eigen::Index node = 0; node < scene.mesh.node_count(); ++node) {
-    Eigen::Vector3d const axis = Eigen::Vector3d::Unit(which % 3);
-    Eigen::Vector3d const x = scene.mesh.nodes.col(node);
-    motion.segment<3>(3 * node) = which < 3 ? axis : Eigen::Vector3d(axis.cross(x));
+    Vector3d const axis = Vector3d::Unit(which % 3);
+    Vector3d const x = scene.mesh.nodes.col(node);
+    motion.segment<3>(3 * node) = which < 3 ? axis : Vector3d(axis.cross(x));
   }
   return motion;
 }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <fem/elasticity_3d.hpp>
+#include <support/testing.hpp>
 
 namespace steel_brick_test {
 
+// The numbers of [K Table 3] follow from k as these do, see printed_tables_test.
 TEST_CASE("numbers of unknowns and contact nodes are the published ones") {
   auto const scene = fem::make_steel_brick({.k = 4, .load = fem::brick_load::pull});
   CHECK(scene.K.rows() == 3 * 3 * 4 * 5 * 5);
@@ -14,30 +12,14 @@ TEST_CASE("numbers of unknowns and contact nodes are the published ones") {
   CHECK(scene.contact_count() == 3 * 4 * 5);
   CHECK(scene.N.rows() == scene.contact_count());
   CHECK(scene.T.rows() == 2 * scene.contact_count());
-
-  // [K Table 3] prints n_u/m with three multipliers per contact node.
-  struct printed_size {
-    int k;
-    int unknowns;
-    int multipliers;
-  };
-  for (auto const [k, unknowns, multipliers] :
-       {printed_size{4, 900, 180}, printed_size{6, 2646, 378}, printed_size{8, 5832, 648},
-        printed_size{16, 41616, 2448}}) {
-    auto const mesh = fem::make_brick_mesh(k);
-    auto const is_fixed = [&](Eigen::Index node) { return mesh.on(fem::brick_side::left, node); };
-    CHECK(fem::number_unknowns(mesh, is_fixed).count == unknowns);
-    auto const bottom = mesh.nodes_on(fem::brick_side::bottom);
-    CHECK(3 * std::count_if(bottom.begin(), bottom.end(), std::not_fn(is_fixed)) == multipliers);
-  }
 }
 
 TEST_CASE("N and T pick the displacements of the contact nodes") {
   auto const scene = fem::make_steel_brick({.k = 2});
-  Eigen::VectorXd const u = Eigen::VectorXd::LinSpaced(scene.K.rows(), -1, 1);
+  VectorXd const u = VectorXd::LinSpaced(scene.K.rows(), -1, 1);
   auto const nodal = scene.displacement(u);
-  Eigen::VectorXd const normal = scene.N * u;
-  Eigen::VectorXd const tangential = scene.T * u;
+  VectorXd const normal = scene.N * u;
+  VectorXd const tangential = scene.T * u;
   for (Eigen::Index i = 0; i < scene.contact_count(); ++i) {
     int const node = scene.contact_nodes[static_cast<std::size_t>(i)];
     CHECK(scene.mesh.nodes(2, node) == 0);
@@ -48,8 +30,8 @@ TEST_CASE("N and T pick the displacements of the contact nodes") {
     CHECK(scene.contact_patches[static_cast<std::size_t>(i)].centre ==
           scene.mesh.nodes.col(node).head<2>());
   }
-  CHECK(scene.contact_side.lower == Eigen::Vector2d(0, 0));
-  CHECK(scene.contact_side.upper == Eigen::Vector2d(3, 1));
+  CHECK(scene.contact_side.lower == Vector2d(0, 0));
+  CHECK(scene.contact_side.upper == Vector2d(3, 1));
   CHECK(scene.d.isZero(0));
 }
 
@@ -67,12 +49,12 @@ TEST_CASE("slip bounds add up to g times the area of the contact nodes") {
 TEST_CASE("the three loads") {
   auto const total = [](fem::brick_load load) {
     auto const scene = fem::make_steel_brick({.k = 2, .load = load});
-    return Eigen::Vector3d(scene.displacement(scene.f).rowwise().sum());
+    return Vector3d(scene.displacement(scene.f).rowwise().sum());
   };
   double const top = 3 - 0.25;  // without the share of the fixed nodes
-  CHECK((total(fem::brick_load::press) - Eigen::Vector3d(0, 0, -top)).norm() < 1e-13);
-  CHECK((total(fem::brick_load::pull) - Eigen::Vector3d(0.5, 0, 0.3 - top)).norm() < 1e-13);
-  CHECK((total(fem::brick_load::lift) - Eigen::Vector3d(0.3, 0.2, 1.2 - top)).norm() < 1e-13);
+  CHECK((total(fem::brick_load::press) - Vector3d(0, 0, -top)).norm() < 1e-13);
+  CHECK((total(fem::brick_load::pull) - Vector3d(0.5, 0, 0.3 - top)).norm() < 1e-13);
+  CHECK((total(fem::brick_load::lift) - Vector3d(0.3, 0.2, 1.2 - top)).norm() < 1e-13);
   for (fem::brick_load const load : fem::brick_loads)
     CHECK(fem::brick_load_named(fem::name_of(load)) == load);
   CHECK_FALSE(fem::brick_load_named("twist").has_value());
@@ -98,8 +80,8 @@ TEST_CASE("a contact scene in the plane") {
   CHECK(scene.contact_count() == 6);
   CHECK(scene.T.rows() == 6);
   CHECK(scene.g.sum() == doctest::Approx(0.5 * (3 - 0.25)));
-  CHECK(scene.d == Eigen::VectorXd::Constant(6, 0.01));
-  Eigen::VectorXd const down = Eigen::VectorXd::LinSpaced(scene.K.rows(), 0, 1);
+  CHECK(scene.d == VectorXd::Constant(6, 0.01));
+  VectorXd const down = VectorXd::LinSpaced(scene.K.rows(), 0, 1);
   CHECK((scene.N * down)[0] == -scene.displacement(down)(1, scene.contact_nodes[0]));
 }
 

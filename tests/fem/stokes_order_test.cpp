@@ -7,21 +7,17 @@
 //
 // On the wall u = (s, 0) and σ_t = −ν ∂u₁/∂y = −2ν: with κ = ν/2 its law holds for g = 2ν − κ s
 // where the fluid slips and any g ≥ 2ν elsewhere.
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <fem/stokes_balance.hpp>
-#include <fem/stokes_dual.hpp>
-#include <fem/stokes_field.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-#include <utility>
+
+#include <fem/stokes_balance.hpp>
+#include <fem/stokes_dual.hpp>
+#include <fem/stokes_field.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
 namespace stokes_order_test {
-
-using Eigen::Vector2d;
 
 constexpr double ν = 0.8;
 constexpr double κ = ν / 2;
@@ -71,8 +67,7 @@ errors solve(int cells) {
   auto const scene = fem::make_stokes_scene(flow);
   auto const factor = slant::factorize(scene.A);
   fem::stokes_dual const dual(factor, scene);
-  auto const r = slant::solve(slant::symmetric_newton{dual.qp()}, dual.zero(),
-                              slant::reduced_gradient_below(1e-10) || slant::at_most(100));
+  auto const r = test::minimise(slant::symmetric_newton{dual.qp()}, dual.zero(), 1e-10, 100);
   REQUIRE(r.converged());
   auto const solution = dual.solution(r.x());
   CHECK(fem::check_balance(flow, scene, solution).residual() < 1e-9);
@@ -83,7 +78,7 @@ errors solve(int cells) {
   for (Eigen::Index cell = 0; cell < scene.mesh.cell_count(); ++cell) {
     auto const element = fem::element_of<2>(scene.mesh, cell);
     Eigen::Matrix<double, 2, 3> values;
-    Eigen::Vector3d pressures;
+    Vector3d pressures;
     Eigen::Matrix<double, 2, 3> corners;
     for (int a = 0; a < 3; ++a) {
       int const node = scene.mesh.cells(a, cell);

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <cmath>
-#include <fem/stokes_balance.hpp>
-#include <fem/stokes_dual.hpp>
-#include <fem/stokes_field.hpp>
-#include <oracle/dense_stokes.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/testing/laws.hpp>
 
-namespace stokes_scene_test {
+#include <fem/stokes_balance.hpp>
+#include <fem/stokes_dual.hpp>
+#include <fem/stokes_field.hpp>
+#include <oracle/dense_stokes.hpp>
+#include <support/dense_of.hpp>
+#include <support/minimise.hpp>
+#include <support/testing.hpp>
 
-using Eigen::Vector2d;
+namespace stokes_scene_test {
 
 /// A distorted rectangle with a wall at the bottom, a force and a flow through it.
 fem::stokes_flow small_flow(double g, double κ) {
@@ -71,12 +69,11 @@ solved solve(fem::stokes_flow const& flow, fem::dual_units units, double toleran
   solved s{fem::make_stokes_scene(flow), {}, 0, false};
   auto const factor = slant::factorize(s.scene.A);
   fem::stokes_dual const dual(factor, s.scene, units);
-  auto const r = slant::solve(slant::symmetric_newton{dual.qp()}, dual.zero(),
-                              slant::reduced_gradient_below(tolerance) || slant::at_most(200));
+  auto const r = test::minimise(slant::symmetric_newton{dual.qp()}, dual.zero(), tolerance, 200);
   s.converged = r.converged();
   s.solution = dual.solution(r.x());
-  Eigen::VectorXd Ax(r.x().size());
-  Eigen::VectorXd v(s.scene.l.size());
+  VectorXd Ax(r.x().size());
+  VectorXd v(s.scene.l.size());
   slant::apply(dual.a(), r.x(), Ax);
   slant::apply(slant::inverse(factor), s.scene.l, v);
   s.dual_value = dual.b().dot(r.x()) - Ax.dot(r.x()) / 2 - s.scene.l.dot(v) / 2;
@@ -132,15 +129,11 @@ TEST_CASE("A is what its laws say, and what the formula says") {
   slant::testing::check_operator_laws(A);
 
   Eigen::Index const m = scene.wall_count();
-  Eigen::MatrixXd C(2 * m + scene.pressure_count(), scene.velocity_count());
+  MatrixXd C(2 * m + scene.pressure_count(), scene.velocity_count());
   C << scene.T.toDense(), scene.N.toDense(), scene.B.toDense();
-  Eigen::MatrixXd expected = C * scene.A.toDense().inverse() * C.transpose();
+  MatrixXd expected = C * scene.A.toDense().inverse() * C.transpose();
   expected.bottomRightCorner(scene.pressure_count(), scene.pressure_count()) += scene.E.toDense();
-  Eigen::VectorXd y(C.rows());
-  for (Eigen::Index j = 0; j < C.rows(); ++j) {
-    slant::apply(A, Eigen::VectorXd(Eigen::VectorXd::Unit(C.rows(), j)), y);
-    CHECK((y - expected.col(j)).norm() < 1e-12 * expected.norm());
-  }
+  CHECK((test::dense_of(A) - expected).norm() < 1e-12 * expected.norm());
   CHECK(expected.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > 1e-6);
 }
 
@@ -156,7 +149,7 @@ TEST_CASE("duality: the primal energy is the dual one, and others are not below 
   auto const flow = small_flow(0.35, 0.2);
   auto const s = solve(flow, fem::dual_units::balanced);
   auto const& [u, λ_t, λ_n, p] = s.solution;
-  auto const primal = [&](Eigen::VectorXd const& v, Eigen::VectorXd const& q) {
+  auto const primal = [&](VectorXd const& v, VectorXd const& q) {
     return v.dot(s.scene.A * v) / 2 - s.scene.l.dot(v) + q.dot(s.scene.E * q) / 2 +
            s.scene.g.dot((s.scene.T * v).cwiseAbs());
   };
@@ -166,13 +159,12 @@ TEST_CASE("duality: the primal energy is the dual one, and others are not below 
   // Another (v, q) with N v = 0, B v − E q = c: change v in the kernel of N and of B, E's in q.
   Eigen::Index const m = s.scene.wall_count();
   Eigen::Index const n_p = s.scene.pressure_count();
-  Eigen::MatrixXd G(m + n_p, u.size() + n_p);
-  G << s.scene.N.toDense(), Eigen::MatrixXd::Zero(m, n_p), s.scene.B.toDense(),
-      -s.scene.E.toDense();
-  Eigen::MatrixXd const kernel = Eigen::FullPivLU<Eigen::MatrixXd>(G).kernel();
+  MatrixXd G(m + n_p, u.size() + n_p);
+  G << s.scene.N.toDense(), MatrixXd::Zero(m, n_p), s.scene.B.toDense(), -s.scene.E.toDense();
+  MatrixXd const kernel = Eigen::FullPivLU<MatrixXd>(G).kernel();
   REQUIRE(kernel.cols() > 2);
   for (Eigen::Index j = 0; j < kernel.cols(); ++j) {
-    Eigen::VectorXd const d = 0.1 * kernel.col(j).normalized();
+    VectorXd const d = 0.1 * kernel.col(j).normalized();
     CHECK(primal(u + d.head(u.size()), p + d.tail(n_p)) >= energy - 1e-12 * std::abs(energy));
     CHECK(primal(u - d.head(u.size()), p - d.tail(n_p)) >= energy - 1e-12 * std::abs(energy));
   }

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <Eigen/Cholesky>
-#include <cmath>
 #include <fem/string_1d.hpp>
 #include <numbers>
 #include <set>
+#include <support/testing.hpp>
 
 namespace string_1d_test {
 
 constexpr double π = std::numbers::pi;
 
-Eigen::VectorXd solve(fem::wire<double> const& wire) {
-  return Eigen::MatrixXd(wire.A).llt().solve(wire.b);
+VectorXd solve(fem::wire<double> const& wire) {
+  return MatrixXd(wire.A).llt().solve(wire.b);
 }
 
 TEST_CASE("the order of the unknowns: bounds, consecutive pairs, free ones") {
@@ -54,12 +51,12 @@ TEST_CASE("the free wire has the closed form of its difference equation") {
 
 TEST_CASE("the energy is that of the piecewise linear wire") {
   auto const wire = fem::make_wire(4);
-  Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(16, -1, 2).array().sin();
-  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(10, 2);  // with the fixed ends
+  VectorXd const x = VectorXd::LinSpaced(16, -1, 2).array().sin();
+  MatrixXd y = MatrixXd::Zero(10, 2);  // with the fixed ends
   y.middleRows(1, 8) = wire.shape(x);
   double const energy = (y.bottomRows(9) - y.topRows(9)).squaredNorm() / wire.h();
   CHECK(x.dot(wire.A * x) == doctest::Approx(energy).epsilon(1e-13));
-  CHECK((Eigen::MatrixXd(wire.A) - Eigen::MatrixXd(wire.A).transpose()).isZero(0));
+  CHECK((MatrixXd(wire.A) - MatrixXd(wire.A).transpose()).isZero(0));
 }
 
 TEST_CASE("other scalars give the same wire") {
@@ -68,7 +65,7 @@ TEST_CASE("other scalars give the same wire") {
   auto const single = fem::make_wire<float>(6);
   CHECK((wire.b - longer.b.cast<double>()).norm() < 1e-14 * wire.b.norm());
   CHECK((wire.b - single.b.cast<double>()).norm() < 1e-5 * wire.b.norm());
-  CHECK((Eigen::MatrixXd(wire.A) - Eigen::MatrixXd(longer.A.cast<double>())).norm() < 1e-12);
+  CHECK((MatrixXd(wire.A) - MatrixXd(longer.A.cast<double>())).norm() < 1e-12);
 }
 
 TEST_CASE("a wire without nodes is refused") {

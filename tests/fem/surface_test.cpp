@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
 #include <fem/brick_mesh.hpp>
 #include <fem/surface.hpp>
+#include <support/testing.hpp>
 
 namespace surface_test {
 
@@ -11,20 +10,20 @@ fem::unknown_map all_unknown(fem::simplex_mesh<3> const& mesh) {
 }
 
 TEST_CASE("a traction adds up to traction times area, about the right point") {
-  Eigen::Vector3d const size(2.5, 0.75, 1.25);
+  Vector3d const size(2.5, 0.75, 1.25);
   auto const mesh = fem::make_brick_mesh(2, size);
-  Eigen::Vector3d const traction(0.3, 0.2, 1.2);
+  Vector3d const traction(0.3, 0.2, 1.2);
   for (int axis = 0; axis < 3; ++axis)
     for (bool const upper : {false, true}) {
-      Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.node_count());
+      VectorXd f = VectorXd::Zero(3 * mesh.node_count());
       fem::add_traction<3>(mesh, all_unknown(mesh), {axis, upper}, traction, f);
       auto const forces = f.reshaped(3, mesh.node_count());
       double const area = size.prod() / size[axis];
       CHECK((forces.rowwise().sum() - area * traction).norm() < 1e-14);
       // First moments of the force component along x, about the origin.
-      Eigen::Vector3d centre = size / 2;
+      Vector3d centre = size / 2;
       centre[axis] = upper ? size[axis] : 0;
-      Eigen::Vector3d const moment = mesh.nodes * forces.row(0).transpose();
+      Vector3d const moment = mesh.nodes * forces.row(0).transpose();
       CHECK((moment - area * traction[0] * centre).norm() < 1e-14);
       for (Eigen::Index node = 0; node < mesh.node_count(); ++node)
         if (!mesh.on({axis, upper}, node)) CHECK(forces.col(node).isZero(0));
@@ -34,14 +33,12 @@ TEST_CASE("a traction adds up to traction times area, about the right point") {
 TEST_CASE("an affine traction has the right resultant and the right moments") {
   // p_x = 2 + y − 3z on the right end x = 2 of the box: ∫ p, ∫ y p and ∫ z p in closed form.
   auto const mesh = fem::make_brick_mesh(2, {2, 1, 3});
-  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.node_count());
-  auto const p = [](Eigen::Vector3d const& x) {
-    return Eigen::Vector3d(2 + x[1] - 3 * x[2], 0, 0);
-  };
+  VectorXd f = VectorXd::Zero(3 * mesh.node_count());
+  auto const p = [](Vector3d const& x) { return Vector3d(2 + x[1] - 3 * x[2], 0, 0); };
   fem::add_affine_traction<3>(mesh, all_unknown(mesh), fem::brick_side::right, p, f);
   auto const forces = f.reshaped(3, mesh.node_count());
   CHECK(forces.row(0).sum() == doctest::Approx(3 * (2 + 0.5 - 4.5)).epsilon(1e-13));
-  Eigen::Vector3d const moment = mesh.nodes * forces.row(0).transpose();
+  Vector3d const moment = mesh.nodes * forces.row(0).transpose();
   CHECK(moment[1] == doctest::Approx(3 * (1 + 1.0 / 3 - 2.25)).epsilon(1e-13));
   CHECK(moment[2] == doctest::Approx(9 + 2.25 - 27).epsilon(1e-13));
   CHECK(forces.bottomRows(2).isZero(0));

@@ -4,12 +4,11 @@
 // approximately.
 #include <slant/newton/saddle_solvers.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/thesis_ssnm.hpp>
 #include <fem/thesis_ssnm_start.hpp>
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
+#include <support/testing.hpp>
 
 namespace thesis_ssnm_test {
 
@@ -23,7 +22,7 @@ outcome run(std::size_t entry, double l, double g, slant::index most = 1000) {
   auto const set = fem::wire_set(w, l, g);
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
   auto r = fem::run_ssnm(slant::separable_qp{A, w.b, set}, slant::saddle_direct{}, {},
-                         Eigen::VectorXd::Zero(4 * w.m).eval(), 1e-6, most);
+                         test::zeros(4 * w.m), 1e-6, most);
   auto const counts = fem::count_active(set, w.A, w.b, r.x);
   return {std::move(r), counts};
 }

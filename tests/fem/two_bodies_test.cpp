@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <array>
 #include <fem/lecture_tables.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
-#include <utility>
+#include <support/testing.hpp>
 
 namespace two_bodies_test {
 
@@ -66,19 +63,19 @@ TEST_CASE("two halves glued together are one body") {
 
 TEST_CASE("rigid rotations of both bodies keep the contact closed, of one they open it") {
   auto const scene = fem::make_two_plates(2);
-  Eigen::VectorXd both = Eigen::VectorXd::Zero(scene.K.rows());
-  Eigen::VectorXd upper = both;
+  VectorXd both = VectorXd::Zero(scene.K.rows());
+  VectorXd upper = both;
   Eigen::Index const nodes = scene.mesh.node_count();
   for (Eigen::Index node = 0; node < nodes; ++node) {
     if (scene.unknowns.is_fixed(node)) continue;
     auto const x = scene.mesh.nodes.col(node);
-    Eigen::Vector2d const turned(-x[1], x[0]);
+    Vector2d const turned(-x[1], x[0]);
     both.segment<2>(scene.unknowns.first[node]) = turned;
     if (node < nodes / 2) upper.segment<2>(scene.unknowns.first[node]) = turned;
   }
   CHECK((scene.N * both).cwiseAbs().maxCoeff() == 0);
   CHECK((scene.T * both).cwiseAbs().maxCoeff() == 0);
-  Eigen::VectorXd const gap = -(scene.N * upper);
+  VectorXd const gap = -(scene.N * upper);
   for (Eigen::Index i = 0; i < scene.contact_count(); ++i) {
     CHECK(gap[i] == scene.contact_patches[static_cast<std::size_t>(i)].centre[0]);
     CHECK((scene.T * upper)[i] == -1);
@@ -149,12 +146,12 @@ TEST_CASE("slip bounds are forces, weights sum to the free part of the contact s
 TEST_CASE("a gap is the distance of the bodies, and sides that do not match are refused") {
   auto pair = halves<2>(2);
   pair.first.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}, {0, 1.25});
-  CHECK(fem::make_two_body_scene(pair).d == Eigen::VectorXd::Constant(6, 0.25));
+  CHECK(fem::make_two_body_scene(pair).d == VectorXd::Constant(6, 0.25));
   // The same seen from below.
   std::swap(pair.first, pair.second);
   pair.contact.upper = true;
   auto const turned = fem::make_two_body_scene(pair);
-  CHECK(turned.d == Eigen::VectorXd::Constant(6, 0.25));
+  CHECK(turned.d == VectorXd::Constant(6, 0.25));
   CHECK(turned.N.sum() == 0);
 
   auto const refused = [](auto change, char const* message) {
@@ -187,9 +184,9 @@ TEST_CASE("a node that only one body holds is a contact node with one side") {
   pair.second.fixed = {1, false};  // the lower body stands on its bottom
   auto const scene = fem::make_two_body_scene(pair);
   CHECK(scene.contact_count() == 7);
-  Eigen::VectorXd const entries = scene.N.cwiseAbs() * Eigen::VectorXd::Ones(scene.N.cols());
+  VectorXd const entries = scene.N.cwiseAbs() * VectorXd::Ones(scene.N.cols());
   CHECK(entries[0] == 1);
-  CHECK(entries.tail(6) == Eigen::VectorXd::Constant(6, 2));
+  CHECK(entries.tail(6) == VectorXd::Constant(6, 2));
 }
 
 }  // namespace two_bodies_test

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
-#include <cmath>
 #include <fem/wall_nodes.hpp>
 #include <numbers>
+#include <support/testing.hpp>
 
 namespace wall_nodes_test {
-
-using Eigen::Vector2d;
 
 /// A ring around the circle of radius r, one layer of triangles thick; part 0 is inside.
 fem::planar_domain ring(int n, double r) {

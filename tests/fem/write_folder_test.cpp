@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
+#include <slant/io/matrix_market.hpp>
 
-#include <cmath>
 #include <fem/steel_brick.hpp>
 #include <fem/write_folder.hpp>
 #include <io/io_support.hpp>
-#include <slant/io/matrix_market.hpp>
+#include <support/testing.hpp>
 
 namespace write_folder_test {
 
