@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Larger bricks under every load.
-#include <slant/methods/kprgp.hpp>
-#include <slant/newton/semismooth_newton.hpp>
-#include <slant/operators/declare.hpp>
-#include <slant/slanting/projection.hpp>
-
-#include <doctest/doctest.h>
+#include <slant/slant.hpp>
 
 #include <methods/brick_runs.hpp>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 
 namespace brick_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("symmetric_newton: energy error 1e-8 within 250 products") {
   for (int const k : {6, 8}) {

@@ -2,28 +2,15 @@
 //
 // A hundred thousand certificates of random, degenerate and ill-conditioned programs against
 // solutions in quadruple precision: none below the error, and how far above at the end of a run.
-#include <slant/certificates/energy_certificate.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/iteration/stopping.hpp>
-#include <slant/methods/symmetric_newton.hpp>
-#include <slant/operators/matrix.hpp>
-#include <slant/problems/separable_qp.hpp>
+#include <slant/slant.hpp>
 
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <oracle/random_programs.hpp>
-#include <random>
+#include <support/minimise.hpp>
 #include <support/program_sets.hpp>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace certificates_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using long_matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// A⁻¹ from the long type, rounded: off by less than ε‖A⁻¹‖ in each entry for κ up to 1e14.
@@ -88,8 +75,7 @@ TEST_CASE("no certificate is below the error; at the end of a run it is close to
         x += δ * solution.norm() * VectorXd::NullaryExpr(x.size(), [&] { return gauss(random); });
       look(x, false);
     }
-    auto const run = slant::solve(slant::symmetric_newton{qp}, VectorXd(VectorXd::Zero(p.size())),
-                                  slant::reduced_gradient_below(1e-9) || slant::at_most(500));
+    auto const run = test::minimise(slant::symmetric_newton{qp}, test::zeros(p.size()), 1e-9, 500);
     if (run.converged()) look(run.x(), true);
   }
   CHECK(certificates >= 100000);

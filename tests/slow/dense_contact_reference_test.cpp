@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
+#include <support/testing.hpp>
 
 namespace dense_contact_reference_test {
 

@@ -3,15 +3,12 @@
 // Every letter with every other, a b, a + b, a − b with numbers in front, a b c, a b + c and
 // palindromes of five: each inferred law holds for the dense matrix. Letters are in general position,
 // so a law that does not follow from the structure does not hold by accident either.
-#include "operators/letters.hpp"
-
 #include <boost/hana/for_each.hpp>
-
-#include <doctest/doctest.h>
+#include <support/testing.hpp>
+#include "operators/letters.hpp"
 
 namespace expressions_test {
 
-using Eigen::MatrixXd;
 namespace hana = boost::hana;
 
 /// An expression and its matrix.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Every projection at a million random and adversarial points against a multiprecision oracle.
-#include <slant/sets/half_line.hpp>
-#include <slant/sets/interval.hpp>
+#include <slant/sets/sets.hpp>
 
+#include <support/testing.hpp>
 #include "oracle/projection_errors.hpp"
-
-#include <doctest/doctest.h>
 
 namespace projections_test {
 

@@ -5,10 +5,7 @@
 #include <slant/sets/sets.hpp>
 #include <slant/testing/set_breaches.hpp>
 
-#include <doctest/doctest.h>
-
-#include <string>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace set_laws_test {
 

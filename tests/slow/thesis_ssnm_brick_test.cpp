@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
+#include <slant/newton/saddle_solvers.hpp>
 
 #include <fem/thesis_ssnm_brick.hpp>
 #include <oracle/dense_newton.hpp>
-#include <slant/newton/saddle_solvers.hpp>
+#include <support/testing.hpp>
 
 namespace thesis_ssnm_brick_test {
-
-using Eigen::VectorXd;
 
 TEST_CASE("the dual problem of a brick, with its dense A") {
   auto const scene = fem::make_steel_brick({.k = 3, .load = fem::brick_load::pull});

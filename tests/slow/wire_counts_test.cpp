@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
-
 #include <fem/wire_counts.hpp>
-#include <optional>
 #include <oracle/certificate.hpp>
 #include <oracle/wire_reference.hpp>
-#include <utility>
+#include <support/testing.hpp>
 
 namespace wire_counts_test {
 
