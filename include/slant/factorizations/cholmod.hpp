@@ -199,26 +199,39 @@ class cholmod_workspace {
  public:
   /// For solves with these factors; null for an empty matrix, with which nothing is solved. A warm
   /// one allocates nothing later on.
-  cholmod_workspace(cholmod_factors const* factors, index columns, bool warm = true) {
+  cholmod_workspace(cholmod_factors const* factors, index columns, bool warm = true)
+      : cholmod_workspace() {
     if (factors == nullptr) return;
     right_.setZero(factors->size(), columns);
     // The first solve lets CHOLMOD allocate all it needs; later ones reuse it.
     if (warm) (void)solve(*factors);
   }
-  cholmod_workspace(cholmod_workspace const& other)
-      : right_(Eigen::MatrixXd::Zero(other.right_.rows(), other.right_.cols())) {
-    if (other.rooms_ == nullptr) return;  // moved from
-    for (auto vectors : {&rooms::solution, &rooms::y, &rooms::e}) {
-      *rooms_.*vectors = room_like(*other.rooms_.*vectors);
-    }
+  cholmod_workspace(cholmod_workspace const& other) : cholmod_workspace() {
+    right_.setZero(other.right_.rows(), other.right_.cols());
+    solution_ = room_like(other.solution_);
+    y_ = room_like(other.y_);
+    e_ = room_like(other.e_);
   }
-  cholmod_workspace(cholmod_workspace&& other) noexcept = default;
+  cholmod_workspace(cholmod_workspace&& other) noexcept
+      : state_(std::move(other.state_)),
+        right_(std::move(other.right_)),
+        solution_(std::exchange(other.solution_, nullptr)),
+        y_(std::exchange(other.y_, nullptr)),
+        e_(std::exchange(other.e_, nullptr)) {}
   cholmod_workspace& operator=(cholmod_workspace other) noexcept {
-    std::swap(rooms_, other.rooms_);
+    std::swap(state_, other.state_);
     right_.swap(other.right_);
+    std::swap(solution_, other.solution_);
+    std::swap(y_, other.y_);
+    std::swap(e_, other.e_);
     return *this;
   }
-  ~cholmod_workspace() = default;
+  ~cholmod_workspace() {
+    if (state_ == nullptr) return;
+    for (cholmod_dense** vectors : {&solution_, &y_, &e_}) {
+      cholmod_free_dense(vectors, state_->get());
+    }
+  }
 
   /// Where the right-hand sides belong.
   [[nodiscard]] Eigen::MatrixXd& right_hand_side() noexcept { return right_; }
@@ -232,29 +245,21 @@ class cholmod_workspace {
     b.x = right_.data();
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
-    // A simplicial solve works on up to four right-hand sides at a time and leaves y with the size
+    // A simplicial solve works on up to four right-hand sides at a time and leaves y_ with the size
     // of the last few; the next one would allocate it anew.
-    auto& [state, solution, y, e] = *rooms_;
-    if (y != nullptr && factors.get()->is_super == 0) {
-      y->nrow = y->d = y->nzmax / b.nrow;
-      y->ncol = b.nrow;
+    if (y_ != nullptr && factors.get()->is_super == 0) {
+      y_->nrow = y_->d = y_->nzmax / b.nrow;
+      y_->ncol = b.nrow;
     }
-    if (cholmod_solve2(CHOLMOD_A, factors.get(), &b, nullptr, &solution, nullptr, &y, &e,
-                       state.get()) == 0) {
+    if (cholmod_solve2(CHOLMOD_A, factors.get(), &b, nullptr, &solution_, nullptr, &y_, &e_,
+                       state_->get()) == 0) {
       throw std::bad_alloc();
     }
-    return {static_cast<double const*>(solution->x), right_.rows(), right_.cols()};
+    return {static_cast<double const*>(solution_->x), right_.rows(), right_.cols()};
   }
 
  private:
-  struct rooms {
-    cholmod_state state;
-    cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;
-
-    ~rooms() {
-      for (auto* vectors : {&solution, &y, &e}) cholmod_free_dense(vectors, state.get());
-    }
-  };
+  cholmod_workspace() : state_(std::make_unique<cholmod_state>()) {}
 
   /// A matrix of the same width that can hold as many numbers; null for null.
   [[nodiscard]] cholmod_dense* room_like(cholmod_dense const* vectors) {
@@ -262,13 +267,16 @@ class cholmod_workspace {
     std::size_t const width = vectors->ncol;
     std::size_t const height = width > 0 ? vectors->nzmax / width : 0;
     cholmod_dense* room =
-        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, rooms_->state.get());
+        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, state_->get());
     if (room == nullptr) throw std::bad_alloc();
     return room;
   }
 
-  std::unique_ptr<rooms> rooms_ = std::make_unique<rooms>();
+  std::unique_ptr<cholmod_state> state_;
   Eigen::MatrixXd right_;
+  cholmod_dense* solution_ = nullptr;
+  cholmod_dense* y_ = nullptr;
+  cholmod_dense* e_ = nullptr;
 };
 
 }  // namespace slant::detail
