@@ -8,8 +8,6 @@
 #include <slant/methods/schur_contact.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/contact_scene.hpp>
 #include <fem/elastic_torsion.hpp>
 #include <fem/plate_chain.hpp>
@@ -19,18 +17,10 @@
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
 #include <support/dense_of.hpp>
-#include <support/effort.hpp>
-#include "support/message.hpp"
-
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace bodies_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::status;
 namespace contact = slant::contact;

@@ -5,20 +5,10 @@
 #include <slant/contact/dual.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/ldlt.hpp>
-
-#include <doctest/doctest.h>
-
-#include "support/effort.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace certificate_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 /// A brick with a reference solution, and the certificate of points beside it.
@@ -116,8 +106,7 @@ TEST_CASE("a proven bound is never below the error, and not far above it") {
 
 TEST_CASE("slender and thin bodies: the certificate sees what the reduced gradient does not") {
   for (auto const& [length, height] : {std::pair(300.0, 1.0), std::pair(3.0, 1e-3)}) {
-    certified_scene s(
-        {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(length, 1, height)});
+    certified_scene s({.k = 1, .load = fem::brick_load::lift, .size = Vector3d(length, 1, height)});
     REQUIRE(s.prove());
     for (double const δ : {1e-2, 1e-5, 1e-8}) {
       VectorXd u;
@@ -212,7 +201,7 @@ struct one_node {
   contact::data<double> data{};
   long double u[3], λ[3];
 
-  one_node(double normal, double tangential, Eigen::Vector3d const& f, double d, double g) {
+  one_node(double normal, double tangential, Vector3d const& f, double d, double g) {
     for (int j = 0; j < 3; ++j) K.insert(j, j) = j == 0 ? normal : tangential;
     data.N.resize(1, 3);
     data.N.insert(0, 0) = 1;
@@ -250,7 +239,7 @@ TEST_CASE("a proven bound counts its own rounding errors: at solutions rounded t
   int const runs = test::effort(20000, 2000);
   for (int run = 0; run < runs; ++run) {
     double const normal = uniform(random), tangential = uniform(random);
-    Eigen::Vector3d const f(sign(random), sign(random), sign(random));
+    Vector3d const f(sign(random), sign(random), sign(random));
     double const pull = std::hypot(f(1), f(2));
     double const g = run % 3 == 0   ? pull * (1 - 1e-9 * uniform(random))
                      : run % 3 == 1 ? pull / 2

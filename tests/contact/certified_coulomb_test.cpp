@@ -3,25 +3,15 @@
 
 #include <slant/contact/optimality.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/two_bricks.hpp>
 #include <support/optimised.hpp>
+#include <support/testing.hpp>
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
 #include "spring_scenes.hpp"
-#include "support/message.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-#include <utility>
 
 namespace certified_coulomb_test {
 
-using Eigen::VectorXd;
 using slant::status;
 namespace contact = slant::contact;
 
@@ -86,7 +76,7 @@ TEST_CASE("certified_coulomb: thin, slender and nearly floating bodies, no wrong
   };
   auto const brick = [](double length, double height) {
     return fem::make_steel_brick(
-        {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(length, 1, height)});
+        {.k = 1, .load = fem::brick_load::lift, .size = Vector3d(length, 1, height)});
   };
   auto const slender = brick(300, 1), thin = brick(3, 1e-4);
   judge(slender.K, test::contact_data(slender), 3);  // Newton's alone finds no way
@@ -233,10 +223,10 @@ double alart_curnier_residual(test::dense_dual const& p, VectorXd const& μ, Vec
   VectorXd r = λ;
   for (Eigen::Index i = 0; i < m; ++i) {
     double const n = std::max(0.0, z(i));
-    Eigen::Vector2d const t = z.segment<2>(m + 2 * i);
+    Vector2d const t = z.segment<2>(m + 2 * i);
     double const bound = μ(i) * n;
     r(i) -= n;
-    r.segment<2>(m + 2 * i) -= t.norm() > bound ? Eigen::Vector2d(bound / t.norm() * t) : t;
+    r.segment<2>(m + 2 * i) -= t.norm() > bound ? Vector2d(bound / t.norm() * t) : t;
   }
   return r.norm();
 }

@@ -10,14 +10,8 @@
 #include <slant/methods/unconstrained_start.hpp>
 #include <slant/operators/counted.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "scenes.hpp"
-#include "support/message.hpp"
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 namespace contact_data_test {
 

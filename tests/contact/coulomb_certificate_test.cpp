@@ -3,20 +3,14 @@
 
 #include <slant/contact/dual.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
 #include "scenes.hpp"
 #include "spring_scenes.hpp"
 
-#include <cmath>
-#include <limits>
-#include <random>
-
 namespace coulomb_certificate_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 /// A scene, its certificate, and an oracle for Tresca's problem with any slip bounds.
@@ -52,7 +46,7 @@ struct scene {
 
 scene brick(double length) {
   auto const s = fem::make_steel_brick(
-      {.k = 1, .load = fem::brick_load::lift, .size = Eigen::Vector3d(length, 1, 1)});
+      {.k = 1, .load = fem::brick_load::lift, .size = Vector3d(length, 1, 1)});
   return {s.K, test::contact_data(s), 0.3};
 }
 scene on_springs(double spring) {

@@ -5,18 +5,13 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/two_plates.hpp>
+#include <support/testing.hpp>
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"
 
-#include <cmath>
-#include <limits>
-
 namespace coulomb_families_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 constexpr double tolerance = 1e-11;
 

@@ -10,14 +10,10 @@
 #include <slant/newton/krylov_solvers.hpp>
 
 #include <fem/two_plates.hpp>
-
-#include <doctest/doctest.h>
-
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 
 namespace coulomb_newton_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 auto stop(double tolerance) {

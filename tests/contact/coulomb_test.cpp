@@ -8,16 +8,10 @@
 #include <slant/contact/preconditioners.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-
-#include <doctest/doctest.h>
-
-#include <string>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace coulomb_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 auto stop(double tolerance) {

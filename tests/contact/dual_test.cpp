@@ -6,25 +6,17 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 
-#include <doctest/doctest.h>
-
 #include <contact/scenes.hpp>
 #include <fem/contact_field.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
 #include <oracle/dense_contact_reference.hpp>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 #include "counting_factor.hpp"
 #include "scenes.hpp"
 
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-
 namespace dual_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -128,7 +120,7 @@ TEST_CASE("interference without load beside infinite gaps: any length is as good
   for (double const size : {1.0, 1e-9, 1e-30, 1e30}) {
     CAPTURE(size);
     contact::data<double> const c{N, Eigen::SparseMatrix<double>(0, n), VectorXd::Zero(n),
-                                  Eigen::Vector2d(-size, inf), VectorXd(0)};
+                                  Vector2d(-size, inf), VectorXd(0)};
     contact::dual const dual(contact::frictionless{}, factor, c);
     CHECK(dual.b()(0) == size);
     CHECK(dual.b()(1) == -size / 2);
@@ -280,7 +272,7 @@ TEST_CASE("a small change beside a huge entry, as of a penalty, is a new load") 
   c.N.resize(1, 3);
   c.N.insert(0, 2) = 1;
   c.T.resize(0, 3);
-  c.f = Eigen::Vector3d(1e19, 0, 0.5);
+  c.f = Vector3d(1e19, 0, 0.5);
   c.d = VectorXd::Zero(1);
   slant::ldlt const factor(K);
   contact::dual dual(contact::frictionless{}, factor, c);
@@ -412,7 +404,7 @@ fem::contact_field<D> check_scene(Friction friction, fem::contact_scene<D> const
 TEST_CASE("two plates [K Ex 5]") {
   auto const scene = fem::make_two_plates(4);
   auto const field = check_scene(slant::contact::friction_line{}, scene);
-  CHECK(field.slip_bound.isApprox(Eigen::VectorXd::Constant(12, 1.7e7), 1e-14));
+  CHECK(field.slip_bound.isApprox(VectorXd::Constant(12, 1.7e7), 1e-14));
   // Two cantilevers bent down: the lower fibres of the upper one are pressed together and slide to
   // the left over the upper fibres of the lower one, so friction on the upper one points right. The
   // free end of the upper one is torn upwards.

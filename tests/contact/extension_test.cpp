@@ -3,17 +3,10 @@
 
 #include <slant/contact/parts/extension.hpp>
 #include <slant/factorizations/factorize.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
+#include <support/testing.hpp>
 
 namespace extension_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 /// ‖d‖_{A⁻¹} of a brick by dense linear algebra, A = B K⁻¹Bᵀ.

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/free_motions.hpp>
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <fem/stacked_bricks.hpp>
-#include <string>
-#include <support/message.hpp>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace free_motions_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::contact::factorize_stiffness;
 using slant::contact::find_free_motions;
 using slant::contact::node_layout;
@@ -73,15 +65,15 @@ TEST_CASE("free motions of a brick in space, held at more and more points") {
   sliding.hold(floor);
   CHECK(sliding.sentence() == name + "71) can move along x and y and turn about z");
   body pinned = brick;
-  auto const corner = Eigen::Vector3d(2, 0, 0);
+  auto const corner = Vector3d(2, 0, 0);
   pinned.hold({brick.at(corner, 0), brick.at(corner, 1), brick.at(corner, 2)});
   CHECK(pinned.sentence() == name + "77) can turn about x, y and z");
   body hinged = brick;
-  auto const edge = Eigen::Vector3d(2, 1, 0);
+  auto const edge = Vector3d(2, 1, 0);
   hinged.hold({brick.at(corner, 0), brick.at(corner, 1), brick.at(corner, 2), brick.at(edge, 0),
                brick.at(edge, 2)});
   CHECK(hinged.sentence() == name + "75) can turn about the axis along y through (2, 0.5, 0)");
-  hinged.hold({hinged.at(Eigen::Vector3d(0, 0, 0), 2)});
+  hinged.hold({hinged.at(Vector3d(0, 0, 0), 2)});
   CHECK(find_free_motions(hinged.K, hinged.layout).free.empty());
   CHECK(factorize_stiffness(hinged.K).rows() == hinged.K.rows());
 }
@@ -89,12 +81,12 @@ TEST_CASE("free motions of a brick in space, held at more and more points") {
 TEST_CASE("free motions of a plate, also in other units and directions") {
   body plate = make_plate();
   CHECK(plate.sentence() == "body 0 (unknowns 0 to 23) can move along x and y and turn about z");
-  auto const corner = Eigen::Vector2d(3, 0);
+  auto const corner = Vector2d(3, 0);
   body pinned = plate;
   pinned.hold({plate.at(corner, 0), plate.at(corner, 1)});
   CHECK(pinned.sentence() == "body 0 (unknowns 0 to 21) can turn about the point (3, 0)");
   body rolling = plate;
-  rolling.hold({plate.at(corner, 1), plate.at(Eigen::Vector2d(0, 0), 1)});
+  rolling.hold({plate.at(corner, 1), plate.at(Vector2d(0, 0), 1)});
   CHECK(rolling.sentence() == "body 0 (unknowns 0 to 21) can move along x");
   for (double const unit : {1e-150, 1e-9, 1e150}) {
     rolling.K = unit * rolling.K;
@@ -109,7 +101,7 @@ TEST_CASE("free motions of a plate, also in other units and directions") {
   for (int i = 0; i < 12; ++i) Q.block<2, 2>(2 * i, 2 * i) << c, -s, s, c;
   MatrixXd const springs = [&] {  // across the frame's own y at two nodes
     MatrixXd k = Q * MatrixXd(plate.K) * Q.transpose();
-    for (Eigen::Index const j : {plate.at(corner, 1), plate.at(Eigen::Vector2d(0, 0), 1)})
+    for (Eigen::Index const j : {plate.at(corner, 1), plate.at(Vector2d(0, 0), 1)})
       k += 10 * Q.col(j) * Q.col(j).transpose();
     return k;
   }();

@@ -2,12 +2,8 @@
 #include <slant/contact/friction/friction_blocks.hpp>
 #include <slant/contact/friction/verify.hpp>
 
+#include <support/testing.hpp>
 #include "contact/friction_scenes.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <doctest/doctest.h>
-
-#include <cmath>
 
 namespace friction_blocks_test {
 
@@ -15,7 +11,7 @@ template <int N>
 using blocks = slant::contact::friction_blocks<N, double>;
 
 /// ‖natural map‖ / ‖q‖ in long double.
-double naive_error(test::friction_problem const& p, Eigen::VectorXd const& r) {
+double naive_error(test::friction_problem const& p, VectorXd const& r) {
   oracle::friction_real sum = 0;
   for (auto const& c : test::naive(p, r)) sum += c.natural_map * c.natural_map;
   return double(std::sqrt(sum)) / p.q.norm();
@@ -28,12 +24,12 @@ TEST_CASE("blocks: products and errors are those of the dense problem in the uni
     blocks<N> const b(p);
     CHECK(b.q().cwiseAbs().maxCoeff() >= 1);
     CHECK(b.q().cwiseAbs().maxCoeff() < 2);
-    Eigen::VectorXd const r = p.q.cwiseAbs() / p.W.coeff(0, 0);
-    Eigen::VectorXd const scaled = b.from_force(r);
+    VectorXd const r = p.q.cwiseAbs() / p.W.coeff(0, 0);
+    VectorXd const scaled = b.from_force(r);
     CHECK((b.force(scaled) - r).norm() == 0);
-    Eigen::VectorXd u(r.size());
+    VectorXd u(r.size());
     b.velocity(scaled, u);
-    CHECK((b.speed(u) - (Eigen::MatrixXd(p.W) * r + p.q)).norm() <= 1e-13 * b.speed(u).norm());
+    CHECK((b.speed(u) - (MatrixXd(p.W) * r + p.q)).norm() <= 1e-13 * b.speed(u).norm());
     CHECK(b.error(scaled, u).plain == doctest::Approx(naive_error(p, r)).epsilon(1e-10));
   };
   auto const plane = test::random_friction(4, 2, 0.4, 1),
@@ -46,10 +42,10 @@ TEST_CASE("blocks: products and errors are those of the dense problem in the uni
 
 TEST_CASE("blocks: the scaled error is that of verify and knows no units, rounding is told apart") {
   auto const p = test::random_friction(5, 3, 0.7, 3);
-  Eigen::VectorXd u(15);
-  auto const error_at = [&](test::friction_problem const& problem, Eigen::VectorXd const& r) {
+  VectorXd u(15);
+  auto const error_at = [&](test::friction_problem const& problem, VectorXd const& r) {
     blocks<3> const b(problem);
-    Eigen::VectorXd const x = b.from_force(r);
+    VectorXd const x = b.from_force(r);
     b.velocity(x, u);
     auto const e = b.error(x, u);
     auto const check = slant::contact::verify(problem, r);
@@ -57,17 +53,17 @@ TEST_CASE("blocks: the scaled error is that of verify and knows no units, roundi
     CHECK(e.penetration == doctest::Approx(check.unit_free_penetration).epsilon(1e-10));
     return e;
   };
-  Eigen::VectorXd const r = p.q.cwiseAbs();
+  VectorXd const r = p.q.cwiseAbs();
   double const expected = error_at(p, r).scaled;
   for (double const unit : {1e150, 1e-150, 1e10}) {
     auto scaled = p;
     scaled.W *= unit;
     CHECK(error_at(scaled, r / unit).scaled == doctest::Approx(expected).epsilon(1e-12));
   }
-  Eigen::VectorXd d = Eigen::VectorXd::Ones(15);
+  VectorXd d = VectorXd::Ones(15);
   for (slant::index i = 3; i < 9; ++i) d[i] = i < 6 ? 1e-8 : 1e8;
   auto other = p;
-  other.W = Eigen::MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
+  other.W = MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
   other.q = d.cwiseProduct(p.q);
   CHECK(error_at(other, r.cwiseQuotient(d)).scaled == doctest::Approx(expected).epsilon(1e-12));
   // r = 1e20 in units of u: its rounding alone is 1e4 |q|.
@@ -83,28 +79,27 @@ TEST_CASE("blocks: the scaled error is that of verify and knows no units, roundi
 }
 
 TEST_CASE("blocks: contacts of very different stiffness are measured by units of their own") {
-  Eigen::VectorXd d(6), r(6), u(6);
+  VectorXd d(6), r(6), u(6);
   d << 1, 1, 1, 1e-18, 1e-18, 1e-18;
   auto p = test::make_friction_problem(
-      d.asDiagonal().toDenseMatrix(),
-      (Eigen::VectorXd(6) << -1, 0.1, 0.7, -1e-9, 1e-10, 7e-10).finished(), Eigen::Vector2d(2, 2));
+      d.asDiagonal().toDenseMatrix(), (VectorXd(6) << -1, 0.1, 0.7, -1e-9, 1e-10, 7e-10).finished(),
+      Vector2d(2, 2));
   r = -p.q.cwiseQuotient(d);
-  auto const error_at = [&](Eigen::VectorXd const& force) {
+  auto const error_at = [&](VectorXd const& force) {
     blocks<3> const b(p);
-    Eigen::VectorXd const x = b.from_force(force);
+    VectorXd const x = b.from_force(force);
     b.velocity(x, u);
     return b.error(x, u);
   };
   CHECK(error_at(r).at_most(1e-14));
   CHECK(error_at((1 + 1e-6) * r).worst() > 1e-7);
-  Eigen::VectorXd wrong = r;
+  VectorXd wrong = r;
   wrong.tail<3>() *= 1 + 1e-6;  // a velocity of 1e-15
   CHECK(error_at(wrong).worst() > 1e-7);
   // Forces in a kernel of W are not seen, but their rounding is.
-  p = test::repeated(
-      test::make_friction_problem(Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 0.1, 0.7),
-                                  Eigen::VectorXd::Constant(1, 2)),
-      2);
+  p = test::repeated(test::make_friction_problem(Eigen::Matrix3d::Identity(),
+                                                 Vector3d(-1, 0.1, 0.7), VectorXd::Constant(1, 2)),
+                     2);
   r << 1, -0.1, -0.7, 0, 0, 0;
   CHECK(error_at(r).at_most(1e-14));
   r *= 1e17;
@@ -113,23 +108,23 @@ TEST_CASE("blocks: contacts of very different stiffness are measured by units of
 }
 
 TEST_CASE("blocks: penetration counts however large μ is, and rounding is no sliding") {
-  auto const at = [](double mu, Eigen::Vector3d const& r) {
-    auto const p = test::make_friction_problem(
-        Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));
+  auto const at = [](double mu, Vector3d const& r) {
+    auto const p = test::make_friction_problem(Eigen::Matrix3d::Identity(), Vector3d(-1, 1, 0),
+                                               VectorXd::Constant(1, mu));
     blocks<3> const b(p);
-    Eigen::VectorXd const x = r;
-    Eigen::VectorXd u(3);
+    VectorXd const x = r;
+    VectorXd u(3);
     b.velocity(x, u);
     return b.error(x, u);
   };
-  auto const none = at(1e9, Eigen::Vector3d::Zero());
+  auto const none = at(1e9, Vector3d::Zero());
   CHECK(none.scaled <= 1e-8);  // the natural map alone
   CHECK(none.penetration == doctest::Approx(std::sqrt(0.5)));
   CHECK(none.worst() == none.penetration);
   CHECK(!none.at_most(1e-8));
-  CHECK(at(1e9, Eigen::Vector3d(1, -1, 0)).at_most(1e-15));
-  CHECK(at(1e9, Eigen::Vector3d(1, -1 + 1e-15, 0)).at_most(1e-14));
-  CHECK(!at(1e9, Eigen::Vector3d(1, -1 + 1e-12, 0)).at_most(1e-8));
+  CHECK(at(1e9, Vector3d(1, -1, 0)).at_most(1e-15));
+  CHECK(at(1e9, Vector3d(1, -1 + 1e-15, 0)).at_most(1e-14));
+  CHECK(!at(1e9, Vector3d(1, -1 + 1e-12, 0)).at_most(1e-8));
 }
 
 TEST_CASE("blocks: a NaN in an error is not hidden") {
@@ -149,7 +144,7 @@ TEST_CASE("blocks: those without an entry are left out, nothing is allocated aft
   auto const p = test::chain_friction(20);
   blocks<3> const b(p);
   CHECK(b.block_count() == 20 + 2 * 19);
-  Eigen::VectorXd r = Eigen::VectorXd::Ones(60), u(60);
+  VectorXd r = VectorXd::Ones(60), u(60);
   slant::testing::allocation_guard guard;
   b.velocity(r, u);
   auto const e = b.error(r, u);

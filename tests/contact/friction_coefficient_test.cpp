@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/friction_law.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-
-#include <cmath>
-#include <limits>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace friction_coefficient_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 TEST_CASE("coefficients by place, by slip, by direction") {

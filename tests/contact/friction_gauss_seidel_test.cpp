@@ -3,14 +3,8 @@
 
 #include <slant/contact/friction/verify.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "contact/friction_scenes.hpp"
-#include "support/allocation_guard.hpp"
-
-#include <cmath>
-#include <limits>
-#include <random>
 
 namespace friction_gauss_seidel_test {
 
@@ -18,13 +12,13 @@ using blocks = slant::contact::friction_blocks<3, double>;
 using method = slant::contact::friction_gauss_seidel<3, double>;
 using sweeps = slant::contact::friction_sweeps<3, double>;
 
-static_assert(slant::iterative_method<method, Eigen::VectorXd>);
+static_assert(slant::iterative_method<method, VectorXd>);
 
 TEST_CASE("Gauss–Seidel: redundant contacts, counts, and no allocation in a step") {
   auto const p = test::repeated(test::random_friction(6, 3, 0.4, 21), 3);
   blocks const b(p);
   method m(b);
-  auto s = m.start(Eigen::VectorXd::Zero(b.size()));
+  auto s = m.start(VectorXd::Zero(b.size()));
   slant::testing::allocation_guard guard;
   while (s.iteration < 200 && !s.best_error.at_most(1e-12)) m.step(s);
   auto const allocations = guard.count();
@@ -55,7 +49,7 @@ TEST_CASE("Gauss–Seidel: a step of no more sweeps than it is given") {
   blocks const b(p);
   method m(b);
   for (slant::index const most : {1, 10, 13, 20}) {
-    auto s = m.start(Eigen::VectorXd::Zero(b.size()));
+    auto s = m.start(VectorXd::Zero(b.size()));
     m.step(s, most);
     CHECK(s.sweeps == most);
     CHECK(s.evaluations == (most <= 10 ? 2 : 3));
@@ -66,7 +60,7 @@ TEST_CASE("Gauss–Seidel: all that changes is in the state") {
   auto const p = test::random_friction(6, 3, 0.4, 8);
   blocks const b(p);
   method const m(b);
-  auto alone = m.start(Eigen::VectorXd::Zero(b.size())), other = alone;
+  auto alone = m.start(VectorXd::Zero(b.size())), other = alone;
   for (int k = 0; k < 3; ++k) m.step(alone);
   for (int k = 0; k < 3; ++k) m.step(other);  // another run by the same method
   CHECK(alone.x == other.x);
@@ -84,7 +78,7 @@ TEST_CASE("Gauss–Seidel: bad options and starts are named") {
        {bad{"sweeps", {.sweeps = 0}}, {"shrink", {.shrink = 1}}, {"patience", {.patience = 0}}}) {
     CHECK_THROWS_WITH_AS(method(b, o), doctest::Contains(name), slant::bad_input);
   }
-  CHECK_THROWS_AS(static_cast<void>(method(b).start(Eigen::VectorXd::Zero(5))), slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(method(b).start(VectorXd::Zero(5))), slant::bad_input);
 }
 
 TEST_CASE("sweeps: one contact takes one, many coupled ones converge to a solution") {
@@ -92,7 +86,7 @@ TEST_CASE("sweeps: one contact takes one, many coupled ones converge to a soluti
   for (auto const& c : single) {
     if (c.problem.dimension() != 3) continue;
     blocks const b(c.problem);
-    Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
+    VectorXd r = VectorXd::Zero(3);
     sweeps const once(b);
     auto memory = once.memory();
     once.sweep(r, memory);
@@ -102,7 +96,7 @@ TEST_CASE("sweeps: one contact takes one, many coupled ones converge to a soluti
   blocks const b(p);
   sweeps const s(b);
   auto memory = s.memory();
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(24);
+  VectorXd r = VectorXd::Zero(24);
   for (int k = 0; k < 400; ++k) s.sweep(r, memory);
   CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
 }
@@ -114,7 +108,7 @@ TEST_CASE(
   blocks const b(p);
   sweeps const s(b);
   auto memory = s.memory();
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(3 * m);
+  VectorXd r = VectorXd::Zero(3 * m);
   for (int k = 0; k < 5; ++k) s.sweep(r, memory);
   // Every second contact is open: all neighbours of the others.
   CHECK(s.sweep(r, memory, true) ==
@@ -124,7 +118,7 @@ TEST_CASE(
 
 TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay finite") {
   auto p = test::random_friction(3, 3, 0.5, 5);
-  Eigen::MatrixXd W = p.W;
+  MatrixXd W = p.W;
   W.middleRows(3, 3).setZero();
   W.middleCols(3, 3).setZero();
   p.W = W.sparseView();
@@ -132,7 +126,7 @@ TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay 
   blocks const b(p);
   sweeps const s(b);
   auto memory = s.memory();
-  Eigen::VectorXd r = Eigen::VectorXd::Constant(9, 1.);
+  VectorXd r = VectorXd::Constant(9, 1.);
   for (int k = 0; k < 1000; ++k) s.sweep(r, memory);
   CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-10);
   W.block(3, 3, 3, 3) = -Eigen::Matrix3d::Identity();
@@ -149,8 +143,7 @@ TEST_CASE("sweeps: contacts without compliance or with an indefinite block stay 
 TEST_CASE("sweeps: indefinite blocks with a positive diagonal are made definite") {
   Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
   D(0, 1) = D(1, 0) = 5;
-  auto const p =
-      test::make_friction_problem(D, Eigen::Vector3d(-1, 2, 1), Eigen::VectorXd::Constant(1, 0.5));
+  auto const p = test::make_friction_problem(D, Vector3d(-1, 2, 1), VectorXd::Constant(1, 0.5));
   blocks const b(p);
   double const shift = sweeps(b).shift(0) / b.diagonal(0)(2, 2);  // in units of D
   CHECK(shift > 4);                                               // its smallest eigenvalue is −4
@@ -159,7 +152,7 @@ TEST_CASE("sweeps: indefinite blocks with a positive diagonal are made definite"
   CHECK(sweeps(definite).shift(1) == 0);
   sweeps const s(b);
   auto memory = s.memory();
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(3);
+  VectorXd r = VectorXd::Zero(3);
   for (int k = 0; k < 10; ++k) s.sweep(r, memory);
   CHECK(r.allFinite());
 }
@@ -168,7 +161,7 @@ TEST_CASE("sweeps: indefinite blocks with a positive diagonal are made definite"
 template <int N>
 double violation(Eigen::Matrix<double, N, N> const& W, Eigen::Matrix<double, N, 1> const& q,
                  double mu, Eigen::Matrix<double, N, 1> const& r) {
-  auto const p = test::make_friction_problem(W, q, Eigen::VectorXd::Constant(1, mu));
+  auto const p = test::make_friction_problem(W, q, VectorXd::Constant(1, mu));
   return double(test::naive(p, r)[0].natural_map) / q.norm();
 }
 
@@ -213,16 +206,17 @@ TEST_CASE("one contact: random data in the plane and in space, symmetric or not"
 TEST_CASE("one contact: no friction, and very much of it") {
   Eigen::Matrix3d W;
   W << 2, 0.5, 0, 0.5, 1, 0, 0, 0, 3;
-  Eigen::Vector3d const q(-1, 2, 3);
+  Vector3d const q(-1, 2, 3);
   auto const smooth = slant::contact::detail::solve_one_contact<3, double>(W, q, 0., 0.);
-  CHECK(smooth.r == Eigen::Vector3d(0.5, 0, 0));
+  CHECK(smooth.r == Vector3d(0.5, 0, 0));
   CHECK(smooth.slip == 0);
   auto const rough = slant::contact::detail::solve_one_contact<3, double>(W, q, 1e8, 0.);
   CHECK((W * rough.r + q)(0) == doctest::Approx(0).epsilon(1e-12));
   CHECK(violation<3>(W, q, 1e8, rough.r) <= 1e-6);  // û is as large as μ
   // Only the normal component: closed at its own impulse, open when it leaves.
-  CHECK(slant::contact::detail::solve_one_contact<3, double>(W, Eigen::Vector3d(1, 2, 3), 1., 0.)
-            .r.norm() == 0);
+  CHECK(
+      slant::contact::detail::solve_one_contact<3, double>(W, Vector3d(1, 2, 3), 1., 0.).r.norm() ==
+      0);
 }
 
 TEST_CASE("one contact: hardly any friction, slip λ beyond the range of squares") {
@@ -230,8 +224,8 @@ TEST_CASE("one contact: hardly any friction, slip λ beyond the range of squares
   W(1, 2) = W(2, 1) = 0.5;
   for (double const mu : {1e-150, 1e-160, 1e-200, 1e-300, 1e-320}) {
     for (double const guess : {0., 1e10, 1e300}) {
-      auto const c = slant::contact::detail::solve_one_contact<3, double>(
-          W, Eigen::Vector3d(-1, 3, 4), mu, guess);
+      auto const c =
+          slant::contact::detail::solve_one_contact<3, double>(W, Vector3d(-1, 3, 4), mu, guess);
       CHECK(c.r(0) == doctest::Approx(1));
       CHECK(std::abs(c.r(1) / mu + 0.6) <= 1e-3);  // digits of mu itself where it is subnormal
       CHECK(std::abs(c.r(2) / mu + 0.8) <= 1e-3);
@@ -240,8 +234,8 @@ TEST_CASE("one contact: hardly any friction, slip λ beyond the range of squares
   }
   // A block that is tiny: its determinant is below the range.
   auto const c = slant::contact::detail::solve_one_contact<3, double>(
-      1e-170 * W, Eigen::Vector3d(-1, 0.1, 0.1), 1., 0.);
-  CHECK((1e-170 * W * c.r + Eigen::Vector3d(-1, 0.1, 0.1)).norm() <= 1e-15);
+      1e-170 * W, Vector3d(-1, 0.1, 0.1), 1., 0.);
+  CHECK((1e-170 * W * c.r + Vector3d(-1, 0.1, 0.1)).norm() <= 1e-15);
 }
 
 }  // namespace friction_gauss_seidel_test

@@ -5,17 +5,9 @@
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
+#include <support/testing.hpp>
 #include "contact/friction_scenes.hpp"
-#include "support/allocation_guard.hpp"
 #include "support/folders.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
 
 namespace friction_interior_point_test {
 
@@ -34,10 +26,10 @@ using wide = Eigen::Matrix<real, N, 1>;
 template <int N>
 using wide_block = Eigen::Matrix<real, N, N>;
 
-static_assert(slant::iterative_method<method<3>, Eigen::VectorXd>);
+static_assert(slant::iterative_method<method<3>, VectorXd>);
 
 struct outcome {
-  Eigen::VectorXd r, inside;
+  VectorXd r, inside;
   slant::contact::friction_error<double> error;
   slant::status status;
   slant::index steps, factorizations, sparse, evaluations;
@@ -47,7 +39,7 @@ template <int N>
 outcome run(test::friction_problem const& p, double tolerance, options const& o) {
   blocks<N> const b(p);
   method<N> const m(b, o);
-  auto s = m.start(Eigen::VectorXd::Zero(b.size()));
+  auto s = m.start(VectorXd::Zero(b.size()));
   while (s.status == slant::status::running && s.iteration < 300 &&
          !s.best_error.at_most(tolerance)) {
     m.step(s);
@@ -74,7 +66,7 @@ TEST_CASE("interior point: every state of one contact, in any units") {
         CHECK(s.error.at_most(1e-11));
         CHECK(s.steps <= 40);
         CHECK(s.evaluations == 1 + s.steps);
-        Eigen::VectorXd const r = s.r * (compliance / velocity);
+        VectorXd const r = s.r * (compliance / velocity);
         if (!c.infinitely_many) CHECK((r - c.r[0]).norm() <= 1e-8 * (1 + r.norm()));
         // Never on the boundary: strictly positive, and within the cone.
         for (slant::index i = 0; i < p.contacts(); ++i) {
@@ -112,7 +104,7 @@ TEST_CASE("interior point: the forces of Gauss–Seidel where they are unique") 
     auto const p = test::random_friction(12, 3, mu, 5);
     blocks<3> const b(p);
     slant::contact::friction_gauss_seidel<3, double> const sweeping(b);
-    auto g = sweeping.start(Eigen::VectorXd::Zero(b.size()));
+    auto g = sweeping.start(VectorXd::Zero(b.size()));
     while (g.iteration < 1000 && !g.best_error.at_most(1e-13)) sweeping.step(g);
     auto const s = run(p, 1e-12);
     CHECK(s.error.at_most(1e-12));
@@ -128,11 +120,11 @@ TEST_CASE("interior point: contacts with and without friction, friction of any s
   for (slant::index i = 0; i < 10; i += 2) CHECK(s.r.segment<2>(3 * i + 1).isZero(0));
   for (double const mu : {1e-200, 1e-9, 10., 1e4}) {
     CAPTURE(mu);
-    auto const one = test::make_friction_problem(
-        Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));
+    auto const one = test::make_friction_problem(Eigen::Matrix3d::Identity(), Vector3d(-1, 1, 0),
+                                                 VectorXd::Constant(1, mu));
     auto const r = run(one, 1e-8);
     CHECK(r.error.at_most(1e-8));
-    CHECK((r.r - Eigen::Vector3d(1, mu > 1 ? -1 : -mu, 0)).norm() <= 1e-7);
+    CHECK((r.r - Vector3d(1, mu > 1 ? -1 : -mu, 0)).norm() <= 1e-7);
   }
 }
 
@@ -140,7 +132,7 @@ TEST_CASE("interior point: a full matrix takes no memory after the first step, a
   auto const p = test::random_friction(12, 3, 0.4, 3);
   blocks<3> const b(p);
   method<3> const m(b);
-  auto s = m.start(Eigen::VectorXd::Zero(b.size()));
+  auto s = m.start(VectorXd::Zero(b.size()));
   m.step(s);
   slant::testing::allocation_guard guard;
   for (int k = 0; k < 5; ++k) m.step(s);
@@ -157,10 +149,10 @@ TEST_CASE("interior point: a full matrix takes no memory after the first step, a
 }
 
 TEST_CASE("interior point: without a solution it ends, and rests") {
-  using Eigen::Matrix3d, Eigen::Vector3d;
+  using Eigen::Matrix3d;
   for (auto const& p : {test::no_solution_case(2).problem, test::no_solution_case(3).problem,
                         test::make_friction_problem(Matrix3d::Zero(), Vector3d(-1, 0, 0),
-                                                    Eigen::VectorXd::Constant(1, 0.5))}) {
+                                                    VectorXd::Constant(1, 0.5))}) {
     auto const s = run(p, 1e-8);
     CHECK((s.status == slant::status::stalled || s.status == slant::status::breakdown));
     CHECK(s.steps < 300);
@@ -170,7 +162,7 @@ TEST_CASE("interior point: without a solution it ends, and rests") {
   auto const p = test::no_solution_case(3).problem;
   blocks<3> const b(p);
   method<3> const m(b, {.patience = 5});
-  auto s = m.start(Eigen::VectorXd::Zero(3));
+  auto s = m.start(VectorXd::Zero(3));
   for (int k = 0; k < 300; ++k) m.step(s);
   auto const last = s.iteration;
   m.step(s);
@@ -192,8 +184,7 @@ TEST_CASE("interior point: no contacts, bad options and starts") {
   bad({.largest_aim = std::nan("")}, "largest_aim");
   bad({.proximal = -1}, "proximal");
   bad({.patience = 0}, "patience");
-  CHECK_THROWS_AS(static_cast<void>(method<3>(b).start(Eigen::VectorXd::Zero(5))),
-                  slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(method<3>(b).start(VectorXd::Zero(5))), slant::bad_input);
 }
 
 template <int N>
@@ -279,13 +270,13 @@ TEST_CASE("lorentz scaling: steps, laws and TᵀT against the closed form in lon
 TEST_CASE("lorentz scaling: at a multiple of the unit, at any scale") {
   for (double const scale : {1e-100, 1., 1e100}) {
     scaling<3> const p(4 * scale, 9 * scale);
-    CHECK((p.λ() - 6 * scale * Eigen::Vector3d::UnitX()).norm() <= 1e-15 * scale * 6);
-    CHECK((p.x() - 4 * scale * Eigen::Vector3d::UnitX()).norm() <= 1e-15 * scale * 4);
-    CHECK((p.s() - 9 * scale * Eigen::Vector3d::UnitX()).norm() <= 1e-15 * scale * 9);
-    CHECK((p.Σ() - Eigen::Vector3d::Constant(1.5)).norm() <= 1e-15);
-    CHECK(p.x().tail<2>() == Eigen::Vector2d::Zero());
+    CHECK((p.λ() - 6 * scale * Vector3d::UnitX()).norm() <= 1e-15 * scale * 6);
+    CHECK((p.x() - 4 * scale * Vector3d::UnitX()).norm() <= 1e-15 * scale * 4);
+    CHECK((p.s() - 9 * scale * Vector3d::UnitX()).norm() <= 1e-15 * scale * 9);
+    CHECK((p.Σ() - Vector3d::Constant(1.5)).norm() <= 1e-15);
+    CHECK(p.x().tail<2>() == Vector2d::Zero());
     // 6 of them down the axis, and no end up.
-    Eigen::Vector3d const up = scale * Eigen::Vector3d::UnitX();
+    Vector3d const up = scale * Vector3d::UnitX();
     CHECK(p.length(-up, up) == doctest::Approx(6).epsilon(1e-14));
     CHECK(std::isinf(p.length(up, up)));
   }
@@ -293,9 +284,9 @@ TEST_CASE("lorentz scaling: at a multiple of the unit, at any scale") {
 
 TEST_CASE("lorentz scaling: x and s go to opposite sides of the boundary, and λ stays inside") {
   scaling<3> p(1, 1);
-  Eigen::Vector3d const ray(1, 0.6, 0.8), opposite(1, -0.6, -0.8);
+  Vector3d const ray(1, 0.6, 0.8), opposite(1, -0.6, -0.8);
   for (int k = 0; k < 30; ++k) {  // what is left of x is along one ray, of s along the other
-    Eigen::Vector3d const dx = 0.1 * ray - 0.9 * p.λ(), ds = 0.1 * opposite - 0.9 * p.λ();
+    Vector3d const dx = 0.1 * ray - 0.9 * p.λ(), ds = 0.1 * opposite - 0.9 * p.λ();
     double const t = std::min(1., 0.9 * p.length(dx, ds));
     p.move(t * dx, t * ds);
     // x and s as vectors have lost their digits by now; what T is made of has not.

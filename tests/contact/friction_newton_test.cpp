@@ -3,13 +3,8 @@
 
 #include <slant/contact/friction/verify.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
+#include <support/testing.hpp>
 #include "contact/friction_scenes.hpp"
-
-#include <cmath>
-#include <random>
 
 namespace friction_newton_test {
 
@@ -61,8 +56,8 @@ TEST_CASE("maps of one contact: derivatives against differences") {
 
 TEST_CASE("maps of one contact: the natural map is that of the oracle") {
   auto const p = test::random_friction(1, 3, 0.6, 8);
-  Eigen::Vector3d const r(0.3, 0.4, -0.2);
-  Eigen::Vector3d const u = p.W * r + p.q;
+  Vector3d const r(0.3, 0.4, -0.2);
+  Vector3d const u = p.W * r + p.q;
   slant::contact::detail::friction_map<3, double> f;
   f.look(friction_equations::natural_map, 0.6, 1., r, u, false);
   CHECK(f.F.norm() == doctest::Approx(double(test::naive(p, r)[0].natural_map)).epsilon(1e-12));
@@ -73,7 +68,7 @@ TEST_CASE("Newton: few steps near a solution, sparse or dense") {
     auto const p = test::chain_friction(60);
     blocks const b(p);
     newton n(b, which);
-    Eigen::VectorXd r = Eigen::VectorXd::Zero(b.size());
+    VectorXd r = VectorXd::Zero(b.size());
     n.begin(r);
     for (int k = 0; k < 15 && n.residual_norm() > 1e-13; ++k) CHECK(n.advance(r, 0, 20));
     CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
@@ -89,13 +84,13 @@ TEST_CASE("Newton: a singular system has a direction if damped, one of no use is
   auto const p = test::repeated(test::random_friction(20, 3, 0.4, 2), 2);
   blocks const b(p);
   newton n(b, friction_equations::natural_map);
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(b.size());
+  VectorXd r = VectorXd::Zero(b.size());
   for (slant::index i = 0; i < b.contacts(); ++i) r[3 * i] = 1;  // all stick
   double const before = n.begin(r);
   CHECK(n.advance(r, 1e-6, 20));
   CHECK(n.residual_norm() < before);
   // No step can be short enough if none is allowed to be shorter than a full one that fails.
-  Eigen::VectorXd bad = Eigen::VectorXd::Constant(b.size(), std::nan(""));
+  VectorXd bad = VectorXd::Constant(b.size(), std::nan(""));
   n.begin(bad);
   CHECK(!n.advance(bad, 1e-6, 3));
 }
@@ -119,8 +114,8 @@ struct matrix {
       }
     }
   }
-  [[nodiscard]] Eigen::MatrixXd dense() const {
-    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(2 * rows, 2 * rows);
+  [[nodiscard]] MatrixXd dense() const {
+    MatrixXd m = MatrixXd::Zero(2 * rows, 2 * rows);
     assemble([&](auto i, auto j, auto const& b) { m.block<2, 2>(2 * i, 2 * j) = b; });
     return m;
   }
@@ -134,12 +129,12 @@ TEST_CASE("LU of blocks: small or full ones dense, others sparse, one after the 
   for (matrix const m : {matrix{3, true}, {60, false}, {40, true}, {10, false}, {60, false}}) {
     REQUIRE(m.factor(f));
     CHECK(f.is_sparse() == (m.rows == 60));
-    Eigen::VectorXd const x = Eigen::VectorXd::LinSpaced(2 * m.rows, -1, 2);
-    Eigen::VectorXd const b = m.dense() * x;
-    Eigen::VectorXd solution;
+    VectorXd const x = VectorXd::LinSpaced(2 * m.rows, -1, 2);
+    VectorXd const b = m.dense() * x;
+    VectorXd solution;
     CHECK(f.solve(b, solution));
     CHECK((solution - x).norm() <= 1e-13 * x.norm());
-    CHECK(!f.solve(Eigen::VectorXd::Constant(2 * m.rows, std::nan("")), solution));
+    CHECK(!f.solve(VectorXd::Constant(2 * m.rows, std::nan("")), solution));
   }
 }
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/solve_friction.hpp>
-
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <string>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace friction_options_test {
 

@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/friction/friction_problem.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include "support/message.hpp"
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
+#include <support/testing.hpp>
 
 namespace friction_problem_test {
 
@@ -19,8 +10,8 @@ using slant::contact::require_symmetric;
 
 problem identity(int n, int contacts) {
   problem p{.W = Eigen::SparseMatrix<double>(n, n),
-            .q = Eigen::VectorXd::Ones(n),
-            .mu = Eigen::VectorXd::Constant(contacts, 0.5)};
+            .q = VectorXd::Ones(n),
+            .mu = VectorXd::Constant(contacts, 0.5)};
   p.W.setIdentity();
   return p;
 }
@@ -55,7 +46,7 @@ TEST_CASE("what is not valid is named") {
   refused("W(2, 2)", [&](auto& p) { p.W.coeffRef(2, 2) = infinity; });
 }
 
-Eigen::SparseMatrix<double> sparse(Eigen::MatrixXd const& A) {
+Eigen::SparseMatrix<double> sparse(MatrixXd const& A) {
   return A.sparseView();
 }
 
@@ -68,14 +59,14 @@ TEST_CASE("asymmetry: the largest difference over the largest entry") {
   CHECK(asymmetry(sparse(0x1p1020 * A)) == 0.25);
   CHECK(asymmetry(sparse(A - A.transpose())) == 2);
   CHECK(asymmetry(sparse(Eigen::Matrix3d::Zero())) == 0);
-  CHECK(asymmetry(sparse(Eigen::MatrixXd(0, 0))) == 0);
+  CHECK(asymmetry(sparse(MatrixXd(0, 0))) == 0);
   for (double const bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Eigen::Matrix3d B = A;
     B(0, 1) = bad;
     CHECK(std::isnan(asymmetry(sparse(B))));
     CHECK_THROWS_AS(require_symmetric("W", sparse(B)), slant::bad_input);
   }
-  CHECK_THROWS_WITH_AS((void)asymmetry(sparse(Eigen::MatrixXd::Zero(2, 3))),
+  CHECK_THROWS_WITH_AS((void)asymmetry(sparse(MatrixXd::Zero(2, 3))),
                        "columns of W: got 3, expected as many as rows, 2", slant::bad_input);
 }
 
@@ -83,9 +74,9 @@ TEST_CASE("asymmetry: what rounding does to H M^-1 H' is allowed, more is not") 
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1, 1);
   auto const draw = [&] { return number(random); };
-  Eigen::MatrixXd const H = Eigen::MatrixXd::NullaryExpr(60, 20, draw);
-  Eigen::VectorXd const m = Eigen::VectorXd::NullaryExpr(20, [&] { return 2 + draw(); });
-  Eigen::MatrixXd W = (H * m.cwiseInverse().asDiagonal()) * H.transpose();
+  MatrixXd const H = MatrixXd::NullaryExpr(60, 20, draw);
+  VectorXd const m = VectorXd::NullaryExpr(20, [&] { return 2 + draw(); });
+  MatrixXd W = (H * m.cwiseInverse().asDiagonal()) * H.transpose();
   CHECK(asymmetry(sparse(W)) > 0);
   CHECK_NOTHROW(require_symmetric("W", sparse(W)));
   W(3, 7) += 1e-5 * W.cwiseAbs().maxCoeff();

@@ -6,28 +6,17 @@
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/solve.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
+#include <support/testing.hpp>
 #include "facing_bricks.hpp"
 #include "loose_brick.hpp"
-#include "support/effort.hpp"
-#include "support/message.hpp"
-
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <limits>
-#include <sstream>
-#include <string>
 
 namespace iterated_coulomb_test {
 
 namespace contact = slant::contact;
 using contact::solution_route;
 using Eigen::Index;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using options = contact::certified_coulomb_options<double>;
 
@@ -100,7 +89,7 @@ TEST_CASE("two bodies, meshes that match and such that do not") {
 
 TEST_CASE(
     "bodies that contact and friction hold: by Tresca's problem with the bounds that were found") {
-  for (auto const& end : {Eigen::Vector3d(0, 0, 0), {-0.25, 0, 0}, {-3, 0, 0}}) {
+  for (auto const& end : {Vector3d(0, 0, 0), {-0.25, 0, 0}, {-3, 0, 0}}) {
     for (double const gap : {0.0, 1e-5}) {
       CAPTURE(end[0]);
       CAPTURE(gap);
@@ -155,7 +144,7 @@ TEST_CASE("no friction, nodes without, infinite gaps, units, turned rows, no coo
   CHECK((scaled.u * 0x1p400 - u).norm() <= 1e-7 * u.norm());
   // Rows of N and T in any direction, of other lengths: the same contact of a turned body.
   Eigen::Matrix3d const Q =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+      Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   sparse turn(s.K.rows(), s.K.rows());
   for (Index i = 0; i < s.K.rows(); i += 3) {
     for (Index a = 0; a < 3; ++a) {

@@ -8,37 +8,23 @@
 #include <slant/contact/primal.hpp>
 #include <slant/testing/function_breaches.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/box_prolongations.hpp>
 #include <fem/stacked_bricks.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
+#include <support/testing.hpp>
 #include "facing_bricks.hpp"
 #include "loose_brick.hpp"
 #include "spring_scenes.hpp"
-#include "support/allocation_guard.hpp"
 #include "support/chequered_brick.hpp"
-#include "support/effort.hpp"
-#include "support/message.hpp"
 #include "support/optimised.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace iterated_run_test {
 
 namespace contact = slant::contact;
 using contact::solution_route;
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using options = contact::solve_options<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -272,13 +258,13 @@ TEST_CASE("what cannot be used is named, an indefinite K is told, on either rout
 
 TEST_CASE("in the plane") {
   int const cells = test::effort(24, 12);
-  for (auto const& push : {Eigen::Vector2d(0.6, 0.5), Eigen::Vector2d(0.6, 2)}) {
+  for (auto const& push : {Vector2d(0.6, 0.5), Vector2d(0.6, 2)}) {
     auto const s = fem::make_contact_scene<2>(
-        {.mesh = fem::make_box_mesh<2>({cells, cells / 3}, Eigen::Vector2d(3, 1)),
+        {.mesh = fem::make_box_mesh<2>({cells, cells / 3}, Vector2d(3, 1)),
          .material = fem::lame(10, 0.3),
          .fixed = {.axis = 0, .upper = false},
          .contact = {.axis = 1, .upper = false},
-         .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)},
+         .loads = {{{.axis = 1, .upper = true}, Vector2d(0, -1)},
                    {{.axis = 0, .upper = true}, push}},
          .slip_bound = 0.3});
     agree(scene_of<2>(s));
@@ -304,7 +290,7 @@ TEST_CASE("two bodies: levels of each, whose unknowns the contact mixes") {
 /// A scene and all of it turned.
 scene turned(scene const& s) {
   Eigen::Matrix3d const Q =
-      (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized())).toRotationMatrix();
+      (Eigen::AngleAxisd(0.7, Vector3d(1, -2, 0.5).normalized())).toRotationMatrix();
   std::vector<Eigen::Triplet<double>> entries;
   for (Index i = 0; i < s.K.rows(); i += 3) {
     for (int a = 0; a < 3; ++a) {
@@ -422,7 +408,7 @@ TEST_CASE("the choice: by cost, by what is known, and by what can be iterated at
   }
 }
 
-scene loose(double press, Eigen::Vector3d const& end, double gap) {
+scene loose(double press, Vector3d const& end, double gap) {
   test::loose_brick const s(press, end, 0.05);
   scene r{s.K, s.data, contact::interleaved_layout(s.mesh.nodes)};
   r.data.d.setConstant(gap);
@@ -430,7 +416,7 @@ scene loose(double press, Eigen::Vector3d const& end, double gap) {
 }
 
 TEST_CASE("bodies that contact and friction hold: springs that end where they began") {
-  for (auto const& end : {Eigen::Vector3d(0, 0, 0), {-0.1, 0, 0}, {-0.45, 0.2, 0}}) {
+  for (auto const& end : {Vector3d(0, 0, 0), {-0.1, 0, 0}, {-0.45, 0.2, 0}}) {
     for (double const gap : {0.0, 1e-6, 1e-4}) {
       if (gap != 1e-6 && !test::is_optimised) continue;
       CAPTURE(gap);

@@ -8,16 +8,10 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <support/allocation_guard.hpp>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace load_stepper_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 using step = contact::load_step<double>;
 

@@ -8,15 +8,11 @@
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 
-#include <doctest/doctest.h>
-
 #include <range/v3/view/take_while.hpp>
-
-#include <vector>
+#include <support/testing.hpp>
 
 namespace load_steps_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 using step = contact::load_step<double>;
 

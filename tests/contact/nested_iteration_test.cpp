@@ -4,10 +4,9 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/kprgp.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/two_plates.hpp>
 #include <support/problem_ladder.hpp>
+#include <support/testing.hpp>
 
 namespace nested_iteration_test {
 
@@ -32,10 +31,10 @@ TEST_CASE("two plates: the finest solution is the same and costs less") {
 
   // The start on the finest mesh is already near the solution, in the energy norm.
   auto const P = fem::contact_prolongation(ladder[1]->scene(), ladder[2]->scene());
-  Eigen::VectorXd const error = P * nested.levels[1].x() - direct.x();
+  VectorXd const error = P * nested.levels[1].x() - direct.x();
   auto const a = problems.at(8).qp().a();
-  Eigen::VectorXd A_error(error.size());
-  Eigen::VectorXd A_x(error.size());
+  VectorXd A_error(error.size());
+  VectorXd A_x(error.size());
   slant::apply(a, error, A_error);
   slant::apply(a, direct.x(), A_x);
   CHECK(error.dot(A_error) <= 1e-4 * direct.x().dot(A_x));

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <doctest/doctest.h>
 #include <slant/contact/certificate.hpp>
 
-#include <cmath>
 #include <fem/steel_brick.hpp>
 #include <slant/contact/dual.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/methods/interior_point.hpp>
-
-#include "support/effort.hpp"
+#include <support/testing.hpp>
 
 namespace newton_certificate_test {
 namespace {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 
 TEST_CASE("interior points are judged by what lies on the face: 200 products to an error of 1e-8") {

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/node_layout.hpp>
-
-#include <doctest/doctest.h>
-
-#include <limits>
-#include <support/message.hpp>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace node_layout_test {
 
-using Eigen::MatrixXd;
 using slant::contact::interleaved_layout;
 using slant::contact::layout_of;
 using slant::contact::node_layout;

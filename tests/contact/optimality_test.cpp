@@ -2,18 +2,9 @@
 #include "scenes.hpp"
 
 #include <slant/contact/optimality.hpp>
-
-#include <doctest/doctest.h>
-#include <Eigen/LU>
-
-#include <algorithm>
-#include <cmath>
-
-#include "support/message.hpp"
+#include <support/testing.hpp>
 
 namespace optimality_test {
-
-using Eigen::VectorXd;
 
 struct solved {
   fem::contact_scene<3> scene;
@@ -127,7 +118,7 @@ TEST_CASE("a body that hardly moves: errors of λ and u count as much as they ar
     return slant::contact::check_optimality(K, c, u, λ).residual();
   };
   CHECK(residual(zero, c.f) == 0);
-  Eigen::MatrixXd const inverse_of_K = Eigen::MatrixXd(K).inverse();
+  MatrixXd const inverse_of_K = MatrixXd(K).inverse();
   double const κ = 2, condition = 4 * inverse_of_K.norm();  // ‖K‖ < 4
   for (double const ε : {1e-4, 1e-8, 1e-12, 1e-15, 1e-17}) {
     CAPTURE(ε);
@@ -179,7 +170,7 @@ TEST_CASE("data and sizes are checked") {
   };
   auto const& K = s.scene.K;
   CHECK(complaint(K, s.data, u, λ) == "nothing thrown");
-  CHECK(complaint(Eigen::MatrixXd(K), s.data, u, λ) == "nothing thrown");
+  CHECK(complaint(MatrixXd(K), s.data, u, λ) == "nothing thrown");
   CHECK(complaint(K, s.data, λ, λ).starts_with("u: got"));
   CHECK(complaint(K, s.data, u, u).starts_with("lambda: got"));
   auto c = s.data;

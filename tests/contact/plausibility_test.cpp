@@ -3,24 +3,15 @@
 // One defect at a time in sound scenes, and no warning for any of these.
 #include <slant/contact/plausibility.hpp>
 
-#include <Eigen/Cholesky>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
 #include <fem/stacked_bricks.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
-#include <limits>
-#include <string>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace plausibility_test {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::contact::check_plausibility;
 using sparse = Eigen::SparseMatrix<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -76,11 +67,11 @@ model brick(int k = 2, fem::brick_load load = fem::brick_load::press) {
 
 model plate() {
   return model_of(
-      fem::make_contact_scene<2>({.mesh = fem::make_box_mesh<2>({4, 2}, Eigen::Vector2d(2, 1)),
+      fem::make_contact_scene<2>({.mesh = fem::make_box_mesh<2>({4, 2}, Vector2d(2, 1)),
                                   .material = fem::lame(10, 0.3),
                                   .fixed = {.axis = 0, .upper = false},
                                   .contact = {.axis = 1, .upper = false},
-                                  .loads = {{{.axis = 1, .upper = true}, Eigen::Vector2d(0, -1)}},
+                                  .loads = {{{.axis = 1, .upper = true}, Vector2d(0, -1)}},
                                   .slip_bound = 0.3}));
 }
 
@@ -101,7 +92,7 @@ Eigen::Matrix3d slope() {
   return Eigen::Matrix3d{{c, t, 0}, {-t, c, 0}, {0, 0, 1}};
 }
 Eigen::Matrix3d rotation() {
-  Eigen::Vector3d const v = Eigen::Vector3d(1, 2, 2) / 3;
+  Vector3d const v = Vector3d(1, 2, 2) / 3;
   return Eigen::Matrix3d::Identity() - 2 * v * v.transpose();
 }
 

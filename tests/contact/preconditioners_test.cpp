@@ -5,19 +5,14 @@
 #include <slant/factorizations/factorize.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Eigenvalues>
 #include <fem/two_plates.hpp>
 #include <support/dense_of.hpp>
-#include <support/effort.hpp>
+#include <support/testing.hpp>
 #include "scenes.hpp"
 
 namespace preconditioners_test {
 
-using Eigen::MatrixXd;
 using Eigen::SparseMatrix;
-using Eigen::VectorXd;
 
 TEST_CASE("D B K B' D, with its laws, and a better condition than A alone") {
   auto const scene =

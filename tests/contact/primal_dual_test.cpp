@@ -7,20 +7,13 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/operators/counted.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Cholesky>
 #include <fem/lecture_ssn.hpp>
 #include <slanting/slanting_support.hpp>
+#include <support/testing.hpp>
 #include "scenes.hpp"
-
-#include <cmath>
-#include <limits>
 
 namespace primal_dual_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
@@ -53,7 +46,7 @@ MatrixXd hand_derived(Eigen::SparseMatrix<double> const& K, contact::data<double
       G(n + m + i, n + m + i) = 1;
     } else {  // ψ° = (g/‖z‖)(I − zzᵀ/‖z‖²), 1 − z₁²/‖z‖² = z₂²/‖z‖²
       double const τ = c.g[i] / z.norm();
-      Eigen::Vector2d const e = z / z.norm();
+      Vector2d const e = z / z.norm();
       Eigen::Matrix2d const ψ =
           τ * Eigen::Matrix2d{{e[1] * e[1], -e[0] * e[1]}, {-e[0] * e[1], e[0] * e[0]}};
       G(rows, Eigen::seqN(0, n)) = -ρ * (ψ * T.middleRows(2 * i, 2));

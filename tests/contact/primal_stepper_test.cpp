@@ -8,23 +8,13 @@
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/steel_brick.hpp>
+#include <support/testing.hpp>
 #include "loose_brick.hpp"
-#include "support/effort.hpp"
-#include "support/message.hpp"
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace primal_stepper_test {
 
 namespace contact = slant::contact;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using step = contact::load_step<double>;
 using options = contact::solve_options<double>;
@@ -164,7 +154,7 @@ TEST_CASE("what does not fit is named and changes nothing") {
   contact::data<double> half = c;
   half.T.prune([](Eigen::Index row, Eigen::Index, double) { return row > 1; });
   CHECK(complaint(s.K, half, s.o).find("N and T: got contact 0 has an empty row of T") == 0);
-  test::loose_brick const loose(1, Eigen::Vector3d::Zero(), 0.05);
+  test::loose_brick const loose(1, Vector3d::Zero(), 0.05);
   o = {.tolerance = 1e-8, .layout = contact::interleaved_layout(loose.mesh.nodes)};
   CHECK(complaint(loose.K, loose.data, o).find("expected supports of every body") !=
         std::string::npos);

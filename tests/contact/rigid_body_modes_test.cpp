@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/rigid_body_modes.hpp>
-
-#include <doctest/doctest.h>
-#include <Eigen/Geometry>
+#include <support/testing.hpp>
 
 namespace rigid_body_modes_test {
 
 using Eigen::Matrix2Xd;
 using Eigen::Matrix3Xd;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::contact::rigid_body_modes;
 
 /// What is left of v outside the columns of R.
@@ -27,8 +23,7 @@ TEST_CASE("translations and rotations about any point, and nothing else") {
   CHECK((R.transpose() * R - MatrixXd::Identity(6, 6)).norm() <= 1e-14);
   VectorXd turn(15), stretch(15);
   for (int i = 0; i < 5; ++i) {
-    turn.segment<3>(3 * i) =
-        Eigen::Vector3d(1, -2, 3).cross(nodes.col(i) - Eigen::Vector3d(9, 8, 7));
+    turn.segment<3>(3 * i) = Vector3d(1, -2, 3).cross(nodes.col(i) - Vector3d(9, 8, 7));
     stretch.segment<3>(3 * i) = nodes.col(i);
   }
   CHECK(outside(R, turn) <= 1e-14);
@@ -44,7 +39,7 @@ TEST_CASE("translations and rotations about any point, and nothing else") {
 
 TEST_CASE("nodes on a line do not turn about it, a single one not at all") {
   Matrix3Xd line(3, 4);
-  for (int i = 0; i < 4; ++i) line.col(i) = Eigen::Vector3d(0.1, 0.2, 0.3) * i;
+  for (int i = 0; i < 4; ++i) line.col(i) = Vector3d(0.1, 0.2, 0.3) * i;
   CHECK(rigid_body_modes(line).cols() == 5);
   CHECK(rigid_body_modes(Matrix3Xd(line.col(1))).cols() == 3);
   for (double const far : {1e3, 1e6}) {

@@ -3,15 +3,10 @@
 
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/parts/rigid_position.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
+#include <support/testing.hpp>
 
 namespace rigid_position_test {
 
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 /// R α.

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/route.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/steel_brick.hpp>
-#include "support/message.hpp"
-
-#include <optional>
-#include <string>
+#include <support/testing.hpp>
 
 namespace route_test {
 

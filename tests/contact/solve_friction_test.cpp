@@ -3,13 +3,8 @@
 
 #include <slant/contact/friction/verify.hpp>
 
-#include <doctest/doctest.h>
-
+#include <support/testing.hpp>
 #include "contact/friction_scenes.hpp"
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace solve_friction_test {
 
@@ -74,7 +69,7 @@ TEST_CASE("solve_friction: contacts stiffer than others by any factor") {
   auto const reference = solve_friction(p, {.tolerance = 1e-12});
   for (double const factor : {1e-6, 1e-10, 1e-16, 1e-60}) {
     // Contacts that do not touch each other, each second one in other units of force.
-    auto apart = test::make_friction_problem(Eigen::MatrixXd::Identity(18, 18), p.q, p.mu);
+    auto apart = test::make_friction_problem(MatrixXd::Identity(18, 18), p.q, p.mu);
     auto stiff = apart;
     for (slant::index i = 0; i < 18; ++i) stiff.W.coeffRef(i, i) = i / 3 % 2 == 1 ? factor : 1;
     auto const a = solve_friction(apart), b = solve_friction(stiff);
@@ -82,10 +77,10 @@ TEST_CASE("solve_friction: contacts stiffer than others by any factor") {
     CHECK((a.u - b.u).norm() <= 1e-8 * p.q.norm());
   }
   // And where they do: W = D W D, forces D⁻¹ r, velocities D u.
-  Eigen::VectorXd d = Eigen::VectorXd::Ones(18);
+  VectorXd d = VectorXd::Ones(18);
   for (slant::index i = 3; i < 9; ++i) d[i] = 1e-5;
   auto scaled = p;
-  scaled.W = Eigen::MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
+  scaled.W = MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
   scaled.q = d.cwiseProduct(p.q);
   auto const s = solve_friction(scaled, {.tolerance = 1e-14});
   CHECK(s.converged());
@@ -98,9 +93,9 @@ TEST_CASE("solve_friction: verdict and forces in any units of W, of q and of sin
   for (auto const* p : {&given, &definite}) {
     auto const reference = solve_friction(*p);
     slant::index const n = p->q.size();
-    auto const same = [&](double s, double t, Eigen::VectorXd const& d) {
+    auto const same = [&](double s, double t, VectorXd const& d) {
       auto scaled = *p;
-      scaled.W = Eigen::MatrixXd(d.asDiagonal() * p->W * d.asDiagonal()).sparseView();
+      scaled.W = MatrixXd(d.asDiagonal() * p->W * d.asDiagonal()).sparseView();
       scaled.W *= s;
       scaled.q = t * d.cwiseProduct(p->q);
       auto const r = solve_friction(scaled);
@@ -109,19 +104,19 @@ TEST_CASE("solve_friction: verdict and forces in any units of W, of q and of sin
       CHECK(r.error.scaled == verify(scaled, r.r).unit_free_map);
       CHECK(r.worst.contact == verify(scaled, r.r).worst.contact);
       CHECK(r.reason.starts_with("unit-free natural map "));
-      Eigen::VectorXd const back = s / t * d.cwiseProduct(r.r);
+      VectorXd const back = s / t * d.cwiseProduct(r.r);
       CHECK(verify(*p, back).unit_free_map <= 1.0001e-8);
       if (p == &definite) CHECK((back - reference.r).norm() <= 1e-7 * reference.r.norm());
       // Where the measures do not agree the reason has both.
       bool const both = r.reason.find("with rho = 1 in the units given") != std::string::npos;
       CHECK(both == (r.error.plain > 1e-8));
     };
-    Eigen::VectorXd const ones = Eigen::VectorXd::Ones(n);
+    VectorXd const ones = VectorXd::Ones(n);
     for (double const s : {1e6, 1e-6, 1e150, 1e-150}) same(s, 1, ones);
     for (double const t : {1e150, 1e-150}) same(1, t, ones);
     for (double const factor : {1e8, 1e-8}) {
       for (slant::index const i : {0, 5}) {
-        Eigen::VectorXd d = ones;
+        VectorXd d = ones;
         d.segment(3 * i, 3).setConstant(factor);
         same(1, 1, d);
       }
@@ -214,7 +209,7 @@ TEST_CASE("solve_friction: W that is not symmetric is used as given, or refused"
   CHECK_THROWS_WITH_AS(static_cast<void>(solve_friction(p)), doctest::Contains("mu[3]"),
                        slant::bad_input);
   p.mu[3] = 1;
-  CHECK_THROWS_WITH_AS(static_cast<void>(solve_friction(p, {}, Eigen::VectorXd::Zero(3))),
+  CHECK_THROWS_WITH_AS(static_cast<void>(solve_friction(p, {}, VectorXd::Zero(3))),
                        doctest::Contains("start"), slant::bad_input);
 }
 
@@ -242,7 +237,7 @@ TEST_CASE("solve_friction: without a solution it ends with a status, for every m
 }
 
 TEST_CASE("solve_friction: forces without bound are no solution, and the search for them ends") {
-  using Eigen::Matrix3d, Eigen::Vector3d, Eigen::Vector4d, Eigen::VectorXd;
+  using Eigen::Matrix3d, Eigen::Vector4d;
   VectorXd const one = VectorXd::Constant(1, 0.5), two = VectorXd::Constant(2, 0.5);
   Matrix3d const flat = Vector3d(0, 1, 1).asDiagonal();
   Eigen::Matrix4d wedge = Eigen::Matrix4d::Identity();
@@ -270,14 +265,14 @@ TEST_CASE("solve_friction: forces without bound are no solution, and the search 
 
 TEST_CASE("solve_friction: friction without bound, and hardly any") {
   for (double const mu : {1e9, 1e-200}) {
-    auto const p = test::make_friction_problem(
-        Eigen::Matrix3d::Identity(), Eigen::Vector3d(-1, 1, 0), Eigen::VectorXd::Constant(1, mu));
+    auto const p = test::make_friction_problem(Eigen::Matrix3d::Identity(), Vector3d(-1, 1, 0),
+                                               VectorXd::Constant(1, mu));
     for (auto const method : all_methods) {
       // From inside of a cone that is nearly a half space it is too far to a force.
       if (mu > 1 && method == friction_method::interior_point) continue;
       auto const s = solve_friction(p, {.method = method});
       CHECK(s.converged());
-      CHECK((s.r - Eigen::Vector3d(1, mu > 1 ? -1 : 0, 0)).norm() <= 1e-8);
+      CHECK((s.r - Vector3d(1, mu > 1 ? -1 : 0, 0)).norm() <= 1e-8);
     }
   }
   auto rough = test::random_friction(10, 3, 1e9, 3);  // all that are closed stick
@@ -294,7 +289,7 @@ TEST_CASE("solve_friction: results outside of the range of numbers are a breakdo
   for (double const sign : {1., -1.}) {
     auto const p = test::make_friction_problem(
         std::pow(10., -200 * sign) * Eigen::Matrix3d::Identity(),
-        -std::pow(10., 200 * sign) * Eigen::Vector3d::UnitX(), Eigen::VectorXd::Constant(1, 0.5));
+        -std::pow(10., 200 * sign) * Vector3d::UnitX(), VectorXd::Constant(1, 0.5));
     auto const s = solve_friction(p);
     CHECK(s.status == slant::status::breakdown);
     CHECK(s.reason.find("range of numbers") != std::string::npos);

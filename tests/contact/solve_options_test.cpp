@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/solve_options.hpp>
-
-#include <doctest/doctest.h>
-
-#include <support/message.hpp>
+#include <support/testing.hpp>
 
 namespace solve_options_test {
 

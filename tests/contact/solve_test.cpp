@@ -4,23 +4,13 @@
 #include <slant/contact/solve.hpp>
 #include <slant/contact/total_feti.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/LU>
 #include <fem/stacked_bricks.hpp>
-#include <support/message.hpp>
+#include <support/testing.hpp>
 #include "loose_brick.hpp"
 #include "scenes.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 namespace solve_test {
 
-using Eigen::VectorXd;
 namespace contact = slant::contact;
 using slant::status;
 using sparse = Eigen::SparseMatrix<double>;
@@ -39,7 +29,7 @@ contact::solution<double> solve(Eigen::SparseMatrix<double> const& K,
 TEST_CASE(
     "contact::solve: what it says of its error is true, on sound bodies and on slender ones") {
   struct body {
-    Eigen::Vector3d size;
+    Vector3d size;
     double least;  // accuracy that must be reached
   };
   for (body const& b : {body{{3, 1, 1}, 1e-8}, body{{300, 1, 1}, 1e-8}, body{{3, 1, 1e-2}, 1e-8},
@@ -208,7 +198,7 @@ contact::solution<double> solve(test::loose_brick const& b, contact::solve_optio
 TEST_CASE("contact::solve: bodies without supports that contact or friction holds") {
   struct push {
     char const* by;
-    Eigen::Vector3d end;
+    Vector3d end;
     double slip, press = 1;
   };
   double const infinity = std::numeric_limits<double>::infinity();
@@ -256,7 +246,7 @@ double error_across(test::loose_brick const& b, double h, double τ,
 TEST_CASE("contact::solve: bodies without supports that a gap parts from what holds them") {
   struct push {
     char const* by;
-    Eigen::Vector3d end;
+    Vector3d end;
     double slip;
     bool friction = true;
   };
@@ -349,7 +339,7 @@ VectorXd below_obstacle(Eigen::SparseMatrix<double> const& K, VectorXd const& f,
                         VectorXd const& d) {
   using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   using vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  matrix const K_ = Eigen::MatrixXd(K).cast<long double>();
+  matrix const K_ = MatrixXd(K).cast<long double>();
   vector u = d.cast<long double>();
   for (std::vector<bool> free(std::size_t(f.size()), false);;) {
     vector const force = f.cast<long double>() - K_ * u;
@@ -472,7 +462,7 @@ TEST_CASE("contact::solve: some motions of one of three bodies, and their names"
                              Pt * one.data.f.replicate(3, 1), VectorXd::Zero(36),
                              VectorXd::Constant(36, 0.05)};
   contact::solve_options<double> o;
-  Eigen::MatrixXd nodes(3, 3 * one.mesh.nodes.cols());
+  MatrixXd nodes(3, 3 * one.mesh.nodes.cols());
   nodes << one.mesh.nodes, one.mesh.nodes, one.mesh.nodes;
   auto const all = contact::interleaved_layout(nodes);
   o.layout.x = all.x;
@@ -518,17 +508,17 @@ TEST_CASE("contact::solve: what holds a body hardly is seen beside what holds it
   c.N.insert(1, 1) = -α;
   c.N.insert(1, 3) = -1;
   c.T.resize(0, 5);
-  c.d = Eigen::VectorXd::Zero(2);
+  c.d = VectorXd::Zero(2);
   for (double const F : {1e-3, 1e-6, 1e-9}) {
-    c.f = Eigen::VectorXd{{F * α, 0.0, -1.0, -2.0, -1.0}};
+    c.f = VectorXd{{F * α, 0.0, -1.0, -2.0, -1.0}};
     // Both contacts press: K u + Nᵀλ = f, N u = 0.
-    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(7, 7);
+    MatrixXd whole = MatrixXd::Zero(7, 7);
     whole.topLeftCorner(5, 5) = K;
     whole.bottomLeftCorner(2, 5) = c.N;
-    whole.topRightCorner(5, 2) = Eigen::MatrixXd(c.N).transpose();
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(7);
+    whole.topRightCorner(5, 2) = MatrixXd(c.N).transpose();
+    VectorXd load = VectorXd::Zero(7);
     load.head(5) = c.f;
-    Eigen::VectorXd const exact = whole.fullPivLu().solve(load).head(5);
+    VectorXd const exact = whole.fullPivLu().solve(load).head(5);
     for (double const tolerance : {1e-3, 1e-6, 1e-8}) {
       auto const r = contact::solve(contact::frictionless{}, K, c, {.tolerance = tolerance});
       double const error = true_error(K, r.u, exact);

@@ -6,24 +6,14 @@
 #include <slant/iteration/stopping.hpp>
 #include <slant/operators/any_operator.hpp>
 
-#include <doctest/doctest.h>
-
 #include <fem/decomposed_brick.hpp>
 #include <support/dense_of.hpp>
-#include <support/effort.hpp>
 #include <support/floating_parts.hpp>
+#include <support/testing.hpp>
 #include "scenes.hpp"
-#include "support/message.hpp"
-
-#include <array>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace total_feti_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::contact::friction_disc;
 using slant::contact::frictionless;
@@ -51,13 +41,12 @@ auto accurate() {
 
 /// Displacements of the scene, the mean of the copies, which must agree with each other.
 template <class Problem, class Method>
-Eigen::VectorXd displacement(decomposed_brick const& brick, Problem const& problem,
-                             Method const& method) {
+VectorXd displacement(decomposed_brick const& brick, Problem const& problem, Method const& method) {
   auto const r = slant::solve(method, problem.zero(), accurate());
   CAPTURE(r.reason);
   CHECK(r.converged());
   CHECK(r.iterations() <= 30);
-  Eigen::VectorXd const u = problem.displacement(r.x(), method.multipliers(r.state));
+  VectorXd const u = problem.displacement(r.x(), method.multipliers(r.state));
   CHECK((brick.parts.glue * u).norm() <= 1e-8 * u.norm());
   return brick.parts.mean * u;
 }

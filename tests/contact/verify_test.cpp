@@ -2,15 +2,11 @@
 //
 // The checker against the law written naively in long double, on solutions known in closed form,
 // and on each kind of mistake.
-#include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
 #include <oracle/naive_friction.hpp>
-#include <random>
 #include <slant/contact/friction/verify.hpp>
-#include <string>
 #include <support/friction_cases.hpp>
+#include <support/testing.hpp>
 
 namespace verify_test {
 
@@ -22,8 +18,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// A random problem of m contacts; W = H Hᵀ of full rank, forces of all three states and none.
 struct random_case {
   random_case(unsigned seed, int dimension, int m) : random(seed), d(dimension) {
-    Eigen::MatrixXd const H = matrix(d * m, d * m + 2);
-    p.W = Eigen::MatrixXd(H * H.transpose()).sparseView();
+    MatrixXd const H = matrix(d * m, d * m + 2);
+    p.W = MatrixXd(H * H.transpose()).sparseView();
     p.q = matrix(d * m, 1);
     p.mu.resize(m);
     for (int i = 0; i < m; ++i) p.mu[i] = std::pow(10, number() * 2);
@@ -32,14 +28,14 @@ struct random_case {
     for (int i = 0; i < m; i += 2) r[i * d] = std::abs(r[i * d]) * 3;
   }
   double number() { return std::uniform_real_distribution<double>(-1, 1)(random); }
-  Eigen::MatrixXd matrix(int rows, int cols) {
-    return Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return number(); });
+  MatrixXd matrix(int rows, int cols) {
+    return MatrixXd::NullaryExpr(rows, cols, [&] { return number(); });
   }
 
   std::mt19937 random;
   int d;
   friction_problem<> p{};
-  Eigen::VectorXd r{};
+  VectorXd r{};
 };
 
 TEST_CASE("verify: the figures of a naive implementation") {
@@ -47,9 +43,9 @@ TEST_CASE("verify: the figures of a naive implementation") {
     for (unsigned seed = 0; seed < 20; ++seed) {
       random_case const c(seed, d, 7);
       auto const got = verify(c.p, c.r);
-      auto const expected = oracle::naive_friction(
-          Eigen::MatrixXd(c.p.W).cast<long double>(), c.p.q.cast<long double>(),
-          c.p.mu.cast<long double>(), c.r.cast<long double>());
+      auto const expected =
+          oracle::naive_friction(MatrixXd(c.p.W).cast<long double>(), c.p.q.cast<long double>(),
+                                 c.p.mu.cast<long double>(), c.r.cast<long double>());
       // All terms are sums of products of numbers up to 20, times μ up to 100.
       double const close = 1e-12;
       long double squares = 0, cone = 0, dual = 0, power = 0, propulsion = 0, dissipation = 0;
@@ -128,7 +124,7 @@ TEST_CASE("verify: solutions are solutions, and their states are told") {
 TEST_CASE("verify: each kind of mistake shows where it belongs") {
   using test::numbers;
   auto const slip = test::space_contact({10, -3, -4}, {0, 3, 4}, 0.5);
-  auto const check = [&](Eigen::VectorXd const& r) { return verify(slip, r); };
+  auto const check = [&](VectorXd const& r) { return verify(slip, r); };
   SUBCASE("too much friction") {
     auto const c = check(numbers({10, -6, -8}));
     CHECK(c.outside_cone.value == doctest::Approx(5 / std::sqrt(1.25)));
@@ -187,8 +183,8 @@ TEST_CASE("verify: any unit") {
       auto p = c.p;
       p.W *= std::ldexp(1, velocities - forces);
       p.q *= std::ldexp(1, velocities);
-      auto const other = verify(p, Eigen::VectorXd(c.r * std::ldexp(1, forces)),
-                                std::ldexp(1, forces - velocities));
+      auto const other =
+          verify(p, VectorXd(c.r * std::ldexp(1, forces)), std::ldexp(1, forces - velocities));
       CHECK(other.natural_map == std::ldexp(plain.natural_map, forces));
       CHECK(other.rounding == std::ldexp(plain.rounding, forces));
       CHECK(other.relative_natural_map == plain.relative_natural_map);
@@ -205,18 +201,18 @@ TEST_CASE(
     "verify: the unit-free natural map is that of W in units of one, whatever the units are") {
   random_case const c(4, 3, 5);
   // w = 1 at each contact: there √w r and u/√w are r and u.
-  Eigen::VectorXd d(c.r.size());
+  VectorXd d(c.r.size());
   for (Eigen::Index i = 0; i < 5; ++i) {
-    double const w = Eigen::MatrixXd(c.p.W).block(3 * i, 3 * i, 3, 3).cwiseAbs().maxCoeff();
+    double const w = MatrixXd(c.p.W).block(3 * i, 3 * i, 3, 3).cwiseAbs().maxCoeff();
     d.segment(3 * i, 3).setConstant(1 / std::sqrt(w));
   }
-  auto const in_units = [&](Eigen::VectorXd const& D) {
+  auto const in_units = [&](VectorXd const& D) {
     auto p = c.p;
-    p.W = Eigen::MatrixXd(D.asDiagonal() * c.p.W * D.asDiagonal()).sparseView();
+    p.W = MatrixXd(D.asDiagonal() * c.p.W * D.asDiagonal()).sparseView();
     p.q = D.cwiseProduct(c.p.q);
     return p;
   };
-  auto const one = verify(in_units(d), Eigen::VectorXd(c.r.cwiseQuotient(d)));
+  auto const one = verify(in_units(d), VectorXd(c.r.cwiseQuotient(d)));
   auto const same = [&](slant::contact::friction_check<double> const& other) {
     CHECK(other.unit_free_map == doctest::Approx(one.relative_natural_map).epsilon(1e-12));
     CHECK(other.unit_free_rounding == doctest::Approx(one.relative_rounding).epsilon(1e-12));
@@ -230,25 +226,25 @@ TEST_CASE(
   for (double const s : {1e6, 1e-6, 1e150, 1e-150}) {
     auto p = c.p;
     p.W *= s;
-    same(verify(p, Eigen::VectorXd(c.r / s)));
+    same(verify(p, VectorXd(c.r / s)));
     p = c.p;
     p.q *= s;
-    same(verify(p, Eigen::VectorXd(c.r * s)));
+    same(verify(p, VectorXd(c.r * s)));
     for (Eigen::Index i = 0; i < 5; ++i) {
-      Eigen::VectorXd D = Eigen::VectorXd::Ones(c.r.size());
+      VectorXd D = VectorXd::Ones(c.r.size());
       D.segment(3 * i, 3).setConstant(s > 1 ? 1e8 : 1e-8);
-      same(verify(in_units(D), Eigen::VectorXd(c.r.cwiseQuotient(D))));
+      same(verify(in_units(D), VectorXd(c.r.cwiseQuotient(D))));
     }
   }
   // The measure of the literature sees nothing of a wrong force there, or nothing else.
   auto p = test::plane_contact(1e-150, 0, 1e-150, -1, 0.5, 1);
-  auto const wrong = verify(p, Eigen::VectorXd(test::numbers({2e150, 0})));
+  auto const wrong = verify(p, VectorXd(test::numbers({2e150, 0})));
   CHECK(wrong.unit_free_map > 0.4);
   CHECK(wrong.relative_rounding > 1e100);
   CHECK(wrong.unit_free_rounding < 1e-14);
   // A contact that its own force does not move has the units of the others.
   p.W.coeffRef(0, 0) = p.W.coeffRef(1, 1) = 0;
-  CHECK(verify(p, Eigen::VectorXd(test::numbers({0, 0}))).unit_free_penetration > 0.8);
+  CHECK(verify(p, VectorXd(test::numbers({0, 0}))).unit_free_penetration > 0.8);
 }
 
 TEST_CASE("verify: extreme coefficients") {
@@ -274,10 +270,10 @@ TEST_CASE("verify: forces that are far larger than what they resist") {
   // W h = 0 for h on the boundary of the cone, inside and outside: no force along h resists q.
   for (double const size : {1e3, 1e8, 1e16, 1e24}) {
     for (auto const& h : {test::numbers({2, 1}), test::numbers({2, 2}), test::numbers({2, 4})}) {
-      Eigen::Vector2d const across(h[1], -h[0]);
+      Vector2d const across(h[1], -h[0]);
       auto const p = test::make_friction_problem(across * across.transpose(),
                                                  test::numbers({-1, 0}), test::numbers({1}));
-      auto const check = verify(p, Eigen::VectorXd(size * h));
+      auto const check = verify(p, VectorXd(size * h));
       CHECK(check.penetration.value == 1);
       CHECK(check.relative_natural_map > 0.5);
       CHECK((check.relative_rounding > 1e-8) == (size > 1e7));
@@ -311,7 +307,7 @@ TEST_CASE("verify: bad input, NaN and nothing at all") {
 
   double const nan = std::numeric_limits<double>::quiet_NaN();
   random_case const c(1, 3, 4);
-  Eigen::VectorXd r = c.r;
+  VectorXd r = c.r;
   r[4] = nan;
   auto const check = verify(c.p, r);
   CHECK(std::isnan(check.natural_map));
@@ -329,7 +325,7 @@ TEST_CASE("verify: bad input, NaN and nothing at all") {
   CHECK(std::isnan(verify(unmoved, test::numbers({infinity, 0})).relative_natural_map));
 
   friction_problem<> const empty;
-  auto const nothing = verify(empty, Eigen::VectorXd());
+  auto const nothing = verify(empty, VectorXd());
   CHECK(nothing.natural_map == 0);
   CHECK(nothing.relative_natural_map == 0);
   CHECK(nothing.outside_cone.contact == -1);

@@ -6,16 +6,10 @@
 #include <slant/multilevel/aggregation.hpp>
 
 #include <fem/steel_brick.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <algorithm>
-#include <vector>
+#include <support/testing.hpp>
 
 namespace aggregation_test {
 
-using Eigen::MatrixXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::aggregate;
 using slant::block_matrix;
@@ -87,10 +81,10 @@ TEST_CASE("candidates: orthonormal columns whose range has the near kernel, also
     // Rotations about the origin, however far that is.
     MatrixXd B = MatrixXd::Zero(3 * n, 6);
     for (Eigen::Index i = 0; i < n; ++i) {
-      Eigen::Vector3d const x = nodes.col(i);
+      Vector3d const x = nodes.col(i);
       B.block<3, 3>(3 * i, 0).setIdentity();
       for (int c = 0; c < 3; ++c) {
-        B.block<3, 1>(3 * i, 3 + c) = Eigen::Vector3d::Unit(c).cross(x) / (1 + away);
+        B.block<3, 1>(3 * i, 3 + c) = Vector3d::Unit(c).cross(x) / (1 + away);
       }
     }
     slant::detail::near_kernel<3, 6> kernel;

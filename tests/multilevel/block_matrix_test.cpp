@@ -6,18 +6,10 @@
 #include <slant/testing/laws.hpp>
 
 #include <fem/steel_brick.hpp>
-#include <support/allocation_guard.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <algorithm>
-#include <limits>
+#include <support/testing.hpp>
 
 namespace block_matrix_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::block_matrix;
 using test::packed;

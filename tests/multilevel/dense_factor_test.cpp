@@ -3,18 +3,10 @@
 
 #include <slant/multilevel/parts/dense_factor.hpp>
 #include <slant/multilevel/parts/galerkin.hpp>
-
-#include <support/allocation_guard.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <Eigen/SparseCore>
+#include <support/testing.hpp>
 
 namespace dense_factor_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using slant::block_matrix;
 using slant::detail::dense_factor;
 using slant::detail::whole_blocks;
@@ -92,7 +84,7 @@ TEST_CASE("generalised inverses of semidefinite matrices, of any rank") {
 
 TEST_CASE("what a face leaves of an unknown up to rounding is left out") {
   // On the line along t, of which the first component is a rounding error.
-  Eigen::Vector3d const t = Eigen::Vector3d(1e-9, 0.6, -0.8);
+  Vector3d const t = Vector3d(1e-9, 0.6, -0.8);
   block_matrix<3, float> const free{
       Eigen::SparseMatrix<double>(MatrixXd::Identity(3, 3).sparseView())};
   block_matrix<3, float> const A{

@@ -7,20 +7,13 @@
 #include <slant/multilevel/parts/prolongation.hpp>
 
 #include <fem/steel_brick.hpp>
-#include <support/allocation_guard.hpp>
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <cmath>
 #include <set>
+#include <support/testing.hpp>
 
 namespace galerkin_test {
 
 using Eigen::Matrix3d;
-using Eigen::MatrixXd;
-using Eigen::Vector3d;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::block_matrix;
 using slant::detail::prolongation;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/multilevel/multigrid.hpp>
-
-#include <doctest/doctest.h>
-
-#include <limits>
+#include <support/testing.hpp>
 
 namespace multigrid_options_test {
 
@@ -32,9 +29,9 @@ TEST_CASE("options out of range are named") {
   for (double const c : {1.0, nan}) {
     CHECK_THROWS_AS(options{.complexity = c}.validate(), slant::bad_input);
   }
-  CHECK_THROWS_WITH_AS(options{.coordinates = Eigen::MatrixXd::Zero(4, 2)}.validate(),
+  CHECK_THROWS_WITH_AS(options{.coordinates = MatrixXd::Zero(4, 2)}.validate(),
                        "rows of coordinates: got 4, expected 2 or 3", slant::bad_input);
-  CHECK_THROWS_AS(options{.coordinates = Eigen::MatrixXd::Constant(3, 2, nan)}.validate(),
+  CHECK_THROWS_AS(options{.coordinates = MatrixXd::Constant(3, 2, nan)}.validate(),
                   slant::bad_input);
 }
 

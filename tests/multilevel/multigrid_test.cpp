@@ -15,22 +15,11 @@
 
 #include <fem/box_prolongations.hpp>
 #include <fem/steel_brick.hpp>
-#include <support/allocation_guard.hpp>
-#include <support/effort.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
-#include <cmath>
-#include <limits>
-#include <string>
+#include <support/testing.hpp>
 
 namespace multigrid_test {
 
 using Eigen::Matrix3d;
-using Eigen::MatrixXd;
-using Eigen::Vector3d;
-using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 using multigrid = slant::multigrid<double>;
 using exact_multigrid = slant::multigrid<double, double>;

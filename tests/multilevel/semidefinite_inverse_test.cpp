@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/multilevel/parts/dense_factor.hpp>
-
-#include <doctest/doctest.h>
-
-#include <Eigen/Dense>
+#include <support/testing.hpp>
 
 namespace semidefinite_inverse_test {
 
@@ -12,7 +9,7 @@ using slant::detail::invert_semidefinite;
 /// B Bᵀ with B of N × rank pseudo-random entries.
 template <int N>
 Eigen::Matrix<double, N, N> gram(int rank) {
-  Eigen::MatrixXd B(N, rank);
+  MatrixXd B(N, rank);
   unsigned random = 3;
   for (int k = 0; k < B.size(); ++k) {
     random = random * 1664525u + 1013904223u;
@@ -53,7 +50,7 @@ TEST_CASE("inverses of principal submatrices, of any rank") {
 }
 
 TEST_CASE("unknowns below their limit are left out, negative pivots are told") {
-  Eigen::Matrix3d a = Eigen::Vector3d(4, 1e-9, 2).asDiagonal();
+  Eigen::Matrix3d a = Vector3d(4, 1e-9, 2).asDiagonal();
   a(0, 2) = a(2, 0) = 1;
   double const least[] = {0, 1e-6, 0}, scale[] = {4, 1, 2};
   Eigen::Matrix3d x = a;
