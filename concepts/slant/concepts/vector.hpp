@@ -232,10 +232,17 @@ struct like_fn {
     if constexpr (has_like_member<X>) {
       return x.like(n);
     } else {
-      typename X::PlainObject y;
-      y.resize(n, x.cols());  // several right-hand sides stay several
-      return y;
+      return sized<typename X::PlainObject>(n, x.cols());  // several right-hand sides stay several
     }
+  }
+
+ private:
+  // Apart: g++ 12 moves y out of a function with `if constexpr`, and warns that it is not set.
+  template <class P>
+  [[nodiscard]] static P sized(index n, index columns) {
+    P y;
+    y.resize(n, columns);
+    return y;
   }
 };
 
