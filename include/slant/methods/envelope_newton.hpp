@@ -93,7 +93,7 @@ struct envelope_newton_state : gradient_point<QP> {
   scalar γ{0};                    ///< of the envelope, in units of 1/A
   scalar way{0};                  ///< ‖w − y‖
   scalar value{0};                ///< E_γ(y) / unit
-  scalar value_noise{0};          ///< what of it rounding errors may be
+  scalar value_noise{0};          ///< how far it may be off, by rounding or rough products
   scalar residual_norm{0};        ///< ‖F(y)‖/ρ, in units of the gradient
   scalar preconditioner_size{1};  ///< s = mean(diag M)
   scalar step_fraction{1};        ///< β of the last Newton step
@@ -388,7 +388,8 @@ class envelope_newton {
   bool shorten(state_type& s) const {
     constexpr scalar least = scalar(1) / scalar(1024);  // w is as good then
     scalar const value = s.value, residual = s.residual_norm;
-    scalar const noise = s.value_noise + error_of_image(s) * norm(s.x);
+    scalar const unseen = error_of_image(s) * norm(s.x);
+    scalar const noise = s.value_noise + unseen;
     scalar const enough = decrease * s.way * (s.way / (s.γ * s.unit));
     std::swap(s.y, s.base);
     std::swap(s.gradient, s.base_gradient);
@@ -402,6 +403,7 @@ class envelope_newton {
       bool const level = s.value <= value + noise && s.residual_norm < residual / scalar(2);
       if (s.value <= value - enough || (noise >= enough && level)) {
         s.step_fraction = β;
+        s.value_noise += unseen;  // the next value is compared with this one
         return true;
       }
     }
