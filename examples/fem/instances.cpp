@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define FEM_INSTANCE template
+#include <fem/instances.hpp>
