@@ -97,7 +97,7 @@ TEST_CASE("laws: on vectors that are no Eigen vectors") {
   check_set_laws(set, slant::testing::archetype::vector(VectorXd::Zero(8)), few());
 }
 
-TEST_CASE_TEMPLATE("laws: a product in other scalars", S, float, long double, oracle::float_50) {
+TEST_CASE_TEMPLATE("laws: a product in other scalars", S, float, oracle::float_50) {
   std::vector<S> const g{S(1), S(3) / S(10)};
   check_set_laws(cartesian(slant::half_lines<S>(1), slant::discs<slant::planar>(g)),
                  set_options{.points = 12, .directions = 2});

@@ -9,7 +9,7 @@ namespace contact_sets_test {
 
 using namespace products;
 
-TEST_CASE_TEMPLATE("contact_sets: the scalar is that of the data", S, float, double, long double,
+TEST_CASE_TEMPLATE("contact_sets: the scalar is that of the data", S, float, double,
                    oracle::float_50) {
   vec<S> const g = vec<S>::Constant(3, S(2));
   vec<S> const x = vec<S>::Constant(3, S(-9));

@@ -30,7 +30,7 @@ vec<S> naive_discs(vec<S> x, vec<S> const& g, First first, Second second) {
 }
 
 TEST_CASE_TEMPLATE("power: discs agree with a loop, in both layouts and in place", S, float, double,
-                   long double, oracle::float_50) {
+                   oracle::float_50) {
   Eigen::Index const m = 37;
   vec<S> const g = numbers<S>(m, 1).cwiseAbs();
   vec<S> const x = numbers<S>(2 * m, 2);

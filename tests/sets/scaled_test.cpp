@@ -12,8 +12,7 @@ namespace scaled_test {
 using namespace products;
 using slant::scaled;
 
-TEST_CASE_TEMPLATE("scaled: a disc of c times the radius", S, float, double, long double,
-                   oracle::float_50) {
+TEST_CASE_TEMPLATE("scaled: a disc of c times the radius", S, float, double, oracle::float_50) {
   using vector = Eigen::Matrix<S, 2, 1>;
   auto const set = scaled(S(3), slant::ball<2, S>{S(2)});
   slant::ball<2, S> const twin{S(6)};

@@ -10,7 +10,7 @@
 
 namespace natural_residual_scalars_test {
 
-TEST_CASE_TEMPLATE("float, long double, multiprecision", S, float, long double,
+TEST_CASE_TEMPLATE("float and multiprecision", S, float,
                    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                  boost::multiprecision::et_off>) {
   using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
