@@ -331,8 +331,8 @@ TEST_CASE("nested meshes: prolongations of the user, their levels begun on the c
     CHECK(r.work.inner_iterations <= 30);
     if (load != fem::brick_load::lift) continue;
     auto const there = agree(turned(s));
-    CHECK(there.iterations <= 11);
-    CHECK(there.work.inner_iterations <= 30);
+    CHECK(there.iterations <= r.iterations + 1);  // 3 more if E is trusted beyond rough products
+    CHECK(there.work.inner_iterations <= r.work.inner_iterations + 3);
     // Without coordinates nobody would know whether the body floats.
     CHECK(contact::solve(s.K, s.data, {.multigrid = {.prolongations = s.prolongations}})
               .choice.reason == "factored: no coordinates of nodes are given");
