@@ -59,8 +59,8 @@ TEST_CASE("contact::solve: a sound scene costs one certificate and is not scaled
   auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
   auto const data = test::contact_data(scene);
   int states = 0;
-  auto const r =
-      contact::solve(contact::friction_disc{}, scene.K, data, {}, [&](auto const&) { ++states; });
+  auto const r = contact::solve(contact::friction_disc{}, scene.K, data,
+                                {.progress = [&](auto const&) { ++states; }});
   CHECK(r.converged());
   CHECK(r.corrections == 0);
   CHECK(r.solves == 2);  // for u, and for its residual
@@ -129,19 +129,18 @@ TEST_CASE("contact::solve: tolerance 0 goes on to the last digits and says that 
   CHECK(true_error(scene.K, r.u, reference.u) <= r.error.relative() + 2 * reference.energy_error);
 }
 
-TEST_CASE("contact::solve: progress is told of every iterate, as observers are") {
+TEST_CASE("contact::solve: progress is told of every iterate") {
   auto const scene = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
   auto const data = test::contact_data(scene);
-  std::vector<slant::index> told, seen;
+  std::vector<slant::index> told;
   std::vector<double> gradients;
   contact::solve_options<double> o;
   o.progress = [&](contact::solve_step<double> const& step) {
     told.push_back(step.iteration);
     gradients.push_back(step.reduced_gradient);
   };
-  auto const r = contact::solve(contact::friction_disc{}, scene.K, data, o,
-                                [&](auto const& state) { seen.push_back(state.iteration); });
-  CHECK(told == seen);
+  auto const r = contact::solve(contact::friction_disc{}, scene.K, data, o);
+  REQUIRE(told.size() == static_cast<std::size_t>(r.iterations + r.corrections + 1));
   CHECK(told.front() == 0);
   CHECK(told.back() == r.iterations);
   CHECK(gradients.back() < 1e-3 * gradients.front());

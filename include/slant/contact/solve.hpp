@@ -92,7 +92,7 @@ template <class S>
 
 /// Newton's method on the scaled dual problem, under the control of the certificate.
 template <class Friction, class S>
-class certified_run {
+class certified_run final : public supported_problem<S> {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
@@ -124,12 +124,11 @@ class certified_run {
       });
     }
   }
-  certified_run(certified_run const&) = delete;
-  certified_run& operator=(certified_run const&) = delete;
 
   /// The same scene with the load and the gaps that the data have now, and with slips T u − w, from
   /// λ.
-  void reload(vector_type const& λ, vector_type const& w, S const& tolerance, index max_steps) {
+  void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
+              index max_steps) override {
     load_step<S> step{.f = data_->f, .d = data_->d};
     if (w.size() > 0) step.w = w;
     dual_.update(std::move(step));
@@ -144,8 +143,7 @@ class certified_run {
     result_.scaled = scaled;
   }
 
-  template <class... Observers>
-  [[nodiscard]] solution<S> run(Observers&... observers) {
+  [[nodiscard]] solution<S> solve() override {
     auto const set = feasible_set(dual_.friction(), data_->nodes(), g_);
     separable_qp const qp{dual_.a(C_), b_, set};
     auto const M = lumped_preconditioner(certificate_matrix(), C_);
@@ -172,7 +170,7 @@ class certified_run {
     while (true) {
       auto newton = method();
       auto stop = reduced_gradient_below(threshold) || at_most(budget);
-      auto end = slant::detail::run_to_end(newton, state, stop, tell, observers...);
+      auto end = slant::detail::run_to_end(newton, state, stop, tell);
       // A later phase that takes longer than all before it is at its floor.
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
@@ -292,36 +290,30 @@ namespace slant::contact {
 
 // --- solve ---------------------------------------------------------------------------------------
 
-/// Solves with this friction law, which the data must have: no other one is compiled. Observers see
-/// every state of symmetric_newton. Throws bad_input if K is not symmetric positive semidefinite,
-/// for data that do not fit, or for options out of range.
-template <class Friction, class S, class... Observers>
+/// Solves with this friction law, which the data must have: no other one is compiled. Throws
+/// bad_input if K is not symmetric positive semidefinite, for data that do not fit, or for options
+/// out of range.
+template <class Friction, class S>
 [[nodiscard]] solution<S> solve(Friction friction, Eigen::SparseMatrix<S> const& K,
-                                data<S> const& c, solve_options<S> const& o = {},
-                                Observers&&... observers) {
+                                data<S> const& c, solve_options<S> const& o = {}) {
   using run = detail::certified_run<Friction, S>;
   o.validate();
   detail::validated(friction, c, K.rows());
-  route_choice choice;
-  if constexpr (sizeof...(Observers) == 0) {
-    bool const asked = o.route == solution_route::iterate;
-    auto const outlook =
-        o.prove             ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
-        : !asked && o.start ? detail::iteration_outlook<S>{"forces to start from are given"}
-                            : detail::outlook_of_iteration(K, c, o);
-    choice = choose_route(K, outlook.refusal, o.route, o.costs);
-    auto const iterate = [&] {
-      return outlook.floating.free.empty()
-                 ? detail::iterated_run(friction, K, c, o)
-                 : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
-    };
-    if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
-  } else if (o.route == solution_route::iterate) {
-    throw bad_input("route", "iterate", "another one, as observers see states of symmetric_newton");
-  }
+  bool const asked = o.route == solution_route::iterate;
+  auto const outlook = o.prove ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
+                       : !asked && o.start
+                           ? detail::iteration_outlook<S>{"forces to start from are given"}
+                           : detail::outlook_of_iteration(K, c, o);
+  route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
+  auto const iterate = [&] {
+    return outlook.floating.free.empty()
+               ? detail::iterated_run(friction, K, c, o)
+               : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
+  };
+  if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   free_motions<S> motions;
   try {
-    auto found = run(friction, K, c, o).run(observers...);
+    auto found = run(friction, K, c, o).solve();
     found.choice = std::move(choice);
     return found;
   } catch (bad_input const& refusal) {
@@ -329,18 +321,17 @@ template <class Friction, class S, class... Observers>
     if (motions.free.empty()) throw;
   }
   auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
-    return std::make_unique<detail::observed_run<run, S, std::remove_reference_t<Observers>...>>(
-        friction, held, scene, options, observers...);
+    return std::make_unique<run>(friction, held, scene, options);
   };
   return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
 }
 
 /// The same with the law that T stands for, one instance for all laws.
-template <class S, class... Observers>
+template <class S>
 [[nodiscard]] solution<S> solve(Eigen::SparseMatrix<S> const& K, data<S> const& c,
-                                solve_options<S> const& o = {}, Observers&&... observers) {
+                                solve_options<S> const& o = {}) {
   c.validate();
-  return solve(friction_of_data{c.tangents()}, K, c, o, observers...);
+  return solve(friction_of_data{c.tangents()}, K, c, o);
 }
 
 #if SLANT_USES_COMPILED

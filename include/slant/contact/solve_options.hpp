@@ -49,7 +49,7 @@ struct solve_options {
   multigrid_options multigrid{};
   route_costs costs = default_route_costs<S>();
   /// Called with every iterate, the start included; twice with one from which a correction goes on.
-  /// Empty: nothing is called. Unlike observers it is no part of the type of the call.
+  /// Empty: nothing is called.
   std::function<void(solve_step<S> const&)> progress{};
 
   /// Throws bad_input naming the option, its value and what was expected.

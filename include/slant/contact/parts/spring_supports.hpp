@@ -48,7 +48,6 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -93,30 +92,6 @@ class supported_problem {
   virtual void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
                       index max_steps) = 0;
   [[nodiscard]] virtual solution<S> solve() = 0;
-};
-
-/// certified_run for a law, with observers of its states.
-template <class Run, class S, class... Observers>
-class observed_run final : public supported_problem<S> {
- public:
-  using typename supported_problem<S>::vector_type;
-
-  template <class Friction>
-  observed_run(Friction law, Eigen::SparseMatrix<S> const& K, data<S> const& c,
-               solve_options<S> const& o, Observers&... observers)
-      : run_(law, K, c, o), observers_(observers...) {}
-
-  void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
-              index max_steps) override {
-    run_.reload(λ, w, tolerance, max_steps);
-  }
-  [[nodiscard]] solution<S> solve() override {
-    return std::apply([&](auto&... observers) { return run_.run(observers...); }, observers_);
-  }
-
- private:
-  Run run_;
-  std::tuple<Observers&...> observers_;
 };
 
 /// The method at the top of this file; make(K + D, data, options) makes the problem of a step. One
