@@ -12,6 +12,7 @@
 
 namespace coulomb_families_test {
 
+using namespace test::evaluated;
 namespace contact = slant::contact;
 constexpr double tolerance = 1e-11;
 

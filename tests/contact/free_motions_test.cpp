@@ -6,6 +6,7 @@
 
 namespace free_motions_test {
 
+using namespace test::evaluated;
 using slant::contact::factorize_stiffness;
 using slant::contact::find_free_motions;
 using slant::contact::node_layout;

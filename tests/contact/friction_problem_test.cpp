@@ -4,6 +4,7 @@
 
 namespace friction_problem_test {
 
+using namespace test::evaluated;
 using problem = slant::contact::friction_problem<double>;
 using slant::contact::asymmetry;
 using slant::contact::require_symmetric;

@@ -4,6 +4,7 @@
 
 namespace rigid_body_modes_test {
 
+using namespace test::evaluated;
 using Eigen::Matrix2Xd;
 using Eigen::Matrix3Xd;
 using slant::contact::rigid_body_modes;

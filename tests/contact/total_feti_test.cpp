@@ -200,7 +200,7 @@ TEST_CASE("a body held in six directions, and in five") {
   CHECK(complaint(loose.bodies, data).find("f: got a load that moves body 0") == 0);
   // The motion that is left, and a load without a component along it.
   MatrixXd const image = loose.bodies.B * R;
-  VectorXd const motion = R * image.fullPivLu().kernel();
+  VectorXd const motion = R * MatrixXd(image.fullPivLu().kernel());
   data.f = f - motion * (motion.dot(f) / motion.squaredNorm());
   total_feti const problem(friction_disc{}, loose.bodies, data);
   CHECK(problem.constraints().redundant().size() == 1);

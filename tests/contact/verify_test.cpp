@@ -10,6 +10,7 @@
 
 namespace verify_test {
 
+using namespace test::evaluated;
 using slant::contact::contact_state;
 using slant::contact::friction_problem;
 using slant::contact::verify;

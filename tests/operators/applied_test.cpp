@@ -6,6 +6,7 @@
 
 namespace applied_test {
 
+using namespace test::evaluated;
 TEST_CASE("A * x is what Eigen computes, wherever it is written to") {
   SLANT_TEST_LETTERS;
   auto const A = B * Kinv * adjoint(B) + 0.5 * slant::identity(m);

@@ -6,6 +6,7 @@
 
 namespace as_operator_test {
 
+using namespace test::evaluated;
 using sparse = Eigen::SparseMatrix<double>;
 
 static_assert(

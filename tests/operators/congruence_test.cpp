@@ -9,6 +9,7 @@
 
 namespace congruence_test {
 
+using namespace test::evaluated;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("the congruence is B A Bᵀ") {

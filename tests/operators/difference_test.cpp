@@ -8,6 +8,7 @@
 
 namespace difference_test {
 
+using namespace test::evaluated;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("a difference is the difference of the matrices") {

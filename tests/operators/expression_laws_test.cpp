@@ -9,6 +9,7 @@
 
 namespace laws_test {
 
+using namespace test::evaluated;
 using slant::any_sign;
 using slant::full_column_rank;
 using slant::full_row_rank;

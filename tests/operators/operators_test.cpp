@@ -10,6 +10,7 @@
 
 namespace operators_test {
 
+using namespace test::evaluated;
 using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                      boost::multiprecision::et_off>;
 

@@ -8,6 +8,7 @@
 
 namespace product_test {
 
+using namespace test::evaluated;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("a product is the product of the matrices") {

@@ -9,6 +9,7 @@
 
 namespace range_sum_test {
 
+using namespace test::evaluated;
 TEST_CASE("a sum over a range is the sum of the matrices") {
   std::vector<MatrixXd> matrices;
   MatrixXd total = MatrixXd::Zero(3, 4);

@@ -8,6 +8,7 @@
 
 namespace restriction_test {
 
+using namespace test::evaluated;
 namespace archetype = slant::testing::archetype;
 
 MatrixXd rows_of_identity(std::vector<int> const& components, int n) {

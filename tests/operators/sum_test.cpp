@@ -8,6 +8,7 @@
 
 namespace sum_test {
 
+using namespace test::evaluated;
 namespace archetype = slant::testing::archetype;
 
 TEST_CASE("a sum is the sum of the matrices") {

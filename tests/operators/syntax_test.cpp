@@ -40,6 +40,7 @@ slant::index all(A const& a) {
 
 namespace syntax_test {
 
+using namespace test::evaluated;
 using slant::bad_input;
 using slant::identity;
 

@@ -24,102 +24,35 @@ struct friction_case {
   bool infinitely_many = false;
 };
 
-[[nodiscard]] inline Eigen::VectorXd numbers(std::initializer_list<double> values) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
-  Eigen::Index i = 0;
-  for (double const v : values) x[i++] = v;
-  return x;
-}
+[[nodiscard]] Eigen::VectorXd numbers(std::initializer_list<double> values);
 
-[[nodiscard]] inline friction_problem make_friction_problem(Eigen::MatrixXd const& W,
-                                                            Eigen::VectorXd q, Eigen::VectorXd mu) {
-  return {.W = W.sparseView(), .q = std::move(q), .mu = std::move(mu)};
-}
+[[nodiscard]] friction_problem make_friction_problem(Eigen::MatrixXd const& W, Eigen::VectorXd q,
+                                                     Eigen::VectorXd mu);
 
 /// One contact in the plane, W = [a c; c b].
-[[nodiscard]] inline friction_problem plane_contact(double a, double c, double b, double qn,
-                                                    double qt, double mu) {
-  Eigen::Matrix2d W;
-  W << a, c, c, b;
-  return make_friction_problem(W, numbers({qn, qt}), numbers({mu}));
-}
+[[nodiscard]] friction_problem plane_contact(double a, double c, double b, double qn, double qt,
+                                             double mu);
 
 /// One contact in space with a full W, with q such that r gives the velocity u.
-[[nodiscard]] inline friction_problem space_contact(Eigen::Vector3d const& r,
-                                                    Eigen::Vector3d const& u, double mu) {
-  Eigen::Matrix3d W;
-  W << 4, 1, 0, 1, 3, 1, 0, 1, 5;
-  return make_friction_problem(W, u - W * r, numbers({mu}));
-}
+[[nodiscard]] friction_problem space_contact(Eigen::Vector3d const& r, Eigen::Vector3d const& u,
+                                             double mu);
 
 /// Each with exactly one solution: open, stick, slip, in the plane and in space.
-[[nodiscard]] inline std::vector<friction_case> single_solution_cases() {
-  std::vector<friction_case> cases;
-  // W definite and q_n >= 0.
-  cases.push_back({"plane, open", plane_contact(2, 0.5, 1, 1, -3, 0.5), {numbers({0, 0})}});
-  // r = −W⁻¹ q inside of the cone: 2·2 + 0.5·0.5 = 4.25, 0.5·2 + 0.5 = 1.5.
-  cases.push_back(
-      {"plane, stick", plane_contact(2, 0.5, 1, -4.25, -1.5, 0.5), {numbers({2, 0.5})}});
-  // r_t = −μ r_n sign(u_t), here u = (0, 3) and u = (0, −3).
-  cases.push_back(
-      {"plane, slip forward", plane_contact(2, 0.5, 1, -3.5, 3, 0.5), {numbers({2, -1})}});
-  cases.push_back(
-      {"plane, slip backward", plane_contact(2, 0.5, 1, -4.5, -5, 0.5), {numbers({2, 1})}});
-  cases.push_back({"plane, no friction", plane_contact(2, 0.5, 1, -4, 3, 0), {numbers({2, 0})}});
-
-  using v3 = Eigen::Vector3d;
-  cases.push_back(
-      {"space, open", space_contact(v3::Zero(), v3(1, -2, 3), 0.5), {numbers({0, 0, 0})}});
-  cases.push_back(
-      {"space, stick", space_contact(v3(4, 1, -1), v3::Zero(), 0.5), {numbers({4, 1, -1})}});
-  // u_t = 5 (3, 4)/5 against r_t = −½ · 10 (3, 4)/5.
-  cases.push_back(
-      {"space, slip", space_contact(v3(10, -3, -4), v3(0, 3, 4), 0.5), {numbers({10, -3, -4})}});
-  cases.push_back(
-      {"space, no friction", space_contact(v3(4, 0, 0), v3(0, 3, -4), 0), {numbers({4, 0, 0})}});
-  return cases;
-}
+[[nodiscard]] std::vector<friction_case> single_solution_cases();
 
 /// Sliding presses the contact together so hard that no force resists (Painlevé): W = h hᵀ,
 /// h = (1, −k), q = (−1, 0). Any force changes the velocity by s h, and u_n >= 0 asks for s >= 1,
 /// so u_t = −k s < 0, so r = r_n (1, μ) and s = (1 − μ k) r_n <= 0 where μ k >= 1.
-[[nodiscard]] inline friction_case no_solution_case(slant::index dimension = 2) {
-  double const k = 2, mu = 1;
-  Eigen::VectorXd h = Eigen::VectorXd::Zero(dimension), q = h;
-  h[0] = 1;
-  h[1] = -k;
-  q[0] = -1;
-  return {"no solution", make_friction_problem(h * h.transpose(), q, numbers({mu})), {}};
-}
+[[nodiscard]] friction_case no_solution_case(slant::index dimension = 2);
 
 /// W definite, and yet open, slip and stick all satisfy the law: u = (1, −4), (0, −0.75), (0, 0).
-[[nodiscard]] inline friction_case three_solutions_case() {
-  return {"three solutions",
-          plane_contact(1, -1.5, 4, 1, -4, 2),
-          {numbers({0, 0}), numbers({0.5, 1}), numbers({8. / 7, 10. / 7})}};
-}
+[[nodiscard]] friction_case three_solutions_case();
 
 /// The contact that sticks in the plane, twice at the same place: only the sum of the forces is
 /// determined, W has rank 2 of 4.
-[[nodiscard]] inline friction_case redundant_case() {
-  Eigen::MatrixXd twice(4, 2);
-  twice << Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity();
-  Eigen::Matrix2d W;
-  W << 2, 0.5, 0.5, 1;
-  return {
-      .name = "redundant",
-      .problem = make_friction_problem(twice * W * twice.transpose(),
-                                       numbers({-4.25, -1.5, -4.25, -1.5}), numbers({0.5, 0.5})),
-      .r = {numbers({1, 0.25, 1, 0.25}), numbers({2, 0.5, 0, 0}), numbers({1, 0.5, 1, 0})},
-      .infinitely_many = true};
-}
+[[nodiscard]] friction_case redundant_case();
 
 /// All of the above that have a solution.
-[[nodiscard]] inline std::vector<friction_case> solvable_cases() {
-  auto cases = single_solution_cases();
-  cases.push_back(three_solutions_case());
-  cases.push_back(redundant_case());
-  return cases;
-}
+[[nodiscard]] std::vector<friction_case> solvable_cases();
 
 }  // namespace test

@@ -26,6 +26,7 @@
 #include <string>
 #include <string_view>
 #include <support/allocation_guard.hpp>
+#include <support/dense_algebra.hpp>
 #include <support/effort.hpp>
 #include <support/message.hpp>
 #include <tuple>
