@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <random>
+#include <support/dense_algebra.hpp>
 
 namespace test {
 
@@ -29,19 +30,20 @@ struct made_program {
 };
 
 inline made_program make_program(int m, double log_condition, std::mt19937& random) {
+  using namespace evaluated;
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> uniform(0, 1);
   int const n = 3 * m;
   Eigen::MatrixXd X(n, n);
   for (int j = 0; j < n * n; ++j) X.data()[j] = gauss(random);
-  Eigen::MatrixXd const Q = Eigen::HouseholderQR<Eigen::MatrixXd>(X).householderQ();
+  Eigen::MatrixXd const Q = orthonormal(X);
   Eigen::VectorXd eigenvalues(n);
   for (int j = 0; j < n; ++j) eigenvalues(j) = std::pow(10, -log_condition * uniform(random));
   eigenvalues(0) = 1;
   eigenvalues(n - 1) = std::pow(10, -log_condition);
   made_program p;
   p.A = Q * eigenvalues.asDiagonal() * Q.transpose();
-  p.A = (0.5 * (p.A + p.A.transpose())).eval();
+  p.A = 0.5 * (p.A + p.A.transpose());
   p.inverse = Q * eigenvalues.cwiseInverse().asDiagonal() * Q.transpose();
   p.g.resize(m);
   p.solution.resize(n);

@@ -6,9 +6,9 @@
 #include <slant/contact/contact_data.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 
+#include <support/dense_algebra.hpp>
 #include <vector>
 
 #include "factorizations/spd_examples.hpp"
@@ -35,8 +35,7 @@ struct condensation_scene {
     contact = slant::contact::touched_unknowns(B);
   }
   [[nodiscard]] Eigen::MatrixXd dual() const {
-    return Eigen::MatrixXd(B) *
-           Eigen::MatrixXd(K).partialPivLu().solve(Eigen::MatrixXd(B.transpose()));
+    return B * solutions_of(Eigen::MatrixXd(K), Eigen::MatrixXd(B.transpose()));
   }
 };
 

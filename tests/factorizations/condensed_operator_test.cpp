@@ -7,6 +7,7 @@
 
 namespace condensed_operator_test {
 
+using namespace test::evaluated;
 using slant::index;
 using sparse = Eigen::SparseMatrix<double>;
 using exact = slant::condensed_operator<double>;

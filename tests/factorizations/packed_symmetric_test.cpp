@@ -5,6 +5,7 @@
 
 namespace packed_symmetric_test {
 
+using namespace test::evaluated;
 using slant::index;
 
 template <class T>

@@ -9,6 +9,7 @@
 
 namespace woodbury_test {
 
+using namespace test::evaluated;
 TEST_CASE("the inverse of K + U C Uᵀ, at any scale") {
   for (double const unit : {1.0, 1e100, 1e-100}) {
     CAPTURE(unit);

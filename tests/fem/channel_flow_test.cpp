@@ -17,6 +17,7 @@
 
 namespace channel_flow_test {
 
+using namespace test::evaluated;
 fem::planar_domain const& shipped_mesh(int refinement) {
   static auto const read = [](int k) {
     return fem::read_gmsh(
@@ -139,9 +140,9 @@ double condition(int refinement, bool preconditioned) {
     M.topLeftCorner(m, m) = fem::wall_half_norm(flow.domain, scene);
     M.bottomRightCorner(m, m) = M.topLeftCorner(m, m);
     MatrixXd const L = M.llt().matrixL();
-    A = (L.transpose() * A * L).eval();
+    A = L.transpose() * A * L;
   }
-  VectorXd const λ = A.selfadjointView<Eigen::Lower>().eigenvalues();
+  VectorXd const λ = test::eigenvalues_of(A);
   return λ.maxCoeff() / λ.minCoeff();
 }
 

@@ -9,6 +9,7 @@
 
 namespace five_point_test {
 
+using namespace test::evaluated;
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
 template <class S>

@@ -7,6 +7,7 @@
 
 namespace incomplete_five_point_test {
 
+using namespace test::evaluated;
 fem::five_point<> some_operator(int nx, int ny) {
   return {fem::rectangle_grid<>{nx, ny, 3, 2}, [](double x) { return 1 + x * x; }};
 }
@@ -52,7 +53,7 @@ TEST_CASE("the condition grows like 1/h") {
     // Of L Lᵀ A, in a symmetric form.
     MatrixXd const L = dense_of(fem::incomplete_five_point<>(a, 1)).llt().matrixL();
     MatrixXd const B = L.transpose() * (a.matrix() * L);
-    VectorXd const λ = Eigen::SelfAdjointEigenSolver<MatrixXd>(B).eigenvalues();
+    VectorXd const λ = test::eigenvalues_of(B);
     return λ.maxCoeff() / λ.minCoeff();
   };
   double const coarse = condition(7);

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 
 #include <random>
+#include <support/dense_algebra.hpp>
 
 namespace test {
 
@@ -13,7 +14,7 @@ Eigen::MatrixXd with_spectrum(Eigen::VectorXd const& eigenvalues, unsigned seed)
   std::normal_distribution<double> gaussian;
   Eigen::MatrixXd g(n, n);
   for (auto& e : g.reshaped()) e = gaussian(generator);
-  Eigen::MatrixXd const q = Eigen::HouseholderQR<Eigen::MatrixXd>(g).householderQ();
+  Eigen::MatrixXd const q = orthonormal(g);
   Eigen::MatrixXd const a = q * eigenvalues.asDiagonal() * q.transpose();
   return (a + a.transpose()) / 2;
 }

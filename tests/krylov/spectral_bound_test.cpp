@@ -16,7 +16,7 @@ TEST_CASE("the bound is never below the largest eigenvalue, and not far above it
     for (double κ : {1.0, 10.0, 1e4, 1e12}) {
       for (unsigned seed = 1; seed <= 3; ++seed) {
         auto const M = test::with_spectrum(test::log_spaced(n, κ), seed);
-        VectorXd const spectrum = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+        VectorXd const spectrum = test::eigenvalues_of(M);
         double const σ = spectrum.maxCoeff();
         auto const A = test::spd(M);
         auto const bound = slant::largest_eigenvalue_bound(A, VectorXd(n), {.seed = seed});
@@ -101,7 +101,7 @@ VectorXd by_eigen(std::vector<double> const& a, std::vector<double> const& b) {
     T(i, i) = a[std::size_t(i)];
     if (i + 1 < n) T(i, i + 1) = T(i + 1, i) = b[std::size_t(i)];
   }
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(T).eigenvalues();
+  return test::eigenvalues_of(T);
 }
 
 TEST_CASE("random matrices of all sizes, as by a dense eigenvalue solver") {

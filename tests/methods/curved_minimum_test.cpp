@@ -11,7 +11,7 @@ using test::sliding_discs;
 /// The minimiser by dense linear algebra on a basis of range(G).
 VectorXd dense_minimiser(sliding_discs const& p, slant::curved_face<> const& face) {
   test::dense_face const dense(p, face);
-  return dense.H.completeOrthogonalDecomposition().solve(-dense.keep * p.r);
+  return -test::least_squares(dense.H, dense.keep * p.r);
 }
 
 TEST_CASE("the minimiser of the model and its image, with and without a preconditioner") {

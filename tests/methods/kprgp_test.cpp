@@ -222,7 +222,7 @@ struct slow_problem {
                    p = slant::project(discs_beside_free_components(), x);
     b = M * p + 0.1 * (x - p);
     VectorXd const y = test::random_vector(12, seed + 500);
-    VectorXd const kernel = y - M.completeOrthogonalDecomposition().solve(M * y);
+    VectorXd const kernel = y - test::least_squares(M, M * y);
     b += 1e-3 * b.norm() / kernel.norm() * kernel;
   }
 };
@@ -268,7 +268,7 @@ TEST_CASE("AS-S: the decrease of q of Theorem 1, discs and intervals") {
   test::example_one_solution<double> const solution;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
   MatrixXd const M = p.A;
-  VectorXd const σ = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+  VectorXd const σ = test::eigenvalues_of(M);
   auto const box = slant::intervals(VectorXd(VectorXd::Constant(12, 1.5)));
   auto const plane = slant::separable_qp{p.a(), p.b, box};
   oracle::dense_qp plain{M, p.b.cast<long double>(), {}, {}};

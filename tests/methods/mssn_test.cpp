@@ -119,7 +119,7 @@ TEST_CASE("the bounds of Theorem 7, on both sides of 1/σ_max") {
   test::example_one_solution<double> const solution;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
   MatrixXd const M = p.A;
-  VectorXd const σ = Eigen::SelfAdjointEigenSolver<MatrixXd>(M).eigenvalues();
+  VectorXd const σ = test::eigenvalues_of(M);
   double const σ_min = σ(0), σ_max = σ(11), q_min = q_of(M, p.b, solution.x);
   for (double β : {0.5, 1.0, 1.5, 1.9}) {
     CAPTURE(β);

@@ -7,6 +7,7 @@
 
 namespace reduced_systems_test {
 
+using namespace test::evaluated;
 using test::dense_of;
 
 /// Iterations of preconditioned conjugate gradients, for matrices that need not be definite, until

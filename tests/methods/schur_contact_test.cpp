@@ -7,6 +7,7 @@
 
 namespace schur_contact_test {
 
+using namespace test::evaluated;
 using namespace schur_contact_scenes;
 namespace archetype = slant::testing::archetype;
 

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <krylov/spd_matrices.hpp>
+#include <support/dense_algebra.hpp>
 
 namespace test {
 
@@ -31,6 +32,7 @@ struct dense_face {
       face.keep(e, y);
       keep.col(j) = y;
     }
+    using namespace evaluated;
     H += keep * p.A * keep;
   }
 };

@@ -16,7 +16,7 @@ TEST_CASE("the projection of the minimum without constraints, as accurate as ask
   index const n = 12;
   MatrixXd const A = test::second_differences(n);
   VectorXd const b = VectorXd::LinSpaced(n, -1, 1);
-  VectorXd const x = A.partialPivLu().solve(b);
+  VectorXd const x = test::solution_of(A, b);
   auto const a = slant::counted(positive(A));
   slant::separable_qp const qp{a, b, slant::half_lines(test::zeros(n))};
   auto const exact = slant::unconstrained_start(qp, 1e-12);

@@ -10,6 +10,7 @@
 
 namespace aggregation_test {
 
+using namespace test::evaluated;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::aggregate;
 using slant::block_matrix;

@@ -13,6 +13,7 @@
 
 namespace galerkin_test {
 
+using namespace test::evaluated;
 using Eigen::Matrix3d;
 using sparse = Eigen::SparseMatrix<double>;
 using slant::block_matrix;

@@ -19,6 +19,7 @@
 
 namespace multigrid_test {
 
+using namespace test::evaluated;
 using Eigen::Matrix3d;
 using sparse = Eigen::SparseMatrix<double>;
 using multigrid = slant::multigrid<double>;
@@ -112,8 +113,8 @@ extent spectrum(MatrixXd const& M, MatrixXd const& Π, MatrixXd const& H, double
   REQUIRE(root.info() == Eigen::Success);
   MatrixXd const L = root.matrixL();
   MatrixXd const whole = L.transpose() * Q.transpose() * M * Q * L;
-  Eigen::SelfAdjointEigenSolver<MatrixXd> const e(0.5 * (whole + whole.transpose()));
-  return {e.eigenvalues()[0], e.eigenvalues()[rank - 1]};
+  VectorXd const λ = test::eigenvalues_of(0.5 * (whole + whole.transpose()));
+  return {λ[0], λ[rank - 1]};
 }
 
 /// Steps of preconditioned conjugate gradients for H t = Π b until the residual is 1e-10 of it.

@@ -7,21 +7,18 @@
 
 namespace slant_preconditioner_test {
 
-VectorXd eigenvalues(MatrixXd const& m) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
+using namespace test::evaluated;
 /// Eigenvalues of M^½ H M^½ for eigenvectors in range(G); those in the kernel are zero.
 VectorXd preconditioned_spectrum(MatrixXd const& H, MatrixXd const& M) {
   MatrixXd const L = M.llt().matrixL();
-  return eigenvalues(L.transpose() * H * L);
+  return test::eigenvalues_of(L.transpose() * H * L);
 }
 
 TEST_CASE("the spectrum lies between min(1, ρσ_min) and max(1, ρσ_max), however small G is") {
   newton_scene::data const d(6);
   auto const A = d.definite();
   VectorXd const x = slanting_support::random_vector(18, 7);
-  VectorXd const σ = eigenvalues(d.A);
+  VectorXd const σ = test::eigenvalues_of(d.A);
   for (double smallest : {1.0, 1e-3, 1e-9}) {
     for (double ρ : {0.1 * d.ρ, d.ρ, 10 * d.ρ}) {
       auto const set = newton_scene::contact_set(6, smallest);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 #include <optional>
+#include <support/dense_algebra.hpp>
 #include <vector>
 
 namespace oracle {
@@ -37,7 +38,7 @@ struct kkt_point {
     A.topRightCorner(n, k) = B(rows, Eigen::all).transpose();
     Eigen::VectorXd b(n + k);
     b << f, c(rows);
-    Eigen::VectorXd const x = A.completeOrthogonalDecomposition().solve(b);
+    Eigen::VectorXd const x = test::least_squares(A, b);
     if ((A * x - b).norm() > tolerance * size) continue;
     if (k > 0 && x.tail(k).minCoeff() < -tolerance * size) continue;
     if (m > 0 && (B * x.head(n) - c).maxCoeff() > tolerance * size) continue;

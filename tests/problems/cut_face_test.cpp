@@ -8,6 +8,7 @@
 
 namespace cut_face_test {
 
+using namespace test::evaluated;
 using sparse = Eigen::SparseMatrix<double>;
 
 MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
@@ -39,7 +40,7 @@ TEST_CASE("the saddle point system of the face, as solved by dense matrices") {
   saddle << H, (N * basis).transpose(), N * basis, MatrixXd::Zero(2, 2);
   VectorXd right(8);
   right << -(basis.transpose() * r), -(N * offset);
-  VectorXd const solution = saddle.partialPivLu().solve(right);
+  VectorXd const solution = test::solution_of(saddle, right);
 
   slant::cut_face<double> face(set, N.sparseView());
   REQUIRE(face.assign(set, z, 1.0));

@@ -7,6 +7,7 @@
 
 namespace equality_constraints_test {
 
+using namespace test::evaluated;
 using sparse = Eigen::SparseMatrix<double>;
 
 MatrixXd rows() {
@@ -21,7 +22,7 @@ TEST_CASE("P, Q and the point next to the origin, as from a dense pseudoinverse"
   MatrixXd const G = rows();
   VectorXd const e{{1.0, -2.0, 0.5}};
   slant::equality_constraints const constraints(sparse(G.sparseView()), e);
-  MatrixXd const pseudo = G.completeOrthogonalDecomposition().pseudoInverse();
+  MatrixXd const pseudo = test::pseudo_inverse(G);
   auto const P = constraints.kernel_projector();
   auto const Q = constraints.range_projector();
   CHECK((test::dense_of(Q) - pseudo * G).norm() <= 1e-14);

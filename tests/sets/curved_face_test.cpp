@@ -6,6 +6,7 @@
 
 namespace curved_face_test {
 
+using namespace test::evaluated;
 /// The matrix of x ↦ f(x, y).
 template <class F>
 MatrixXd columns(Eigen::Index n, F&& f) {

@@ -69,8 +69,8 @@ TEST_CASE("temporaries are owned, variables referenced") {
 TEST_CASE("operators of slant and Eigen matrices keep their own arithmetic") {
   MatrixXd const a = MatrixXd::Identity(2, 2);
   static_assert(!slant::slanting_map<MatrixXd>);
-  CHECK((a * a).isIdentity());
-  CHECK((2.0 * a - a).isIdentity());
+  CHECK(MatrixXd(a * a).isIdentity());
+  CHECK(MatrixXd(2.0 * a - a).isIdentity());
 }
 
 }  // namespace arithmetic_test

@@ -10,6 +10,7 @@
 
 namespace natural_residual_test {
 
+using namespace test::evaluated;
 using slanting_support::dense;
 using slanting_support::dense_slant;
 

@@ -85,6 +85,7 @@ void check_products(F const& f, A const& a, VectorXd const& y) {
 
 /// A well-conditioned symmetric positive definite matrix.
 [[nodiscard]] inline MatrixXd random_spd(slant::index n, unsigned seed) {
+  using namespace test::evaluated;
   MatrixXd const b = random_matrix(n, n, seed);
   return b * b.transpose() + MatrixXd::Identity(n, n);
 }

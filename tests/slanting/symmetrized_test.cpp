@@ -9,6 +9,7 @@
 
 namespace symmetrized_test {
 
+using namespace test::evaluated;
 using slanting_support::dense;
 
 struct scene {

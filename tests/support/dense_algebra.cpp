@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 VectorXd eigenvalues_of(MatrixXd const& A) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 VectorXd eigenvalue_moduli(MatrixXd const& A) {
   return A.eigenvalues().cwiseAbs();

@@ -9,6 +9,7 @@
 
 namespace operator_laws_test {
 
+using namespace test::evaluated;
 namespace archetype = slant::testing::archetype;
 using archetype::vector;
 
@@ -26,7 +27,7 @@ MatrixXd random_matrix(Eigen::Index n) {
   return MatrixXd::Random(n, n);
 }
 MatrixXd orthogonal(Eigen::Index n) {
-  return Eigen::HouseholderQR<MatrixXd>(random_matrix(n)).householderQ();
+  return test::orthonormal(random_matrix(n));
 }
 /// Symmetric with these eigenvalues.
 MatrixXd with_eigenvalues(VectorXd const& λ) {
