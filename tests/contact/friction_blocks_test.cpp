@@ -7,7 +7,6 @@
 
 namespace friction_blocks_test {
 
-using namespace test::evaluated;
 template <int N>
 using blocks = slant::contact::friction_blocks<N, double>;
 

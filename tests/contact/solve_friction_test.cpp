@@ -8,7 +8,6 @@
 
 namespace solve_friction_test {
 
-using namespace test::evaluated;
 using slant::contact::friction_method;
 using slant::contact::solve_friction;
 using slant::contact::verify;

@@ -5,7 +5,6 @@
 
 namespace packed_symmetric_test {
 
-using namespace test::evaluated;
 using slant::index;
 
 template <class T>
