@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Dense linear algebra of the tests as functions of MatrixXd and VectorXd, compiled once, since each
-// type of Eigen's expressions costs the compiler up to seconds.
+// Dense linear algebra of the tests as functions of MatrixXd and VectorXd, compiled once: a type of
+// Eigen's expressions costs the compiler up to seconds.
 #pragma once
 
 #include <Eigen/Dense>
