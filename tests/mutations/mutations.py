@@ -24,12 +24,18 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PARTNERS = (
     "tests/main.cpp",
     "tests/support/allocation_guard.cpp",
+    "tests/support/dense_algebra.cpp",
     "tests/support/folders.cpp",
+    "tests/support/friction_cases.cpp",
+    "tests/contact/coulomb_scenes.cpp",
+    "tests/contact/friction_scenes.cpp",
+    "tests/contact/spring_scenes.cpp",
     "tests/krylov/spd_matrices.cpp",
     "tests/methods/example_one.cpp",
     "tests/oracle/random_programs.cpp",
     "tests/oracle/dense_newton.cpp",
     "tests/oracle/dense_contact_reference.cpp",
+    "tests/oracle/naive_friction.cpp",
 )
 
 
