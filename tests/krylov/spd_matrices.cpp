@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 
 #include <random>
-#include <support/dense_algebra.hpp>
 
 namespace test {
 
@@ -14,7 +13,7 @@ Eigen::MatrixXd with_spectrum(Eigen::VectorXd const& eigenvalues, unsigned seed)
   std::normal_distribution<double> gaussian;
   Eigen::MatrixXd g(n, n);
   for (auto& e : g.reshaped()) e = gaussian(generator);
-  Eigen::MatrixXd const q = orthonormal(g);
+  Eigen::MatrixXd const q = Eigen::HouseholderQR<Eigen::MatrixXd>(g).householderQ();
   Eigen::MatrixXd const a = q * eigenvalues.asDiagonal() * q.transpose();
   return (a + a.transpose()) / 2;
 }

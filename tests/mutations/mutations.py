@@ -25,6 +25,7 @@ PARTNERS = (
     "tests/main.cpp",
     "tests/support/allocation_guard.cpp",
     "tests/support/dense_algebra.cpp",
+    "tests/support/eigen_instances.cpp",
     "tests/support/folders.cpp",
     "tests/support/friction_cases.cpp",
     "tests/contact/coulomb_scenes.cpp",
