@@ -90,6 +90,7 @@ struct envelope_newton_state : gradient_point<QP> {
   vector_type base;                      ///< y before the step
   vector_type base_gradient;             ///< r(y) before the step
 
+  scalar gradient_error{0};       ///< what rough products may have r(y) wrong by, in units
   scalar γ{0};                    ///< of the envelope, in units of 1/A
   scalar way{0};                  ///< ‖w − y‖
   scalar value{0};                ///< E_γ(y) / unit
@@ -258,6 +259,7 @@ class envelope_newton {
   void stay(state_type& s) const {
     vectors::copy(s.x, s.y);
     vectors::copy(s.r, s.gradient);
+    s.gradient_error = scalar(0);
     project(s);
     evaluate(s);
     s.at_projection = false;
@@ -293,9 +295,11 @@ class envelope_newton {
       extra = function_value(function_of(qp_.get()), slant::local(s.lowered)) / s.unit;
     }
     s.value = (with_r - with_b) / scalar(2) + steep + near + extra;
-    scalar const slope = norm(s.gradient), bent = extra < scalar(0) ? -extra : extra;
+    scalar const size = norm(s.y), slope = norm(s.gradient);
+    scalar const bent = extra < scalar(0) ? -extra : extra;
     s.value_noise = scalar(16) * std::numeric_limits<scalar>::epsilon() *
-                    (norm(s.y) * (slope + s.size_of_b) + s.way * slope + near + bent);
+                        (size * (slope + s.size_of_b) + s.way * slope + near + bent) +
+                    size * s.gradient_error;
   }
 
   /// r of x, whose predecessor y has the gradient s.gradient; whether γ had to become smaller for
@@ -304,6 +308,7 @@ class envelope_newton {
     scalar const before = s.unit;
     if (s.gradient_and_unit(qp_.get())) {
       vectors::scale(before / s.unit, s.gradient);
+      s.gradient_error *= before / s.unit;
       s.value *= before / s.unit;
       s.value_noise *= before / s.unit;
     }
@@ -388,8 +393,8 @@ class envelope_newton {
   bool shorten(state_type& s) const {
     constexpr scalar least = scalar(1) / scalar(1024);  // w is as good then
     scalar const value = s.value, residual = s.residual_norm;
-    scalar const unseen = error_of_image(s) * norm(s.x);
-    scalar const noise = s.value_noise + unseen;
+    s.gradient_error = error_of_image(s);
+    scalar const noise = s.value_noise + s.gradient_error * norm(s.x);
     scalar const enough = decrease * s.way * (s.way / (s.γ * s.unit));
     std::swap(s.y, s.base);
     std::swap(s.gradient, s.base_gradient);
@@ -403,7 +408,6 @@ class envelope_newton {
       bool const level = s.value <= value + noise && s.residual_norm < residual / scalar(2);
       if (s.value <= value - enough || (noise >= enough && level)) {
         s.step_fraction = β;
-        s.value_noise += unseen;  // the next value is compared with this one
         return true;
       }
     }
