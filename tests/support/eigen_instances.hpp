@@ -6,8 +6,11 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
+
+#include <ostream>
 
 #if !defined(SLANT_EIGEN_INSTANCE)
 #define SLANT_EIGEN_INSTANCE extern template
@@ -44,7 +47,28 @@ SLANT_EIGEN_INSTANCE class SparseLU<SparseMatrix<double>, COLAMDOrdering<int>>;
 SLANT_EIGEN_INSTANCE bool SparseLU<SparseMatrix<double>, COLAMDOrdering<int>>::_solve_impl(
     MatrixBase<VectorXd> const&, MatrixBase<VectorXd>&) const;
 
+SLANT_EIGEN_INSTANCE class SparseMatrix<double>;
+
 namespace internal {
+
+// A = B, A = B C, A = B ± C, A = dense, of sparse matrices; an ordering for factors.
+using sparse = SparseMatrix<double>;
+SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(sparse&, sparse const&);
+SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(sparse&,
+                                                  Product<sparse, sparse, AliasFreeProduct> const&);
+SLANT_EIGEN_INSTANCE void conservative_sparse_sparse_product_impl(sparse const&, sparse const&,
+                                                                  sparse&, bool);
+SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(
+    sparse&, CwiseBinaryOp<scalar_sum_op<double>, sparse const, sparse const> const&);
+SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(
+    sparse&, CwiseBinaryOp<scalar_difference_op<double>, sparse const, sparse const> const&);
+SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(sparse&, SparseView<MatrixXd> const&);
+SLANT_EIGEN_INSTANCE void minimum_degree_ordering(sparse&,
+                                                  PermutationMatrix<Dynamic, Dynamic, int>&);
+
+// What a failing assertion prints.
+SLANT_EIGEN_INSTANCE std::ostream& print_matrix(std::ostream&, VectorXd const&, IOFormat const&);
+SLANT_EIGEN_INSTANCE std::ostream& print_matrix(std::ostream&, MatrixXd const&, IOFormat const&);
 
 // C += A B, C by columns.
 SLANT_EIGEN_INSTANCE struct general_matrix_matrix_product<Index, double, ColMajor, false, double,

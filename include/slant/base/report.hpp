@@ -8,6 +8,7 @@
 
 #include <ostream>
 #include <string>
+#include <string_view>
 
 namespace slant {
 
@@ -48,21 +49,21 @@ namespace detail {
 /// What the statuses of a method mean; empty: no more than their names say. The usual ones are
 /// those of descent by the reduced gradient.
 struct status_meanings {
-  std::string converged = "the reduced gradient vanishes";
-  std::string stalled{};
-  std::string unbounded = "the function decreases for ever along a direction of the set";
-  std::string breakdown =
+  std::string_view converged = "the reduced gradient vanishes";
+  std::string_view stalled{};
+  std::string_view unbounded = "the function decreases for ever along a direction of the set";
+  std::string_view breakdown =
       "a number left the range of the scalar, or A is not positive semidefinite";
 };
 
 /// The meaning of a status, or its name.
 [[nodiscard, gnu::cold]] inline std::string reason_of(status how, status_meanings const& meaning) {
-  std::string const& text = how == status::converged   ? meaning.converged
-                            : how == status::stalled   ? meaning.stalled
-                            : how == status::unbounded ? meaning.unbounded
-                            : how == status::breakdown ? meaning.breakdown
-                                                       : std::string();
-  return text.empty() ? std::string(to_string(how)) : text;
+  std::string_view const text = how == status::converged   ? meaning.converged
+                                : how == status::stalled   ? meaning.stalled
+                                : how == status::unbounded ? meaning.unbounded
+                                : how == status::breakdown ? meaning.breakdown
+                                                           : std::string_view();
+  return std::string(text.empty() ? to_string(how) : text);
 }
 
 /// The lines of a run; those of numbers that are 0 are left out.

@@ -68,16 +68,19 @@ template <class Method, class State, class Rule, class... Observers>
         verdict = stop(std::as_const(state));
       }
     }
-    // Convergence takes precedence over any other reason to stop in the same step.
-    if (verdict == status::converged) return {verdict, stop.reason(state)};
-    // A rule that has looked at the error may deny what the method believes, and adds to what it
-    // says of its end.
-    if (verdict == status::stalled && state.status == status::converged)
-      return {verdict, stop.reason(state)};
-    if (verdict == status::stalled && state.status == status::stalled)
-      return {verdict, stop.reason(state) + "; " + own_words(state)};
-    if (state.status != status::running) return {state.status, own_words(state)};
-    if (verdict != status::running) return {verdict, stop.reason(state)};
+    auto const own = state.status;
+    if (own != status::running || verdict != status::running) {
+      // Convergence takes precedence over any other reason to stop in the same step. A rule that has
+      // looked at the error may deny what the method believes, and adds to what it says of its end.
+      bool const both_stalled = verdict == status::stalled && own == status::stalled;
+      bool const by_rule = own == status::running || verdict == status::converged || both_stalled ||
+                           (verdict == status::stalled && own == status::converged);
+      std::string why;
+      if (by_rule) why = stop.reason(std::as_const(state));
+      if (both_stalled) why += "; ";
+      if (!by_rule || both_stalled) why += own_words(state);
+      return {by_rule ? verdict : own, std::move(why)};
+    }
     method.step(state);
   }
 }

@@ -39,6 +39,19 @@ status is_below(N const& size, S const& tolerance, N const& scale) {
   return size <= tolerance * scale && is_finite(scale) ? status::converged : status::running;
 }
 
+// The sentences are made here, once for all types of states.
+
+[[nodiscard, gnu::cold]] inline std::string limit_reached(index limit, char const* of_what) {
+  return "reached the limit of " + show(limit) + " " + of_what;
+}
+
+template <class N, class S>
+[[nodiscard, gnu::cold]] std::string small_beside(char const* what, N const& size, N const& scale,
+                                                  S const& tolerance) {
+  return std::string("relative ") + what + " " + show(size) + " / " + show(scale) + " is at most " +
+         show(tolerance);
+}
+
 }  // namespace detail
 
 /// Stops after n steps with status iteration_limit. n ≥ 0, else bad_input.
@@ -51,7 +64,7 @@ class at_most : public rule {
     return s.iteration >= limit_ ? status::iteration_limit : status::running;
   }
   [[gnu::cold]] std::string reason(auto const&) const {
-    return "reached the limit of " + detail::show(limit_) + " steps";
+    return detail::limit_reached(limit_, "steps");
   }
 
  private:
@@ -74,7 +87,7 @@ class at_most_applications : public rule {
     return s.work.operator_applications >= limit_ ? status::iteration_limit : status::running;
   }
   [[gnu::cold]] std::string reason(auto const&) const {
-    return "reached the limit of " + detail::show(limit_) + " operator applications";
+    return detail::limit_reached(limit_, "operator applications");
   }
 
  private:
@@ -95,8 +108,7 @@ class residual_below : public rule {
   }
   template <has_residual_norm State>
   [[gnu::cold]] std::string reason(State const& s) const {
-    return "relative residual " + detail::show(s.residual_norm) + " / " +
-           detail::show(s.residual_scale) + " is at most " + detail::show(tolerance_);
+    return detail::small_beside("residual", s.residual_norm, s.residual_scale, tolerance_);
   }
 
  private:
@@ -119,8 +131,8 @@ class reduced_gradient_below : public rule {
   }
   template <has_reduced_gradient_norm State>
   [[gnu::cold]] std::string reason(State const& s) const {
-    return "relative reduced gradient " + detail::show(s.reduced_gradient_norm) + " / " +
-           detail::show(s.gradient_scale) + " is at most " + detail::show(tolerance_);
+    return detail::small_beside("reduced gradient", s.reduced_gradient_norm, s.gradient_scale,
+                                tolerance_);
   }
 
  private:
@@ -253,8 +265,8 @@ class feasibility_below : public rule {
   }
   template <has_feasibility_norm State>
   [[gnu::cold]] std::string reason(State const& s) const {
-    return "relative distance from the equality constraints " + detail::show(s.feasibility_norm) +
-           " / " + detail::show(s.feasibility_scale) + " is at most " + detail::show(tolerance_);
+    return detail::small_beside("distance from the equality constraints", s.feasibility_norm,
+                                s.feasibility_scale, tolerance_);
   }
 
  private:

@@ -59,6 +59,13 @@ template <class V>
 
 namespace detail {
 
+template <class Norm, class N>
+[[nodiscard, gnu::cold]] std::string accuracy_reached(Norm const& reduced, Norm const& scale,
+                                                      N const& rounding) {
+  return "relative reduced gradient " + show(reduced) + " / " + show(scale) +
+         ", of which rounding errors may be " + show(rounding);
+}
+
 /// Throws bad_input unless x0 has as many entries as b, all of them finite.
 template <class V>
 void check_start_in_set(V const& x0, V const& b) {
@@ -220,9 +227,7 @@ struct gradient_point {
 
 template <class QP>
 std::string gradient_point<QP>::accuracy() const {
-  return "relative reduced gradient " + detail::show(reduced_gradient_norm) + " / " +
-         detail::show(gradient_scale) + ", of which rounding errors may be " +
-         detail::show(rounding());
+  return detail::accuracy_reached(reduced_gradient_norm, gradient_scale, rounding());
 }
 
 }  // namespace slant
