@@ -2,7 +2,7 @@
 #
 # Checks one program that must not compile:
 #   cmake -DCOMPILER=path -DKIND=gcc|clang -DFLAGS=response_file -DFIRST=header -DCASE=file.cpp
-#         [-DWITH="METHOD=qpc WITHOUT_LAWS"] -P check.cmake
+#         [-DWITH="SOLVER=qpc WITHOUT_LAWS"] -P check.cmake
 #
 # The file is a complete model minus exactly one thing. That thing stands between
 # #ifdef SLANT_COMPLETE and #endif, and the first lines of the file say what the reader must be told:
@@ -13,9 +13,9 @@
 #   // first: nothing      where FIRST must not be included                (optional)
 # A file may serve several cases. It lists what is defined for each, and what it says; a definition with
 # `=` makes the complete model, one without takes something away from it:
-#   // case METHOD=qpc WITHOUT_LAWS: <regular expression>
-#   // case METHOD=qpc WITHOUT_LAWS, clang: <where clang words it differently>   (optional)
-#   // case METHOD=qpc WITHOUT_LAWS, max-lines-gcc: 15          (optional, and for clang)
+#   // case SOLVER=qpc WITHOUT_LAWS: <regular expression>
+#   // case SOLVER=qpc WITHOUT_LAWS, clang: <where clang words it differently>   (optional)
+#   // case SOLVER=qpc WITHOUT_LAWS, max-lines-gcc: 15          (optional, and for clang)
 # Demanded: without SLANT_COMPLETE, or with all that is defined for the case, the compiler fails, its
 # output matches and is not longer than allowed, but for the ways by which headers were included; the
 # complete model compiles. So the one missing thing is the only cause. The latter is asked of g++ only,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // case WITHOUT_LOCAL: 'has_local['<]
 // case WITHOUT_LIKE: 'has_like['<]
-// case METHOD=cg WITHOUT_LIKE: b must be a slant::vector.*'has_like['<]
-// case METHOD=cg WITHOUT_LIKE, max-lines-gcc: 20
+// case SOLVER=cg WITHOUT_LIKE: b must be a slant::vector.*'has_like['<]
+// case SOLVER=cg WITHOUT_LIKE, max-lines-gcc: 20
 // case WITHOUT_INNER_PRODUCT: 'has_inner_product['<]
 // case INNER_PRODUCT_OF_TEXT: has_inner_product.*does not satisfy return-type-requirement
 // case INNER_PRODUCT_OF_TEXT, clang: 'has_inner_product['<].*'std::convertible_to<std::basic_string
@@ -30,7 +30,7 @@ struct distributed {
 #endif
 };
 
-#ifdef METHOD
+#ifdef SOLVER
 struct twice {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
   Eigen::Index rows() const { return 2; }
@@ -39,7 +39,7 @@ struct twice {
 };
 
 auto method(distributed const& b) {
-  return slant::METHOD{twice{}, b};
+  return slant::SOLVER{twice{}, b};
 }
 #else
 static_assert(slant::vector<distributed>);

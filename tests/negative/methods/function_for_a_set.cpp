@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// case METHOD=kprgp A_FUNCTION: expected a separable_qp with a convex set, not with another function
-// case METHOD=interior_point A_FUNCTION: expected a separable_qp with a convex set, not with another function
-// case METHOD=mssn A_FUNCTION: expected a separable_qp with a convex set, not with another function
+// case SOLVER=kprgp A_FUNCTION: expected a separable_qp with a convex set, not with another function
+// case SOLVER=interior_point A_FUNCTION: expected a separable_qp with a convex set, not with another function
+// case SOLVER=mssn A_FUNCTION: expected a separable_qp with a convex set, not with another function
 // max-lines-gcc: 12
 // max-lines-clang: 20
 //
@@ -16,6 +16,6 @@ auto solution(Eigen::VectorXd const& b) {
 #else
   auto const program = slant::minimise(q).over(set);
 #endif
-  return slant::solve(slant::METHOD{program}, b,
+  return slant::solve(slant::SOLVER{program}, b,
                       slant::reduced_gradient_below(1e-8) || slant::at_most(500));
 }

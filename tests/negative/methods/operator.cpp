@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// case METHOD=kprgp WITHOUT_LAWS: A must declare.*'declares_self_adjoint['<]
-// case METHOD=imssn WITHOUT_LAWS: A must declare.*'declares_self_adjoint['<]
-// case METHOD=kprgp WITHOUT_SEMIDEFINITENESS: A must declare.*'declares_positive_semidefinite['<]
-// case METHOD=qpc WITHOUT_SEMIDEFINITENESS: A must declare.*'declares_positive_semidefinite['<]
-// case METHOD=kprgp WITHOUT_COLS: A must.*'has_cols['<]
-// case METHOD=kprgp MISSPELT_APPLY: A must.*has_plain_apply
-// case METHOD=kprgp MISSPELT_APPLY, clang: A must.*'has_plain_apply['<]
-// case METHOD=kprgp GIVEN_AN_OPERATOR: expected a separable_qp.*'has_hessian['<]
-// case METHOD=mssn GIVEN_AN_OPERATOR: expected a separable_qp.*'has_hessian['<]
-// case METHOD=kprgp GIVEN_A_POLYHEDRAL_QP: expected a separable_qp.*'has_hessian['<]
+// case SOLVER=kprgp WITHOUT_LAWS: A must declare.*'declares_self_adjoint['<]
+// case SOLVER=imssn WITHOUT_LAWS: A must declare.*'declares_self_adjoint['<]
+// case SOLVER=kprgp WITHOUT_SEMIDEFINITENESS: A must declare.*'declares_positive_semidefinite['<]
+// case SOLVER=qpc WITHOUT_SEMIDEFINITENESS: A must declare.*'declares_positive_semidefinite['<]
+// case SOLVER=kprgp WITHOUT_COLS: A must.*'has_cols['<]
+// case SOLVER=kprgp MISSPELT_APPLY: A must.*has_plain_apply
+// case SOLVER=kprgp MISSPELT_APPLY, clang: A must.*'has_plain_apply['<]
+// case SOLVER=kprgp GIVEN_AN_OPERATOR: expected a separable_qp.*'has_hessian['<]
+// case SOLVER=mssn GIVEN_AN_OPERATOR: expected a separable_qp.*'has_hessian['<]
+// case SOLVER=kprgp GIVEN_A_POLYHEDRAL_QP: expected a separable_qp.*'has_hessian['<]
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //
@@ -45,6 +45,6 @@ auto solution(Eigen::VectorXd const& b, slant::constraint_rows<double> const& ro
   auto const qp = slant::separable_qp{twice{}, b, set};
 #endif
   slant::history accuracy([](auto const& s) { return s.reduced_gradient_norm; });
-  return slant::solve(slant::METHOD{qp}, b,
+  return slant::solve(slant::SOLVER{qp}, b,
                       slant::reduced_gradient_below(1e-8) || slant::at_most(500), accuracy);
 }

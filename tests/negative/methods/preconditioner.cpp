@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// case METHOD=interior_point WITHOUT_LAWS: the preconditioner must declare self_adjoint
-// case METHOD=symmetric_newton WITHOUT_LAWS: the preconditioner must declare self_adjoint
+// case SOLVER=interior_point WITHOUT_LAWS: the preconditioner must declare self_adjoint
+// case SOLVER=symmetric_newton WITHOUT_LAWS: the preconditioner must declare self_adjoint
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //
@@ -20,6 +20,6 @@ struct smoother {
 auto solution(Eigen::VectorXd const& b) {
   auto const qp =
       slant::separable_qp{slant::identity_operator(b.size()), b, slant::half_lines(b.size())};
-  return slant::solve(slant::METHOD{qp, smoother{b.size()}}, b,
+  return slant::solve(slant::SOLVER{qp, smoother{b.size()}}, b,
                       slant::reduced_gradient_below(1e-8) || slant::at_most(500));
 }

@@ -19,12 +19,12 @@
 // case USE=conditions WITHOUT_INEQUALITY: every block of the set must have a smooth inequality form
 // case USE=conditions WITHOUT_INEQUALITY, max-lines-gcc: 40
 // case USE=conditions WITHOUT_INEQUALITY, max-lines-clang: 40
-// case USE=solved METHOD=kprgp WITHOUT_STATE: the set must.*'has_block_states['<]
-// case USE=solved METHOD=qpq WITHOUT_STATE: the set must.*'has_block_states['<]
-// case USE=solved METHOD=kprgp WITHOUT_STEP: the set must.*'has_step_to_boundary['<]
-// case USE=solved METHOD=gimssn WITHOUT_STEP: the set must.*'has_step_to_boundary['<]
-// case USE=solved METHOD=symmetric_newton WITHOUT_SLANT: the set must be made of blocks with slant\(x\)
-// case USE=solved METHOD=interior_point WITHOUT_INEQUALITY: the set must be made of blocks with a smooth inequality form
+// case USE=solved SOLVER=kprgp WITHOUT_STATE: the set must.*'has_block_states['<]
+// case USE=solved SOLVER=qpq WITHOUT_STATE: the set must.*'has_block_states['<]
+// case USE=solved SOLVER=kprgp WITHOUT_STEP: the set must.*'has_step_to_boundary['<]
+// case USE=solved SOLVER=gimssn WITHOUT_STEP: the set must.*'has_step_to_boundary['<]
+// case USE=solved SOLVER=symmetric_newton WITHOUT_SLANT: the set must be made of blocks with slant\(x\)
+// case USE=solved SOLVER=interior_point WITHOUT_INEQUALITY: the set must be made of blocks with a smooth inequality form
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //
@@ -93,11 +93,11 @@ auto residual(auto const& block, auto const& A, auto const& b) {
 auto conditions(auto const& block, auto const& A, auto const& b) {
   return slant::kkt(A, b, slant::power(block, 3), 0.5);
 }
-#ifdef METHOD
+#ifdef SOLVER
 auto solved(auto const& block, auto const&, auto const& b) {
   auto const set = slant::power(block, b.size() / 2);
   auto const qp = slant::separable_qp{slant::identity_operator(b.size()), b, set};
-  return slant::solve(slant::METHOD{qp}, b,
+  return slant::solve(slant::SOLVER{qp}, b,
                       slant::reduced_gradient_below(1e-8) || slant::at_most(500));
 }
 #endif
