@@ -56,8 +56,6 @@ using sparse = SparseMatrix<double>;
 SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(sparse&, sparse const&);
 SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(sparse&,
                                                   Product<sparse, sparse, AliasFreeProduct> const&);
-SLANT_EIGEN_INSTANCE void conservative_sparse_sparse_product_impl(sparse const&, sparse const&,
-                                                                  sparse&, bool);
 SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(
     sparse&, CwiseBinaryOp<scalar_sum_op<double>, sparse const, sparse const> const&);
 SLANT_EIGEN_INSTANCE void assign_sparse_to_sparse(

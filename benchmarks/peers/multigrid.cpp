@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+//
+// One linear solve K u = f by conjugate gradients with multigrid, ours and PETSc's, beside contact
+// with friction on the same K, the steel brick with K × 3K × K cells:
+//
+//     peer_multigrid [K...]     8 16 24 without any
+//
+// It prints comma-separated values: solver, k, unknowns, steps, cycles, processor seconds of the
+// hierarchy and of everything (the hierarchy included), the relative error in the energy norm. The linear
+// solves end at a relative residual of 1e-8, contact::solve (loads press, pull, lift) at a certified
+// energy error of 1e-8. GAMG is given the block size and the rigid body motions, hypre's BoomerAMG the
+// block size; everything else of both is PETSc's default, but for the strong threshold 0.5 that hypre's
+// manual names for three dimensions. Exit status 1 if a linear solve has not converged, or contact with
+// friction takes more than 2.5 times the seconds of our linear solve.
+
+#include <slant/contact/solve.hpp>
+#include <slant/krylov/cg.hpp>
+
+#include <petscksp.h>
+#include <fem/steel_brick.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using vector = Eigen::VectorXd;
+using sparse = Eigen::SparseMatrix<double>;
+namespace contact = slant::contact;
+
+/// Processor seconds since it was made; everything here is of one thread.
+class stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
+  }
+
+ private:
+  std::clock_t start_ = std::clock();
+};
+
+void print(std::string const& solver, int k, slant::index unknowns, slant::index steps,
+           slant::index cycles, double setup, double all, double error) {
+  std::printf("%s,%d,%td,%td,%td,%.3f,%.3f,%.1e\n", solver.c_str(), k, unknowns, steps, cycles,
+              setup, all, error);
+  std::fflush(stdout);
+}
+
+double energy(sparse const& K, vector const& u) {
+  return std::sqrt(u.dot(vector(K * u)));
+}
+
+/// Throws std::runtime_error for an error of PETSc.
+void check(PetscErrorCode code) {
+  if (code != 0) throw std::runtime_error("PETSc: error " + std::to_string(int(code)));
+}
+
+/// K u = f by PETSc's CG, preconditioned by `type`; steps, -1 if it has not converged.
+struct petsc_run {
+  vector u;
+  slant::index steps;
+  double setup, all;
+};
+petsc_run by_petsc(sparse const& K, vector const& f, Eigen::MatrixXd const& motions, PCType type) {
+  auto const n = static_cast<PetscInt>(K.rows());
+  petsc_run result{vector::Zero(n), -1, 0, 0};
+  stopwatch const whole;
+  // By columns is by rows, as K is symmetric. Mat and Vecs look at our memory.
+  Mat A = nullptr;
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, const_cast<int*>(K.outerIndexPtr()),
+                                  const_cast<int*>(K.innerIndexPtr()),
+                                  const_cast<double*>(K.valuePtr()), &A));
+  check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
+  check(MatSetBlockSize(A, 3));
+  std::vector<Vec> modes(static_cast<std::size_t>(motions.cols()));
+  for (Eigen::Index j = 0; j < motions.cols(); ++j) {
+    check(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, n, motions.col(j).data(),
+                                &modes[static_cast<std::size_t>(j)]));
+  }
+  MatNullSpace near = nullptr;
+  check(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, PetscInt(modes.size()), modes.data(),
+                           &near));
+  check(MatSetNearNullSpace(A, near));
+  Vec b = nullptr, x = nullptr;
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, n, f.data(), &b));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, n, result.u.data(), &x));
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(KSPCreate(PETSC_COMM_SELF, &ksp));
+  check(KSPSetOperators(ksp, A, A));
+  check(KSPSetType(ksp, KSPCG));
+  check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
+  check(KSPSetTolerances(ksp, 1e-8, 0, PETSC_DEFAULT, 500));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, type));
+  check(KSPSetFromOptions(ksp));
+  check(KSPSetUp(ksp));
+  result.setup = whole.seconds();
+  check(KSPSolve(ksp, b, x));
+  result.all = whole.seconds();
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  PetscInt steps = 0;
+  check(KSPGetConvergedReason(ksp, &reason));
+  check(KSPGetIterationNumber(ksp, &steps));
+  if (reason > 0) result.steps = steps;
+  check(KSPDestroy(&ksp));
+  check(MatDestroy(&A));
+  check(MatNullSpaceDestroy(&near));
+  for (Vec* v : {&b, &x}) check(VecDestroy(v));
+  for (Vec& v : modes) check(VecDestroy(&v));
+  return result;
+}
+
+bool measure(int k) {
+  auto const scene = fem::make_steel_brick({.k = k, .load = fem::brick_load::lift});
+  auto const& K = scene.K;
+  auto const n = scene.f.size();
+  auto const layout = contact::layout_of(scene.mesh.nodes, scene.unknowns.first);
+  auto const motions = contact::detail::rigid_motions(layout);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+
+  stopwatch const linear;
+  slant::multigrid const M(K, motions);
+  double const setup = linear.seconds();
+  auto const run = slant::solve(slant::cg{A, scene.f, M}, vector(vector::Zero(n)),
+                                slant::residual_below(1e-8) || slant::at_most(500));
+  double const all = linear.seconds();
+  auto const exact = slant::solve(slant::cg{A, scene.f, M}, run.x(),
+                                  slant::residual_below(1e-13) || slant::at_most(200));
+  double const size = energy(K, exact.x());
+  print("slant cg", k, n, run.iterations(), run.iterations(), setup, all,
+        energy(K, run.x() - exact.x()) / size);
+  bool good = run.converged();
+  for (PCType const type : {PCGAMG, PCHYPRE}) {
+    auto const r = by_petsc(K, scene.f, motions, type);
+    print(std::string("PETSc ") + type, k, n, r.steps, r.steps, r.setup, r.all,
+          energy(K, r.u - exact.x()) / size);
+    good = good && r.steps >= 0;
+  }
+  for (auto const load : fem::brick_loads) {
+    auto const loaded = fem::make_steel_brick({.k = k, .load = load});
+    contact::data<double> const c{loaded.N, loaded.T, loaded.f, loaded.d, loaded.g};
+    contact::solve_options<double> o{.tolerance = 1e-8};
+    o.layout = layout;
+    o.route = contact::solution_route::iterate;
+    stopwatch const friction;
+    auto const r = contact::solve(loaded.K, c, o);
+    double const seconds = friction.seconds();
+    print("slant friction " + std::string(name_of(load)), k, n, r.iterations,
+          r.work.inner_iterations, setup, seconds, r.error.relative());
+    good = good && r.converged() && seconds <= 2.5 * all;
+  }
+  return good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    // A process of its own needs no daemon of MPI beside it.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+    check(PetscInitializeNoArguments());
+    check(PetscOptionsSetValue(nullptr, "-pc_hypre_boomeramg_strong_threshold", "0.5"));
+    std::vector<int> sizes;
+    for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+    if (sizes.empty()) sizes = {8, 16, 24};
+    if (*std::min_element(sizes.begin(), sizes.end()) < 1) {
+      throw std::invalid_argument("usage: peer_multigrid [K...], sizes >= 1");
+    }
+    std::printf("solver,k,unknowns,steps,cycles,setup_seconds,seconds,error\n");
+    bool good = true;
+    for (int const k : sizes) good = measure(k) && good;
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+  } catch (std::exception const& failure) {
+    std::fprintf(stderr, "peer_multigrid: %s\n", failure.what());
+    return 2;
+  }
+}
