@@ -3,17 +3,19 @@
 // Bricks in contact, without friction, with Tresca's and with Coulomb's (F = 0.3), by contact::solve
 // and contact::certified_coulomb with multigrid, K never factored:
 //
-//     multilevel [--no-direct] [K...]     sizes of the brick, 8 12 16 without any
+//     multilevel [--no-direct] [--load NAME] [K...]     sizes of the brick, 8 12 16 without any
 //
 // under the loads of the brick, with Tresca's friction also by the interpolation of nested meshes in
 // place of aggregation (`press nested`, …), and `loose`, the brick without its clamp,
-// pressed onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge. It
+// pressed onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge; with
+// --load only the one of that name, and its nested meshes. It
 // prints comma-separated values: friction, load, size, unknowns, Newton steps (of Coulomb's:
 // problems of Tresca's), cycles, products by K, processor seconds of the hierarchy, of everything
 // from K, N, T, f, d, g and the coordinates to a certified u (the hierarchy included), of factoring
 // K and solving once by slant::factorize, and, where a body is loose or there are two, of the dual
-// method with factors to the same tolerance; the relative error in the energy norm, as certified,
-// and against a reference: the dual method with factors at 1e-12, or with --no-direct, where
+// method with factors to the same tolerance; the most memory that the process has held at once while it
+// solved, in MB, K and all data included (Linux; elsewhere nan); the relative error in the energy norm,
+// as certified, and against a reference: the dual method with factors at 1e-12, or with --no-direct, where
 // factors take too long, the same method at 1e-11. Exit status 1 if a run does not converge, or an
 // error is above 1e-8 or above what is certified by more than a tenth.
 
@@ -28,6 +30,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +51,19 @@ class stopwatch {
  private:
   std::clock_t start_ = std::clock();
 };
+
+/// The most memory of this process, in MB, since forget_peak(); NaN where /proc is not what it is on
+/// Linux.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::atof(line.c_str() + 6) / 1024;
+  }
+  return std::nan("");
+}
+void forget_peak() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
 
 enum class law : unsigned char { none, tresca, coulomb };
 
@@ -117,9 +133,10 @@ bool measure(fem::contact_scene<3> const& scene, std::string const& load, law fr
              bool direct, interpolation const& nested = {}) {
   using contact::solution_route;
   bool const is_loose = load == "loose", is_pair = load == "bricks";
+  forget_peak();
   stopwatch const whole;
   auto const r = run(scene, friction, solution_route::iterate, 1e-8, nested);
-  double const seconds = whole.seconds();
+  double const seconds = whole.seconds(), memory = peak_memory();
 
   auto const layout = contact::layout_of(scene.mesh.nodes, scene.unknowns.first);
   double setup_seconds = std::nan("");  // a loose brick has levels of K and springs
@@ -149,9 +166,9 @@ bool measure(fem::contact_scene<3> const& scene, std::string const& load, law fr
   char const* const name = friction == law::none     ? "none"
                            : friction == law::tresca ? "tresca"
                                                      : "coulomb";
-  std::printf("%s,%s,%d,%td,%td,%td,%td,%.3f,%.3f,%.3f,%.3f,%.1e,%.1e\n", name, load.c_str(), k,
-              scene.f.size(), r.steps, r.work.inner_iterations, r.work.operator_applications,
-              setup_seconds, seconds, linear_seconds, dual_seconds, r.certified, error);
+  std::printf("%s,%s,%d,%td,%td,%td,%td,%.3f,%.3f,%.3f,%.3f,%.0f,%.1e,%.1e\n", name, load.c_str(),
+              k, scene.f.size(), r.steps, r.work.inner_iterations, r.work.operator_applications,
+              setup_seconds, seconds, linear_seconds, dual_seconds, memory, r.certified, error);
   std::fflush(stdout);
   return r.converged && error <= 1e-8 && error <= 1.1 * r.certified;
 }
@@ -160,28 +177,32 @@ bool measure(fem::contact_scene<3> const& scene, std::string const& load, law fr
 
 int main(int argc, char** argv) {
   bool direct = true;
+  std::string only;
   std::vector<int> sizes;
   for (int i = 1; i < argc; ++i) {
     std::string_view const argument = argv[i];
     if (argument == "--no-direct") {
       direct = false;
+    } else if (argument == "--load" && i + 1 < argc) {
+      only = argv[++i];
     } else if (int const k = std::atoi(argv[i]); k > 0) {
       sizes.push_back(k);
     } else {
-      std::fprintf(stderr, "usage: multilevel [--no-direct] [K...]\n");
+      std::fprintf(stderr, "usage: multilevel [--no-direct] [--load NAME] [K...]\n");
       return 2;
     }
   }
   if (sizes.empty()) sizes = {8, 12, 16};
   std::printf(
       "friction,load,k,unknowns,steps,cycles,products,setup_seconds,seconds,linear_solve_seconds,"
-      "dual_seconds,certified,error\n");
+      "dual_seconds,memory_MB,certified,error\n");
   bool good = true;
   for (law const friction : {law::tresca, law::coulomb, law::none}) {
     for (int const k : sizes) {
       for (auto const load : fem::brick_loads) {
-        auto const scene = fem::make_steel_brick({.k = k, .load = load});
         std::string const name(name_of(load));
+        if (!only.empty() && name != only) continue;
+        auto const scene = fem::make_steel_brick({.k = k, .load = load});
         good = measure(scene, name, friction, k, direct) && good;
         if (friction != law::tresca || k % 2 != 0) continue;
         auto const mesh = fem::make_brick_mesh(k, {3, 1, 1});
@@ -189,7 +210,7 @@ int main(int argc, char** argv) {
                        fem::box_prolongations(mesh, scene.unknowns)) &&
                good;
       }
-      if (friction != law::tresca) continue;
+      if (friction != law::tresca || !only.empty()) continue;
       good = measure(loose_brick(k), "loose", friction, k, direct) && good;
       good = measure(fem::make_two_bricks(3 * k / 2), "bricks", friction, k, direct) && good;
     }

