@@ -6,12 +6,13 @@
 //     peer_multigrid [K...]     8 16 24 without any
 //
 // It prints comma-separated values: solver, k, unknowns, steps, cycles, processor seconds of the
-// hierarchy and of everything (the hierarchy included), the relative error in the energy norm. The linear
-// solves end at a relative residual of 1e-8, contact::solve (loads press, pull, lift) at a certified
-// energy error of 1e-8. GAMG is given the block size and the rigid body motions, hypre's BoomerAMG the
-// block size; everything else of both is PETSc's default, but for the strong threshold 0.5 that hypre's
-// manual names for three dimensions. Exit status 1 if a linear solve has not converged, or contact with
-// friction takes more than 2.5 times the seconds of our linear solve, from K = 16 on.
+// hierarchy and of everything (the hierarchy included), the relative error in the energy norm. The
+// linear solves end at a relative residual of 1e-8, contact::solve (loads press, pull, lift) at a
+// certified energy error of 1e-8. GAMG is given the block size and the rigid body motions, hypre's
+// BoomerAMG the block size; everything else of both is PETSc's default, but for the strong threshold
+// 0.5 that hypre's manual names for three dimensions. Exit status 1 if a linear solve has not
+// converged, or contact with friction takes more than 2.5 times the seconds of our linear solve, from
+// K = 16 on.
 
 #include <slant/contact/solve.hpp>
 #include <slant/krylov/cg.hpp>
