@@ -27,7 +27,8 @@ TEST_CASE("begin: the projected start, a power-of-two unit, the scale of the poi
 TEST_CASE("the energy, without a product") {
   test::mixture const p(30);
   auto const A = slant::counted(test::spd(p.A));
-  slant::separable_qp const qp{A, p.b, p.set()};
+  auto const set = p.set();
+  slant::separable_qp const qp{A, p.b, set};
   VectorXd const x0 = test::random_vector(20, 3);
   slant::gradient_point<std::remove_cvref_t<decltype(qp)>> point(qp, x0);
   point.step_length = 0.7;

@@ -121,7 +121,8 @@ TEST_CASE("a semidefinite A: with a minimum, and without") {
   auto const stop = slant::reduced_gradient_below(1e-10) || slant::at_most(300);
   auto const run = [&](MatrixXd const& M) {
     auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
-    slant::separable_qp const qp{A, b, slant::half_lines(2)};
+    auto const set = slant::half_lines(2);
+    slant::separable_qp const qp{A, b, set};
     return slant::solve(slant::interior_point{qp}, test::zeros(2), stop);
   };
   auto const r = run(MatrixXd{{1.0, 1.0}, {1.0, 1.0}});

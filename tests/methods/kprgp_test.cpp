@@ -20,7 +20,8 @@ TEST_CASE("KPRGP and AS-S agree with Newton's method on dense data, whatever the
     mixture const p(κ);
     auto const reference = oracle::solve_dense(p.plain());
     auto const A = test::spd(p.A);
-    auto const qp = slant::separable_qp{A, p.b, p.set()};
+    auto const set = p.set();
+    auto const qp = slant::separable_qp{A, p.b, set};
     for (auto const& o :
          {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.proportioning = 0.01},
           slant::kprgp_options<double>{.proportioning = 100},
@@ -76,10 +77,9 @@ TEST_CASE("cones, ellipses, points and other blocks") {
 
 TEST_CASE("the report counts every product, and a given step length saves those for σ_max") {
   mixture const p(1000);
-  auto const A = test::spd(p.A);
   auto const set = p.set();
   auto const run = [&](auto const& options) {
-    auto const counting = slant::counted(A);
+    auto const counting = slant::counted(test::spd(p.A));
     auto const qp = slant::separable_qp{counting, p.b, set};
     auto const r = slant::solve(slant::kprgp{qp, options}, test::zeros(20), slant::at_most(100));
     CHECK(counting.applications() ==

@@ -167,7 +167,8 @@ TEST_CASE("all kinds of blocks: agreement with Newton's method on dense data") {
   mixture const p(30);
   auto const reference = oracle::solve_dense(p.plain());
   auto const A = test::spd(p.A);
-  auto const qp = slant::separable_qp{A, p.b, p.set()};
+  auto const set = p.set();
+  auto const qp = slant::separable_qp{A, p.b, set};
   for_each_method(qp, [&](std::string const& name, auto const& method) {
     CAPTURE(name);
     auto const r = test::minimise(method, VectorXd(VectorXd::Constant(20, 1e6)), 1e-13, 1000);
@@ -180,9 +181,8 @@ TEST_CASE("all kinds of blocks: agreement with Newton's method on dense data") {
 
 TEST_CASE("one product for an inner iteration, one for a start, one where λ has left the set") {
   mixture const p(300);
-  auto const A = test::spd(p.A);
   auto const set = p.set();
-  auto const counting = slant::counted(A);
+  auto const counting = slant::counted(test::spd(p.A));
   auto const qp = slant::separable_qp{counting, p.b, set};
   for_each_method(qp, [&](std::string const& name, auto const& method) {
     CAPTURE(name);
@@ -230,7 +230,8 @@ TEST_CASE("a start that keeps λ keeps its gradient as well") {
 TEST_CASE("a limit of inner iterations is kept, and does not end the run") {
   mixture const p(300);
   auto const A = test::spd(p.A);
-  auto const qp = slant::separable_qp{A, p.b, p.set()};
+  auto const set = p.set();
+  auto const qp = slant::separable_qp{A, p.b, set};
   auto const r = test::minimise(slant::gimssn{qp, {.max_inner = 2}}, test::zeros(20), 1e-8, 5000);
   CHECK(r.converged());
   CHECK(r.state.work.inner_iterations <= 2 * r.iterations());

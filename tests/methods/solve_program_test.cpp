@@ -123,9 +123,9 @@ TEST_CASE("solve(qp, tolerance): an unbounded program, with the direction of des
   for (double const stiffness : {1.0, 1e-6}) {  // the latter scaled
     VectorXd const b{{1, 1, -1}};
     MatrixXd const A = VectorXd{{1, 0, stiffness}}.asDiagonal();
-    slant::separable_qp const qp{
-        slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b,
-        slant::half_lines(3)};
+    auto const a = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A);
+    auto const set = slant::half_lines(3);
+    slant::separable_qp const qp{a, b, set};
     auto const run = slant::solve(qp, 1e-8);
     CAPTURE(stiffness);
     CAPTURE(run.reason);
@@ -269,10 +269,11 @@ TEST_CASE("solve(qp, tolerance): a hard sparse program gets all that a dense one
       if (i > 0 && i < n) A(i, i - 1) = A(i - 1, i) = -c;
     }
     VectorXd const b = VectorXd::NullaryExpr(n, [&] { return number(random); });
-    auto const Λ = slant::half_lines(VectorXd::NullaryExpr(n, [&] { return number(random) - 1; }));
+    VectorXd const floor = VectorXd::NullaryExpr(n, [&] { return number(random) - 1; });
     Eigen::SparseMatrix<double> const sparse = A.sparseView();
-    auto const of = [&](auto const& matrix) {
-      return slant::solve(slant::separable_qp{matrix, b, Λ}, 1e-7);
+    auto const of = [&](auto matrix) {
+      return slant::solve(slant::separable_qp{std::move(matrix), b, slant::half_lines(floor)},
+                          1e-7);
     };
     CAPTURE(seed);
     auto const r = of(slant::matrix<slant::self_adjoint, slant::positive_definite>(sparse));

@@ -78,7 +78,8 @@ TEST_CASE("a mixture of all constraints, from anywhere, with any preconditioner"
 TEST_CASE("what is counted, and one product a Newton step besides those of its inner iterations") {
   test::mixture const p(100);
   auto const A = slant::counted(test::spd(p.A));
-  slant::separable_qp const qp{A, p.b, p.set()};
+  auto const set = p.set();
+  slant::separable_qp const qp{A, p.b, set};
   slant::symmetric_newton method{qp};
   auto s = method.start(test::zeros(20));
   CHECK(s.work.setup_applications == 0);  // A knows its diagonal
@@ -135,7 +136,8 @@ TEST_CASE("every set: the solution of projected gradients, in a few superlinear 
 TEST_CASE("warm start: from the solution of a neighbour, and from the solution itself") {
   auto const set = all_sets();
   auto const n = set.size();
-  auto const A = test::spd(test::with_spectrum(test::log_spaced(n, 30), 3));
+  MatrixXd const M = test::with_spectrum(test::log_spaced(n, 30), 3);
+  auto const A = test::spd(M);
   VectorXd const b = 4 * test::random_vector(n, 53),
                  neighbour = b + 1e-3 * test::random_vector(n, 7);
   auto const stop = slant::reduced_gradient_below(1e-11) || slant::at_most(60);
@@ -178,7 +180,8 @@ TEST_CASE(
   MatrixXd const M{{1.0, -1.0, 0.0}, {-1.0, 1.0, 0.0}, {0.0, 0.0, 3.0}};
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
   VectorXd const b{{1.0, 1.0, 2.0}};
-  slant::separable_qp const qp{A, b, slant::half_lines(3)};
+  auto const positive = slant::half_lines(3);
+  slant::separable_qp const qp{A, b, positive};
   slant::symmetric_newton_options<double> o;
   o.halvings = 0;
   o.sufficient = 0.999;
@@ -204,7 +207,8 @@ TEST_CASE("the precision is exhausted: stalled, at the floor") {
     CAPTURE(κ);
     test::mixture const p(κ);
     auto const A = test::spd(p.A);
-    slant::separable_qp const qp{A, p.b, p.set()};
+    auto const set = p.set();
+    slant::separable_qp const qp{A, p.b, set};
     auto const r = test::minimise(slant::symmetric_newton{qp}, test::zeros(20), 0.0, 3000);
     CHECK((r.status == slant::status::stalled || r.status == slant::status::converged));
     CHECK(r.iterations() <= 1000);
@@ -220,7 +224,8 @@ TEST_CASE("no minimum: unbounded, with the direction") {
   MatrixXd const M{{1.0, -1.0}, {-1.0, 1.0}};
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
   VectorXd const b = VectorXd::Ones(2);
-  slant::separable_qp const qp{A, b, slant::half_lines(2)};
+  auto const set = slant::half_lines(2);
+  slant::separable_qp const qp{A, b, set};
   auto const r = test::minimise(slant::symmetric_newton{qp}, test::zeros(2), 1e-10, 1000);
   CHECK(r.status == slant::status::unbounded);
   REQUIRE(r.state.descent.state().has_value());
@@ -245,9 +250,10 @@ TEST_CASE("a matrix that breaks its promise is no convergence") {
 }
 
 TEST_CASE("slip bounds of zero and infinity, discs that are hardly touched") {
-  auto const A = test::spd(test::with_spectrum(test::log_spaced(8, 50), 4));
+  MatrixXd const M = test::with_spectrum(test::log_spaced(8, 50), 4);
+  auto const A = test::spd(M);
   VectorXd const b = 2 * test::random_vector(8, 9);
-  VectorXd const free = MatrixXd(test::with_spectrum(test::log_spaced(8, 50), 4)).ldlt().solve(b);
+  VectorXd const free = M.ldlt().solve(b);
   VectorXd const zero = VectorXd::Zero(8);
   auto const stop = slant::reduced_gradient_below(1e-12) || slant::at_most(100);
   auto const solve_with = [&](VectorXd const& g) {
