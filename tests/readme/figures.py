@@ -5,7 +5,7 @@
     figures.py FOLDER       every sentence below stands in FOLDER/README.md; status 1 if one does not
 
 The tables are those of benchmarks/RESULTS.md (./run bench --only precision --only growth), of
-docs/accuracy.md (--only condensation, composition, multilevel_large, load_steps) and of
+docs/accuracy.md (--only condensation, composition, multilevel_large, multilevel_linear, load_steps) and of
 docs/stability.md (--only stability).
 """
 import pathlib
@@ -60,6 +60,12 @@ def sentences(root):
         seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
         yield (f"| {name.format(large[1])} | "
                f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve; twice that where memory is slower |")
+
+    linear = table(accuracy, "| k | unknowns | one linear solve, ours")
+    seconds = [[number(cell.split(",")[1].strip()) for cell in row[2:]] for row in linear]
+    yield (f"| contact with friction by multigrid | "
+           f"{span([s / row[0] for row in seconds for s in row[3:]], 1)} linear solves by the same multigrid, "
+           f"{span([s / row[1] for row in seconds for s in row[3:]], 2)} of one by PETSc's GAMG |")
 
     steps = re.search(r"Twenty load steps take ([\d.]+ to [\d.]+) times", accuracy)[1]
     yield f"| twenty load steps | {steps} times the first one |"
