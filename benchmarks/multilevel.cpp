@@ -13,7 +13,7 @@
 // seconds of the hierarchy, of everything from K, N, T, f, d, g and the coordinates to a certified u
 // (the hierarchy included), of factoring K and solving once by slant::factorize, and, where a body is
 // loose or there are two, of the dual method with factors to the same tolerance; the most memory that
-// the process has held at once while it solved, in MB, K and all data included (Linux; elsewhere nan);
+// the process has held at once while it solved, in MiB, K and all data included (Linux; elsewhere nan);
 // the relative error in the energy norm, as certified, and against a reference: the dual method with
 // factors at 1e-12, or with --no-direct, where factors take too long, the same method at 1e-11. Exit
 // status 1 if a run does not converge, or an error is above 1e-8 or above what is certified by more
@@ -26,44 +26,23 @@
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "support/cpu_clock.hpp"
+#include "support/peak_memory.hpp"
+
 namespace {
 
 using vector = Eigen::VectorXd;
 namespace contact = slant::contact;
-
-/// Processor seconds of this process; everything here is of one thread.
-class stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
-  }
-
- private:
-  std::clock_t start_ = std::clock();
-};
-
-/// The most memory of this process, in MB, since forget_peak(); NaN where /proc is not what it is on
-/// Linux.
-double peak_memory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("VmHWM:")) return std::atof(line.c_str() + 6) / 1024;
-  }
-  return std::nan("");
-}
-void forget_peak() {
-  std::ofstream("/proc/self/clear_refs") << 5;
-}
+using benchmarks::stopwatch;
 
 enum class law : unsigned char { none, tresca, coulomb };
 
@@ -133,10 +112,10 @@ bool measure(fem::contact_scene<3> const& scene, std::string const& load, law fr
              bool direct, interpolation const& nested = {}) {
   using contact::solution_route;
   bool const is_loose = load == "loose", is_pair = load == "bricks";
-  forget_peak();
+  benchmarks::forget_peak_memory();
   stopwatch const whole;
   auto const r = run(scene, friction, solution_route::iterate, 1e-8, nested);
-  double const seconds = whole.seconds(), memory = peak_memory();
+  double const seconds = whole.seconds(), memory = benchmarks::peak_memory_mib();
 
   auto const layout = contact::layout_of(scene.mesh.nodes, scene.unknowns.first);
   double setup_seconds = std::nan("");  // a loose brick has levels of K and springs
@@ -185,6 +164,12 @@ int main(int argc, char** argv) {
       direct = false;
     } else if (argument == "--load" && i + 1 < argc) {
       only = argv[++i];
+      if (std::ranges::none_of(fem::brick_loads,
+                               [&](auto load) { return name_of(load) == only; })) {
+        std::fprintf(stderr, "multilevel: --load: got %s, expected press, pull or lift\n",
+                     only.c_str());
+        return 2;
+      }
     } else if (int const k = std::atoi(argv[i]); k > 0) {
       sizes.push_back(k);
     } else {
@@ -195,7 +180,7 @@ int main(int argc, char** argv) {
   if (sizes.empty()) sizes = {8, 12, 16};
   std::printf(
       "friction,load,k,unknowns,steps,cycles,products,setup_seconds,seconds,linear_solve_seconds,"
-      "dual_seconds,memory_MB,certified,error\n");
+      "dual_seconds,memory_MiB,certified,error\n");
   bool good = true;
   for (law const friction : {law::tresca, law::coulomb, law::none}) {
     for (int const k : sizes) {

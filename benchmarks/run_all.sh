@@ -34,7 +34,7 @@
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks with and without friction by multigrid, and one linear solve
 #   multilevel_large    the same with 313632 unknowns, K never factored
-#   multilevel_huge     one load with 1037232 and 2433600 unknowns, seconds and memory
+#   multilevel_huge     one load with 1037232 and 2433600 unknowns, seconds and memory (4 GB)
 #   multilevel_linear   contact with friction beside one linear solve with the multigrid of PETSc, if found
 #   robustness          the same where multigrid has a hard time; with a mesh of Gmsh if that is found
 #   stability           every method on every adversity, judged in quadruple precision
@@ -60,8 +60,7 @@ all=(composition slanting erased compile_time projections example_1 wire brick n
   newton_floor digits interior_brick interior_condition interior_crossover projector_steps
   projector_contact projector_search projector_threads total_feti active_sets condensation
   certificates load_steps coulomb coulomb_models multilevel multilevel_large multilevel_huge
-  multilevel_linear robustness stability
-  random_programs friction friction_variants precision growth)
+  multilevel_linear robustness stability random_programs friction friction_variants precision growth)
 
 # A second thread of the BLAS has nothing to do in a sweep with one right-hand side.
 export OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}

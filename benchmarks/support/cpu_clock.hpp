@@ -20,6 +20,15 @@ namespace benchmarks {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
+/// Processor seconds of this process since it was made.
+class stopwatch {
+ public:
+  [[nodiscard]] double seconds() const { return cpu_seconds() - start_; }
+
+ private:
+  double start_ = cpu_seconds();
+};
+
 /// Throws std::runtime_error if this clock moves in steps of more than 0.1 ms on average, as it
 /// does under RLIMIT_CPU (`ulimit -t`): short runs would be measured as 0.
 inline void require_fine_clock() {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Peak memory of this process: VmHWM of Linux, the largest amount that was resident at a time. It
-// never falls, so that what is to be measured runs in a process of its own (child_process.hpp); a
-// child begins with what its parent holds, such as the matrices of the scene.
+// falls only where it is forgotten, so that what is to be measured runs in a process of its own
+// (child_process.hpp) or begins there; a child begins with what its parent holds, such as the matrices
+// of the scene.
 #pragma once
 
 #include <cstdio>
@@ -22,6 +23,15 @@ namespace benchmarks {
     std::fclose(file);
   }
   return kib / 1024;
+}
+
+/// From here on the peak is that of what follows, what is held now included. Without effect where the
+/// system does not know it.
+inline void forget_peak_memory() {
+  if (std::FILE* const file = std::fopen("/proc/self/clear_refs", "w")) {
+    std::fputs("5", file);
+    std::fclose(file);
+  }
 }
 
 }  // namespace benchmarks
