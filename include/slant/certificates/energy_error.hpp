@@ -392,10 +392,15 @@ template <class C, class X, class G, class M, class D>
 // `converged` becomes `stalled` where the certificate disagrees, with the error reached in the
 // reason.
 
-/// certificate(x) → energy_error<S>.
+/// certificate(x) → energy_error<S>, or certificate(x, ν) for states with the multiplier of equations
+/// (constrained_certificate.hpp).
 template <class Certificate, class V>
 concept certifies = requires(Certificate& c, V const& x) {
   { c(x).relative() <= c(x).bound };
+};
+template <class Certificate, class State>
+concept certifies_with_multiplier = requires(Certificate& c, State const& s) {
+  { c(s.x, s.ν).relative() <= c(s.x, s.ν).bound };
 };
 
 namespace detail {
@@ -441,13 +446,18 @@ class energy_error_below : public rule {
         certificate_(std::move(certificate)) {}
 
   template <class State>
-    requires certifies<Certificate, std::remove_cvref_t<decltype(std::declval<State>().x)>>
+    requires certifies<Certificate, std::remove_cvref_t<decltype(std::declval<State>().x)>> ||
+             certifies_with_multiplier<Certificate, State>
   status operator()(State const& s) {
     S const measure = detail::watched_measure<S>(s);
     bool const at_rest = s.status != status::running;
     if (!at_rest && !(measure <= threshold_)) return status::running;
     if (s.status == status::unbounded) return s.status;  // its direction has been confirmed
-    error_ = certificate_(s.x);
+    if constexpr (certifies<Certificate, std::remove_cvref_t<decltype(s.x)>>) {
+      error_ = certificate_(s.x);
+    } else {
+      error_ = certificate_(s.x, s.ν);
+    }
     S const relative = error_.relative();
     if (relative <= tolerance_) return status::converged;
     if (at_rest) return s.status == status::converged ? status::stalled : s.status;

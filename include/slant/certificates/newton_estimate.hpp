@@ -14,6 +14,9 @@
 // these iterations would add, and ‖rest‖_{A⁻¹} unless the caller has a bound of it.
 //
 // Cost: one application of A, and one for each iteration, some 10.
+//
+// With equations G x = e the face is cut by ker G, and the step to it begins with the shortest one
+// that meets them (constrained_certificate.hpp).
 #pragma once
 
 #include <slant/base/scaling.hpp>
@@ -31,6 +34,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace slant {
 
@@ -160,6 +164,17 @@ class face_correction {
     return k;
   }
 
+  /// Puts a step before t, with its image; the face is the one of t.
+  template <class Face>
+  void precede(V const& step, V const& image_of_step, Face const& face, scalar const& ρ) {
+    vectors::add(step, t);
+    vectors::add(image_of_step, image);
+    vectors::set_zero(z_);
+    face.add_curvature(scalar(1) / ρ, t, z_);
+    energy = detail::root_of_product(t, image);
+    bend = detail::root_of_product(t, z_);
+  }
+
  private:
   V r_, p_, Ap_, z_, weighed_;
   workspace_t<M, V> m_workspace_;
@@ -182,18 +197,22 @@ struct estimated_point {
   /// false: what the iterations have left of the gradient is part of the rest, for few iterations
   /// and a norm_of that bounds. true: what more of them would add is estimated.
   bool trusts_iterations = true;
+  /// With equations: Q x − x̄, and ‖x‖ + ‖x̄‖.
+  V const* offset = nullptr;
+  scalar size_of_offset{0};
 };
 
 /// The estimate at the top of this file for programs qp with a preconditioner like m. Refers to qp.
-template <class QP, class M>
+/// Face: curved_face, or cut_face with equations.
+template <class QP, class M, class Face = curved_face<typename QP::scalar>>
 class newton_estimate {
  public:
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
 
-  newton_estimate(QP const& qp, M const& m)
+  newton_estimate(QP const& qp, M const& m, Face face)
       : qp_(&qp),
-        face_(qp.set()),
+        face_(std::move(face)),
         correction_(qp.b(), m),
         projected_(qp.b()),
         step_(qp.b()),
@@ -202,27 +221,36 @@ class newton_estimate {
         rest_(qp.b()),
         trial_(qp.b()),
         weight_(qp.b()) {}
+  newton_estimate(QP const& qp, M const& m) : newton_estimate(qp, m, Face(qp.set())) {}
 
-  /// Infinite where nothing is known: A shows no curvature along the gradient on the face.
+  /// Infinite where nothing is known: A shows no curvature along the gradient on the face, or no step
+  /// on it meets the equations.
   /// norm_of(d) → ‖d‖_{A⁻¹}, asked once at most.
   template <class WA, class Norm>
   [[nodiscard]] scalar operator()(estimated_point<vector_type> const& at, M const& m, WA& of_a,
                                   Norm const& norm_of) {
     vectors::waxpy(-at.ρ, at.gradient, at.x, trial_);
     slant::project(qp_->set(), slant::local(trial_), slant::local(projected_));
-    face_.assign(qp_->set(), slant::local(trial_), scalar(1));
+    static_cast<void>(face_.assign(qp_->set(), slant::local(trial_), scalar(1)));
     vectors::difference(projected_, at.x, step_);
-    vectors::set_zero(image_);
-    if (slant::norm(step_) > scalar(0)) {
-      slant::apply(qp_->a(), step_, image_, of_a);
-      ++applications_;
-    }
+    apply(step_, image_, of_a);
     vectors::sum(at.gradient, image_, rest_);
+    if constexpr (is_cut) {
+      vectors::sum(*at.offset, step_, trial_);
+      face_.lift(trial_, lift_);
+      vectors::subtract(lift_, trial_);
+      if (!face_.meets(trial_, at.size_of_offset)) return std::numeric_limits<scalar>::infinity();
+      vectors::negate(lift_, lift_);
+      apply(lift_, image_of_lift_, of_a);
+      vectors::add(image_of_lift_, rest_);
+      face_.add_curvature(scalar(1) / at.ρ, lift_, rest_);
+    }
     applications_ +=
         correction_.compute(qp_->a(), of_a, m, rest_, face_, at.ρ, at.ρ, at.most, at.sizes);
     if (!correction_.found || !detail::is_finite(correction_.energy)) {
       return std::numeric_limits<scalar>::infinity();
     }
+    if constexpr (is_cut) correction_.precede(lift_, image_of_lift_, whole(), at.ρ);
     if (!at.trusts_iterations) {
       vectors::set_zero(correction_.remainder);
       correction_.missing = scalar(0);
@@ -231,8 +259,30 @@ class newton_estimate {
   }
   /// Applications of A so far.
   [[nodiscard]] index applications() const { return applications_; }
+  [[nodiscard]] Face const& face() const { return face_; }
 
  private:
+  /// Equations cut the face.
+  static constexpr bool is_cut = requires(Face const& f, vector_type const& x, vector_type& y) {
+    f.lift(x, y);
+    f.balance(x, y);
+  };
+
+  [[nodiscard]] auto const& whole() const {
+    if constexpr (is_cut) {
+      return face_.whole();
+    } else {
+      return face_;
+    }
+  }
+  template <class WA>
+  void apply(vector_type const& x, vector_type& y, WA& of_a) {
+    vectors::set_zero(y);
+    if (!(slant::norm(x) > scalar(0))) return;
+    slant::apply(qp_->a(), x, y, of_a);
+    ++applications_;
+  }
+
   /// The bound for x from s balanced at x, or for x₁ from s balanced there and ‖x₁ − x‖_A on top: a
   /// point inside Λ has a gap of the first order that x₁ has not. Curved blocks are balanced with a
   /// part of the gradient or by the gap alone. What the diagonal of A says is best is taken.
@@ -240,6 +290,10 @@ class newton_estimate {
   [[nodiscard]] scalar put_together(estimated_point<vector_type> const& at, Norm const& norm_of) {
     vectors::add(correction_.image, image_);
     vectors::sum(at.gradient, image_, balanced_);
+    if constexpr (is_cut) {  // by a multiplier of the equations
+      face_.balance(balanced_, trial_);
+      vectors::subtract(trial_, balanced_);
+    }
     vectors::subtract(correction_.image, image_);
     scalar const way = detail::root_of_product(step_, image_);
     detail::bound_split<scalar> best;
@@ -247,27 +301,35 @@ class newton_estimate {
     vectors::add(correction_.t, step_);
     vectors::add(correction_.image, image_);
     vectors::set_zero(trial_);
-    face_.add_curvature(scalar(1) / at.ρ, step_, trial_);
+    whole().add_curvature(scalar(1) / at.ρ, step_, trial_);
     consider(best, at, at.x, detail::root_of_product(step_, image_),
              detail::root_of_product(step_, trial_), scalar(0));
     if (!detail::is_finite(best.bound)) return best.bound;
-    scalar const δ =
-        detail::root_of_squares<scalar>(best.moved, correction_.missing) + norm_of(rest_);
+    scalar const rest = norm_of(rest_);
+    if constexpr (is_cut) {  // (ν⁺ − ν*)ᵀ(Q x − x̄) is of the second order
+      using std::sqrt;
+      scalar const lifted = detail::root_of_product(lift_, image_of_lift_);
+      scalar const root = sqrt(lifted) * sqrt(scalar(2) * (rest + correction_.missing));
+      best.root_of_gap = detail::root_of_squares<scalar>(best.root_of_gap, root);
+    }
+    scalar const δ = detail::root_of_squares<scalar>(best.moved, correction_.missing) + rest;
     return error_bound_of_root<scalar>(δ, best.root_of_gap) + best.above;
   }
 
   void consider(detail::bound_split<scalar>& best, estimated_point<vector_type> const& at,
                 vector_type const& x, scalar const& moved, scalar const& bend,
                 scalar const& above) {
-    detail::consider_split(best, qp_->set(), face_, x, balanced_, correction_.remainder,
+    detail::consider_split(best, qp_->set(), whole(), x, balanced_, correction_.remainder,
                            at.stiffness, moved, bend, above, rest_, weight_, trial_);
   }
 
   QP const* qp_;
   index applications_ = 0;
-  curved_face<scalar> face_;
+  Face face_;
   face_correction<vector_type, M> correction_;
   vector_type projected_, step_, image_, balanced_, rest_, trial_, weight_;
+  vector_type lift_ = like(balanced_, is_cut ? slant::local(balanced_).size() : 0);
+  vector_type image_of_lift_ = lift_;
 };
 
 }  // namespace slant

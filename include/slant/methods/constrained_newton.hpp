@@ -404,18 +404,10 @@ class constrained_newton<QP, C, M> {
   /// α, and s = mean(diag M).
   void set_sizes(state_type& s) const {
     auto const& qp = qp_.get();
-    scalar const whole = detail::size_on_ones(qp.a(), s.x);
-    scalar mean(0);
-    ++s.work.setup_applications;
-    if (!detail::is_one_point(constraints_.get())) {
-      auto const of_a = slant::mean_diagonal(projected_hessian(qp.a(), constraints_.get()), s.x,
-                                             options_.mean_diagonal);
-      mean = of_a.value;
-      s.work.setup_applications += of_a.applications;
-    }
-    // P A P may consist of rounding errors of A; any α will do then.
-    if (!(mean > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole)) mean = whole;
-    scalar const size = mean > scalar(0) ? scalar(scalar(1) / mean) : scalar(1);
+    auto const mean = detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x,
+                                                      options_.mean_diagonal);
+    s.work.setup_applications += mean.applications;
+    scalar const size = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
     s.step_length = options_.step_factor * size;
     s.preconditioner_size = size;
     if constexpr (preconditioned) {
@@ -530,28 +522,5 @@ class constrained_newton<QP, C, M> {
   held<M> m_;
   options options_;
 };
-
-// --- whole program -------------------------------------------------------------------------------
-
-/// A quadratic program with its equality constraints: what minimise(q).over(Λ).subject_to(G, e) is.
-template <class P>
-concept equality_constrained_program = requires(P const& p) {
-  { p.qp() } -> std::same_as<typename P::program_type const&>;
-  { p.constraints() } -> std::same_as<typename P::constraints_type const&>;
-};
-
-/// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e by constrained_newton from 0. x is in Λ; `converged`
-/// means ‖r̃‖ and ‖Q x − x̄‖ of at most `tolerance` times their scales, both computed from x. It is
-/// not the energy error that solve(qp, tolerance) estimates for programs without equations.
-/// Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a program that the method
-/// refuses.
-template <equality_constrained_program P>
-[[nodiscard]] auto solve(P const& p, scalar_t<typename P::vector_type> tolerance,
-                         index max_steps = 1000) {
-  using V = typename P::vector_type;
-  return slant::solve(
-      constrained_newton{p.qp(), p.constraints()}, V(V::Zero(p.qp().size())),
-      (reduced_gradient_below(tolerance) && feasibility_below(tolerance)) || at_most(max_steps));
-}
 
 }  // namespace slant

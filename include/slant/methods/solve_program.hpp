@@ -36,6 +36,7 @@
 #include <limits>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace slant {
@@ -45,14 +46,16 @@ template <class V>
 struct certified_point {
   using scalar = scalar_t<V>;
 
-  V point;                       ///< in Λ
-  slant::status status;          ///< converged: the estimated error is at most the tolerance
-  std::string reason;            ///< the status as a sentence
+  V point{};                     ///< in Λ
+  slant::status status{};        ///< converged: the estimated error is at most the tolerance
+  std::string reason{};          ///< the status as a sentence
   energy_error<scalar> error{};  ///< what is known of ‖x − x*‖_A
-  index steps = 0;               ///< of symmetric_newton
+  index steps = 0;               ///< of the method
+  std::string_view method = "symmetric_newton";  ///< its name
   slant::work work{};            ///< all applications of A, those of certificates included
   V descent{};         ///< where unbounded: a direction in which the function falls for ever
-  std::string choice;  ///< what was chosen for A and why, as sentences; or empty
+  V multipliers{};     ///< with equations G x = e: their μ, as many as G has rows
+  std::string choice{};  ///< what was chosen for A and why, as sentences; or empty
 
   [[nodiscard]] V const& x() const { return point; }
   [[nodiscard]] index iterations() const { return steps; }
@@ -70,7 +73,8 @@ struct certified_point {
 template <class V>
 std::ostream& operator<<(std::ostream& out, certified_point<V> const& run) {
   detail::print_run(out, run.status, run.reason, detail::unknowns_of(run.point),
-                    std::to_string(run.steps) + " of symmetric_newton", run.work, run.choice);
+                    std::to_string(run.steps) + " of " + std::string(run.method), run.work,
+                    run.choice);
   return out;
 }
 
@@ -242,15 +246,35 @@ template <class K, class S>
   return slant::multigrid<S>(scaled, constants, o);
 }
 
-/// Solves qp with A = D K D: without a preconditioner as long as that costs about what levels and a
-/// face on them would, then with multigrid from where that has come.
+/// Applications of K after which conjugate gradients have taken about what levels and a face on them
+/// would: the coarsest level is factored for each face, 500³/3 operations, and K may have few entries.
+template <class K>
+[[nodiscard]] index enough_without_levels(K const& k) {
+  return 300 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
+}
+
+/// go_on(M, what was chosen and why) with multigrid for D K D, or without where there is none.
+template <class K, class S, class F>
+[[nodiscard]] auto with_levels(K const& k, Eigen::Matrix<S, Eigen::Dynamic, 1> const& d,
+                               index applications, F const& go_on) {
+  std::string const why =
+      "because " + show(applications) + " applications of A were not enough without: ";
+  try {
+    auto const m = multigrid_of(k, d);
+    return go_on(m, "multigrid, " + why + m.description());
+  } catch (bad_input const& e) {  // A is not definite, or of a kind that levels do not fit
+    return go_on(identity_operator(k.rows()), "no multigrid, " + why + e.what());
+  }
+}
+
+/// Solves qp with A = D K D: without a preconditioner as long as that costs about what levels would,
+/// then with multigrid from where that has come.
 template <class QP, class K, class S>
 [[nodiscard]] auto solve_sparse(QP const& qp, K const& k,
                                 Eigen::Matrix<S, Eigen::Dynamic, 1> const& d,
                                 typename QP::vector_type const& x0, S tolerance, index most) {
   identity_operator const I(qp.size());
-  // The coarsest level is factored for each face, 500³/3 operations; K may have few entries.
-  auto const enough = 300 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
+  index const enough = enough_without_levels(k);
   energy_certificate certificate(qp, I);
   auto first = newton_certified(
       qp, I, x0, certificate, tolerance,
@@ -269,14 +293,7 @@ template <class QP, class K, class S>
     return run;
   };
   if (first.work.operator_applications < enough) return go_on(I, {});
-  std::string const why = "because " + show(first.work.operator_applications) +
-                          " applications of A were not enough without: ";
-  try {
-    auto const m = multigrid_of(k, d);
-    return go_on(m, "multigrid, " + why + m.description());
-  } catch (bad_input const& e) {  // A is not definite, or of a kind that levels do not fit
-    return go_on(I, "no multigrid, " + why + e.what());
-  }
+  return with_levels(k, d, first.work.operator_applications, go_on);
 }
 
 /// Solves qp with the preconditioner that A offers.

@@ -12,6 +12,7 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>
@@ -81,6 +82,20 @@ template <class A, class V>
   slant::apply(a, v, image);
   S const length = norm(v);
   return length > S(0) ? S(norm(image) / length) : S(0);
+}
+
+/// Mean of diag(P A P), or what A is on ones where that may consist of rounding errors of A.
+template <class A, class C, class V>
+[[nodiscard]] auto projected_mean_diagonal(A const& a, C const& c, V const& prototype,
+                                           mean_diagonal_options const& options = {})
+    -> diagonal_mean<scalar_t<V>> {
+  using S = scalar_t<V>;
+  diagonal_mean<S> mean{size_on_ones(a, prototype), 1};
+  if (is_one_point(c)) return mean;
+  auto const of_a = slant::mean_diagonal(projected_hessian(a, c), prototype, options);
+  mean.applications += of_a.applications;
+  if (of_a.value > S(32) * std::numeric_limits<S>::epsilon() * mean.value) mean.value = of_a.value;
+  return mean;
 }
 
 /// The linear term at x̄.

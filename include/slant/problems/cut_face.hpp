@@ -10,15 +10,21 @@
 // method of multipliers, whose steps are right in the metric of N Nᵀ, is slow there and Newton's
 // method is not.
 //
-// Rows may depend on others on a face and nowhere else: `assign` refuses such a face.
+// Rows may depend on others on a face and nowhere else. `assign` tells; those that do are left out of
+// N Π Nᵀ, which leaves P what it is, and a lift does not meet them unless they agree with the others.
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/problems/equality_constraints.hpp>
 #include <slant/sets/curved_face.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
+
+#include <cmath>
+#include <limits>
+#include <vector>
 
 namespace slant {
 
@@ -28,6 +34,7 @@ class cut_face {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using sparse_type = Eigen::SparseMatrix<S>;
+  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
   /// Room for the faces of a set; the rows of N have length 1. Allocates.
   template <class Set>
@@ -41,20 +48,17 @@ class cut_face {
         kept_(N.cols()),
         image_(N.cols()) {}
 
-  /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular:
-  /// then it has no P. Allocates nothing but what a large dense factorisation needs for itself.
+  /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular. Allocates
+  /// nothing then but what a large dense factorisation needs for itself.
   template <class Set, class Z>
   [[nodiscard]] bool assign(Set const& set, Z const& z, S const& κ) {
     assemble(set, z, κ);
-    index const p = coarse_.rows();
-    if (p == 0) return true;
-    factors_.compute(coarse_);
-    if (factors_.info() != Eigen::Success) return false;
-    for (index i = 0; i < p; ++i) {
-      S const pivot = factors_.matrixLLT()(i, i);
-      if (!(pivot * pivot > detail::smallest_pivot(p, S(1)))) return false;
-    }
-    return true;
+    independent_.clear();
+    if (factor(coarse_)) return true;
+    independent_ = detail::independent_rows(coarse_);
+    coarse_ = dense_type(coarse_(independent_, independent_));
+    static_cast<void>(factor(coarse_));
+    return false;
   }
 
   /// The face that is cut.
@@ -81,6 +85,13 @@ class cut_face {
     y += image_;
   }
 
+  /// Whether rounding is all of N x, for a sum x of terms of that length.
+  [[nodiscard]] bool meets(vector_type const& x, S const& length) const {
+    using std::sqrt;
+    weights_.noalias() = N_ * x;
+    S const n(static_cast<double>(x.size()));
+    return weights_.norm() <= S(16) * std::numeric_limits<S>::epsilon() * sqrt(n) * length;
+  }
   /// y = Π Nᵀ(N Π Nᵀ)⁻¹N x: the shortest step in the face that N maps to N x.
   void lift(vector_type const& x, vector_type& y) const {
     solve(x);
@@ -98,7 +109,7 @@ class cut_face {
   template <class Set, class Z>
   void assemble(Set const& set, Z const& z, S const& κ) {
     face_.assign(set, z, κ);
-    coarse_.setZero();
+    coarse_.setZero(N_.rows(), N_.rows());
     face_.projector_entries([&](index i, index j, S const& value) {
       for (typename sparse_type::InnerIterator a(N_, i); a; ++a) {
         for (typename sparse_type::InnerIterator b(N_, j); b; ++b) {
@@ -108,10 +119,27 @@ class cut_face {
     });
   }
 
-  /// normal = Nᵀ(N Π Nᵀ)⁻¹N x.
+  /// Whether all pivots can be told from zero.
+  [[nodiscard]] bool factor(dense_type const& matrix) {
+    index const p = matrix.rows();
+    if (p == 0) return true;
+    factors_.compute(matrix);
+    if (factors_.info() != Eigen::Success) return false;
+    S const least = factors_.matrixLLT().diagonal().minCoeff();
+    return least * least > detail::smallest_pivot(p, S(1));
+  }
+
+  /// normal = Nᵀ(N Π Nᵀ)⁻¹N x, without rows that depend on others.
   void solve(vector_type const& x) const {
     weights_.noalias() = N_ * x;
-    if (weights_.size() > 0) factors_.solveInPlace(weights_);
+    if (coarse_.rows() < weights_.size()) {
+      vector_type part = weights_(independent_);
+      if (part.size() > 0) factors_.solveInPlace(part);
+      weights_.setZero();
+      weights_(independent_) = part;
+    } else if (weights_.size() > 0) {
+      factors_.solveInPlace(weights_);
+    }
     normal_.noalias() = N_.transpose() * weights_;
   }
   /// y ← P y for y ∈ range(Π).
@@ -121,11 +149,10 @@ class cut_face {
     y -= kept_;
   }
 
-  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-
   curved_face<S> face_;
   sparse_type N_;
-  dense_type coarse_;
+  dense_type coarse_;               // N Π Nᵀ
+  std::vector<index> independent_;  // its rows, where it is singular
   Eigen::LLT<dense_type> factors_;
   mutable vector_type weights_, normal_, kept_, image_;  // scratch
 };

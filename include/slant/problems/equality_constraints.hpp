@@ -45,6 +45,30 @@ template <class Q>
   return declare<self_adjoint, slant::projector>(difference(identity(q.rows()), q));
 }
 
+/// Rows of G that are independent, in increasing order, from GGᵀ, whose diagonal is at most about 1:
+/// its Cholesky factorisation with diagonal pivoting (that of Eigen::LDLT looks at the diagonal before
+/// the elimination), up to the first pivot that may be zero.
+template <class S>
+[[nodiscard]] std::vector<index> independent_rows(
+    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> rest) {
+  using std::sqrt;
+  index const p = rest.rows();
+  Eigen::Matrix<S, Eigen::Dynamic, 1> column(p);
+  std::vector<index> kept;
+  while (static_cast<index>(kept.size()) < p) {
+    index i = 0;
+    S const pivot = rest.diagonal().maxCoeff(&i);
+    if (!(pivot > smallest_pivot(p, S(1)))) break;
+    column = rest.col(i) / sqrt(pivot);
+    rest.noalias() -= column * column.transpose();
+    rest.col(i).setZero();
+    rest.row(i).setZero();
+    kept.push_back(i);
+  }
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
 }  // namespace slant::detail
 
 namespace slant {
@@ -71,7 +95,7 @@ class equality_constraints {
       : rows_(G.rows()),
         lengths_(row_lengths(G, e)),
         unit_rows_(lengths_.cwiseInverse().asDiagonal() * G),
-        kept_(independent_rows(unit_rows_)),
+        kept_(detail::independent_rows(dense_type(unit_rows_ * sparse_type(unit_rows_.transpose())))),
         G_(rows_of(unit_rows_, kept_)),
         factors_(dense_type(G_ * sparse_type(G_.transpose()))),
         range_projector_(detail::onto_range_of(G_, factors_)),
@@ -147,31 +171,6 @@ class equality_constraints {
       if (squares[i] > S(0)) largest[i] *= sqrt(squares[i]);
     }
     return largest;
-  }
-
-  /// Pivots of GGᵀ, G with rows of length 1, that can be told from zero.
-  [[nodiscard]] static S smallest_square(index rows) { return detail::smallest_pivot(rows, S(1)); }
-
-  /// Cholesky of GGᵀ with diagonal pivoting (that of Eigen::LDLT looks at the diagonal before the
-  /// elimination), up to the first pivot that may be zero.
-  static std::vector<index> independent_rows(sparse_type const& unit_rows) {
-    using std::sqrt;
-    index const p = unit_rows.rows();
-    dense_type rest = dense_type(unit_rows * sparse_type(unit_rows.transpose()));
-    vector_type column(p);
-    std::vector<index> kept;
-    while (static_cast<index>(kept.size()) < p) {
-      index i = 0;
-      S const pivot = rest.diagonal().maxCoeff(&i);
-      if (!(pivot > smallest_square(p))) break;
-      column = rest.col(i) / sqrt(pivot);
-      rest.noalias() -= column * column.transpose();
-      rest.col(i).setZero();
-      rest.row(i).setZero();
-      kept.push_back(i);
-    }
-    std::sort(kept.begin(), kept.end());
-    return kept;
   }
 
   static sparse_type rows_of(sparse_type const& G, std::vector<index> const& rows) {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+//
+// An estimate of the error of a point as the solution of
+//
+//     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ,   G x = e
+//
+// in the energy norm. With P, Q and x̄ of equality_constraints, o = Q x − x̄ and ν = Gᵀμ near that of
+// the solution x*, the gradient on the affine space is r = P (A (x − o) − b) + ν. For every step D
+// with Q D = −o and every ν⁺ ∈ range Gᵀ, r + P A P D + ν⁺ − ν is split into s, balanced by Λ at x
+// with the gap γ (energy_error.hpp), and a rest, and the error e = ‖P (x − x*)‖_A is bounded by
+//
+//     e² ≤ (‖P D‖_A + ‖P rest‖_{(P A P)⁺}) e + γ − (ν⁺ − ν*)ᵀo.
+//
+// D is the Newton step of constrained_newton (newton_estimate.hpp, on the face that ker G cuts), and
+// the last term is of the second order. ‖o‖_A comes on top. The length of D says how much of the
+// distance from G x = e the solution is away: where Λ meets the affine space at a small angle that is
+// many times ‖o‖, which residuals do not tell.
+//
+//     slant::constrained_certificate certificate(qp, constraints);
+//     auto const run = slant::solve(slant::constrained_newton{qp, constraints}, x0,
+//         slant::energy_error_below(1e-8, std::ref(certificate)) || slant::at_most(500));
+#pragma once
+
+#include <slant/base/vector_algebra.hpp>
+#include <slant/certificates/dual_norm.hpp>
+#include <slant/certificates/energy_error.hpp>
+#include <slant/certificates/newton_estimate.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/linear_operator.hpp>
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
+#include <slant/problems/augmented_problem.hpp>
+#include <slant/problems/cut_face.hpp>
+#include <slant/problems/separable_qp.hpp>
+
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <type_traits>
+
+namespace slant {
+
+/// certificate(x, ν) → energy_error of P_Λ(x), an estimate. Refers to the problem, the constraints
+/// and M ≈ A⁻¹, which preconditions; without M that is diag(A)⁻¹ as in energy_certificate. Some 15
+/// applications of A. Infinite, that is unknown, where A has no curvature along what is left of the
+/// gradient, and where no step on the face of x meets the equations: that is not the face of x*.
+template <class QP, affine_space_with_rows<typename QP::vector_type> C, class M = identity_operator>
+class constrained_certificate {
+ public:
+  using vector_type = typename QP::vector_type;
+  using scalar = typename QP::scalar;
+
+  constrained_certificate(QP const& qp, C const& constraints)
+    requires std::same_as<M, identity_operator>
+      : constrained_certificate(qp, constraints, identity_operator(qp.size())) {}
+  /// Throws bad_input if sizes do not match.
+  constrained_certificate(QP const& qp, C const& constraints, M const& m)
+      : qp_(&qp),
+        constraints_(&constraints),
+        m_(m),
+        load_(detail::projected_load(qp, constraints).projected),
+        hessian_(projected_hessian(qp.a(), constraints)),
+        x_(qp.b()),
+        offset_(qp.b()),
+        point_(qp.b()),
+        gradient_(qp.b()),
+        stiffness_(qp.b()),
+        image_(qp.b()),
+        image_of_nearest_(qp.b()),
+        a_workspace_(workspace(qp.a(), qp.b())),
+        workspace_(workspace(hessian_, qp.b())),
+        projected_{hessian_, load_, qp.set()},
+        norm_(preconditioner(), qp.b()),
+        newton_(projected_, preconditioner(), cut_face<scalar>(qp.set(), constraints.unit_rows())) {
+    detail::check_size("columns of G", index(constraints.size()), qp.size(), "the size of b,");
+    detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
+    slant::apply(qp.a(), constraints.nearest(), image_of_nearest_, a_workspace_);
+    auto const mean = detail::projected_mean_diagonal(qp.a(), constraints, qp.b());
+    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
+    applications_ += 2 + mean.applications;
+    applications_ += detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, gradient_,
+                                                     a_workspace_);
+  }
+  constrained_certificate(QP const&&, C const&) = delete;
+  constrained_certificate(QP const&&, C const&, M const&) = delete;
+  constrained_certificate(constrained_certificate const&) = delete;
+  constrained_certificate& operator=(constrained_certificate const&) = delete;
+
+  /// ν is Gᵀμ of the method, as its state has it.
+  [[nodiscard]] energy_error<scalar> operator()(vector_type const& x, vector_type const& ν) {
+    slant::project(qp_->set(), x, x_);
+    slant::apply(constraints_->range_projector(), x_, offset_);
+    offset_ -= constraints_->nearest();
+    point_ = x_ - offset_;  // P x + x̄
+    gradient_ = point_ - constraints_->nearest();
+    slant::apply(qp_->a(), gradient_, image_, a_workspace_);
+    ++applications_;
+    gradient_ = image_ + image_of_nearest_;
+    energy_error<scalar> e;
+    e.size = detail::root_of_product(point_, gradient_);
+    slant::apply(constraints_->kernel_projector(), image_, gradient_);
+    gradient_ += ν - load_;
+    e.bound = (detail::is_one_point(*constraints_) ? scalar(0) : estimate()) + of_offset() +
+              detail::rounding_of(x_, stiffness_);
+    return e;
+  }
+  /// Applications of A so far.
+  [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }
+
+ private:
+  static constexpr bool is_plain = std::same_as<M, identity_operator>;
+  using diagonal_inverse = diagonal_operator<vector_type const&>;
+  using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
+  using hessian_type = decltype(slant::projected_hessian(
+      std::declval<typename QP::operator_type const&>(), std::declval<C const&>()));
+  using projected_qp =
+      separable_qp<hessian_type const&, vector_type const&, typename QP::set_type const&>;
+
+  /// M, or diag(stiffness) in its place.
+  [[nodiscard]] decltype(auto) preconditioner() const {
+    if constexpr (is_plain) {
+      return diagonal_inverse(held<vector_type const&>(stiffness_));
+    } else {
+      return (m_);
+    }
+  }
+  [[nodiscard]] index most() const { return qp_->size() < 200 ? qp_->size() + 8 : index(200); }
+  [[nodiscard]] gradient_size<scalar> sizes() const { return {norm(x_), norm(qp_->b())}; }
+
+  /// ‖P d‖_{(P A P)⁺}.
+  [[nodiscard]] scalar norm_of(vector_type const& d) {
+    slant::apply(constraints_->kernel_projector(), d, image_);
+    if (!(norm(image_) > scalar(0))) return norm(image_);
+    auto const e = dual_norm(hessian_, preconditioner(), image_, most(), false, workspace_, norm_,
+                             scalar(0), std::optional(sizes()));
+    applications_ += e.applications;
+    return e.value;
+  }
+
+  /// Of P (x − x*), from x, its offset and its gradient.
+  [[nodiscard]] scalar estimate() {
+    scalar const size = norm(x_) + norm(constraints_->nearest());
+    scalar const bound = newton_({.x = x_,
+                                  .gradient = gradient_,
+                                  .stiffness = stiffness_,
+                                  .ρ = typical_,
+                                  .most = most(),
+                                  .sizes = sizes(),
+                                  .offset = &offset_,
+                                  .size_of_offset = size},
+                                 preconditioner(), workspace_,
+                                 [&](vector_type const& d) { return norm_of(d); });
+    if (detail::is_finite(bound)) return bound;
+    // D = 0, where that meets the equations.
+    if (!newton_.face().meets(offset_, size)) return bound;
+    auto const balanced = balance(qp_->set(), x_, gradient_, stiffness_, gradient_);
+    return error_bound_of_root<scalar>(norm_of(gradient_), balanced.root_of_gap);
+  }
+  [[nodiscard]] scalar of_offset() {
+    if (norm(offset_) == scalar(0)) return scalar(0);
+    slant::apply(qp_->a(), offset_, image_, a_workspace_);
+    ++applications_;
+    return detail::root_of_product(offset_, image_);
+  }
+
+  QP const* qp_;
+  C const* constraints_;
+  M m_;
+  index applications_ = 0;
+  vector_type load_;  // P (b − A x̄)
+  hessian_type hessian_;
+  vector_type x_, offset_, point_, gradient_, stiffness_, image_, image_of_nearest_;
+  workspace_t<typename QP::operator_type, vector_type> a_workspace_;
+  workspace_t<hessian_type, vector_type> workspace_;
+  projected_qp projected_;
+  dual_norm_workspace<vector_type, preconditioner_type> norm_;
+  newton_estimate<projected_qp, preconditioner_type, cut_face<scalar>> newton_;
+  scalar typical_{1};  // 1/mean(diag P A P)
+};
+
+template <class QP, class C>
+constrained_certificate(QP const&, C const&) -> constrained_certificate<QP, C, identity_operator>;
+template <class QP, class C, class M>
+constrained_certificate(QP const&, C const&, M const&) -> constrained_certificate<QP, C, M>;
+
+}  // namespace slant

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+//
+// A quadratic program with equations, solved to a relative error in the energy norm:
+//
+//     auto const run = slant::solve(minimise(quadratic(A, b)).over(Λ).subject_to(G, e), 1e-8);
+//     run.x(), run.multipliers;                          // x ∈ Λ, μ of G x = e
+//
+// as solve_program.hpp does it without: constrained_newton under the control of
+// constrained_certificate, preconditioned by A⁻¹ where A offers it, and by multigrid where A is a
+// sparse matrix, once conjugate gradients have taken long without. `run.choice` tells.
+#pragma once
+
+#include <slant/certificates/constrained_certificate.hpp>
+#include <slant/methods/constrained_newton.hpp>
+#include <slant/methods/solve_program.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace slant {
+
+/// A quadratic program with its equality constraints: what minimise(q).over(Λ).subject_to(G, e) is.
+template <class P>
+concept equality_constrained_program = requires(P const& p) {
+  { p.qp() } -> std::same_as<typename P::program_type const&>;
+  { p.constraints() } -> std::same_as<typename P::constraints_type const&>;
+};
+
+namespace detail {
+
+/// constrained_newton from x0 until the certificate says that it is enough.
+template <class QP, class C, class M>
+[[nodiscard]] auto constrained_and_certified(QP const& qp, C const& c, M const& m,
+                                             typename QP::vector_type const& x0,
+                                             typename QP::scalar tolerance, newton_limits most)
+    -> certified_point<typename QP::vector_type> {
+  using V = typename QP::vector_type;
+  using S = typename QP::scalar;
+  constrained_newton_options<S> o;
+  o.inner_steps = std::min<index>(o.inner_steps, most.applications);
+  auto const run = [&](auto const& method, auto&& certificate) {
+    certified_point<V> result{.method = "constrained_newton"};
+    auto state = method.start(x0);
+    auto stop = energy_error_below<S, decltype(std::ref(certificate))>(tolerance, certificate) ||
+                slant::at_most(most.steps) || slant::at_most_applications(most.applications);
+    auto end = run_to_end(method, state, stop);
+    result.error = certificate(state.x, state.ν);
+    result.status = end.how;
+    result.reason = state.infeasible ? state.reason() : std::move(end.why);
+    result.steps = state.iteration;
+    result.multipliers = method.multipliers(state);
+    result.work = state.work;
+    result.work.operator_applications += certificate.applications() + 1;
+    result.point = std::move(state.x);
+    return result;
+  };
+  if constexpr (std::same_as<M, identity_operator>) {
+    return run(constrained_newton{qp, c, o}, constrained_certificate<QP, C>(qp, c));
+  } else {
+    return run(constrained_newton{qp, c, m, o}, constrained_certificate<QP, C, M>(qp, c, m));
+  }
+}
+
+}  // namespace detail
+
+/// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e from 0; see the top of this file. `converged` means
+/// that the estimated error is at most the tolerance; x is in Λ. Throws bad_input for a tolerance that
+/// is not in [0, 1), a limit < 0, or a program that constrained_newton refuses.
+template <equality_constrained_program P>
+[[nodiscard]] auto solve(P const& p, typename P::scalar tolerance, index max_steps = 1000) {
+  using QP = typename P::program_type;
+  using A = typename QP::operator_type;
+  using S = typename P::scalar;
+  QP const& qp = p.qp();
+  auto const by = [&](auto const& m, auto const& x0, detail::newton_limits most) {
+    return detail::constrained_and_certified(qp, p.constraints(), m, x0, tolerance, most);
+  };
+  auto const zero = detail::zero_of(qp);
+  identity_operator const I(qp.size());
+  if constexpr (detail::inverse_preconditions<QP>) {
+    auto run = by(qp.a().inverse(), zero, {.steps = max_steps});
+    run.choice = "A⁻¹ as preconditioner, because A offers it";
+    return run;
+  } else if constexpr (detail::levels_precondition<QP>) {
+    auto const& k = detail::matrix_behind<A>::of(qp.a());
+    index const enough = detail::enough_without_levels(k);
+    auto first = by(I, zero, {.steps = max_steps, .applications = enough});
+    index const spent = first.work.operator_applications;
+    bool const is_long = first.status == status::iteration_limit && first.steps < max_steps;
+    if (!is_long) return first;
+    return detail::with_levels(
+        k, Eigen::Matrix<S, Eigen::Dynamic, 1>(), spent, [&](auto const& m, std::string choice) {
+          auto run = by(m, first.point, {.steps = max_steps - first.steps});
+          run.steps += first.steps;
+          run.work += first.work;
+          run.choice = std::move(choice);
+          return run;
+        });
+  } else {
+    return by(I, zero, {.steps = max_steps});
+  }
+}
+
+}  // namespace slant
