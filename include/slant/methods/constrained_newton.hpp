@@ -25,7 +25,8 @@
 //
 // Where N Π Nᵀ is singular or no β is accepted, SMALSE-M takes over from x and ν until θ(x, ν) is a
 // tenth below its value at the failure. It converges from everywhere, so this takes finitely many
-// steps, and from failure to failure θ falls by a factor.
+// steps, and from failure to failure θ falls by a factor. Where it gets nowhere, because the
+// multiplier is far away in units of its penalty, the penalty grows.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -139,6 +140,7 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   bool fallback_at_work = false;
   scalar goal{0};            ///< what the fallback has to reach
   index fallback_count = 0;  ///< how often it had to take over
+  scalar penalty_factor{1};  ///< its penalty over the one of the options
 
   scalar merit{0};  ///< √(‖F‖² + ‖Q y − x̄‖²)/α, in units of the gradient
   scalar feasibility_norm{0};     ///< ‖Q x − x̄‖, distance of x from the affine space
@@ -423,9 +425,10 @@ class constrained_newton<QP, C, M> {
     options_.validate();
   }
 
-  [[nodiscard]] auto fallback() const {
-    return smalse<problem const&, constraints const&>{qp_.get(), constraints_.get(),
-                                                      options_.fallback};
+  [[nodiscard]] auto fallback(state_type const& s) const {
+    auto own = options_.fallback;
+    own.penalty *= s.penalty_factor;
+    return smalse<problem const&, constraints const&>{qp_.get(), constraints_.get(), own};
   }
 
   /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
@@ -478,7 +481,12 @@ class constrained_newton<QP, C, M> {
       s.status = status::stalled;
       return;
     }
-    auto const method = fallback();
+    ++s.fallback_count;
+    start_fallback(s);
+  }
+
+  void start_fallback(state_type& s) const {
+    auto const method = fallback(s);
     if (!s.fallback) {
       try {
         s.fallback.emplace(method.start(s.x));
@@ -493,14 +501,13 @@ class constrained_newton<QP, C, M> {
     method.resume(*s.fallback, s.x, s.ν);
     ++s.work.operator_applications;
     s.fallback_at_work = true;
-    ++s.fallback_count;
     fall_back(s);
   }
 
   void fall_back(state_type& s) const {
     auto& other = *s.fallback;
     work const before = other.work;
-    if (other.status == status::running) fallback().step(other);
+    if (other.status == status::running) fallback(s).step(other);
     s.work.operator_applications += other.work.operator_applications - before.operator_applications;
     s.inner_iterations = other.inner_iterations;
     s.work.inner_iterations += other.inner_iterations;
@@ -509,6 +516,12 @@ class constrained_newton<QP, C, M> {
     s.ν = other.ν;
     measure(s);
     s.infeasible = other.infeasible;
+    // Where it gets nowhere, μ is far away in units of ρ.
+    if (other.status == status::stalled && !s.infeasible && s.penalty_factor < scalar(1e6)) {
+      s.penalty_factor *= scalar(100);
+      s.fallback.reset();
+      return start_fallback(s);
+    }
     if (s.status == status::running) s.status = other.status;
     if (s.status == status::running && merit_at_x(s) > s.goal) return;
     s.fallback_at_work = false;
