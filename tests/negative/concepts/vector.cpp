@@ -14,7 +14,8 @@
 //
 // A vector of its own kind minus the part of it on which Eigen works, the way to make another one,
 // or its inner product; one that makes a new view of that part at each call instead of keeping one;
-// one whose inner product is no number. Of the operator of conjugate gradients nothing is said then.
+// one whose inner product is no number. Of the operator of conjugate gradients nothing is said
+// then.
 #include <slant/slant.hpp>
 
 struct distributed {

@@ -7,8 +7,8 @@
 // max-lines-clang: 30
 //
 // The inner function of a composition minus its slanting operator; a row of a stack minus its
-// value. An operator is not a function: a sum needs y ↦ A y, slant::linear(A). A function whose F°(y)
-// is a matrix, and not an operator that could be applied.
+// value. An operator is not a function: a sum needs y ↦ A y, slant::linear(A). A function whose
+// F°(y) is a matrix, and not an operator that could be applied.
 #include <slant/slant.hpp>
 
 struct doubling {
