@@ -33,6 +33,22 @@ TEST_CASE("closure: no law survives") {
   static_assert(laws_of<decltype(product(definite, definite))> == law_set{});
 }
 
+/// A matrix that knows its inverse. (Those of the library are diagonal and commute.)
+struct regular {
+  MatrixXd m;
+  [[nodiscard]] slant::index rows() const { return m.rows(); }
+  [[nodiscard]] slant::index cols() const { return m.cols(); }
+  void apply(VectorXd const& x, VectorXd& y) const { y.noalias() = m * x; }
+  [[nodiscard]] regular inverse() const { return {m.inverse()}; }
+};
+
+TEST_CASE("the inverse of a product is the product of the inverses, reversed") {
+  regular const a{test::random_spd(4, 7)}, b{test::random_spd(4, 8)};
+  auto const p = slant::product(a, b);
+  static_assert(slant::has_inverse<decltype(p), VectorXd>);
+  slant::testing::check_operator_laws(p);
+}
+
 TEST_CASE("archetypes") {
   MatrixXd const m = test::random_dense(4, 4, 5);
   archetype::linear_operator const a(m);
