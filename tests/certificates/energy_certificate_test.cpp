@@ -209,15 +209,4 @@ TEST_CASE("numbers that can do no more than the concept of a scalar asks for") {
   CHECK(e.bound < S(1));
 }
 
-TEST_CASE("infinite parts make an infinite bound, NaN stays NaN") {
-  double const inf = std::numeric_limits<double>::infinity();
-  double const nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(slant::error_bound_of_root(inf, inf) == inf);
-  CHECK(slant::error_bound_of_root(inf, 0.0) == inf);
-  CHECK(slant::error_bound_of_root(0.0, inf) == inf);
-  CHECK(std::isnan(slant::error_bound_of_root(nan, 1.0)));
-  CHECK(std::isnan(slant::error_bound_of_root(1.0, nan)));
-  CHECK(slant::error_bound_of_root(0.0, 0.0) == 0);
-}
-
 }  // namespace energy_certificate_test

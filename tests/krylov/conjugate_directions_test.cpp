@@ -26,24 +26,6 @@ TEST_CASE("each direction is conjugate to its predecessor, whatever gradient com
   }
 }
 
-TEST_CASE("fed with residuals, all directions are conjugate: conjugate gradients") {
-  auto const M = test::with_spectrum(test::log_spaced(12, 30));
-  auto const A = test::spd(M);
-  auto w = slant::workspace(A, VectorXd(12));
-  slant::conjugate_directions<VectorXd> d(VectorXd(12));
-  VectorXd r = test::random_vector(12);
-  std::vector<VectorXd> all;
-  for (int k = 0; k < 6; ++k) {
-    d.advance(r);
-    d.image(A, w);
-    for (auto const& p : all) {
-      CHECK(std::abs(d.p.dot(M * p)) <= 1e-11 * d.p.norm() * p.norm());
-    }
-    all.push_back(d.p);
-    r -= (r.dot(d.p) / d.curvature) * d.Ap;
-  }
-}
-
 TEST_CASE("a restart forgets") {
   auto const M = test::with_spectrum(test::log_spaced(5, 30));
   auto const A = test::spd(M);

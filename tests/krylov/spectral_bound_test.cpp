@@ -119,15 +119,6 @@ TEST_CASE("random matrices of all sizes, as by a dense eigenvalue solver") {
   }
 }
 
-TEST_CASE("closed form: tridiag(-1, 2, -1)") {
-  for (std::size_t const n : {1U, 2U, 5U, 100U}) {
-    std::vector<double> const a(n, 2.0), b(n - 1, -1.0);
-    double const π = std::acos(-1.0), λ = 2 - 2 * std::cos(double(n) * π / double(n + 1));
-    CHECK(largest_tridiagonal_eigenvalue(a, b) == doctest::Approx(λ).epsilon(1e-15));
-    CHECK(smallest_tridiagonal_eigenvalue(a, b) == doctest::Approx(4 - λ).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("decoupled, zero and negative matrices; powers of two change nothing") {
   CHECK(largest_tridiagonal_eigenvalue<double>({3, 7, -1}, {0, 0}) == 7);
   CHECK(smallest_tridiagonal_eigenvalue<double>({3, 7, -1}, {0, 0}) == -1);

@@ -23,16 +23,6 @@ TEST_CASE("the adjoint is the transposed matrix") {
   slant::testing::check_operator_laws(slant::adjoint(square));  // the diagonal, too
 }
 
-TEST_CASE("closure: every law is kept") {
-  using namespace slant;
-  MatrixXd const m = test::random_spd(3, 3);
-  auto const a = matrix<self_adjoint, positive_definite>(m);
-  static_assert(spd_operator<decltype(adjoint(a)), VectorXd>);
-  auto const p = adjoint(slant::diagonal<projector>(VectorXd(VectorXd::Ones(3))));
-  static_assert(declares_projector<decltype(p)> && declares_firmly_nonexpansive<decltype(p)>);
-  testing::check_operator_laws(p);
-}
-
 TEST_CASE("archetypes: only what has an adjoint") {
   archetype::vector const x(test::random_column(4, 4));
   MatrixXd const m = test::random_spd(4, 5);

@@ -53,10 +53,39 @@ TEST_CASE("parts that know only their own vector type work on copies") {
   archetype::linear_operator const part(test::random_dense(3, 3, 6));
   auto const a = slant::block_diagonal(part, slant::identity(2), part);
   archetype::vector const x(test::random_column(8, 7));
-  static_assert(slant::linear_operator<decltype(a), archetype::vector>);
   static_assert(!slant::has_adjoint<decltype(a), archetype::vector>);
   static_assert(!slant::has_accumulate<decltype(a), archetype::vector>);
   slant::testing::check_operator_laws(a, x);
+}
+
+TEST_CASE("any number of blocks of one type and different sizes, as a dense matrix") {
+  std::vector<decltype(slant::matrix(MatrixXd()))> blocks;
+  MatrixXd whole = MatrixXd::Zero(6, 7);
+  for (auto const& [row, col, rows, cols] :
+       {std::array{0, 0, 2, 3}, std::array{2, 3, 1, 1}, std::array{3, 4, 3, 3}}) {
+    blocks.push_back(slant::matrix(test::random_dense(rows, cols, unsigned(row))));
+    whole.block(row, col, rows, cols) = blocks.back().get();
+  }
+  auto const a = slant::diagonal_blocks(blocks);
+  CHECK(a.block_count() == 3);
+  CHECK(test::matches(a, whole, 0));
+  static_assert(slant::has_adjoint<decltype(a), VectorXd>);
+  slant::testing::check_operator_laws(a);
+  CHECK(slant::diagonal_blocks(std::vector<decltype(slant::matrix(MatrixXd()))>{}).rows() == 0);
+}
+
+TEST_CASE("any number of blocks: laws are those of the blocks; no allocation") {
+  auto const block = [](double c) {
+    return slant::matrix<slant::self_adjoint, slant::positive_definite>(
+        MatrixXd(MatrixXd::Identity(3, 3) * c + MatrixXd::Ones(3, 3)));
+  };
+  auto const a = slant::diagonal_blocks(std::vector{block(1), block(2)});
+  static_assert(slant::spd_operator<decltype(a), VectorXd>);
+  slant::testing::check_operator_laws(a);
+  VectorXd const x = VectorXd::Ones(6);
+  VectorXd y(6);
+  auto w = slant::workspace(a, x);
+  CHECK(test::allocations_of([&] { a.apply(x, y, w); }) == 0);
 }
 
 }  // namespace block_diagonal_test

@@ -22,4 +22,18 @@ TEST_CASE("the identity") {
         "n: got -1, expected a size >= 0");
 }
 
+TEST_CASE("the zero operator") {
+  auto const wide = slant::zero(2, 3);
+  CHECK(test::matches(wide, MatrixXd(MatrixXd::Zero(2, 3)), 0));
+  static_assert(slant::laws_of<decltype(wide)> == slant::law_set{});
+  slant::testing::check_operator_laws(wide);
+  auto const square = slant::zero(3);
+  static_assert(slant::psd_operator<decltype(square), VectorXd>);
+  static_assert(!slant::spd_operator<decltype(square), VectorXd>);
+  static_assert(slant::declares_projector<decltype(square)>);
+  slant::testing::check_operator_laws(square);
+  CHECK(test::message<slant::bad_input>([] { (void)slant::zero(2, -1); }) ==
+        "cols: got -1, expected a size >= 0");
+}
+
 }  // namespace identity_test

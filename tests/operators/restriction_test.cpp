@@ -75,7 +75,6 @@ TEST_CASE("other components without allocation") {
 TEST_CASE("archetypes") {
   archetype::linear_operator const part(test::random_dense(4, 4, 5));
   auto const a = slant::restricted(part, std::vector<int>{2, 0});
-  static_assert(slant::linear_operator<decltype(a), archetype::vector>);
   static_assert(!slant::has_adjoint<decltype(a), archetype::vector>);
   slant::testing::check_operator_laws(a, archetype::vector(VectorXd()));
 }
@@ -98,6 +97,43 @@ TEST_CASE("components must be different and exist; a refused list changes nothin
   CHECK_THROWS_AS(r.assign(std::vector<int>{0, 2, 0}), bad_input);
   CHECK(r.components() == std::vector<slant::index>{1, 3});
   CHECK_NOTHROW(r.assign(std::vector<int>{0, 2}));  // no mark was left behind
+}
+
+TEST_CASE("a slice has consecutive components, and puts them back among zeros") {
+  auto const s = slant::slice(5, 1, 3);
+  CHECK(test::matches(s, rows_of_identity({1, 2, 3}, 5), 0));
+  static_assert(slant::has_accumulate<decltype(s), VectorXd>);
+  static_assert(slant::has_adjoint_accumulate<decltype(s), VectorXd>);
+  slant::testing::check_operator_laws(s);
+  VectorXd x{{1, 2, 3, 4, 5}};
+  s.segment(x).setConstant(7);
+  CHECK(x == VectorXd{{1, 7, 7, 7, 5}});
+}
+
+TEST_CASE("a product passes the segment of a slice on; nothing allocates") {
+  MatrixXd const a{{1, 2, 3}, {4, 5, 6}};
+  auto const p = slant::product(a, slant::slice(5, 1, 3));
+  VectorXd const x{{1, 2, 3, 4, 5}};
+  VectorXd y(2);
+  auto w = slant::workspace(p, x);
+  slant::testing::allocation_guard const guard;
+  slant::apply(p, x, y, w);
+  slant::apply_add(p, 1.0, x, y, w);
+  auto const allocations = guard.count();
+  CHECK(allocations == 0);
+  CHECK(y == VectorXd(2 * a * x.segment(1, 3)));
+  slant::testing::check_operator_laws(p);
+  archetype::vector z(VectorXd::Zero(2));
+  slant::apply(p, archetype::vector(x), z);
+  CHECK(z.local() == y / 2);
+}
+
+TEST_CASE("slices that reach too far are refused") {
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::slice(5, 6, 0)),
+                       "first: got 6, expected a number in [0, 5]", slant::bad_input);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::slice(5, 2, 4)),
+                       "count: got 4, expected a number in [0, 3]", slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(slant::slice(-1, 0, 0)), slant::bad_input);
 }
 
 }  // namespace restriction_test

@@ -76,9 +76,25 @@ TEST_CASE("expressions may be applied to and segments written") {
 }
 
 TEST_CASE("sizes must agree") {
-  CHECK(test::message<slant::bad_input>([] {
+  CHECK(test::complaint([] {
           (void)slant::sum(slant::identity(3), MatrixXd(MatrixXd::Ones(3, 3)), slant::identity(4));
         }) == "A3: got 4 x 4, expected 3 x 3 (the size of A1)");
+  CHECK(test::complaint([] {
+          (void)slant::difference(MatrixXd(MatrixXd::Ones(3, 2)), slant::identity(3));
+        }) == "B: got 3 x 3, expected 3 x 2 (the size of A)");
+}
+
+TEST_CASE("a difference is a sum with a negative multiple, which works through a temporary, too") {
+  MatrixXd const m = test::random_dense(4, 4, 4);
+  archetype::operator_with_adjoint const a(m);
+  auto const d = slant::difference(slant::identity(4), a);
+  static_assert(!slant::has_accumulate<decltype(d), archetype::vector>);
+  static_assert(!slant::has_adjoint_accumulate<decltype(d), archetype::vector>);
+  archetype::vector const x(test::random_column(4, 5));
+  archetype::vector y(VectorXd::Zero(4));
+  slant::apply(d, x, y);
+  CHECK((y.local() - (x.local() - m * x.local())).norm() < 1e-14);
+  slant::testing::check_operator_laws(d, x);
 }
 
 }  // namespace sum_test

@@ -117,13 +117,14 @@ TEST_CASE("what is refused, in a sentence that names it") {
         "B: got 7 x 4, expected at most as many rows as columns (independent rows)");
 }
 
+std::string text(auto const& a) {
+  std::ostringstream out;
+  out << a;
+  return out.str();
+}
+
 TEST_CASE("printing") {
   SLANT_TEST_LETTERS;
-  auto const text = [](auto const& a) {
-    std::ostringstream out;
-    out << a;
-    return out.str();
-  };
   CHECK(text(B * Kinv * adjoint(B) + 1e-3 * identity(m)) == "B K⁻¹ Bᵀ + 0.001 I   (4 × 4, spd)");
   CHECK(text(-G) == "−G   (7 × 7, no laws)");
   CHECK(text(S - 2 * P) == "S − 2 P   (7 × 7, self-adjoint)");
@@ -158,11 +159,6 @@ TEST_CASE("what declares, asserts or counts is printed as the operator behind it
 
 TEST_CASE("what has no name is printed by its kind, and so is what holds many operators") {
   SLANT_TEST_LETTERS;
-  auto const text = [](auto const& a) {
-    std::ostringstream out;
-    out << a;
-    return out.str();
-  };
   auto const saddle =
       slant::block(slant::block_row(S, adjoint(B)), slant::block_row(B, slant::zero(m)));
   CHECK(text(saddle) == "block_operator   (11 × 11, no laws)");

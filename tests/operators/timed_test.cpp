@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/diagonal.hpp>
 #include <slant/operators/timed.hpp>
-#include <slant/testing/laws.hpp>
 
 #include <chrono>
 #include <support/testing.hpp>
-#include "operators/dense_oracle.hpp"
 
 namespace timed_test {
 
@@ -32,15 +29,6 @@ TEST_CASE("time adds up, over copies, until it is reset") {
   CHECK(a.seconds() >= 4e-3);
   a.reset_seconds();
   CHECK(copy.seconds() == 0);
-}
-
-TEST_CASE("laws and capabilities are those of the operator inside") {
-  auto const d = slant::diagonal<slant::positive_definite>(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
-  auto const a = slant::timed(d);
-  static_assert(slant::spd_operator<decltype(a), VectorXd>);
-  static_assert(slant::has_inverse<decltype(a), VectorXd>);
-  static_assert(!slant::has_accumulate<slant::timed_operator<slow_identity>, VectorXd>);
-  slant::testing::check_operator_laws(a);
 }
 
 }  // namespace timed_test

@@ -54,9 +54,6 @@ TEST_CASE("erased programs: the same iterates and counts, to the last bit") {
     check_same_run([](auto const& qp) { return slant::kprgp{qp, {.step_length = 1.0}}; }, κ);
     check_same_run([](auto const& qp) { return slant::symmetric_newton{qp}; }, κ);
   }
-}
-
-TEST_CASE("erased programs: the interior point method") {
   check_same_run([](auto const& qp) { return slant::interior_point{qp}; }, 100);
 }
 

@@ -27,29 +27,6 @@ VectorXd const x{{0.0, 2.0, 1.0, 3.0, 1.0,  //
                   0.0, 0.4, 0.4, 2.0, 0.0}};
 auto const Λ = slant::half_lines(5) * slant::discs<slant::planar>(g);
 
-TEST_CASE("blocks of a contact problem are those of a loop over the nodes") {
-  auto const all = slant::blocks(Λ, x);
-  REQUIRE(all.size() == 10);
-  for (int i = 0; i < 5; ++i) {
-    CAPTURE(i);
-    auto const pressure = all[i], friction = all[5 + i];
-    CHECK(pressure.index() == i);
-    CHECK(pressure.size() == 1);
-    CHECK(pressure.component(0) == i);
-    CHECK(pressure.value()(0) == x(i));
-    CHECK((pressure.state() == block_state::free) == (x(i) > 0));
-    CHECK(friction.index() == 5 + i);
-    CHECK(friction.size() == 2);
-    CHECK(friction.component(0) == 5 + i);
-    CHECK(friction.component(1) == 10 + i);
-    CHECK(friction.value() == VectorXd{{x(5 + i), x(10 + i)}});
-    double const length = std::hypot(x(5 + i), x(10 + i));
-    CHECK(friction.state() == (g(i) == 0       ? block_state::fixed
-                               : length < g(i) ? block_state::free
-                                               : block_state::sliding));
-  }
-}
-
 /// The blocks of a point against those that visit shows and the states of its face.
 template <class C>
 void check_against_visit(C const& set) {
@@ -63,6 +40,7 @@ void check_against_visit(C const& set) {
     REQUIRE(next != all.end());
     auto const b = *next++;
     CHECK(b.index() == p.index());
+    CHECK(all[p.index()].index() == p.index());
     REQUIRE(b.size() == p.size());
     for (slant::index j = 0; j < p.size(); ++j) CHECK(b.component(j) == p.component(j));
     CHECK(b.value() == p.value(inside));

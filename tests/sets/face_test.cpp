@@ -12,7 +12,6 @@ using slant::block_state;
 using slant::face_of;
 
 using indices = std::vector<slant::index>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST_CASE("face: a product of half lines and discs") {
   vec<> const g = Vector3d(1, 5, 0);
@@ -31,27 +30,9 @@ TEST_CASE("face: a product of half lines and discs") {
 
   vec<> const z = numbers(9, 1);
   vec<> kept = vec<>::Constant(9, std::numeric_limits<double>::quiet_NaN());
-  vec<> rest = kept;
   face.keep(z, kept);
-  face.keep_complement(z, rest);
   for (int i : {0, 2, 5, 6}) CHECK(kept[i] == z[i]);
   for (int i : {1, 3, 4, 7, 8}) CHECK(kept[i] == 0.0);
-  CHECK(kept + rest == z);
-  vec<> in_place = z;
-  face.keep(in_place, in_place);
-  CHECK(in_place == kept);
-}
-
-TEST_CASE("face: what is not kept is 0 even if it was not finite") {
-  auto const set = slant::half_lines(2);
-  vec<> const x = Vector2d(0, 1);
-  auto const face = face_of(set, x);
-  vec<> y = Vector2d(infinity, infinity);
-  face.keep(y, y);
-  CHECK(y == Vector2d(0, infinity));
-  y = Vector2d(2, std::numeric_limits<double>::quiet_NaN());
-  face.keep(y, y);
-  CHECK(std::isnan(y[1]));
 }
 
 TEST_CASE("face: assigning again reports changes, keeps everything in step, does not allocate") {
@@ -129,17 +110,6 @@ TEST_CASE("face: free components ask nobody, frictionless products never ask a d
   auto const face = face_of(set, y);
   CHECK(face.free_count() >= 3);
   CHECK(counting_disc::questions == 0);
-}
-
-TEST_CASE_TEMPLATE("face: other scalars", S, float, long double) {
-  auto const set = slant::half_lines<S>(2);
-  vec<S> const x = Eigen::Matrix<S, 2, 1>(S(0), S(1));
-  auto const face = face_of(set, x);
-  static_assert(std::is_same_v<decltype(face), slant::face<S> const>);
-  vec<S> y = x;
-  face.keep_complement(Eigen::Matrix<S, 2, 1>(S(3), S(4)).eval(), y);
-  CHECK(y[0] == S(3));
-  CHECK(y[1] == S(0));
 }
 
 }  // namespace face_test

@@ -4,7 +4,6 @@
 
 #include <support/testing.hpp>
 #include "counting_disc.hpp"
-#include "oracle/precise.hpp"
 
 namespace power_test {
 
@@ -12,49 +11,6 @@ using namespace products;
 using slant::planar;
 using slant::power;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// The radial projection, written by hand. Pairs are (first(i), second(i)).
-template <class S, class First, class Second>
-vec<S> naive_discs(vec<S> x, vec<S> const& g, First first, Second second) {
-  using std::sqrt;
-  for (Eigen::Index i = 0; i < g.size(); ++i) {
-    S& a = x[first(i)];
-    S& b = x[second(i)];
-    S const length = S(sqrt(S(a * a + b * b)));
-    if (length > g[i]) {
-      a *= g[i] / length;
-      b *= g[i] / length;
-    }
-  }
-  return x;
-}
-
-TEST_CASE_TEMPLATE("power: discs agree with a loop, in both layouts and in place", S, float, double,
-                   oracle::float_50) {
-  Eigen::Index const m = 37;
-  vec<S> const g = numbers<S>(m, 1).cwiseAbs();
-  vec<S> const x = numbers<S>(2 * m, 2);
-  auto const pairs = power(slant::ball<2, S>{}, g);
-  auto const planes = power<planar>(slant::ball<2, S>{}, g);
-  CHECK(pairs.size() == 2 * m);
-  CHECK(pairs.block_count() == m);
-  S const tolerance = S(16) * std::numeric_limits<S>::epsilon();
-  auto const check = [&](auto const& set, vec<S> const& expected) {
-    vec<S> y = vec<S>::Constant(2 * m, std::numeric_limits<S>::quiet_NaN());
-    set.project(x, y);
-    CHECK((y - expected).cwiseAbs().maxCoeff() <= tolerance);
-    vec<S> z = x;
-    set.project(z, z);
-    CHECK(z == y);
-    CHECK(slant::project(set, x) == y);
-    CHECK(set.contains(y));
-    CHECK(!set.contains(x));
-  };
-  check(pairs, naive_discs<S>(
-                   x, g, [](auto i) { return 2 * i; }, [](auto i) { return 2 * i + 1; }));
-  check(planes, naive_discs<S>(
-                    x, g, [](auto i) { return i; }, [m](auto i) { return i + m; }));
-}
 
 TEST_CASE("power: the step stops early, and then still tells that a step would leave the set") {
   vec<> const g = vec<>::Ones(100);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/operators.hpp>
 #include <slant/slanting/slanting.hpp>
+#include <slant/testing/archetypes.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <support/testing.hpp>
 #include "slanting_support.hpp"
@@ -35,6 +37,7 @@ TEST_CASE("formulas say what they say on paper") {
   CHECK(at_y(3.0 * p) == 3 * plus);
   CHECK(at_y(2 * p) == 2 * plus);
   CHECK(at_y(slant::positive(0.5) * p) == plus / 2);
+  CHECK(at_y(slant::any_sign(-2.5) * p) == -2.5 * plus);
   CHECK(at_y(p * (-id)) == VectorXd{{0.0, 2.0, 0.0}});  // composition
   CHECK((at_y(a * p) - a * plus).norm() <= 1e-15);
   CHECK((at_y(p * a) - VectorXd((a * y).cwiseMax(0))).norm() <= 1e-15);
@@ -71,6 +74,86 @@ TEST_CASE("operators of slant and Eigen matrices keep their own arithmetic") {
   static_assert(!slant::slanting_map<MatrixXd>);
   CHECK(MatrixXd(a * a).isIdentity());
   CHECK(MatrixXd(2.0 * a - a).isIdentity());
+}
+
+TEST_CASE("laws of F° follow from those of the parts and from the signs of numbers") {
+  MatrixXd const m = slanting_support::random_spd(3, 1);
+  auto const definite =
+      slant::linear(slant::matrix<slant::self_adjoint, slant::positive_definite>(m));
+  auto const p = slant::positive_part(3);
+  auto const slope = [](auto const& f) { return f.slant(test::zeros(3)); };
+  auto const sum = slope(definite + p);
+  auto const sum_with_any = slope(slant::linear(m) + p);
+  auto const difference = slope(slant::identity_map(3) - p);
+  auto const multiple = slope(2.0 * p);
+  auto const of_any_sign = slope(slant::any_sign(2.0) * p);
+  auto const negative = slope(-p);
+  static_assert(slant::spd_operator<decltype(sum), VectorXd>);
+  static_assert(!slant::declares_self_adjoint<decltype(sum_with_any)>);
+  static_assert(slant::declares_self_adjoint<decltype(difference)>);
+  static_assert(!slant::declares_positive_semidefinite<decltype(difference)>);
+  static_assert(slant::declares_positive_semidefinite<decltype(multiple)>);
+  static_assert(slant::declares_self_adjoint<decltype(of_any_sign)>);
+  static_assert(!slant::declares_positive_semidefinite<decltype(of_any_sign)>);
+  static_assert(slant::declares_self_adjoint<decltype(negative)>);
+  static_assert(!slant::declares_positive_semidefinite<decltype(negative)>);
+}
+
+TEST_CASE("parts of which nothing is known but the concept") {
+  namespace archetype = slant::testing::archetype;
+  archetype::slanting_function const f(2);
+  archetype::vector const y(VectorXd{{1.0, -2.0}});
+  auto const check = [&](auto const& g, VectorXd const& expected) {
+    CHECK(slant::evaluate(g, y).local() == expected);
+    slant::testing::check_slanting_laws(g, y);
+  };
+  check(slant::add(f, f), VectorXd{{3.0, 2.0}});
+  check(slant::subtract(f, slant::identity_map(2)), VectorXd{{0.5, 3.0}});
+  check(slant::scale(0.5, f), VectorXd{{0.75, 0.5}});
+}
+
+TEST_CASE("value and renewal allocate nothing") {
+  slanting_support::check_renewal(slant::add(slant::positive_part(50), slant::positive_part(50)),
+                                  slanting_support::random_vector(50, 1));
+}
+
+TEST_CASE("sizes that do not fit, and numbers that are none or not positive, are refused") {
+  auto const p = slant::positive_part(3);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::add(p, slant::positive_part(2))),
+                       "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
+  MatrixXd const wide = MatrixXd::Ones(3, 4);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::subtract(p, slant::linear(wide))),
+                       "g.cols(): got 4, expected 3 (f.cols())", slant::bad_input);
+  double const infinity = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::scale(infinity, p)),
+                       "c: got inf, expected a finite number", slant::bad_input);
+  CHECK_THROWS_WITH_AS(static_cast<void>(slant::scale(0, p)),
+                       "c: got 0, expected a number > 0 in front of a function; for others write "
+                       "-(c * f) or any_sign(c) * f",
+                       slant::bad_input);
+}
+
+// A function with all members but without the mark: factories take it, operators do not.
+struct unmarked {
+  [[nodiscard]] slant::index rows() const { return 1; }
+  [[nodiscard]] slant::index cols() const { return 1; }
+  [[nodiscard]] VectorXd value(VectorXd const& y) const { return y; }
+  [[nodiscard]] auto slant(VectorXd const& y) const { return slant::identity_operator(y.size()); }
+};
+struct marked : unmarked, slant::slanting_base {};
+struct only_marked : slant::slanting_base {};
+
+static_assert(slant::slanting_part<unmarked> && !slant::slanting_map<unmarked>);
+static_assert(slant::slanting_part<marked> && slant::slanting_map<marked>);
+static_assert(!slant::slanting_part<only_marked> && !slant::slanting_map<only_marked>);
+static_assert(slant::slanting_map<marked const&> && slant::slanting_part<marked&&>);
+
+TEST_CASE("the mark costs no memory") {
+  struct payload {
+    double number;
+  };
+  struct with_mark : payload, slant::slanting_base {};
+  CHECK(sizeof(with_mark) == sizeof(payload));
 }
 
 }  // namespace arithmetic_test

@@ -98,22 +98,11 @@ TEST_CASE(
   CHECK((slant::evaluate(F, r) - expected).norm() <= 1e-14);
   CHECK((dense_slant(F, r) - slope).norm() <= 1e-14 * slope.norm());
   slant::testing::check_slanting_laws(F, r, test::zeros(n));
+  slanting_support::check_renewal(F, r);
 
   MatrixXd columns(n, n);
   F.slant(r).columns(0, columns);  // what direct solvers take
   CHECK((columns - slope).norm() <= 1e-14 * slope.norm());
-}
-
-TEST_CASE("the natural map: value and renewal allocate nothing") {
-  slant::index const n = 30;
-  MatrixXd const W = slanting_support::random_spd(n, 3);
-  VectorXd const q = random_vector(n, 4), mu = VectorXd::Constant(10, 0.4);
-  auto const F = slant::identity_map(n) -
-                 slant::projection(slant::power(slant::second_order_cone<3>{}, mu)) *
-                     (slant::identity_map(n) -
-                      slant::positive(0.1) * (slant::de_saxce<3>(mu) * slant::affine(W, q)));
-  VectorXd const r = random_vector(n, 5);
-  slanting_support::check_renewal(F, r);
 }
 
 TEST_CASE("de Saxcé: orthotropic friction") {

@@ -2,6 +2,7 @@
 #include <slant/operators/counted.hpp>
 #include <slant/sets/sets.hpp>
 #include <slant/slanting/kkt_function.hpp>
+#include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
 #include <fem/string_1d.hpp>
@@ -137,6 +138,37 @@ TEST_CASE("bad input") {
                        doctest::Contains("b.size(): got 5, expected 12"), slant::bad_input);
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::kkt(p.wire.A, b, set, 0.0)),
                        "rho: got 0, expected a finite number > 0", slant::bad_input);
+}
+
+TEST_CASE("F and F° for one bound, one free unknown and one circle, in another scalar") {
+  Eigen::MatrixXf const A = 4 * Eigen::MatrixXf::Identity(4, 4);
+  Eigen::VectorXf const b = Eigen::VectorXf::Ones(4);
+  auto const set = slant::cartesian(slant::half_lines<float>(1), slant::free_components<float>(1),
+                                    slant::discs(Eigen::VectorXf{{1.0F}}));
+  auto const F = slant::kkt(A, b, set, 0.5F);
+  Eigen::VectorXf const y{{-1.0F, 2.0F, 1.0F, 2.0F, 3.0F, -0.5F}};
+  // μ + ρ (1 + 4 − 1) = 1.5: active; λ + ρ (0 + 1) = 3.5: active
+  CHECK(slant::evaluate(F, y) == Eigen::VectorXf{{-8.0F, 7.0F, 2.0F, 5.0F, -0.5F, -2.0F}});
+  Eigen::MatrixXf G = Eigen::MatrixXf::Zero(6, 6);
+  G.diagonal() << 4, 4, 3, 3, 0, 0;
+  G(0, 4) = G(5, 2) = -1;
+  G(2, 5) = 2;
+  G(3, 5) = 4;
+  G(4, 0) = 0.5F;
+  G(5, 3) = -2;
+  CHECK(dense_slant(F, y) == G);
+}
+
+TEST_CASE("vectors of which only the concept is known") {
+  using slant::testing::archetype::vector;
+  MatrixXd const A = 4 * MatrixXd::Identity(4, 4);
+  auto const set = slant::cartesian(slant::half_lines(1), slant::free_components(1),
+                                    slant::discs(VectorXd{{1.0}}));
+  vector const b(VectorXd::Constant(4, 1.0));
+  auto const F = slant::kkt(A, b, set, 0.5);
+  vector const y(VectorXd{{-1, 2, 1, 2, 3, -0.5}});
+  CHECK(slant::evaluate(F, y).local() == VectorXd{{-8, 7, 2, 5, -0.5, -2}});
+  CHECK(dense_slant(F, y).row(4).transpose() == VectorXd{{0.5, 0, 0, 0, 0, 0}});
 }
 
 }  // namespace kkt_function_test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <slant/sets/sets.hpp>
 #include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <support/testing.hpp>
 #include "slanting_support.hpp"
 
@@ -23,15 +23,6 @@ TEST_CASE("max(0, y): slope 1 at the kink, a projector") {
   static_assert(slant::declares_firmly_nonexpansive<slope>);
   static_assert(!slant::declares_positive_definite<slope>);
   slant::testing::check_slanting_laws(f, y, slant::testing::archetype::vector(y));
-}
-
-TEST_CASE("max(0, F)") {
-  MatrixXd const a{{1.0, 2.0}, {3.0, -1.0}};
-  auto const f = slant::positive_part(slant::linear(a));
-  VectorXd const y{{1.0, 4.0}};
-  CHECK(slant::evaluate(f, y) == VectorXd{{9.0, 0.0}});
-  CHECK(dense_slant(f, y) == MatrixXd{{1.0, 2.0}, {0.0, 0.0}});
-  slant::testing::check_slanting_laws(f, y, test::zeros(2));
 }
 
 TEST_CASE("max(F, G): the row of F at a tie") {
@@ -73,24 +64,51 @@ TEST_CASE("parts of which nothing is known but the concept") {
                                       archetype::vector(VectorXd::Zero(2)));
 }
 
-TEST_CASE("multiprecision") {
-  using wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
-                                             boost::multiprecision::et_off>;
-  using vector = Eigen::Matrix<wide, Eigen::Dynamic, 1>;
-  auto const f = slant::max(slant::positive_part(2), slant::identity_map(2));
-  vector y(2);
-  y << wide(1) / 3, wide(-2);
-  CHECK(slant::evaluate(f, y)[0] == wide(1) / 3);
-  CHECK(slant::evaluate(f, y)[1] == 0);
-  slant::testing::check_slanting_laws(f, y);
-}
-
 TEST_CASE("bad input") {
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::positive_part(-1)),
                        "n: got -1, expected a size >= 0", slant::bad_input);
   CHECK_THROWS_WITH_AS(
       static_cast<void>(slant::max(slant::positive_part(3), slant::positive_part(2))),
       "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
+}
+
+TEST_CASE("min(F, G): the row of G at a tie") {
+  MatrixXd const a = 2 * MatrixXd::Identity(3, 3);
+  auto const f = slant::min(slant::linear(a), slant::identity_map(3));
+  VectorXd const y{{1.0, -2.0, 0.0}};
+  CHECK(slant::evaluate(f, y) == VectorXd{{1.0, -4.0, 0.0}});
+  MatrixXd const expected = Vector3d(1, 2, 1).asDiagonal();
+  CHECK(dense_slant(f, y) == expected);
+  slant::testing::check_slanting_laws(f, y, test::zeros(3));
+}
+
+TEST_CASE("min(x, rho r(x)) is the natural residual of x >= 0, at kinks too") {
+  // Small integers: everything is exact. r(x) = (8, −1, 0), so there are ties in the components 0
+  // and 2 at ρ = 1/4.
+  MatrixXd const m{{4.0, 1.0, 0.0}, {1.0, 4.0, 1.0}, {0.0, 1.0, 4.0}};
+  VectorXd const x{{2.0, 0.5, 0.0}};
+  VectorXd const b{{0.5, 5.0, 0.5}};
+  auto const a = slant::matrix(m);
+  double const ρ = 0.25;
+  auto const f = slant::min(slant::identity_map(3), ρ * slant::affine(a, -b));
+  auto const g = slant::natural_residual(a, b, slant::power(slant::half_line<>{}, 3), ρ);
+  CHECK(slant::evaluate(f, x) == VectorXd{{2.0, -0.25, 0.0}});
+  CHECK(slant::evaluate(g, x) == VectorXd{{2.0, -0.25, 0.0}});
+  CHECK(dense_slant(f, x) == ρ * m);
+  CHECK(dense_slant(g, x) == ρ * m);
+  VectorXd const elsewhere{{1.0, 0.5, -1.0}};
+  CHECK(slant::evaluate(f, elsewhere) == slant::evaluate(g, elsewhere));
+  CHECK(dense_slant(f, elsewhere) == dense_slant(g, elsewhere));
+}
+
+TEST_CASE("NaN in, NaN out, for the smaller of two") {
+  double const nan = std::nan("");
+  using kernel = slant::detail::min_kernel;
+  CHECK(std::isnan(kernel::value(nan, 1.0)));
+  CHECK(std::isnan(kernel::value(1.0, nan)));
+  CHECK(std::isnan(kernel::slopes(nan, 1.0).first));
+  CHECK(kernel::value(-HUGE_VAL, 1.0) == -HUGE_VAL);
+  CHECK(kernel::value(1.0, HUGE_VAL) == 1.0);
 }
 
 }  // namespace max_test

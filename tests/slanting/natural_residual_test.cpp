@@ -5,6 +5,7 @@
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <support/testing.hpp>
 #include "slanting_support.hpp"
 
@@ -121,6 +122,22 @@ TEST_CASE("bad input is named") {
   b[4] = std::nan("");
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b, set, 1.0)),
                        "b[4]: got nan, expected a finite number", slant::bad_input);
+}
+
+TEST_CASE("multiprecision") {
+  using S = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                          boost::multiprecision::et_off>;
+  using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  matrix const m = slanting_support::random_spd(4, 1).cast<S>();
+  vector const b = vector::Constant(4, S(10));
+  auto const set = slant::power(slant::ball<2, S>{}, vector(vector::Ones(2)));
+  auto const f = slant::natural_residual(m, b, set, S(1) / S(8));
+  vector x = vector::Zero(4);
+  for (int k = 0; k < 12; ++k) {
+    x -= slanting_support::solve(slanting_support::dense_slant(f, x), slant::evaluate(f, x));
+  }
+  CHECK(slant::evaluate(f, x).norm() <= S(16) * std::numeric_limits<S>::epsilon());
 }
 
 }  // namespace natural_residual_test

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets that lie about one thing each: a law check that finds none of them would be worthless.
-#include <slant/sets/power.hpp>
+// Sets, and faces, that lie about one thing each: a law check that finds none of them would be
+// worthless.
+#include <slant/sets/sets.hpp>
 #include <slant/testing/archetypes.hpp>
-#include <slant/testing/set_breaches.hpp>
+#include <slant/testing/laws.hpp>
 
 #include <support/testing.hpp>
 #include "lying_sets.hpp"
@@ -113,10 +114,83 @@ TEST_CASE("set_breaches: products that are not what their blocks are") {
   CHECK(breaks(lying_product(product_lie::support), "support is blockwise"));
 }
 
-TEST_CASE("set_breaches: a set that takes no Eigen vectors") {
+/// A client's own set, of which the library knows nothing: x + y <= 1.
+struct half_plane {
+  static constexpr int dimension = 2;
+  Vector2d project(auto const& x) const {
+    double const excess = x[0] + x[1] - 1;
+    return excess > 0 ? Vector2d(x[0] - excess / 2, x[1] - excess / 2) : Vector2d(x);
+  }
+  bool contains(auto const& x) const { return x[0] + x[1] <= 1 + 1e-15; }
+};
+
+TEST_CASE("set_laws: a set with a projection only") {
+  slant::testing::check_set_laws(half_plane{}, slant::testing::set_options{.points = 200});
+}
+
+TEST_CASE("set_laws: archetypes keep the laws") {
   namespace archetype = slant::testing::archetype;
   archetype::vector const prototype(VectorXd::Zero(3));
-  CHECK(slant::testing::set_breaches(archetype::separable_set(3), prototype).empty());
+  slant::testing::check_set_laws(archetype::convex_set(3), prototype);
+  slant::testing::check_set_laws(archetype::separable_set(3), prototype,
+                                 slant::testing::set_options{.seed = 2, .points = 20});
+}
+
+TEST_CASE("set_laws: a broken law makes the test fail, with its name" * doctest::should_fail()) {
+  struct without_bound : half_plane {
+    bool contains(Vector2d const&) const { return true; }
+  };
+  slant::testing::check_set_laws(without_bound{});
+}
+
+TEST_CASE("face_laws: the face of the library and the least face keep their word") {
+  auto const set = slant::cartesian(slant::half_lines(3), slant::discs(VectorXd{{1.0, 0.0}}));
+  VectorXd const x{{0.0, 1.0, 2.0, 0.6, 0.8, 0.0, 0.0}};
+  slant::testing::check_face_laws(slant::face_of(set, x), x);
+  slant::testing::archetype::face least;
+  least.assign(set, x);
+  slant::testing::check_face_laws(least, slant::testing::archetype::vector(x));
+}
+
+/// Keeps the first entry, in one wrong way.
+struct lying_face {
+  enum { honest, leaves_old, adds, multiplies, overlaps, unknown_state } how = honest;
+  [[nodiscard]] slant::index size() const { return 1; }
+  [[nodiscard]] slant::block_state state(slant::index) const {
+    return how == unknown_state ? static_cast<slant::block_state>(7) : slant::block_state::free;
+  }
+  void keep(VectorXd const& x, VectorXd& y) const {
+    VectorXd const old = x, before = y;
+    y = VectorXd::Zero(old.size());
+    y(0) = old(0);
+    if (how == leaves_old) y(1) = before(1);
+    if (how == adds) y(0) += 1;
+    if (how == multiplies) y.tail(y.size() - 1) = 0 * old.tail(y.size() - 1);
+  }
+  void keep_complement(VectorXd const& x, VectorXd& y) const {
+    y = x;
+    if (how != overlaps) y(0) = 0;
+  }
+};
+
+std::string found(lying_face const& face) {
+  std::string laws;
+  for (auto const& breach : slant::testing::face_breaches(face, VectorXd(4))) {
+    laws += breach.law + "; ";
+  }
+  return laws;
+}
+
+TEST_CASE("face_laws: each lie is found") {
+  auto const finds = [](lying_face const& face, std::string const& law) {
+    CHECK_MESSAGE(found(face).find(law) != std::string::npos, law, " not in ", found(face));
+  };
+  CHECK(found({}).empty());
+  finds({lying_face::leaves_old}, "keep");
+  finds({lying_face::adds}, "keep twice is keep");
+  finds({lying_face::multiplies}, "an infinite entry off the face is cut");
+  finds({lying_face::overlaps}, "keep and keep_complement add up to x");
+  finds({lying_face::unknown_state}, "every block is free, sliding or fixed");
 }
 
 }  // namespace set_breaches_test

@@ -2,6 +2,7 @@
 //
 // Every method takes the stochastic scalar unchanged, and what it says of the digits is true where
 // the truth is known.
+#include <slanting/slanting_support.hpp>
 #include <support/testing.hpp>
 #include "stochastic_scene.hpp"
 
@@ -19,17 +20,7 @@ wide solved(stochastic_scene::scene<S> const& p) {
     b[i] = p.b[i].mean();
     for (int j = 0; j < n; ++j) A(i, j) = p.A(i, j).mean();
   }
-  for (int k = 0; k < n; ++k)
-    for (int i = k + 1; i < n; ++i) {
-      long double const factor = A(i, k) / A(k, k);
-      for (int j = k; j < n; ++j) A(i, j) -= factor * A(k, j);
-      b[i] -= factor * b[k];
-    }
-  for (int i = n - 1; i >= 0; --i) {
-    for (int j = i + 1; j < n; ++j) b[i] -= A(i, j) * b[j];
-    b[i] /= A(i, i);
-  }
-  return b;
+  return slanting_support::solve(A, b);
 }
 
 /// Digits that the worst sample shares with the solution, beside its largest entry.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // case WITHOUT_LOCAL: 'has_local['<]
+// case LOCAL_BY_VALUE: 'local_is_lvalue['<]
+// case LOCAL_BY_VALUE, max-lines-gcc: 20
+// case LOCAL_BY_VALUE, max-lines-clang: 20
 // case WITHOUT_LIKE: 'has_like['<]
 // case SOLVER=cg WITHOUT_LIKE: b must be a slant::vector.*'has_like['<]
 // case SOLVER=cg WITHOUT_LIKE, max-lines-gcc: 20
@@ -9,14 +12,18 @@
 // max-lines-gcc: 25
 // max-lines-clang: 30
 //
-// A vector of its own kind minus the part of it on which Eigen works, the way to make another one, or
-// its inner product; or one whose inner product is no number. Of the operator of conjugate gradients
-// nothing is said then.
+// A vector of its own kind minus the part of it on which Eigen works, the way to make another one,
+// or its inner product; one that makes a new view of that part at each call instead of keeping one;
+// one whose inner product is no number. Of the operator of conjugate gradients nothing is said
+// then.
 #include <slant/slant.hpp>
 
 struct distributed {
   Eigen::VectorXd entries;
-#ifndef WITHOUT_LOCAL
+#if defined(LOCAL_BY_VALUE)
+  Eigen::Map<Eigen::VectorXd> local() { return {entries.data(), entries.size()}; }
+  Eigen::Map<Eigen::VectorXd const> local() const { return {entries.data(), entries.size()}; }
+#elif !defined(WITHOUT_LOCAL)
   Eigen::VectorXd& local() { return entries; }
   Eigen::VectorXd const& local() const { return entries; }
 #endif

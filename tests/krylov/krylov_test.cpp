@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// The Krylov methods ask their archetypes for nothing more than the concepts name, and compute with
-// a scalar that converts to no other number silently.
+// The Krylov methods ask their archetypes for nothing more than the concepts name, compute with a
+// scalar that converts to no other number silently, and do not allocate between the first step and
+// the last.
+#include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/krylov.hpp>
+#include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <support/testing.hpp>
 #include "spd_matrices.hpp"
 
-namespace krylov_archetypes_test {
+namespace krylov_test {
 
 namespace archetype = slant::testing::archetype;
 
@@ -59,4 +62,27 @@ TEST_CASE("a scalar without silent conversions") {
   CHECK(slant::largest_eigenvalue_bound(A, right).upper >= S(1));
 }
 
-}  // namespace krylov_archetypes_test
+template <class Method>
+std::size_t allocations_of(Method const& method, VectorXd const& x0, int steps) {
+  auto s = method.start(x0);
+  slant::testing::allocation_guard guard;
+  for (int k = 0; k < steps; ++k) method.step(s);
+  auto const count = guard.count();
+  CHECK(s.iteration == steps);
+  return count;
+}
+
+TEST_CASE("cg, preconditioned cg and bicgstab do not allocate") {
+  auto const stiff = test::with_spectrum(test::log_spaced(40, 1e4));
+  auto const K = slant::dense_ldlt(test::with_spectrum(test::log_spaced(60, 100), 3));
+  MatrixXd const B = test::random_vector(40 * 60, 4).reshaped(40, 60);
+  auto const plain = test::spd(stiff);
+  auto const A = slant::sum(plain, slant::congruence(B, slant::inverse(K)));
+  auto const preconditioner = slant::scaled(slant::positive(0.5), plain);
+  VectorXd const load = test::random_vector(40), x0 = test::random_vector(40, 8);
+  CHECK(allocations_of(slant::cg{A, load}, x0, 20) == 0);
+  CHECK(allocations_of(slant::cg{A, load, preconditioner}, x0, 20) == 0);
+  CHECK(allocations_of(slant::bicgstab{A, load}, x0, 20) == 0);
+}
+
+}  // namespace krylov_test
