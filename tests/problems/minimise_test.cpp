@@ -42,15 +42,13 @@ TEST_CASE("a program with equations is solved, by solve and by the methods for s
   for (double const tolerance : {1e-3, 1e-12}) {
     auto const run = slant::solve(program, tolerance);
     CHECK(run.converged());
-    CHECK(run.reason.find("relative reduced gradient") != std::string::npos);
-    CHECK(run.reason.find("distance from the equality constraints") != std::string::npos);
+    CHECK(run.reason.starts_with("relative energy error "));
     CHECK((run.x() - p.x).norm() <= 10 * tolerance);
+    CHECK(run.multipliers(0) == doctest::Approx(1.0).epsilon(10 * tolerance));
     std::ostringstream out;
     out << run;
     CHECK(out.str().starts_with("converged: " + run.reason + "\n  unknowns               3\n"));
   }
-  slant::constrained_newton const newton{program.qp(), program.constraints()};
-  CHECK(newton.multipliers(slant::solve(program, 1e-12).state)(0) == doctest::Approx(1.0));
   auto const other =
       slant::solve(slant::smalse{program.qp(), program.constraints()}, test::zeros(3),
                    (slant::reduced_gradient_below(1e-10) && slant::feasibility_below(1e-10)) ||
@@ -70,7 +68,7 @@ TEST_CASE("what is said of a program with equations that cannot be solved, or no
                                     .subject_to(p.G, VectorXd(-p.e)),
                                 1e-8);
   CHECK(run.status == slant::status::stalled);
-  CHECK(run.state.infeasible);
+  CHECK(run.reason == "no point of the set satisfies the equality constraints");
 }
 
 TEST_CASE("equations of another size are refused") {

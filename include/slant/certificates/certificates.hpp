@@ -4,6 +4,7 @@
 #pragma once
 
 // IWYU pragma: begin_exports
+#include <slant/certificates/constrained_certificate.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/certificates/energy_error.hpp>

@@ -4,8 +4,8 @@
 //
 //     minimise   q(x) = ½ xᵀA x − bᵀx   over   x ∈ Λ,   G x = e
 //
-// in the energy norm. With P, Q and x̄ of equality_constraints, o = Q x − x̄ and ν = Gᵀμ near that of
-// the solution x*, the gradient on the affine space is r = P (A (x − o) − b) + ν. For every step D
+// in the energy norm. With P, Q and x̄ of equality_constraints, o = Q x − x̄ and ν ∈ range Gᵀ near that
+// of the solution x*, the gradient on the affine space is r = P (A (x − o) − b) + ν. For every step D
 // with Q D = −o and every ν⁺ ∈ range Gᵀ, r + P A P D + ν⁺ − ν is split into s, balanced by Λ at x
 // with the gap γ (energy_error.hpp), and a rest, and the error e = ‖P (x − x*)‖_A is bounded by
 //
@@ -37,6 +37,7 @@
 #include <concepts>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace slant {
 
@@ -69,6 +70,8 @@ class constrained_certificate {
         image_of_nearest_(qp.b()),
         a_workspace_(workspace(qp.a(), qp.b())),
         workspace_(workspace(hessian_, qp.b())),
+        of_Q_(workspace(constraints.range_projector(), qp.b())),
+        of_P_(workspace(constraints.kernel_projector(), qp.b())),
         projected_{hessian_, load_, qp.set()},
         norm_(preconditioner(), qp.b()),
         newton_(projected_, preconditioner(), cut_face<scalar>(qp.set(), constraints.unit_rows())) {
@@ -78,18 +81,19 @@ class constrained_certificate {
     auto const mean = detail::projected_mean_diagonal(qp.a(), constraints, qp.b());
     typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
     applications_ += 2 + mean.applications;
-    applications_ += detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, gradient_,
-                                                     a_workspace_);
+    applications_ +=
+        detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, gradient_, a_workspace_);
   }
   constrained_certificate(QP const&&, C const&) = delete;
   constrained_certificate(QP const&&, C const&, M const&) = delete;
   constrained_certificate(constrained_certificate const&) = delete;
   constrained_certificate& operator=(constrained_certificate const&) = delete;
 
-  /// ν is Gᵀμ of the method, as its state has it.
+  /// ν ∈ range Gᵀ as the states of constrained_newton and smalse have it: the gradient is
+  /// P (A x − b) + ν. No allocation, unless equations depend on others on the face.
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x, vector_type const& ν) {
     slant::project(qp_->set(), x, x_);
-    slant::apply(constraints_->range_projector(), x_, offset_);
+    slant::apply(constraints_->range_projector(), x_, offset_, of_Q_);
     offset_ -= constraints_->nearest();
     point_ = x_ - offset_;  // P x + x̄
     gradient_ = point_ - constraints_->nearest();
@@ -98,7 +102,7 @@ class constrained_certificate {
     gradient_ = image_ + image_of_nearest_;
     energy_error<scalar> e;
     e.size = detail::root_of_product(point_, gradient_);
-    slant::apply(constraints_->kernel_projector(), image_, gradient_);
+    slant::apply(constraints_->kernel_projector(), image_, gradient_, of_P_);
     gradient_ += ν - load_;
     e.bound = (detail::is_one_point(*constraints_) ? scalar(0) : estimate()) + of_offset() +
               detail::rounding_of(x_, stiffness_);
@@ -129,7 +133,7 @@ class constrained_certificate {
 
   /// ‖P d‖_{(P A P)⁺}.
   [[nodiscard]] scalar norm_of(vector_type const& d) {
-    slant::apply(constraints_->kernel_projector(), d, image_);
+    slant::apply(constraints_->kernel_projector(), d, image_, of_P_);
     if (!(norm(image_) > scalar(0))) return norm(image_);
     auto const e = dual_norm(hessian_, preconditioner(), image_, most(), false, workspace_, norm_,
                              scalar(0), std::optional(sizes()));
@@ -140,16 +144,16 @@ class constrained_certificate {
   /// Of P (x − x*), from x, its offset and its gradient.
   [[nodiscard]] scalar estimate() {
     scalar const size = norm(x_) + norm(constraints_->nearest());
-    scalar const bound = newton_({.x = x_,
-                                  .gradient = gradient_,
-                                  .stiffness = stiffness_,
-                                  .ρ = typical_,
-                                  .most = most(),
-                                  .sizes = sizes(),
-                                  .offset = &offset_,
-                                  .size_of_offset = size},
-                                 preconditioner(), workspace_,
-                                 [&](vector_type const& d) { return norm_of(d); });
+    scalar const bound =
+        newton_({.x = x_,
+                 .gradient = gradient_,
+                 .stiffness = stiffness_,
+                 .ρ = typical_,
+                 .most = most(),
+                 .sizes = sizes(),
+                 .offset = &offset_,
+                 .size_of_offset = size},
+                preconditioner(), workspace_, [&](vector_type const& d) { return norm_of(d); });
     if (detail::is_finite(bound)) return bound;
     // D = 0, where that meets the equations.
     if (!newton_.face().meets(offset_, size)) return bound;
@@ -172,6 +176,8 @@ class constrained_certificate {
   vector_type x_, offset_, point_, gradient_, stiffness_, image_, image_of_nearest_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   workspace_t<hessian_type, vector_type> workspace_;
+  workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> of_Q_;
+  workspace_t<decltype(std::declval<C const&>().kernel_projector()), vector_type> of_P_;
   projected_qp projected_;
   dual_norm_workspace<vector_type, preconditioner_type> norm_;
   newton_estimate<projected_qp, preconditioner_type, cut_face<scalar>> newton_;

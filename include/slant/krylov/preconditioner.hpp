@@ -55,14 +55,25 @@ concept multiplies_roughly =
 // is M in the first case and s (s C/ρ)⁻¹ in the second. Without an M the same formula with M = s I
 // leaves z = s W g, and z = W g does as well. An M that knows the inverse on a face
 // (preconditions_faces) is asked for that where all is flat, one that knows it with curvature
-// always.
+// always. Where p equations cut the face (problems/cut_face.hpp), that is the inverse on the whole
+// face between projectors onto the cut one, which differs from the inverse by a rank of 2 p at most.
+
+/// The face that is cut, or face itself.
+[[nodiscard]] decltype(auto) whole_face(auto const& face) {
+  if constexpr (requires { face.whole(); }) {
+    return face.whole();
+  } else {
+    return (face);
+  }
+}
 
 /// What m has to know of a face before precondition_on_face; κ = 1/ρ.
 void enter_face(auto const& m, auto const& face, auto const& κ, auto& of_m) {
-  if constexpr (requires { m.enter(face, κ, of_m); }) {
-    m.enter(face, κ, of_m);
-  } else if constexpr (requires { m.enter(face, of_m); }) {
-    if (face.curved_count() == 0) m.enter(face, of_m);
+  auto const& whole = whole_face(face);
+  if constexpr (requires { m.enter(whole, κ, of_m); }) {
+    m.enter(whole, κ, of_m);
+  } else if constexpr (requires { m.enter(whole, of_m); }) {
+    if (whole.curved_count() == 0) m.enter(whole, of_m);
   }
 }
 
@@ -73,9 +84,15 @@ void precondition_on_face(M const& m, Face const& face, scalar_t<V> const& s, V 
   if constexpr (std::is_same_v<M, identity_operator>) {
     face.weigh(g, z);
   } else {
-    if constexpr (preconditions_faces<M, V, Face>) {
-      if (preconditions_curved_faces<M, V, Face> || face.curved_count() == 0) {
-        m.apply_on_face(g, z, of_m);
+    using whole = std::remove_cvref_t<decltype(whole_face(face))>;
+    if constexpr (preconditions_faces<M, V, whole>) {
+      if (preconditions_curved_faces<M, V, whole> || whole_face(face).curved_count() == 0) {
+        if constexpr (std::same_as<whole, Face>) {
+          m.apply_on_face(g, z, of_m);
+        } else {
+          m.apply_on_face(g, weighed, of_m);
+          face.keep(weighed, z);
+        }
         return;
       }
     }

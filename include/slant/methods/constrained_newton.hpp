@@ -406,8 +406,8 @@ class constrained_newton<QP, C, M> {
   /// α, and s = mean(diag M).
   void set_sizes(state_type& s) const {
     auto const& qp = qp_.get();
-    auto const mean = detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x,
-                                                      options_.mean_diagonal);
+    auto const mean =
+        detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x, options_.mean_diagonal);
     s.work.setup_applications += mean.applications;
     scalar const size = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
     s.step_length = options_.step_factor * size;

@@ -18,6 +18,7 @@
 #include <slant/methods/proportioning.hpp>
 #include <slant/methods/schur_contact.hpp>
 #include <slant/methods/smalse.hpp>
+#include <slant/methods/solve_constrained_program.hpp>
 #include <slant/methods/solve_program.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/successive_approximations.hpp>

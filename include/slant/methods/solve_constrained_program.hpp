@@ -91,14 +91,14 @@ template <equality_constrained_program P>
     index const spent = first.work.operator_applications;
     bool const is_long = first.status == status::iteration_limit && first.steps < max_steps;
     if (!is_long) return first;
-    return detail::with_levels(
-        k, Eigen::Matrix<S, Eigen::Dynamic, 1>(), spent, [&](auto const& m, std::string choice) {
-          auto run = by(m, first.point, {.steps = max_steps - first.steps});
-          run.steps += first.steps;
-          run.work += first.work;
-          run.choice = std::move(choice);
-          return run;
-        });
+    return detail::with_levels(k, Eigen::Matrix<S, Eigen::Dynamic, 1>(), spent,
+                               [&](auto const& m, std::string choice) {
+                                 auto run = by(m, first.point, {.steps = max_steps - first.steps});
+                                 run.steps += first.steps;
+                                 run.work += first.work;
+                                 run.choice = std::move(choice);
+                                 return run;
+                               });
   } else {
     return by(I, zero, {.steps = max_steps});
   }

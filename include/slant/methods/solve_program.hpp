@@ -52,9 +52,9 @@ struct certified_point {
   energy_error<scalar> error{};  ///< what is known of ‖x − x*‖_A
   index steps = 0;               ///< of the method
   std::string_view method = "symmetric_newton";  ///< its name
-  slant::work work{};            ///< all applications of A, those of certificates included
-  V descent{};         ///< where unbounded: a direction in which the function falls for ever
-  V multipliers{};     ///< with equations G x = e: their μ, as many as G has rows
+  slant::work work{};    ///< all applications of A, those of certificates included
+  V descent{};           ///< where unbounded: a direction in which the function falls for ever
+  V multipliers{};       ///< with equations G x = e: their μ, as many as G has rows
   std::string choice{};  ///< what was chosen for A and why, as sentences; or empty
 
   [[nodiscard]] V const& x() const { return point; }

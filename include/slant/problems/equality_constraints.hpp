@@ -95,7 +95,8 @@ class equality_constraints {
       : rows_(G.rows()),
         lengths_(row_lengths(G, e)),
         unit_rows_(lengths_.cwiseInverse().asDiagonal() * G),
-        kept_(detail::independent_rows(dense_type(unit_rows_ * sparse_type(unit_rows_.transpose())))),
+        kept_(
+            detail::independent_rows(dense_type(unit_rows_ * sparse_type(unit_rows_.transpose())))),
         G_(rows_of(unit_rows_, kept_)),
         factors_(dense_type(G_ * sparse_type(G_.transpose()))),
         range_projector_(detail::onto_range_of(G_, factors_)),

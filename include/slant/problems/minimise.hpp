@@ -13,7 +13,7 @@
 //
 // separable_qp{A, b, φ}, the problem min ½ xᵀA x − bᵀx + Σ gᵢ‖xᵢ‖; and what smalse{program.qp(),
 // program.constraints()} and the like are made of. Both are solved by solve(program, 1e-8), the
-// latter with methods/constrained_newton.hpp.
+// latter with methods/solve_constrained_program.hpp.
 #pragma once
 
 #include <slant/problems/equality_constraints.hpp>
