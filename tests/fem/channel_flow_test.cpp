@@ -9,9 +9,7 @@
 #include <fem/stokes_dual.hpp>
 #include <fem/stokes_field.hpp>
 #include <fem/stokes_table.hpp>
-#include <fem/stokes_vtu.hpp>
 #include <fem/wall_preconditioner.hpp>
-#include <io/io_support.hpp>
 #include <support/testing.hpp>
 #include "support/folders.hpp"
 
@@ -150,18 +148,6 @@ TEST_CASE("with the preconditioner, the condition of the wall does not grow with
   CHECK(condition(1, true) < 4);
   CHECK(condition(2, true) < 4);
   CHECK(condition(2, false) > 1.8 * condition(1, false));
-}
-
-TEST_CASE("a flow for ParaView") {
-  auto const s = solve(10, 0);
-  auto const field = fem::make_wall_field(s.scene, s.solution);
-  io_test::temporary_folder const folder;
-  fem::write_stokes_vtu(folder / "f.vtu", s.scene, s.solution, field, slant::vtu_encoding::ascii);
-  auto const text = io_test::get(folder / "f.vtu");
-  for (auto const* name : {"velocity", "pressure", "shear_stress", "wall_state"})
-    CHECK(text.find("Name=\"" + std::string(name) + "\"") != std::string::npos);
-  CHECK(text.find("NumberOfPoints=\"526\"") != std::string::npos);
-  CHECK(text.find("NumberOfCells=\"920\"") != std::string::npos);
 }
 
 }  // namespace channel_flow_test

@@ -80,10 +80,4 @@ TEST_CASE("the condensed element is that of the eliminated bubbles") {
   CHECK(q.integral([&](Vector3d const& φ) { return q.bubble_gradient(φ); }).norm() < 1e-15);
 }
 
-TEST_CASE("constant pressures need no bubbles") {
-  fem::mini_element const mini(fem::make_p1_element<2>(corners), 2);
-  CHECK((mini.stabilisation() * Vector3d::Ones()).norm() < 1e-16);
-  CHECK(mini.bubble({0, 0}, Vector3d::Ones()).norm() < 1e-15);
-}
-
 }  // namespace mini_element_test

@@ -9,27 +9,6 @@ fem::unknown_map all_unknown(fem::simplex_mesh<3> const& mesh) {
   return fem::number_unknowns(mesh, [](Eigen::Index) { return false; });
 }
 
-TEST_CASE("a traction adds up to traction times area, about the right point") {
-  Vector3d const size(2.5, 0.75, 1.25);
-  auto const mesh = fem::make_brick_mesh(2, size);
-  Vector3d const traction(0.3, 0.2, 1.2);
-  for (int axis = 0; axis < 3; ++axis)
-    for (bool const upper : {false, true}) {
-      VectorXd f = VectorXd::Zero(3 * mesh.node_count());
-      fem::add_traction<3>(mesh, all_unknown(mesh), {axis, upper}, traction, f);
-      auto const forces = f.reshaped(3, mesh.node_count());
-      double const area = size.prod() / size[axis];
-      CHECK((forces.rowwise().sum() - area * traction).norm() < 1e-14);
-      // First moments of the force component along x, about the origin.
-      Vector3d centre = size / 2;
-      centre[axis] = upper ? size[axis] : 0;
-      Vector3d const moment = mesh.nodes * forces.row(0).transpose();
-      CHECK((moment - area * traction[0] * centre).norm() < 1e-14);
-      for (Eigen::Index node = 0; node < mesh.node_count(); ++node)
-        if (!mesh.on({axis, upper}, node)) CHECK(forces.col(node).isZero(0));
-    }
-}
-
 TEST_CASE("an affine traction has the right resultant and the right moments") {
   // p_x = 2 + y − 3z on the right end x = 2 of the box: ∫ p, ∫ y p and ∫ z p in closed form.
   auto const mesh = fem::make_brick_mesh(2, {2, 1, 3});
