@@ -57,30 +57,6 @@ TEST_CASE("where right-hand sides begin with zeros, the rest of the solution is 
   }
 }
 
-TEST_CASE("a tail without columns, as where nothing is in contact") {
-  auto const shape = std::make_shared<detail::tail_shape>();
-  CHECK(shape->size() == 0);
-  CHECK(shape->entries() == 0);
-  detail::tail_columns const columns(shape, {}, nullptr);
-  CHECK(columns.bytes() == 0);
-  CHECK(columns.rounded()->bytes() == 0);
-  detail::tail_vectors<double> v(*shape, 2);
-  detail::tail_vectors<float> single(*shape, 2);
-  detail::solve_in_place(columns, v);
-  detail::solve_in_place(*columns.rounded(), single);
-  CHECK(v.x.rows() == 0);
-  CHECK(single.x.cols() == 2);
-}
-
-TEST_CASE("the entries outlive those who made them; floats are made once") {
-  auto const columns = std::make_unique<test::tail_factor>()->columns();
-  CHECK(columns.rounded() == columns.rounded());
-  detail::tail_vectors<double> v(columns.shape(), 1);
-  v.x.setOnes();
-  detail::solve_in_place(columns, v);
-  CHECK(v.x.allFinite());
-}
-
 TEST_CASE("entries that floats cannot hold become their largest number or zero") {
   auto shape = std::make_shared<detail::tail_shape>();
   shape->add(1, std::vector<int>{1, 2, 3});
