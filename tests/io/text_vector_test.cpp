@@ -60,10 +60,6 @@ TEST_CASE("text vector: what is refused") {
   CHECK(refused("1\n2\n3\n", {.size = 2}) == "3: got number 3, expected 2 numbers");
   CHECK(refused("\n", {.size = 1}) ==
         "2: got the end of the file after 0 numbers, expected 1 numbers");
-  CHECK(refused("\xff\xfe"
-                "1\n") == "1: got '\\xff\\xfe1', expected a finite number");
-  CHECK(refused(std::string(5000, '1') + "\n") ==
-        "1: got '" + std::string(40, '1') + "...', expected a line of at most 1024 characters");
 }
 
 TEST_CASE("text vector: every prefix is refused when the size is known") {
@@ -75,8 +71,6 @@ TEST_CASE("text vector: every prefix is refused when the size is known") {
 
 TEST_CASE("text vector: files") {
   temporary_folder const folder;
-  CHECK(complaint([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
-        (folder / "f.txt").string() + ": got no such file, expected a readable text file");
   io_test::put(folder / "f.txt", "1\nx\n");
   CHECK(complaint([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
         (folder / "f.txt").string() + ":2: got 'x', expected a finite number");
