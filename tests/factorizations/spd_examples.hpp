@@ -72,10 +72,6 @@ std::string complaint(Factor factor, M const& k) {
   return test::complaint([&] { (void)factor(k); });
 }
 
-inline bool contains(std::string const& text, std::string const& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// Solutions in other units are the same numbers; bit for bit if the units are powers of two.
 template <class Factor, class M>
 void check_units(Factor factor, M const& k) {

@@ -10,10 +10,7 @@
 namespace plots_test {
 
 using io_test::temporary_folder;
-
-bool contains(std::string const& text, std::string const& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST_CASE("histories: what a logarithmic axis cannot show is left out; Newton steps are stars") {
   std::vector<fem::history_series> series{
