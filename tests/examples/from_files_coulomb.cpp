@@ -59,7 +59,9 @@ TEST_CASE("from_files: Coulomb friction in the plane, by every method, to few an
   for (auto const& [method, solved_by] : {pair{"coulomb", "newton"}, pair{"newton", "newton"},
                                           pair{"radii", "radii"}, pair{"cones", "cones"}}) {
     CAPTURE(method);
-    json const result = solved(files, option + method + " --tolerance 1e-10");
+    auto const ran = files.solve(option + method + " --tolerance 1e-10");
+    CHECK(ran.status == 0);
+    json const result = json::parse(ran.out);
     CHECK(result["method"] == method);
     CHECK(result["solved_by"] == solved_by);
     CHECK(result["tangents_per_node"] == 1);

@@ -1,17 +1,39 @@
 // SPDX-License-Identifier: MIT
+#include <slant/contact/contact_data.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 
 #include <support/testing.hpp>
-#include "factorizations/condensation_scene.hpp"
 #include "factorizations/spd_examples.hpp"
 
 namespace static_condensation_test {
 
 using sparse = Eigen::SparseMatrix<double>;
-using scene = test::condensation_scene;
 using slant::index;
 using by_sweeps = std::false_type;
 using by_inverse = std::true_type;
+
+/// Nodes of the bottom of the cube, two of three, each in a row of its own; and a row that couples
+/// two.
+struct scene {
+  sparse K, B;
+  std::vector<index> contact;
+
+  explicit scene(int k) : K(test::grid_laplacian(k, 0.1)) {
+    std::vector<Eigen::Triplet<double>> entries;
+    int rows = 0;
+    for (int i = 0; i < k * k; ++i) {
+      if (i % 3 != 2) entries.emplace_back(rows++, i, 1.0 + 0.01 * i);
+    }
+    entries.emplace_back(rows, 0, -1.0);
+    entries.emplace_back(rows++, k * k - 1 - (k * k - 1) % 3, 2.0);
+    B.resize(rows, K.cols());
+    B.setFromTriplets(entries.begin(), entries.end());
+    contact = slant::contact::touched_unknowns(B);
+  }
+  [[nodiscard]] MatrixXd dual() const {
+    return B * test::solutions_of(MatrixXd(K), MatrixXd(B.transpose()));
+  }
+};
 
 static_assert(slant::factorization<slant::static_condensation<double>, VectorXd>);
 static_assert(slant::declares_positive_definite<slant::static_condensation<double>>);
