@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The obstacle problems against values that others have printed and against the naive method.
+// The obstacle problems against values that others have printed and against dense matrices.
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/operators/matrix.hpp>
@@ -15,6 +15,7 @@
 #include <fem/lower_obstacle.hpp>
 #include <fem/membrane_contact.hpp>
 #include <fem/printed_membranes.hpp>
+#include <oracle/dense_newton.hpp>
 #include <oracle/naive_membrane.hpp>
 #include <support/minimise.hpp>
 #include <support/testing.hpp>
@@ -84,20 +85,21 @@ TEST_CASE("CUTEst's obstacles: loads and bounds") {
   check(fem::make_double_obstacle<>(30, 30), 6.88708670);
 }
 
-TEST_CASE("the naive method agrees, node by node, and in what it touches") {
+TEST_CASE("a dense method agrees, node by node, and in what it touches") {
   int const nx = test::effort(11, 6);
   int const ny = nx - 2;
   auto const check = [&](fem::membrane<> const& m, auto const& w) {
     auto const& g = m.grid;
     auto const A = oracle::naive_stiffness(nx, ny, g.width, g.height, w);
-    auto const wide = [](VectorXd const& x) { return oracle::long_vector(x.cast<long double>()); };
-    oracle::long_vector const exact =
-        oracle::projected_gauss_seidel(A, wide(m.b), wide(m.lower), wide(m.upper));
+    oracle::dense_qp plain{A.template cast<double>(), m.b.cast<oracle::real>()};
+    for (Eigen::Index i = 0; i < m.b.size(); ++i)
+      plain.intervals.push_back({i, m.lower[i], m.upper[i]});
+    oracle::real_vector const exact = oracle::solve_dense(plain).x;
     VectorXd const v = solve(m);
     CHECK((v - exact.cast<double>()).cwiseAbs().maxCoeff() < 1e-10 * v.cwiseAbs().maxCoeff());
 
     auto const contact = fem::find_contact(m, v);
-    oracle::long_vector const r = A * exact - wide(m.b);
+    oracle::real_vector const r = plain.gradient(exact);
     int differences = 0;
     for (Eigen::Index i = 0; i < v.size(); ++i) {
       // The reaction has the sign of its obstacle, and none acts in between.
