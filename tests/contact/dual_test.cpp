@@ -391,6 +391,7 @@ template <class Friction, int D>
 fem::contact_field<D> check_scene(Friction friction, fem::contact_scene<D> const& scene) {
   auto const reference =
       oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
+  CHECK(reference.violations.largest() < 1e-14);
   slant::contact::data<double> const data{scene.N, scene.T, scene.f, scene.d, scene.g};
   slant::contact::dual const dual(friction, slant::ldlt(scene.K), data);
   VectorXd const λ = solved(dual, 1e-9), u = dual.displacement(λ);

@@ -24,14 +24,16 @@ struct one_spring : problem_files {
 template <int D>
 void check_against_reference(problem_files const& files, fem::contact_scene<D> const& scene,
                              json const& result) {
-  auto const reference =
-      oracle::solve_contact({scene.K, scene.N, scene.T, scene.f, scene.d, scene.g});
+  oracle::contact_data const data{scene.K, scene.N, scene.T, scene.f, scene.d, scene.g};
+  auto const reference = oracle::solve_contact(data);
   VectorXd const u = files.read("u.txt");
   VectorXd const λ = files.read("lambda.txt");
   REQUIRE(λ.size() == scene.N.rows() + scene.T.rows());
   CHECK(oracle::energy_error(scene.K, u, reference.u) < 1e-6);
   VectorXd const exact = reference.multipliers();
   CHECK((λ - exact).norm() < 1e-5 * exact.norm());
+  CHECK(oracle::check_contact(data, u.cast<oracle::real>(), λ.cast<oracle::real>()).largest() <
+        1e-5);
   CHECK(result["kkt_residual"].get<double>() < 1e-5);
 }
 

@@ -69,6 +69,7 @@ contact_reference solve_contact(contact_data const& p) {
   if (energy > 0)
     result.energy_error =
         result.proof.energy_error * static_cast<double>(std::sqrt(dual_energy / energy));
+  result.violations = check_contact(p, u, λ);
   result.u = u.cast<double>();
   result.normal = λ.head(p.m()).cast<double>();
   result.tangential = λ.tail(p.T.rows()).cast<double>();

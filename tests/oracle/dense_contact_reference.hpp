@@ -7,42 +7,11 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <oracle/certificate.hpp>
+#include <oracle/contact_conditions.hpp>
 #include <oracle/dense_newton.hpp>
 
 namespace oracle {
-
-using sparse = Eigen::SparseMatrix<double>;
-
-/// Data of  min ½uᵀK u − fᵀu + Σ gᵢ‖(T u)ᵢ‖,  N u ≤ d.  T has m rows (plane), 2m (space) or 0 (no
-/// friction).
-struct contact_data {
-  sparse const& K;
-  sparse const& N;
-  sparse const& T;
-  Eigen::VectorXd const& f;
-  Eigen::VectorXd const& d;
-  Eigen::VectorXd const& g;
-
-  [[nodiscard]] Eigen::Index m() const { return N.rows(); }
-  [[nodiscard]] Eigen::Index tangents() const { return m() == 0 ? 0 : T.rows() / m(); }
-};
-
-/// M x in the long type; with `transposed`, Mᵀx.
-[[nodiscard]] inline real_vector multiply(sparse const& M, real_vector const& x,
-                                          bool transposed = false) {
-  real_vector y = real_vector::Zero(transposed ? M.cols() : M.rows());
-  for (Eigen::Index j = 0; j < M.outerSize(); ++j)
-    for (sparse::InnerIterator entry(M, j); entry; ++entry) {
-      real const value = entry.value();
-      if (transposed)
-        y[j] += value * x[entry.row()];
-      else
-        y[entry.row()] += value * x[j];
-    }
-  return y;
-}
 
 struct contact_reference {
   Eigen::VectorXd u;           ///< displacement
@@ -50,8 +19,9 @@ struct contact_reference {
   Eigen::VectorXd tangential;  ///< λ_t, rows 2i and 2i+1 belong to node i
   dense_qp dual;               ///< A and b with which λ solves the dual problem to the last bit
   newton_report report;
-  certificate proof;        ///< optimality of λ in the dual problem
-  double energy_error = 0;  ///< proven bound of ‖u − u*‖_K / ‖u‖_K
+  certificate proof;              ///< optimality of λ in the dual problem
+  double energy_error = 0;        ///< proven bound of ‖u − u*‖_K / ‖u‖_K
+  contact_violations violations;  ///< of the conditions on K, N, T
 
   /// (λ_ν, λ_τ).
   [[nodiscard]] Eigen::VectorXd multipliers() const {

@@ -9,8 +9,9 @@
 #include <fem/journal_bearing.hpp>
 #include <fem/lower_obstacle.hpp>
 #include <fem/wire_counts.hpp>
+#include <oracle/dense_newton.hpp>
+#include <oracle/dense_wire.hpp>
 #include <oracle/naive_membrane.hpp>
-#include <oracle/wire_reference.hpp>
 #include <scenes/scene.hpp>
 #include <support/testing.hpp>
 #include <tridiagonal/example_1.hpp>
