@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The program membranes: values beside printed ones, files, statuses.
+// The program membranes: values beside printed ones, files, statuses; and its file for ParaView,
+// read back.
+#include <fem/double_obstacle.hpp>
+#include <fem/membrane_vtu.hpp>
+#include <pugixml.hpp>
 #include "run_program.hpp"
 
 namespace membranes {
@@ -20,6 +24,16 @@ std::vector<std::string> row(std::string const& text, std::string const& grid) {
     return result;
   }
   return {};
+}
+
+/// A data array of points.
+std::vector<double> point_data(pugi::xml_document const& file, char const* name) {
+  auto const piece = file.child("VTKFile").child("UnstructuredGrid").child("Piece");
+  std::istringstream text(
+      piece.child("PointData").find_child_by_attribute("Name", name).child_value());
+  std::vector<double> values;
+  for (double value; text >> value;) values.push_back(value);
+  return values;
 }
 
 }  // namespace
@@ -69,6 +83,27 @@ TEST_CASE("membranes refuses bad options in one line") {
   check("--eccentricity 1", "--eccentricity: got 1, expected a number in (0, 1)");
   check("--twist -5", "--twist: got -5, expected a number > 0");
   check("--output /dev/null", "--output: got /dev/null");
+}
+
+TEST_CASE("a membrane for ParaView: every node with its numbers, zero on the edges") {
+  auto const m = fem::make_double_obstacle<>(3, 2);
+  VectorXd const v = VectorXd::LinSpaced(6, 1, 6);
+  fem::membrane_contact<> contact{Eigen::VectorXi::LinSpaced(6, 0, 5), 10 * v};
+  contact.state.array() = contact.state.array().min(2) - 1;
+  io_test::temporary_folder const folder;
+  fem::write_membrane_vtu(folder / "m.vtu", m, v, contact, slant::vtu_encoding::ascii);
+  pugi::xml_document file;
+  REQUIRE(file.load_file((folder / "m.vtu").c_str()));
+  auto const piece = file.child("VTKFile").child("UnstructuredGrid").child("Piece");
+  CHECK(piece.attribute("NumberOfPoints").as_int() == 20);
+  CHECK(piece.attribute("NumberOfCells").as_int() == 24);
+  using list = std::vector<double>;
+  CHECK(point_data(file, "height") ==
+        list{0, 0, 0, 0, 0, 0, 1, 2, 3, 0, 0, 4, 5, 6, 0, 0, 0, 0, 0, 0});
+  CHECK(point_data(file, "reaction") ==
+        list{0, 0, 0, 0, 0, 0, 10, 20, 30, 0, 0, 40, 50, 60, 0, 0, 0, 0, 0, 0});
+  CHECK(point_data(file, "contact") ==
+        list{0, 0, 0, 0, 0, 0, -1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0});
 }
 
 }  // namespace membranes
