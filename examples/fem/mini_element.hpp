@@ -40,12 +40,7 @@ class mini_element {
   [[nodiscard]] Eigen::Matrix<double, 2, 3> divergence() const {
     return -element_.volume / 3 * element_.gradients;
   }
-  /// u_β = A_β⁻¹ (l_β − B_βᵀ p), l_β = ∫ f β, p the pressures of the vertices; B_βᵀ p = ∇p ∫β.
-  [[nodiscard]] Eigen::Vector2d bubble(Eigen::Vector2d const& load,
-                                       Eigen::Vector3d const& p) const {
-    return (load - bubble_integral() * (element_.gradients * p)) / bubble_stiffness_;
-  }
-  /// c of the triangle, −B_β A_β⁻¹ l_β.
+  /// c of the triangle, −B_β A_β⁻¹ l_β, l_β = ∫ f β.
   [[nodiscard]] Eigen::Vector3d divergence_of_bubble_load(Eigen::Vector2d const& load) const {
     return -bubble_integral() / bubble_stiffness_ * element_.gradients.transpose() * load;
   }

@@ -50,37 +50,27 @@ TEST_CASE("from_files: Coulomb friction on a brick, coefficients by place") {
   check_fixed_point(files, scene, F);
 }
 
-TEST_CASE("from_files: Coulomb friction in the plane, by every method") {
+TEST_CASE("from_files: Coulomb friction in the plane, by every method, to few and to all digits") {
   auto const scene = plane_scene();
   problem_files const files(scene);
   VectorXd const F = VectorXd::Constant(scene.N.rows(), 0.4);
-  std::string const option = put_coefficients(files, F) + " --tolerance 1e-10";
+  std::string const option = put_coefficients(files, F) + " --method ";
   using pair = std::pair<std::string, std::string>;
   for (auto const& [method, solved_by] : {pair{"coulomb", "newton"}, pair{"newton", "newton"},
                                           pair{"radii", "radii"}, pair{"cones", "cones"}}) {
     CAPTURE(method);
-    auto const ran = files.solve(option + " --method " + method);
+    auto const ran = files.solve(option + method + " --tolerance 1e-10");
     CHECK(ran.status == 0);
     json const result = json::parse(ran.out);
     CHECK(result["method"] == method);
     CHECK(result["solved_by"] == solved_by);
     CHECK(result["tangents_per_node"] == 1);
     check_fixed_point(files, scene, F);
-  }
-}
-
-TEST_CASE("from_files: Coulomb friction, too few steps and all digits") {
-  auto const scene = plane_scene();
-  problem_files const files(scene);
-  VectorXd const F = VectorXd::Constant(scene.N.rows(), 0.4);
-  std::string const option = put_coefficients(files, F);
-  for (std::string const method : {"coulomb", "newton", "radii", "cones"}) {
-    CAPTURE(method);
-    auto const early = files.solve(option + " --max-iterations 1 --method " + method);
+    auto const early = files.solve(option + method + " --max-iterations 1");
     CHECK(early.status == 1);
     CHECK(json::parse(early.out)["status"] == "iteration_limit");
     CHECK(json::parse(early.out)["iterations"] == 1);
-    (void)files.solve(option + " --tolerance 0 --method " + method);
+    (void)files.solve(option + method + " --tolerance 0");
     check_fixed_point(files, scene, F);
   }
 }

@@ -45,7 +45,6 @@ TEST_CASE("brick: problem, result, proof and files") {
     CHECK(contains(ran, expected));
   CHECK(contains(io_test::get(output / "brick.vtu"), "contact_pressure"));
   bool const drawn = has_gnuplot();
-  CHECK(contains(ran, "wrote " + (output / "contact.png").string()) == drawn);
   CHECK(contains(ran, "no picture: ") == !drawn);
   CHECK(io_test::get(output / "contact.png").starts_with("\x89PNG") == drawn);
 }

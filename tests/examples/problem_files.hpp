@@ -36,9 +36,6 @@ class problem_files {
     io_test::put(input() / name, text);
   }
   void remove(std::string_view name) const { fs::remove(input() / name); }
-  [[nodiscard]] std::string get(std::string_view name) const {
-    return io_test::get(input() / name);
-  }
 
   /// Number of files in the folder for results, hidden ones included; 0 if there is no folder.
   [[nodiscard]] int files_written() const {

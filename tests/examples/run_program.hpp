@@ -12,6 +12,8 @@
 
 namespace examples_test {
 
+using test::contains;
+
 struct program_result {
   int status;  ///< exit status; 128 + n if signal n ended it
   std::string out;
@@ -43,10 +45,6 @@ struct program_result {
 /// Runs a program with arguments that are already shell words.
 [[nodiscard]] inline program_result run(std::string_view name, std::string const& arguments) {
   return run_command(program(name) + " " + arguments);
-}
-
-[[nodiscard]] inline bool contains(std::string_view text, std::string_view part) {
-  return text.find(part) != std::string_view::npos;
 }
 
 /// Programs draw pictures where gnuplot is installed.

@@ -12,14 +12,10 @@ TEST_CASE("stokes: problem, result, proof and files") {
   auto const ran = output_of("stokes", "--refinement 1 --g 10 --output " + word(output.string()));
   for (auto const* expected :
        {"862 velocities, 526 pressures, 30 wall nodes", "586 unknowns, 30 of them bounded",
-        "status         converged", "6 stick, 24 slip", "u_n = 0",
-        "flow           in 0.07875, out "
-        "0.07875"})
+        "status         converged", "6 stick, 24 slip", "in 0.07875, out 0.07875"})
     CHECK(contains(ran, expected));
   CHECK(contains(io_test::get(output / "flow.vtu"), "wall_state"));
-  bool const drawn = has_gnuplot();
-  CHECK(contains(ran, "wrote " + (output / "flow.png").string()) == drawn);
-  CHECK(io_test::get(output / "flow.png").starts_with("\x89PNG") == drawn);
+  CHECK(contains(ran, "wrote " + (output / "flow.png").string()) == has_gnuplot());
 }
 
 TEST_CASE("stokes: the table, by all methods") {

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <slant/factorizations/cholmod.hpp>
-#include <slant/iteration/solve.hpp>
-#include <slant/krylov/cg.hpp>
-#include <slant/operators/matrix.hpp>
 
 #include <support/testing.hpp>
 #include <thread>
@@ -147,19 +144,6 @@ TEST_CASE("a copied or assigned workspace is as ready as the original, and indep
   auto w = empty.workspace(VectorXd(0));
   auto const copy = w;
   w = copy;
-}
-
-TEST_CASE("states of a method over it are saved and assigned") {
-  sparse const k = test::grid_laplacian(3, 0.1);
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(k);
-  auto const M = slant::inverse(slant::cholmod(sparse(2 * k)));
-  VectorXd const b = test::load(k.rows());
-  slant::cg const method{A, b, M};
-  auto r = slant::solve(method, test::zeros(k.rows()), slant::at_most(0));
-  auto const saved = r.state;
-  r = slant::solve(method, r.x(), slant::residual_below(1e-12) || slant::at_most(5));
-  CHECK(r.converged());
-  CHECK(saved.x == VectorXd::Zero(k.rows()));
 }
 
 TEST_CASE("two threads, two workspaces") {

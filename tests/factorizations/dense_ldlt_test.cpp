@@ -12,23 +12,12 @@ static_assert(slant::factorization<slant::dense_ldlt<>, VectorXd>);
 static_assert(slant::factorization<slant::dense_ldlt<>, MatrixXd>);
 static_assert(!slant::factorization<slant::dense_ldlt<>, Eigen::VectorXf>);
 
-TEST_CASE("solutions have small residuals, also for several right-hand sides") {
+TEST_CASE("solutions have small residuals") {
   MatrixXd k = test::grid_laplacian(3, 0.1);
   k.topLeftCorner(5, 5).array() += 0.5;  // pivots out of order
   slant::dense_ldlt const factors(k);
   CHECK(factors.name() == "dense_ldlt");
   CHECK(test::residual(factors, k) < 1e-14);
-  MatrixXd b(k.rows(), 2);
-  b << test::load(k.rows()), VectorXd::Unit(k.rows(), 7);
-  MatrixXd x(k.rows(), 2);
-  factors.solve(b, x);
-  CHECK((k * x - b).norm() < 1e-13 * b.norm());
-}
-
-TEST_CASE_TEMPLATE("other scalars", S, float, long double) {
-  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  matrix const k = test::grid_laplacian<S>(3, 0.1);
-  CHECK(test::residual(slant::dense_ldlt(k), k) < S(100) * std::numeric_limits<S>::epsilon());
 }
 
 /// BᵀB + I of n rows.

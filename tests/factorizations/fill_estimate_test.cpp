@@ -39,25 +39,9 @@ TEST_CASE("counting stops where enough is known; nothing to factor, nothing to c
                        "columns of K: got 3, expected rows of K, 2", slant::bad_input);
 }
 
-/// Every entry of k as a block of ones, m × m.
-sparse blown_up(sparse const& k, int m) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < k.outerSize(); ++j) {
-    for (sparse::InnerIterator e(k, j); e; ++e) {
-      for (int a = 0; a < m; ++a) {
-        for (int b = 0; b < m; ++b)
-          entries.emplace_back(int(e.row()) * m + a, j * m + b, e.value());
-      }
-    }
-  }
-  sparse result(k.rows() * m, k.cols() * m);
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
 TEST_CASE("nodes of three unknowns become one vertex; the graph is that of the nodes") {
   sparse const nodes = test::grid_laplacian(3, 0.1);
-  slant::detail::quotient_graph const quotient(blown_up(nodes, 3));
+  slant::detail::quotient_graph const quotient(test::blown_up(nodes, MatrixXd::Ones(3, 3)));
   REQUIRE(quotient.size() == 27);
   MatrixXd const expected = MatrixXd(nodes).unaryExpr([](double v) { return v != 0 ? 1.0 : 0.0; });
   CHECK(MatrixXd(quotient.graph()) == expected);

@@ -32,6 +32,23 @@ Eigen::SparseMatrix<S> grid_laplacian(int k, double shift) {
   return m;
 }
 
+/// Every entry of k times the same block.
+inline Eigen::SparseMatrix<double> blown_up(Eigen::SparseMatrix<double> const& k,
+                                            MatrixXd const& block) {
+  auto const m = block.rows();
+  Eigen::SparseMatrix<double> result(k.rows() * m, k.cols() * m);
+  for (Eigen::Index j = 0; j < k.cols(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator e(k, j); e; ++e) {
+      for (Eigen::Index at = 0; at < block.size(); ++at) {
+        double const value = e.value() * block.data()[at];
+        if (value != 0) result.coeffRef(e.row() * m + at % m, j * m + at / m) = value;
+      }
+    }
+  }
+  result.makeCompressed();
+  return result;
+}
+
 template <class S = double>
 Eigen::Matrix<S, Eigen::Dynamic, 1> load(slant::index n) {
   Eigen::Matrix<S, Eigen::Dynamic, 1> b(n);
@@ -53,10 +70,6 @@ auto residual(F const& factors, M const& k) {
 template <class Factor, class M>
 std::string complaint(Factor factor, M const& k) {
   return test::complaint([&] { (void)factor(k); });
-}
-
-inline bool contains(std::string const& text, std::string const& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// Solutions in other units are the same numbers; bit for bit if the units are powers of two.

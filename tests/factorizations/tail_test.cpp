@@ -21,23 +21,20 @@ TEST_CASE("what the shape counts") {
 TEST_CASE("solves as by the dense factor, one or several right-hand sides, without allocations") {
   test::tail_factor const f;
   auto const columns = f.columns();
-  detail::tail_panels<double> const packed(columns);
   detail::tail_panels<float> const floats(columns);
   for (index const k : {1, 3, 4, 6}) {
     MatrixXd const b = MatrixXd::Random(f.shape->size(), k);
     MatrixXd const x = f.solved(b);
-    detail::tail_vectors<double> v(*f.shape, k), w(*f.shape, k);
+    detail::tail_vectors<double> v(*f.shape, k);
     detail::tail_vectors<float> single(*f.shape, k);
-    v.x = w.x = b;
+    v.x = b;
     single.x = b.cast<float>();
     slant::testing::allocation_guard guard;
     detail::solve_in_place(columns, v);
-    detail::solve_in_place(packed, w);
     detail::solve_in_place(floats, single);
     auto const allocations = guard.count();
     CHECK(allocations == 0);
     CHECK((v.x - x).norm() < 1e-13 * x.norm());
-    CHECK((w.x - x).norm() < 1e-13 * x.norm());
     CHECK((single.x.cast<double>() - x).norm() < 1e-5 * x.norm());
   }
 }
@@ -55,30 +52,6 @@ TEST_CASE("where right-hand sides begin with zeros, the rest of the solution is 
     index const rest = f.shape->size() - first;
     CHECK((v.x - x).bottomRows(rest).norm() < 1e-13 * x.norm());
   }
-}
-
-TEST_CASE("a tail without columns, as where nothing is in contact") {
-  auto const shape = std::make_shared<detail::tail_shape>();
-  CHECK(shape->size() == 0);
-  CHECK(shape->entries() == 0);
-  detail::tail_columns const columns(shape, {}, nullptr);
-  CHECK(columns.bytes() == 0);
-  CHECK(columns.rounded()->bytes() == 0);
-  detail::tail_vectors<double> v(*shape, 2);
-  detail::tail_vectors<float> single(*shape, 2);
-  detail::solve_in_place(columns, v);
-  detail::solve_in_place(*columns.rounded(), single);
-  CHECK(v.x.rows() == 0);
-  CHECK(single.x.cols() == 2);
-}
-
-TEST_CASE("the entries outlive those who made them; floats are made once") {
-  auto const columns = std::make_unique<test::tail_factor>()->columns();
-  CHECK(columns.rounded() == columns.rounded());
-  detail::tail_vectors<double> v(columns.shape(), 1);
-  v.x.setOnes();
-  detail::solve_in_place(columns, v);
-  CHECK(v.x.allFinite());
 }
 
 TEST_CASE("entries that floats cannot hold become their largest number or zero") {

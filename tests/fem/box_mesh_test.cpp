@@ -99,15 +99,4 @@ TEST_CASE("impossible boxes are refused by name") {
   CHECK_THROWS_AS((void)fem::make_brick_mesh(0), std::invalid_argument);
 }
 
-TEST_CASE("volumes are signed") {
-  Eigen::Matrix<double, 3, 4> vertices;
-  vertices << 0, 2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4;
-  CHECK(fem::make_p1_element<3>(vertices).volume == doctest::Approx(4));
-  vertices.col(1).swap(vertices.col(2));
-  CHECK(fem::make_p1_element<3>(vertices).volume == doctest::Approx(-4));
-  Eigen::Matrix<double, 2, 3> triangle;
-  triangle << 0, 1, 0, 0, 0, 5;
-  CHECK(fem::make_p1_element<2>(triangle).volume == doctest::Approx(2.5));
-}
-
 }  // namespace box_mesh_test

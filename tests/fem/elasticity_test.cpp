@@ -34,37 +34,34 @@ TEST_CASE("the stiffness is symmetric bit for bit and positive semidefinite") {
   CHECK(pivots[6] > 1e-3 * largest);
 }
 
-TEST_CASE("rigid motions of a plate cost no energy") {
-  auto const plate = fem::make_box_mesh<2>({4, 3}, {1, 1});
-  auto const flat = fem::stiffness<2>(plate, all_unknown<2>(plate), steel);
-  Eigen::Matrix2d turn;
-  turn << 0, -1, 1, 0;
-  CHECK((flat * affine<2>(plate, turn, {1, 2})).cwiseAbs().maxCoeff() < 1e-13 * steel.lambda);
-}
-
 // Patch test: for an affine displacement the discrete equilibrium is exact, that is, K u is the
-// consistent load of the constant stress σ on the six sides, and zero inside.
-TEST_CASE("constant strains are exact in space") {
-  auto const mesh = fem::make_brick_mesh(2, {2, 1.5, 0.8});
-  auto const unknowns = all_unknown<3>(mesh);
-  auto const K = fem::stiffness<3>(mesh, unknowns, steel);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
+// consistent load of the constant stress σ on all sides, and zero inside.
+template <int D>
+void check_affine(fem::box_mesh<D> const& mesh) {
+  using matrix = Eigen::Matrix<double, D, D>;
+  auto const unknowns = all_unknown<D>(mesh);
+  auto const K = fem::stiffness<D>(mesh, unknowns, steel);
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) {
+      matrix G = matrix::Zero();
       G(i, j) = 1e-3;
-      Eigen::Matrix3d const ε = (G + G.transpose()) / 2;
-      Eigen::Matrix3d const σ =
-          steel.lambda * ε.trace() * Eigen::Matrix3d::Identity() + 2 * steel.mu * ε;
-      VectorXd const u = affine<3>(mesh, G, {0.1, -0.2, 0.3});
+      matrix const ε = (G + G.transpose()) / 2;
+      matrix const σ = steel.lambda * ε.trace() * matrix::Identity() + 2 * steel.mu * ε;
+      VectorXd const u = affine<D>(mesh, G, Vector3d(0.1, -0.2, 0.3).head<D>());
       VectorXd load = VectorXd::Zero(unknowns.count);
-      for (int axis = 0; axis < 3; ++axis) {
-        fem::add_traction<3>(mesh, unknowns, {axis, true}, σ.col(axis), load);
-        fem::add_traction<3>(mesh, unknowns, {axis, false}, -σ.col(axis), load);
+      for (int axis = 0; axis < D; ++axis) {
+        fem::add_traction<D>(mesh, unknowns, {axis, true}, σ.col(axis), load);
+        fem::add_traction<D>(mesh, unknowns, {axis, false}, -σ.col(axis), load);
       }
       CHECK((K * u - load).cwiseAbs().maxCoeff() < 1e-11 * load.cwiseAbs().maxCoeff());
-      double const energy = 2 * 1.5 * 0.8 * σ.cwiseProduct(ε).sum() / 2;
+      double const energy = mesh.size.prod() * σ.cwiseProduct(ε).sum() / 2;
       CHECK(u.dot(K * u) / 2 == doctest::Approx(energy).epsilon(1e-10));
     }
+}
+
+TEST_CASE("constant strains are exact, in space and in the plane") {
+  check_affine<3>(fem::make_brick_mesh(2, {2, 1.5, 0.8}));
+  check_affine<2>(fem::make_box_mesh<2>({4, 3}, {2, 1.5}));
 }
 
 TEST_CASE("a plate in plane stress stretches and narrows as Hooke's law says") {
@@ -98,6 +95,44 @@ TEST_CASE("fixing one side makes the stiffness positive definite") {
         same = same && K.block<3, 3>(unknowns.first[a], unknowns.first[b]) ==
                            full.block<3, 3>(3 * a, 3 * b);
   CHECK(same);
+}
+
+TEST_CASE("an affine traction has the right resultant and the right moments") {
+  // p_x = 2 + y − 3z on the right end x = 2 of the box: ∫ p, ∫ y p and ∫ z p in closed form.
+  auto const mesh = fem::make_brick_mesh(2, {2, 1, 3});
+  VectorXd f = VectorXd::Zero(3 * mesh.node_count());
+  auto const p = [](Vector3d const& x) { return Vector3d(2 + x[1] - 3 * x[2], 0, 0); };
+  fem::add_affine_traction<3>(mesh, all_unknown<3>(mesh), fem::brick_side::right, p, f);
+  auto const forces = f.reshaped(3, mesh.node_count());
+  CHECK(forces.row(0).sum() == doctest::Approx(3 * (2 + 0.5 - 4.5)).epsilon(1e-13));
+  Vector3d const moment = mesh.nodes * forces.row(0).transpose();
+  CHECK(moment[1] == doctest::Approx(3 * (1 + 1.0 / 3 - 2.25)).epsilon(1e-13));
+  CHECK(moment[2] == doctest::Approx(9 + 2.25 - 27).epsilon(1e-13));
+  CHECK(forces.bottomRows(2).isZero(0));
+}
+
+TEST_CASE("trapezoidal weights sum to the area and patches tile the side") {
+  auto const mesh = fem::make_brick_mesh(2, {2.5, 0.75, 1.25});
+  for (fem::box_side const side :
+       {fem::brick_side::bottom, fem::brick_side::right, fem::brick_side::front}) {
+    double sum = 0;
+    for (int const node : mesh.nodes_on(side)) {
+      auto const patch = fem::patch_of<3>(mesh, side, node);
+      sum += patch.measure();
+      CHECK((patch.lower.array() <= patch.centre.array()).all());
+      CHECK((patch.centre.array() <= patch.upper.array()).all());
+    }
+    CHECK(sum == doctest::Approx(mesh.size.prod() / mesh.size[side.axis]).epsilon(1e-14));
+  }
+  // 6 x 2 cells of 2.5/6 x 0.75/2 on the bottom: full, half and quarter weights.
+  double const cell = 2.5 / 6 * 0.75 / 2;
+  auto const weight = [&](std::size_t i) {
+    int const node = mesh.nodes_on(fem::brick_side::bottom)[i];
+    return fem::patch_of<3>(mesh, fem::brick_side::bottom, node).measure();
+  };
+  CHECK(weight(0) == doctest::Approx(cell / 4));
+  CHECK(weight(1) == doctest::Approx(cell / 2));
+  CHECK(weight(4) == doctest::Approx(cell));
 }
 
 TEST_CASE("displacements return to their nodes") {

@@ -28,9 +28,6 @@ TEST_CASE("it keeps its word") {
   static_assert(slant::has_diagonal<fem::five_point<>, VectorXd>);
   static_assert(!slant::linear_operator<fem::five_point<float>, VectorXd>);
   slant::testing::check_operator_laws(some_operator(7, 5));
-  slant::testing::check_operator_laws(some_operator(1, 4));
-  slant::testing::check_operator_laws(some_operator(3, 1));
-  slant::testing::check_operator_laws(some_operator(1, 1));
   slant::testing::check_operator_laws(some_operator(4, 3),
                                       slant::testing::archetype::vector(VectorXd()));
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Pictures: the script is well-formed and holds the numbers, and gnuplot, where it is installed,
-// makes a PNG of it.
-#include <fem/plots/contact_line_plot.hpp>
+// Pictures: the script holds the numbers that an axis can show; what runs gnuplot copes with names,
+// and with programs that fail. That gnuplot makes a PNG of it is for tests/examples.
 #include <fem/plots/gnuplot.hpp>
 #include <fem/plots/history_plot.hpp>
 #include <io/io_support.hpp>
@@ -11,10 +10,7 @@
 namespace plots_test {
 
 using io_test::temporary_folder;
-
-bool contains(std::string const& text, std::string const& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST_CASE("histories: what a logarithmic axis cannot show is left out; Newton steps are stars") {
   std::vector<fem::history_series> series{
@@ -22,28 +18,14 @@ TEST_CASE("histories: what a logarithmic axis cannot show is left out; Newton st
       {"second", {{0, 1}, {3, 0.5}, {9, 1e-5}}, {{0, 1}, {9, 1e-5}, {12, 0}}},
       {"nothing", {{0, 0}}}};
   auto const script = fem::history_script("h.png", series, {});
-  for (auto const* part :
-       {"$series0 << EOD\n0 1\n4 0.001\nEOD\n", "$series2 << EOD\nEOD\n", "'first'",
-        "$stars1 << EOD\n0 1\n9 1e-05\nEOD\n", "title 'second: Newton steps'"})
-    CHECK(contains(script, part));
+  CHECK(contains(script, "$series0 << EOD\n0 1\n4 0.001\nEOD\n"));
+  CHECK(contains(script, "$stars1 << EOD\n0 1\n9 1e-05\nEOD\n"));
   CHECK_FALSE(contains(script, "'nothing'"));  // gnuplot refuses empty data
-  CHECK_FALSE(contains(script, "$stars0"));
   fem::subtract(series[1], -3.5);
   CHECK(series[1].points[0].residual == 4.5);
   CHECK(series[1].newton_steps[0].residual == 4.5);
   CHECK(fem::history_script("h.png", {}, {}).empty());
   CHECK_FALSE(fem::history_plot("h.png", {{"only zero", {{1, 0}}}}).written);
-}
-
-TEST_CASE("histories become a PNG where gnuplot is installed, a field without nodes does not") {
-  temporary_folder const folder;
-  auto const h = fem::history_plot(
-      folder / "h.png",
-      {{"one", {{0, 1}, {10, 1e-8}}}, {"two_{x}", {{0, 1}, {20, 1e-6}}, {{20, 1e-6}}}},
-      {.title = "it's a title"});
-  CHECK(h.written == (io_test::get(folder / "h.png").starts_with("\x89PNG")));
-  CHECK(h.written != contains(h.message, "was not found"));
-  CHECK_FALSE(fem::contact_plot(folder / "d.png", fem::contact_field<2>{}).written);
 }
 
 TEST_CASE("text becomes one gnuplot string, whatever it contains") {

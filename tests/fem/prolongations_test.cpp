@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <slant/operators/matrix.hpp>
-#include <slant/testing/laws.hpp>
-
 #include <fem/contact_prolongation.hpp>
 #include <fem/grid_prolongation.hpp>
 #include <fem/steel_brick.hpp>
@@ -12,13 +9,6 @@
 namespace prolongations_test {
 
 using grid = fem::rectangle_grid<>;
-
-TEST_CASE("as an operator it keeps its word, with the adjoint as restriction") {
-  Eigen::SparseMatrix<double> const P = fem::grid_prolongation(grid{3, 2, 2, 5}, grid{8, 6, 2, 5});
-  auto const prolongation = slant::matrix(P);
-  static_assert(slant::has_adjoint<decltype(prolongation), VectorXd>);
-  slant::testing::check_operator_laws(prolongation);
-}
 
 TEST_CASE("the same as the naive interpolation, the identity on the same grid") {
   grid const coarse{4, 3, 3, 2};
@@ -79,7 +69,7 @@ TEST_CASE("contact: forces of linear stresses become those of the other mesh") {
   }
 }
 
-TEST_CASE("contact: from fine to coarse and in the plane, with the laws of an operator") {
+TEST_CASE("contact: from fine to coarse and in the plane") {
   auto const plate = [](int k) {
     return fem::make_contact_scene<2>({.mesh = fem::make_box_mesh<2>({3 * k, k}, {3, 1}),
                                        .material = fem::lame_plane_stress(2e5, 0.3),
@@ -88,16 +78,6 @@ TEST_CASE("contact: from fine to coarse and in the plane, with the laws of an op
   };
   auto const P = fem::contact_prolongation(plate(5), plate(3));
   CHECK((P * forces(plate(5), 2) - forces(plate(3), 2)).cwiseAbs().maxCoeff() < 1e-13);
-  slant::testing::check_operator_laws(slant::matrix(P));
-  auto const space =
-      fem::contact_prolongation(fem::make_steel_brick({.k = 1}), fem::make_steel_brick({.k = 2}));
-  slant::testing::check_operator_laws(slant::matrix(space));
-}
-
-TEST_CASE("the prolongation of the wire keeps the laws of an operator and of its adjoint") {
-  auto const P = slant::matrix(fem::wire_prolongation(fem::make_wire(4), fem::make_wire(8)));
-  static_assert(slant::has_adjoint<decltype(P), VectorXd>);
-  slant::testing::check_operator_laws(P);
 }
 
 TEST_CASE("contact nodes that are no grid are refused") {

@@ -59,15 +59,6 @@ TEST_CASE("the energy is that of the piecewise linear wire") {
   CHECK((MatrixXd(wire.A) - MatrixXd(wire.A).transpose()).isZero(0));
 }
 
-TEST_CASE("other scalars give the same wire") {
-  auto const wire = fem::make_wire(6);
-  auto const longer = fem::make_wire<long double>(6);
-  auto const single = fem::make_wire<float>(6);
-  CHECK((wire.b - longer.b.cast<double>()).norm() < 1e-14 * wire.b.norm());
-  CHECK((wire.b - single.b.cast<double>()).norm() < 1e-5 * wire.b.norm());
-  CHECK((MatrixXd(wire.A) - MatrixXd(longer.A.cast<double>())).norm() < 1e-12);
-}
-
 TEST_CASE("a wire without nodes is refused") {
   CHECK_THROWS_AS((void)fem::make_wire(0), std::invalid_argument);
   CHECK_THROWS_AS((void)fem::make_wire(-3), std::invalid_argument);

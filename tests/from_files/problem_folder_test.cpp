@@ -43,6 +43,13 @@ class problem {
   temporary_folder folder{};
 };
 
+/// The refusal of the problem with one file replaced.
+std::string with(std::string_view name, std::string_view text) {
+  problem const folder;
+  folder.put(name, text);
+  return folder.refused();
+}
+
 TEST_CASE("problem folder: friction in space") {
   auto const p = problem().read();
   Eigen::Matrix3d K;
@@ -117,11 +124,6 @@ TEST_CASE("problem folder: files that are missing") {
 }
 
 TEST_CASE("problem folder: sizes that disagree") {
-  auto const with = [](std::string_view name, std::string_view text) {
-    problem const folder;
-    folder.put(name, text);
-    return folder.refused();
-  };
   CHECK(with("K.mtx", coordinate + "2 3 1\n1 1 1\n") ==
         "columns of K: got 3, expected as many as rows, 2");
   CHECK(with("N.mtx", coordinate + "1 4 1\n1 4 1\n") ==
@@ -141,24 +143,11 @@ TEST_CASE("problem folder: sizes that disagree") {
 }
 
 TEST_CASE("problem folder: values that cannot be") {
-  auto const with = [](std::string_view name, std::string_view text) {
-    problem const folder;
-    folder.put(name, text);
-    return folder.refused();
-  };
   CHECK(with("g.txt", "-0.5\n") == "g[0]: got -0.5, expected a number >= 0 or +inf");
   CHECK(with("g.txt", "-inf\n") == "g[0]: got -inf, expected a number >= 0 or +inf");
   CHECK(with("g.txt", "nan\n") == "g.txt:1: got 'nan', expected a number or inf");
   CHECK(with("d.txt", "-inf\n") == "d[0]: got -inf, expected a number or +inf");
   CHECK(with("f.txt", "1\ninf\n2\n") == "f.txt:2: got 'inf', expected a finite number");
-  CHECK(with("f.txt", "1\n2\n3") ==
-        "f.txt:3: got '3' and the end of the file, expected a line feed at the end of the last "
-        "line (truncated file?)");
-  CHECK(with("N.mtx", coordinate + "1 3 1\n1 3 nan\n") ==
-        "N.mtx:3: got 'nan', expected a finite number");
-  CHECK(with("K.mtx", "not a matrix\n") ==
-        "K.mtx:1: got 'not a matrix', expected a first line like '%%MatrixMarket matrix coordinate "
-        "real general'");
 }
 
 TEST_CASE("problem folder: friction coefficients instead of slip bounds") {

@@ -53,32 +53,6 @@ TEST_CASE("atomic file: appears at commit, whole") {
   CHECK_THROWS_AS(file.write("late"), std::logic_error);
 }
 
-TEST_CASE("atomic file: an existing file is replaced at commit and not before") {
-  temporary_folder const folder;
-  put(folder / "a.txt", "old");
-  slant::atomic_file file(folder / "a.txt");
-  file.write("new");
-  file.seal();
-  CHECK(get(folder / "a.txt") == "old");
-  file.commit();
-  CHECK(get(folder / "a.txt") == "new");
-  CHECK(folder.entries() == 1);
-}
-
-TEST_CASE("atomic file: an exception while writing leaves everything as it was") {
-  temporary_folder const folder;
-  put(folder / "old.txt", "old");
-  auto const interrupted = [&](std::string const& name) {
-    slant::atomic_file file(folder / name);
-    file.write("half");
-    throw std::runtime_error("the solver gave up");
-  };
-  CHECK_THROWS_AS(interrupted("new.txt"), std::runtime_error);
-  CHECK_THROWS_AS(interrupted("old.txt"), std::runtime_error);
-  CHECK(get(folder / "old.txt") == "old");
-  CHECK(folder.entries() == 1);
-}
-
 TEST_CASE("atomic file: a full disk leaves everything as it was") {
   temporary_folder const folder;
   put(folder / "old.txt", "old");

@@ -89,10 +89,8 @@ TEST_CASE("friction folder: refusals name the file, the value and what was expec
         "W.mtx: got 3 rows and 2 columns, expected 3 of both, as many as numbers in q.txt");
   CHECK(refused_with("mu.txt", "-0.5\n") ==
         "mu.txt: got -0.5 of contact 0, expected a number >= 0");
-  CHECK(refused_with("mu.txt", "inf\n") == "mu.txt:1: got 'inf', expected a finite number");
   CHECK(refused_with("mu.txt", "# none\n") ==
         "mu.txt: got no number, expected one for each contact");
-  CHECK(refused_with("q.txt", "1\nnan\n3\n") == "q.txt:2: got 'nan', expected a finite number");
   CHECK(refused_with("W.mtx", coordinate + "3 3 1\n1 1 x\n") ==
         "W.mtx:3: got 'x', expected a finite number");
   for (std::string const name : {"W.mtx", "q.txt", "mu.txt"}) {

@@ -73,6 +73,14 @@ MatrixXd tentative(slant::aggregation const& a, std::vector<double> const& Q) {
   return P;
 }
 
+slant::detail::near_kernel<3, 6> kernel_of(MatrixXd const& modes) {
+  slant::detail::near_kernel<3, 6> kernel;
+  for (Eigen::Index i = 0; i < modes.rows(); ++i) {
+    for (int c = 0; c < 6; ++c) kernel.blocks.push_back(modes(i, c));
+  }
+  return kernel;
+}
+
 TEST_CASE("candidates: orthonormal columns whose range has the near kernel, also far away") {
   for (double const away : {0.0, 1e4}) {
     auto const s = fem::make_steel_brick({.k = 3});
@@ -88,10 +96,7 @@ TEST_CASE("candidates: orthonormal columns whose range has the near kernel, also
         B.block<3, 1>(3 * i, 3 + c) = Vector3d::Unit(c).cross(x) / (1 + away);
       }
     }
-    slant::detail::near_kernel<3, 6> kernel;
-    for (Eigen::Index i = 0; i < 3 * n; ++i) {
-      for (int c = 0; c < 6; ++c) kernel.blocks.push_back(B(i, c));
-    }
+    auto const kernel = kernel_of(B);
     auto const a = aggregate(block_matrix<3>(s.K), 0.02);
     REQUIRE(std::ranges::all_of(a.of, [](int i) { return i >= 0; }));
     slant::detail::near_kernel<6, 6> coarse;
@@ -140,10 +145,7 @@ TEST_CASE("the prolongation is smoothed by a step of Jacobi, by dense algebra") 
   CHECK(λ >= 0.85 * e.eigenvalues()[n - 1]);
 
   MatrixXd const modes = slant::contact::rigid_body_modes(test::moving_nodes(s));
-  slant::detail::near_kernel<3, 6> kernel;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (int c = 0; c < 6; ++c) kernel.blocks.push_back(modes(i, c));
-  }
+  auto const kernel = kernel_of(modes);
   auto const a = aggregate(A, 0.02);
   slant::detail::near_kernel<6, 6> R;
   auto const Q = slant::detail::orthonormal_candidates<3, 6, double>(a, kernel, R);

@@ -85,7 +85,6 @@ TEST_CASE("coarse matrices, restriction and prolongation by dense algebra") {
   check_product<3, 3>(K, true);
   check_product<6, 6>(K, false);
   check_product<2, 3>(K, false);
-  check_product<2, 2>(K, true);
   check_product<1, 1>(K, false);
 }
 

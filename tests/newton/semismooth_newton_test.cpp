@@ -5,7 +5,6 @@
 #include <slant/testing/archetypes.hpp>
 
 #include <newton/newton_scene.hpp>
-#include <oracle/certificate.hpp>
 #include <support/testing.hpp>
 
 namespace semismooth_newton_test {
@@ -349,19 +348,7 @@ TEST_CASE("slip bounds of zero and infinity: points and free pairs") {
   CHECK(r.x().norm() <= 1e-12);
 }
 
-oracle::dense_qp dense(newton_scene::data const& d) {
-  oracle::dense_qp qp{.A = d.A, .b = d.b.cast<oracle::real>()};
-  for (int i = 0; i < m; ++i) {
-    qp.intervals.push_back({.at = i, .lower = 0});
-    double const part = double(i) / (m - 1);
-    qp.circles.push_back({.first = m + 2 * i,
-                          .second = m + 2 * i + 1,
-                          .radius = smallest_radius * std::pow(3 / smallest_radius, part)});
-  }
-  return qp;
-}
-
-TEST_CASE("all solvers and globalisations find the same solution, which is proved to be one") {
+TEST_CASE("all solvers and globalisations find the same solution") {
   newton_scene::data const d(m);
   auto const A = d.definite();
   auto const set = newton_scene::contact_set(m, smallest_radius);
@@ -369,9 +356,6 @@ TEST_CASE("all solvers and globalisations find the same solution, which is prove
   auto const stop = slant::residual_below(1e-14) || slant::at_most(60);
   auto const reference = slant::solve(slant::semismooth_newton{F}, d.zero(), stop);
   REQUIRE(reference.converged());
-  auto const certificate = oracle::certify(dense(d), reference.x().cast<oracle::real>());
-  CHECK(certificate.infeasibility <= 1e-13);
-  CHECK(certificate.energy_error <= 1e-8);  // √ε: the gap is known to ε
   // Something of everything: free and active bounds, sticking and sliding discs.
   auto const G = F.slant(reference.x());
   auto const& state = slant::slant_of_projection(G);

@@ -107,18 +107,6 @@ TEST_CASE("limits and numbers out of range are statuses, never NaN") {
   CHECK_THROWS_AS(slant::symmetrized_cg{.max_iterations = -1}.validate(), slant::bad_input);
 }
 
-TEST_CASE("nothing is allocated between prepare and the end") {
-  system const s(1e-3);
-  slant::symmetrized_cg const cg;
-  auto p = cg.prepare(s.G, s.f);
-  VectorXd dy(15);
-  slant::testing::allocation_guard const guard;
-  auto const r = cg.solve(s.G, s.f, request(s, 1e-8), dy, p);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-  CHECK(r.status == slant::status::converged);
-}
-
 /// x ≥ 0 by a client who knows nothing of blocks: G is some diagonal operator.
 struct positive_points {
   slant::index n;

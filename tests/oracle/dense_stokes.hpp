@@ -37,7 +37,6 @@ struct stokes_problem {
 
 struct stokes_result {
   Eigen::Matrix2Xd velocity;  ///< per node
-  Eigen::Matrix2Xd bubble;    ///< per triangle
   Eigen::VectorXd pressure;
   Eigen::VectorXd tangential;  ///< λ_t, a force per wall node
   Eigen::VectorXd normal;
@@ -177,9 +176,8 @@ class dense_stokes {
   }
 
   [[nodiscard]] stokes_result result(Eigen::VectorXd const& x, std::vector<int> const& slip) const {
-    return {x.head(2 * n_).reshaped(2, n_), x.segment(2 * n_, 2 * t_).reshaped(2, t_),
-            x.segment(pressure(0), n_),     x.segment(tangential(0), m_),
-            x.segment(normal(0), m_),       slip};
+    return {x.head(2 * n_).reshaped(2, n_), x.segment(pressure(0), n_),
+            x.segment(tangential(0), m_), x.segment(normal(0), m_), slip};
   }
 
   stokes_problem p_;

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Obstacle problems the slow way: a dense matrix from triangles one by one, and the projected
-// Gauss–Seidel method, which minimises over one node after the other.
+// Membranes the slow way: a dense matrix from triangles one by one.
 #pragma once
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
-
 namespace oracle {
 
-using long_vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 using long_matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// ∫ w ∇φ_k·∇φ_l on the triangles that halve the cells of a grid of nx × ny interior nodes, ∫ w by
@@ -43,24 +38,6 @@ template <class Weight>
       add_triangle(i + 1, j + 1, -1);
     }
   return A;
-}
-
-/// min ½ vᵀA v − bᵀv over l ≤ v ≤ u, A definite: sweeps until nothing changes but the last digits.
-[[nodiscard]] inline long_vector projected_gauss_seidel(long_matrix const& A, long_vector const& b,
-                                                        long_vector const& l,
-                                                        long_vector const& u) {
-  long_vector v = long_vector::Zero(b.size()).cwiseMax(l).cwiseMin(u);
-  for (int sweep = 0; sweep < 100000; ++sweep) {
-    long double change = 0;
-    for (Eigen::Index k = 0; k < v.size(); ++k) {
-      long double const free = v[k] + (b[k] - A.col(k).dot(v)) / A(k, k);
-      long double const next = std::min(u[k], std::max(l[k], free));
-      change = std::max(change, std::fabs(next - v[k]));
-      v[k] = next;
-    }
-    if (change <= 1e-17L * v.cwiseAbs().maxCoeff()) break;
-  }
-  return v;
 }
 
 }  // namespace oracle

@@ -230,20 +230,10 @@ VectorXd spectrum(Index n, double κ, int kernel, source& random) {
   int const kind = random.below(4);
   for (Index i = 0; i < n; ++i) {
     double const t = n > 1 ? double(i) / double(n - 1) : 1;
-    switch (kind) {
-      case 0:
-        λ(i) = std::pow(κ, t - 1);
-        break;  // evenly
-      case 1:
-        λ(i) = i == 0 ? 1 / κ : random.between(0.1, 1);
-        break;  // one soft direction
-      case 2:
-        λ(i) = i + 1 == n ? 1 : random.between(1, 9) / κ;
-        break;  // one stiff direction
-      default:
-        λ(i) = 2 * i < n ? 1 / κ : 1;
-        break;  // two clusters
-    }
+    if (kind == 0) λ(i) = std::pow(κ, t - 1);                         // evenly
+    if (kind == 1) λ(i) = i == 0 ? 1 / κ : random.between(0.1, 1);    // one soft direction
+    if (kind == 2) λ(i) = i + 1 == n ? 1 : random.between(1, 9) / κ;  // one stiff direction
+    if (kind == 3) λ(i) = 2 * i < n ? 1 / κ : 1;                      // two clusters
   }
   λ(0) = 1 / κ;
   λ(n - 1) = 1;
@@ -473,28 +463,9 @@ random_program make_program(program_suite s, std::uint64_t number) {
   program_shape shape;
   bool const small = s == program_suite::tiny;
   int const parts = small ? 1 + random.below(2) : 2 + random.below(12);
-  for (int i = 0; i < parts; ++i) {
-    switch (random.below(6)) {
-      case 0:
-        ++shape.half_lines;
-        break;
-      case 1:
-        ++shape.intervals;
-        break;
-      case 2:
-        ++shape.discs;
-        break;
-      case 3:
-        ++shape.ellipses;
-        break;
-      case 4:
-        ++shape.cones;
-        break;
-      default:
-        ++shape.free_unknowns;
-        break;
-    }
-  }
+  int* const counts[] = {&shape.half_lines, &shape.intervals, &shape.discs,
+                         &shape.ellipses,   &shape.cones,     &shape.free_unknowns};
+  for (int i = 0; i < parts; ++i) ++*counts[random.below(6)];
   if (s == program_suite::nasty) {
     shape.condition = std::pow(10.0, random.between(0, 12));
     shape.aspect = 1e8;

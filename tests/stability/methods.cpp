@@ -8,6 +8,7 @@
 
 #include <exception>
 #include <stability/reference.hpp>
+#include <support/dense_of.hpp>
 
 namespace stability {
 
@@ -36,14 +37,8 @@ prepared::prepared(program const& p) : p_(p), set_(make_set(p)) {
     inverse_ = slant::contact::lumped_preconditioner(p.K, dual_->constraints()).get();
   }
   auto const n = p.size();
-  auto const operator_a = a();
-  dense_.resize(n, n);
-  Eigen::VectorXd column(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    operator_a.apply(Eigen::VectorXd::Unit(n, j), column);
-    dense_.col(j) = column;
-  }
-  dense_ = ((dense_ + dense_.transpose()) / 2).eval();
+  Eigen::MatrixXd const A = test::dense_of(a());
+  dense_ = (A + A.transpose()) / 2;
   if (p.contact()) return;
   inverse_.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i)

@@ -461,32 +461,28 @@ reference solve_in_quad(program const& p) {
   quad_matrix A;
   quad_vector b;
   quad_matrix stiffness;
+  Eigen::SparseMatrix<double> B, Bt;  // [N; T] and its transpose
   if (p.contact()) {
     stiffness = dense(p.K);
     quad_cholesky const K(stiffness);
     if (!K.ok()) return r;
-    auto const m = static_cast<std::size_t>(p.N.rows()), n = 3 * m;
-    auto const row = [&](std::size_t i) {  // of B = [N; T], as a vector
-      quad_vector e(i < m ? m : 2 * m, quad(0));
-      e[i < m ? i : i - m] = 1;
-      Eigen::SparseMatrix<double> const transposed = (i < m ? p.N : p.T).transpose();
-      return times(transposed, e);
-    };
-    auto const B = [&](quad_vector const& u) {
-      quad_vector y = times(p.N, u);
-      quad_vector const t = times(p.T, u);
-      y.insert(y.end(), t.begin(), t.end());
-      return y;
-    };
+    Eigen::MatrixXd rows(p.N.rows() + p.T.rows(), p.K.cols());
+    rows << Eigen::MatrixXd(p.N), Eigen::MatrixXd(p.T);
+    B = rows.sparseView();
+    Bt = B.transpose();
+    auto const n = static_cast<std::size_t>(rows.rows());
     A = quad_matrix(n, n);
     for (std::size_t j = 0; j < n; ++j) {
-      quad_vector const column = B(K.solve(row(j)));
+      quad_vector e(n, quad(0));
+      e[j] = 1;
+      quad_vector const column = times(B, K.solve(times(Bt, e)));
       for (std::size_t i = 0; i < n; ++i) A(i, j) = column[i];
     }
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = 0; i < j; ++i) A(i, j) = A(j, i) = (A(i, j) + A(j, i)) / 2;
-    b = B(K.solve(widened(p.f)));
-    for (std::size_t i = 0; i < m; ++i) b[i] -= static_cast<quad>(p.d[static_cast<int>(i)]);
+    b = times(B, K.solve(widened(p.f)));
+    for (int i = 0; i < p.d.size(); ++i)
+      b[static_cast<std::size_t>(i)] -= static_cast<quad>(p.d[i]);
   } else {
     A = quad_matrix(static_cast<std::size_t>(p.A.rows()), static_cast<std::size_t>(p.A.cols()));
     for (std::size_t i = 0; i < A.rows; ++i)
@@ -501,11 +497,8 @@ reference solve_in_quad(program const& p) {
   for (std::size_t i = 0; i < y.size(); ++i) r.x[i] *= s.d[i] * s.unit;
   if (p.contact()) {
     quad_vector load = widened(p.f);
-    auto const m = p.N.rows();
-    quad_vector const normal(r.x.begin(), r.x.begin() + m), tangential(r.x.begin() + m, r.x.end());
-    Eigen::SparseMatrix<double> const Nt = p.N.transpose(), Tt = p.T.transpose();
-    quad_vector const from_n = times(Nt, normal), from_t = times(Tt, tangential);
-    for (std::size_t i = 0; i < load.size(); ++i) load[i] -= from_n[i] + from_t[i];
+    quad_vector const forces = times(Bt, r.x);
+    for (std::size_t i = 0; i < load.size(); ++i) load[i] -= forces[i];
     r.u = quad_cholesky(stiffness).solve(load);
     r.norm = root(dot(r.u, load));
     quad_vector const d = jacobi(stiffness);

@@ -6,6 +6,7 @@
 #include <slant/concepts/bad_input.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace test {
 
@@ -24,6 +25,10 @@ std::string message(F f) {
 template <class F>
 std::string complaint(F f) {
   return message<slant::bad_input>(f);
+}
+
+[[nodiscard]] inline bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
 }
 
 }  // namespace test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One thing of each room: what comes through <slant/slant.hpp>, and what has headers of its own.
+// One thing of each room that comes through <slant/slant.hpp>, and what has a header of its own.
 // A second translation unit (other_unit_test.cpp) includes the same header and is linked to this
 // one.
 #include <slant/slant.hpp>
@@ -30,18 +30,14 @@
 #error "<slant/slant.hpp> defines a macro with a common name"
 #endif
 
-// Headers for those who need them.
-#include <slant/contact/contact.hpp>
-#include <slant/io/io.hpp>
+// A header for those who need it.
 #include <slant/iteration/iterates.hpp>
 
 #include <umbrella/other_unit.hpp>
 
 #include <doctest/doctest.h>
 
-#include <filesystem>
 #include <range/v3/view/take.hpp>
-#include <sstream>
 
 namespace {
 
@@ -103,34 +99,6 @@ TEST_CASE("iteration") {
   }
   CHECK(residuals.size() == 4);  // x0 and three steps, enough for three unknowns
   CHECK(residuals.back() < 1e-14 * residuals.front());
-}
-
-TEST_CASE("contact") {
-  slant::contact::data<double> data;
-  data.N = sparse(1, 3);
-  data.N.insert(0, 0) = 1;
-  data.T = sparse(2, 3);
-  data.T.insert(0, 1) = 1;
-  data.T.insert(1, 2) = 1;
-  data.f = Eigen::Vector3d(4, 3, 4);
-  data.d = vector::Zero(1);
-  data.g = vector::Ones(1);
-  auto const K = stiffness();
-  slant::contact::dual const problem(slant::contact::friction_disc{}, slant::factorize(K), data);
-  auto const qp = problem.qp();
-  auto const run =
-      slant::solve(slant::kprgp{qp}, problem.zero(), slant::reduced_gradient_below(1e-13));
-  auto const u = problem.displacement(run.x());
-  CHECK(slant::contact::check_optimality(K, data, u, run.x()).residual() < 1e-12);
-  CHECK(u.isApprox(Eigen::Vector3d(0, 1.2, 1.6), 1e-12));
-}
-
-TEST_CASE("io") {
-  auto const file = std::filesystem::temp_directory_path() / "slant_umbrella_test.mtx";
-  slant::write_matrix_market(file, stiffness());
-  auto const read = slant::read_matrix_market(file);
-  std::filesystem::remove(file);
-  CHECK((read - stiffness()).norm() == 0);
 }
 
 TEST_CASE("two translation units are one program") {
