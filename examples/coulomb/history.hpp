@@ -10,7 +10,7 @@
 #include <fem/contact_vtu.hpp>
 #include <fem/plots/slip_history_plot.hpp>
 #include <optional>
-#include <slant/io/vtu_series.hpp>
+#include <slant/io/vtu.hpp>
 #include <string>
 #include <support/text_table.hpp>
 #include <vector>

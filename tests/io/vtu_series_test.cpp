@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/io/vtu_series.hpp>
+#include <slant/io/vtu.hpp>
 
 #include <support/testing.hpp>
 #include "io_support.hpp"

@@ -43,6 +43,7 @@ TEST_CASE("a program with equations is solved, by solve and by the methods for s
     auto const run = slant::solve(program, tolerance);
     CHECK(run.converged());
     CHECK(run.reason.starts_with("relative energy error "));
+    CHECK(run.choice == "A⁻¹ as preconditioner, because A offers it");
     CHECK((run.x() - p.x).norm() <= 10 * tolerance);
     CHECK(run.multipliers(0) == doctest::Approx(1.0).epsilon(10 * tolerance));
     std::ostringstream out;

@@ -9,5 +9,4 @@
 #include <slant/io/matrix_market.hpp>
 #include <slant/io/text_scanner.hpp>
 #include <slant/io/text_vector.hpp>
-#include <slant/io/vtu_series.hpp>
 // IWYU pragma: end_exports
