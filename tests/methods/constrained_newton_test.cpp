@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <slant/methods/constrained_newton.hpp>
 
+#include <certificates/made_programs.hpp>
 #include <support/testing.hpp>
 #include "equality_scenes.hpp"
 
@@ -82,6 +83,47 @@ TEST_CASE("where the face has lost what an equation depends on, SMALSE-M finds a
   CHECK(r.state.fallback_count >= 1);
   CHECK(r.x()[4] == 0.0);
   CHECK(r.x()[6] == doctest::Approx(1.0));
+}
+
+TEST_CASE("equations that agree on the face, where they are one: Newton's step, at any angle") {
+  VectorXd const b{{10.0, 0.0, 0.0}};
+  MatrixXd const A = MatrixXd::Identity(3, 3);
+  auto const set = slant::half_lines(3);
+  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A),
+                               b, set};
+  for (double const θ : {0.3, 1e-2, 1e-4}) {
+    CAPTURE(θ);
+    double const s = std::sin(θ), c = std::cos(θ);
+    MatrixXd const G{{s, c, 0.0}, {s, 0.0, c}};  // the same for x₁ = x₂ = 0
+    slant::equality_constraints const constraints(test::sparse(G.sparseView()), VectorXd{{s, s}});
+    auto const r =
+        slant::solve(slant::constrained_newton{qp, constraints}, test::zeros(3), accurate(1e-10));
+    CHECK(r.converged());
+    CHECK((r.x() - VectorXd{{1.0, 0.0, 0.0}}).norm() <= 1e-9);
+    CHECK(r.iterations() <= 4);
+    CHECK(r.state.fallback_count == 0);
+  }
+}
+
+TEST_CASE("a multiplier that is far away in units of the fallback's penalty is found") {
+  for (unsigned const seed : {8U, 47U, 54U, 60U, 67U}) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    auto const p = test::make_program(2, 1, random);
+    MatrixXd const G = test::random_matrix(4, 6, seed);
+    VectorXd const b = p.b + G.transpose() * test::random_matrix(4, 1, seed + 1000);
+    slant::separable_qp const qp{
+        slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A), b,
+        slant::cartesian(slant::free_components(0), slant::half_lines(2), slant::discs(p.g))};
+    slant::equality_constraints const constraints(test::sparse(G.sparseView()),
+                                                  VectorXd(G * p.solution));
+    auto const r =
+        slant::solve(slant::constrained_newton{qp, constraints}, test::zeros(6), accurate(1e-9));
+    CAPTURE(r.reason);
+    CHECK(r.converged());
+    CHECK(r.state.penalty_factor > 1);
+    CHECK((r.x() - p.solution).norm() <= 1e-7 * p.solution.norm());
+  }
 }
 
 }  // namespace constrained_newton_test

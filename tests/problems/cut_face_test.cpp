@@ -74,6 +74,21 @@ TEST_CASE("a face that leaves an equation nothing to act on is told") {
   CHECK(face.assign(set, VectorXd{{1.0, 1.0, 1.0}}, 1.0));
   CHECK(!face.assign(set, VectorXd{{1.0, -1.0, 1.0}}, 1.0));
   CHECK(face.assign(set, VectorXd{{1.0, 1.0, -1.0}}, 1.0));
+  // x₀ = 0 twice where x₁ is held: the projector and the lift are those of the first row.
+  N.coeffRef(1, 0) = 0.6;
+  N.coeffRef(1, 1) = 0.8;
+  slant::cut_face<double> same(set, N);
+  CHECK(!same.assign(set, VectorXd{{1.0, -1.0, 1.0}}, 1.0));
+  VectorXd cut(3), lift(3);
+  same.keep(VectorXd{{4.0, 5.0, 6.0}}, cut);
+  CHECK(cut == VectorXd{{0.0, 0.0, 6.0}});
+  VectorXd const agreed{{3.0, 0.0, 0.0}}, apart{{3.0, 1.0, 0.0}};
+  same.lift(agreed, lift);
+  CHECK((lift - agreed).norm() <= 1e-15);
+  CHECK(same.meets(VectorXd(agreed - lift), 3.0));
+  same.lift(apart, lift);
+  CHECK(!same.meets(VectorXd(apart - lift), 3.0));
+  CHECK(same.assign(set, VectorXd{{1.0, 1.0, 1.0}}, 1.0));
   slant::cut_face<double> none(set, sparse(0, 3));
   CHECK(none.assign(set, VectorXd{{1.0, -1.0, 1.0}}, 1.0));
   VectorXd kept(3);

@@ -12,9 +12,9 @@
 //     e² ≤ (‖P D‖_A + ‖P rest‖_{(P A P)⁺}) e + γ − (ν⁺ − ν*)ᵀo.
 //
 // D is the Newton step of constrained_newton (newton_estimate.hpp, on the face that ker G cuts), and
-// the last term is of the second order. ‖o‖_A comes on top. The length of D says how much of the
-// distance from G x = e the solution is away: where Λ meets the affine space at a small angle that is
-// many times ‖o‖, which residuals do not tell.
+// the last term is of the second order. ‖o‖_A comes on top. The length of D says how far away the
+// solution is: where Λ meets the affine space at a small angle that is many times the distance ‖o‖
+// from G x = e, which residuals do not tell.
 //
 //     slant::constrained_certificate certificate(qp, constraints);
 //     auto const run = slant::solve(slant::constrained_newton{qp, constraints}, x0,

@@ -392,7 +392,7 @@ template <class C, class X, class G, class M, class D>
 // `converged` becomes `stalled` where the certificate disagrees, with the error reached in the
 // reason.
 
-/// certificate(x) → energy_error<S>, or certificate(x, ν) for states with the multiplier of equations
+/// certificate(x) → energy_error<S>, or certificate(x, ν) for states with a multiplier of equations
 /// (constrained_certificate.hpp).
 template <class Certificate, class V>
 concept certifies = requires(Certificate& c, V const& x) {

@@ -223,8 +223,8 @@ class newton_estimate {
         weight_(qp.b()) {}
   newton_estimate(QP const& qp, M const& m) : newton_estimate(qp, m, Face(qp.set())) {}
 
-  /// Infinite where nothing is known: A shows no curvature along the gradient on the face, or no step
-  /// on it meets the equations.
+  /// Infinite where nothing is known: A shows no curvature along the gradient on the face, or no
+  /// step on it meets the equations.
   /// norm_of(d) → ‖d‖_{A⁻¹}, asked once at most.
   template <class WA, class Norm>
   [[nodiscard]] scalar operator()(estimated_point<vector_type> const& at, M const& m, WA& of_a,

@@ -23,7 +23,8 @@
 // applied in the cut face, as P W M W P with P onto range(Π) ∩ ker N
 // (methods/parts/curved_minimum.hpp).
 //
-// Where N Π Nᵀ is singular or no β is accepted, SMALSE-M takes over from x and ν until θ(x, ν) is a
+// Where equations depend on others on the face (N Π Nᵀ is singular) and do not agree there, or no β
+// is accepted, SMALSE-M takes over from x and ν until θ(x, ν) is a
 // tenth below its value at the failure. It converges from everywhere, so this takes finitely many
 // steps, and from failure to failure θ falls by a factor. Where it gets nowhere, because the
 // multiplier is far away in units of its penalty, the penalty grows.
@@ -359,6 +360,13 @@ class constrained_newton<QP, C, M> {
     return merit_of(s, s.step_length * s.reduced_gradient_norm, s.feasibility_norm);
   }
 
+  /// Whether a step on the face meets equations that depend on others there.
+  [[nodiscard]] static bool can_lift(state_type& s) {
+    s.face.lift(s.offset, s.lifted);
+    s.trial = s.offset - s.lifted;
+    return s.face.meets(s.trial, s.feasibility_scale);
+  }
+
   /// t₀ in units, trial = r + P A P t₀ and gradient_at_end = the same with the curvature.
   template <class A>
   void lift(state_type& s, A const& a) const {
@@ -442,7 +450,7 @@ class constrained_newton<QP, C, M> {
   void newton_step(state_type& s) const {
     auto const a = projected_hessian(qp_.get().a(), constraints_.get());
     scalar const α = s.step_length, κ = s.preconditioner_size / α;
-    if (!s.face.assign(qp_.get().set(), s.segment.z, κ)) return begin_fallback(s);
+    if (!s.face.assign(qp_.get().set(), s.segment.z, κ) && !can_lift(s)) return begin_fallback(s);
     lift(s, a);
     scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,

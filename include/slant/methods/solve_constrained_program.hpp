@@ -67,8 +67,8 @@ template <class QP, class C, class M>
 }  // namespace detail
 
 /// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e from 0; see the top of this file. `converged` means
-/// that the estimated error is at most the tolerance; x is in Λ. Throws bad_input for a tolerance that
-/// is not in [0, 1), a limit < 0, or a program that constrained_newton refuses.
+/// that the estimated error is at most the tolerance; x is in Λ. Throws bad_input for a tolerance
+/// that is not in [0, 1), a limit < 0, or a program that constrained_newton refuses.
 template <equality_constrained_program P>
 [[nodiscard]] auto solve(P const& p, typename P::scalar tolerance, index max_steps = 1000) {
   using QP = typename P::program_type;

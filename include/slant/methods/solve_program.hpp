@@ -246,8 +246,9 @@ template <class K, class S>
   return slant::multigrid<S>(scaled, constants, o);
 }
 
-/// Applications of K after which conjugate gradients have taken about what levels and a face on them
-/// would: the coarsest level is factored for each face, 500³/3 operations, and K may have few entries.
+/// Applications of K after which conjugate gradients have taken about what levels and a face on
+/// them would: the coarsest one is factored for each face, 500³/3 operations, and K may have few
+/// entries.
 template <class K>
 [[nodiscard]] index enough_without_levels(K const& k) {
   return 300 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));

@@ -10,8 +10,9 @@
 // method of multipliers, whose steps are right in the metric of N Nᵀ, is slow there and Newton's
 // method is not.
 //
-// Rows may depend on others on a face and nowhere else. `assign` tells; those that do are left out of
-// N Π Nᵀ, which leaves P what it is, and a lift does not meet them unless they agree with the others.
+// Rows may depend on others on a face and nowhere else. `assign` tells; those that do are left out
+// of N Π Nᵀ, which leaves P what it is, and a lift does not meet them unless they agree with the
+// others.
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
@@ -48,8 +49,8 @@ class cut_face {
         kept_(N.cols()),
         image_(N.cols()) {}
 
-  /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular. Allocates
-  /// nothing then but what a large dense factorisation needs for itself.
+  /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular;
+  /// else nothing is allocated but what a large dense factorisation needs for itself.
   template <class Set, class Z>
   [[nodiscard]] bool assign(Set const& set, Z const& z, S const& κ) {
     assemble(set, z, κ);
@@ -133,10 +134,10 @@ class cut_face {
   void solve(vector_type const& x) const {
     weights_.noalias() = N_ * x;
     if (coarse_.rows() < weights_.size()) {
-      vector_type part = weights_(independent_);
-      if (part.size() > 0) factors_.solveInPlace(part);
+      part_ = weights_(independent_);
+      if (part_.size() > 0) factors_.solveInPlace(part_);
       weights_.setZero();
-      weights_(independent_) = part;
+      weights_(independent_) = part_;
     } else if (weights_.size() > 0) {
       factors_.solveInPlace(weights_);
     }
@@ -154,7 +155,7 @@ class cut_face {
   dense_type coarse_;               // N Π Nᵀ
   std::vector<index> independent_;  // its rows, where it is singular
   Eigen::LLT<dense_type> factors_;
-  mutable vector_type weights_, normal_, kept_, image_;  // scratch
+  mutable vector_type weights_, part_, normal_, kept_, image_;  // scratch
 };
 
 }  // namespace slant

@@ -45,8 +45,8 @@ template <class Q>
   return declare<self_adjoint, slant::projector>(difference(identity(q.rows()), q));
 }
 
-/// Rows of G that are independent, in increasing order, from GGᵀ, whose diagonal is at most about 1:
-/// its Cholesky factorisation with diagonal pivoting (that of Eigen::LDLT looks at the diagonal before
+/// Rows of G that are independent, in increasing order, from GGᵀ, whose diagonal is at most 1: its
+/// Cholesky factorisation with diagonal pivoting (that of Eigen::LDLT looks at the diagonal before
 /// the elimination), up to the first pivot that may be zero.
 template <class S>
 [[nodiscard]] std::vector<index> independent_rows(
