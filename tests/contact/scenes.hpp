@@ -31,11 +31,13 @@ inline slant::contact::data<double> one_tangent(fem::contact_scene<3> const& s) 
   return {s.N, T, s.f, s.d, s.g};
 }
 
-/// n nodes in a row between two walls, springs of stiffness 1.
-inline Eigen::SparseMatrix<double> springs_between_walls(Eigen::Index n) {
+/// n > 1 nodes in a row, springs of stiffness 1; of these stiffnesses to the walls at both ends.
+inline Eigen::SparseMatrix<double> springs(Eigen::Index n, double first = 1, double last = 1) {
   Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(n, n);
   K.diagonal(1).setConstant(-1);
   K.diagonal(-1).setConstant(-1);
+  K(0, 0) = first + 1;
+  K(n - 1, n - 1) = last + 1;
   return K.sparseView();
 }
 
