@@ -45,20 +45,6 @@ struct fixture {
   }
 };
 
-TEST_CASE("a fixed point: Tresca's problem with the bounds F λ_ν has the same solution") {
-  fixture t;
-  VectorXd const F = VectorXd::LinSpaced(t.c.d.size(), 0, 0.6);  // position dependent, 0 included
-  auto const r = t.solve(contact::coefficients(F));
-  REQUIRE(r.status == slant::status::converged);
-  t.c.g = F.cwiseProduct(r.λ.head(F.size()).cwiseMax(0));
-  auto const reference = test::reference(t.scene.K, t.c);
-  double const size = reference.normal.cwiseAbs().maxCoeff();
-  CHECK((r.λ.head(F.size()) - reference.normal).cwiseAbs().maxCoeff() <= 1e-8 * size);
-  CHECK((r.λ.tail(2 * F.size()) - reference.tangential).cwiseAbs().maxCoeff() <= 1e-8 * size);
-  test::dense_dual const dense(t.scene.K, t.c);
-  CHECK(test::natural_map(dense, F, r.λ) <= 1e-9);
-}
-
 TEST_CASE("much friction: what is pressed sticks") {
   fixture t(fem::brick_load::press);
   auto const r = t.solve(contact::coefficients(t.constant(1e6)));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/friction/friction_interior_point.hpp>
 
-#include <slant/contact/friction/friction_gauss_seidel.hpp>
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 
@@ -96,19 +95,6 @@ TEST_CASE("interior point: contacts of simulations, by the independent check") {
     auto const check = slant::contact::verify(p, s.r);
     CHECK(check.unit_free_map <= 1.01e-8);  // what its states measure; solve_friction looks further
     CHECK(check.unit_free_penetration <= 1.01e-8);
-  }
-}
-
-TEST_CASE("interior point: the forces of Gauss–Seidel where they are unique") {
-  for (double const mu : {0., 0.3, 3.}) {
-    auto const p = test::random_friction(12, 3, mu, 5);
-    blocks<3> const b(p);
-    slant::contact::friction_gauss_seidel<3, double> const sweeping(b);
-    auto g = sweeping.start(VectorXd::Zero(b.size()));
-    while (g.iteration < 1000 && !g.best_error.at_most(1e-13)) sweeping.step(g);
-    auto const s = run(p, 1e-12);
-    CHECK(s.error.at_most(1e-12));
-    CHECK((s.r - b.force(g.best)).norm() <= 1e-9 * s.r.norm());
   }
 }
 
