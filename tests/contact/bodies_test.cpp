@@ -91,18 +91,6 @@ TEST_CASE("loads that no contact balances: unbounded, with the direction") {
   }
 }
 
-TEST_CASE("no constraint in reach: as a direct solve") {
-  auto scene = fem::make_plate_chain({.plates = 3, .touching = 3, .k = 5, .gap = 1e6});
-  contact::bodies<double> const bodies(scene.K, scene.f, scene.B, scene.c);
-  auto const r = run(bodies);
-  REQUIRE(r.converged());
-  VectorXd exact(scene.f.size());
-  slant::ldlt const factors(scene.K);
-  slant::apply(slant::inverse(factors), scene.f, exact);
-  CHECK((bodies.displacement(r.x()) - exact).norm() <= 1e-11 * exact.norm());
-  CHECK(r.state.rows.changes == 0);
-}
-
 /// Factors that count their solves, per size of the matrix.
 struct counting_factor {
   struct factors {

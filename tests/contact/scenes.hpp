@@ -6,6 +6,8 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/contact/contact_data.hpp>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
@@ -39,6 +41,18 @@ inline Eigen::SparseMatrix<double> springs(Eigen::Index n, double first = 1, dou
   K(0, 0) = first + 1;
   K(n - 1, n - 1) = last + 1;
   return K.sparseView();
+}
+
+/// Turns each node's displacement, the three unknowns of which follow each other.
+inline Eigen::SparseMatrix<double> rotation(Eigen::Index n) {
+  Eigen::Matrix3d const Q =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  Eigen::SparseMatrix<double> turn(n, n);
+  turn.reserve(Eigen::VectorXi::Constant(n, 3));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index a = 0; a < 3; ++a) turn.insert(i, i / 3 * 3 + a) = Q(i % 3, a);
+  }
+  return turn;
 }
 
 inline oracle::contact_reference reference(Eigen::SparseMatrix<double> const& K,
