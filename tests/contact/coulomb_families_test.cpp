@@ -8,7 +8,6 @@
 #include <fem/two_plates.hpp>
 #include <support/testing.hpp>
 #include "coulomb_scenes.hpp"
-#include "counting_factor.hpp"
 
 namespace coulomb_families_test {
 
@@ -25,11 +24,11 @@ struct outcome {
 struct fixture {
   fem::contact_scene<3> scene;
   contact::data<double> c;
-  test::counting_factor factor;
+  slant::ldlt<double> const factor;
   explicit fixture(fem::brick_load load = fem::brick_load::lift)
       : scene(fem::make_steel_brick({.k = 2, .load = load})),
         c(test::contact_data(scene)),
-        factor{scene.K} {}
+        factor(scene.K) {}
   [[nodiscard]] VectorXd constant(double F) const { return VectorXd::Constant(c.d.size(), F); }
 
   template <class Coefficient>
