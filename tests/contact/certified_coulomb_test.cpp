@@ -160,10 +160,7 @@ TEST_CASE("certified_coulomb: a body without supports is refused by the name of 
   std::string const said = test::complaint([&] {
     static_cast<void>(contact::certified_coulomb(contact::friction_line{}, s.K, s.contact, F));
   });
-  CHECK(said.starts_with("K: got pivot "));
   CHECK(said.find("body 0 (unknowns 0 to 29) has 3 free motions") != said.npos);
-  CHECK(said.ends_with(
-      ", expected a symmetric positive definite matrix, with supports that hold every body"));
 }
 
 template <class Dual>
@@ -284,20 +281,18 @@ int judge_on_springs(Friction friction, double spring, double tolerance) {
     factor.solves = 0;
     auto const r = solve(problem, F, {.tolerance = tolerance, .newton_steps = newton_steps});
     CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
-    auto law = s.contact;
-    law.g = F.cwiseProduct(r.λ.head(F.size()).cwiseMax(0));
-    double const kkt = contact::check_optimality(s.K, law, r.u, r.λ).residual();
+    double const residual = kkt(s.K, s.contact, F, r);
     CHECK(r.error == r.law.relative);
     CHECK(r.law.largest <= r.law.relative);
     CHECK(r.law.contact >= 0);
-    CHECK(kkt <=
+    CHECK(residual <=
           2 * r.error + 1e-13 / spring);  // of all nodes here, of two kinds of residual there
-    CHECK(r.error <= 4 * kkt + 1e-13 / spring);
+    CHECK(r.error <= 4 * residual + 1e-13 / spring);
     if (!r.converged()) {
       if (r.status == slant::status::stalled) CHECK(!r.reason.empty());
       continue;
     }
-    CHECK(kkt <= 200 * tolerance);
+    CHECK(residual <= 200 * tolerance);
     if (++converged == 1) found = r.λ;
     CHECK((r.λ - found).norm() <= 1e4 * tolerance * found.norm());
   }

@@ -31,7 +31,7 @@ TEST_CASE("pressed, dragged and released: each step obeys the law for its increm
   auto const M = contact::lumped_preconditioner(press.K, problem.constraints());
   contact::load_stepper stepper(family, contact::coulomb(family, M, {.goal = 1e-11}), stop(1e-11));
 
-  VectorXd position = VectorXd::Zero(2 * m), previous = position;
+  VectorXd position = VectorXd::Zero(2 * m);
   double largest = 0, released = 0;
   slant::index number = 0, first = 0;
   for (double const time : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
@@ -53,7 +53,6 @@ TEST_CASE("pressed, dragged and released: each step obeys the law for its increm
     // What the gradient says of the slip: r_t = −(T u − w).
     VectorXd const slip = dense.A * step.x() - dense.b;
     CHECK((slip.tail(2 * m) + (c.T * u - position)).norm() <= 1e-10 * dense.b.norm());
-    previous = position;
     position = c.T * u;
     if (time == 2) largest = position.norm();
     if (time == 2.5) released = position.norm();

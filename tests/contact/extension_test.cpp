@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "scenes.hpp"
+#include "coulomb_scenes.hpp"
 
 #include <slant/contact/parts/extension.hpp>
-#include <slant/factorizations/factorize.hpp>
 #include <support/testing.hpp>
 
 namespace extension_test {
@@ -15,19 +14,7 @@ struct brick {
   contact::data<double> data = test::contact_data(scene);
   contact::detail::scene_matrices<double> matrices{scene.K, data};
   contact::detail::extension<double> extension{};
-  MatrixXd A;
-
-  brick() {
-    auto const factor = slant::factorize(scene.K);
-    MatrixXd const Bt(matrices.rows);
-    MatrixXd X(Bt.rows(), Bt.cols());
-    VectorXd x(Bt.rows());
-    for (Eigen::Index j = 0; j < Bt.cols(); ++j) {
-      factor.solve(VectorXd(Bt.col(j)), x);
-      X.col(j) = x;
-    }
-    A = Bt.transpose() * X;
-  }
+  MatrixXd A = test::dense_dual(scene.K, data).A;
   double exact(VectorXd const& d) const { return std::sqrt(d.dot(A.ldlt().solve(d))); }
 };
 

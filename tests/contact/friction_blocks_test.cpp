@@ -17,6 +17,16 @@ double naive_error(test::friction_problem const& p, VectorXd const& r) {
   return double(std::sqrt(sum)) / p.q.norm();
 }
 
+/// What the blocks measure at r.
+slant::contact::friction_error<double> error_at(test::friction_problem const& p,
+                                                VectorXd const& r) {
+  blocks<3> const b(p);
+  VectorXd const x = b.from_force(r);
+  VectorXd u(x.size());
+  b.velocity(x, u);
+  return b.error(x, u);
+}
+
 TEST_CASE("blocks: products and errors are those of the dense problem in the units of the data") {
   auto const check = [&]<int N>(test::friction_problem p, double compliance, double velocity) {
     p.W *= compliance;
@@ -42,34 +52,30 @@ TEST_CASE("blocks: products and errors are those of the dense problem in the uni
 
 TEST_CASE("blocks: the scaled error is that of verify and knows no units, rounding is told apart") {
   auto const p = test::random_friction(5, 3, 0.7, 3);
-  VectorXd u(15);
-  auto const error_at = [&](test::friction_problem const& problem, VectorXd const& r) {
-    blocks<3> const b(problem);
-    VectorXd const x = b.from_force(r);
-    b.velocity(x, u);
-    auto const e = b.error(x, u);
+  auto const verified = [&](test::friction_problem const& problem, VectorXd const& r) {
+    auto const e = error_at(problem, r);
     auto const check = slant::contact::verify(problem, r);
     CHECK(e.scaled == doctest::Approx(check.unit_free_map).epsilon(1e-10));
     CHECK(e.penetration == doctest::Approx(check.unit_free_penetration).epsilon(1e-10));
     return e;
   };
   VectorXd const r = p.q.cwiseAbs();
-  double const expected = error_at(p, r).scaled;
+  double const expected = verified(p, r).scaled;
   for (double const unit : {1e150, 1e-150, 1e10}) {
     auto scaled = p;
     scaled.W *= unit;
-    CHECK(error_at(scaled, r / unit).scaled == doctest::Approx(expected).epsilon(1e-12));
+    CHECK(verified(scaled, r / unit).scaled == doctest::Approx(expected).epsilon(1e-12));
   }
   VectorXd d = VectorXd::Ones(15);
   for (slant::index i = 3; i < 9; ++i) d[i] = i < 6 ? 1e-8 : 1e8;
   auto other = p;
   other.W = MatrixXd(d.asDiagonal() * p.W * d.asDiagonal()).sparseView();
   other.q = d.cwiseProduct(p.q);
-  CHECK(error_at(other, r.cwiseQuotient(d)).scaled == doctest::Approx(expected).epsilon(1e-12));
+  CHECK(verified(other, r.cwiseQuotient(d)).scaled == doctest::Approx(expected).epsilon(1e-12));
   // r = 1e20 in units of u: its rounding alone is 1e4 |q|.
   auto tiny = p;
   tiny.W *= 1e-20;
-  CHECK(error_at(tiny, r * 1e20).floor > 1e3);
+  CHECK(verified(tiny, r * 1e20).floor > 1e3);
   using error = slant::contact::friction_error<double>;
   CHECK(error{1e-9, 1e3, 1e4, 0}.at_most(1e-8));
   CHECK(error{1e-9, 1e3, 1e4, 0}.plain_at_most(1e-8));
@@ -79,43 +85,33 @@ TEST_CASE("blocks: the scaled error is that of verify and knows no units, roundi
 }
 
 TEST_CASE("blocks: contacts of very different stiffness are measured by units of their own") {
-  VectorXd d(6), r(6), u(6);
+  VectorXd d(6), r(6);
   d << 1, 1, 1, 1e-18, 1e-18, 1e-18;
   auto p = test::make_friction_problem(
       d.asDiagonal().toDenseMatrix(), (VectorXd(6) << -1, 0.1, 0.7, -1e-9, 1e-10, 7e-10).finished(),
       Vector2d(2, 2));
   r = -p.q.cwiseQuotient(d);
-  auto const error_at = [&](VectorXd const& force) {
-    blocks<3> const b(p);
-    VectorXd const x = b.from_force(force);
-    b.velocity(x, u);
-    return b.error(x, u);
-  };
-  CHECK(error_at(r).at_most(1e-14));
-  CHECK(error_at((1 + 1e-6) * r).worst() > 1e-7);
+  CHECK(error_at(p, r).at_most(1e-14));
+  CHECK(error_at(p, (1 + 1e-6) * r).worst() > 1e-7);
   VectorXd wrong = r;
   wrong.tail<3>() *= 1 + 1e-6;  // a velocity of 1e-15
-  CHECK(error_at(wrong).worst() > 1e-7);
+  CHECK(error_at(p, wrong).worst() > 1e-7);
   // Forces in a kernel of W are not seen, but their rounding is.
   p = test::repeated(test::make_friction_problem(Eigen::Matrix3d::Identity(),
                                                  Vector3d(-1, 0.1, 0.7), VectorXd::Constant(1, 2)),
                      2);
   r << 1, -0.1, -0.7, 0, 0, 0;
-  CHECK(error_at(r).at_most(1e-14));
+  CHECK(error_at(p, r).at_most(1e-14));
   r *= 1e17;
   r.tail<3>() -= r.head<3>();
-  CHECK(error_at(r).scaled > 1);
+  CHECK(error_at(p, r).scaled > 1);
 }
 
 TEST_CASE("blocks: penetration counts however large μ is, and rounding is no sliding") {
   auto const at = [](double mu, Vector3d const& r) {
-    auto const p = test::make_friction_problem(Eigen::Matrix3d::Identity(), Vector3d(-1, 1, 0),
-                                               VectorXd::Constant(1, mu));
-    blocks<3> const b(p);
-    VectorXd const x = r;
-    VectorXd u(3);
-    b.velocity(x, u);
-    return b.error(x, u);
+    return error_at(test::make_friction_problem(Eigen::Matrix3d::Identity(), Vector3d(-1, 1, 0),
+                                                VectorXd::Constant(1, mu)),
+                    r);
   };
   auto const none = at(1e9, Vector3d::Zero());
   CHECK(none.scaled <= 1e-8);  // the natural map alone

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/friction/friction_interior_point.hpp>
 
-#include <slant/contact/friction/friction_gauss_seidel.hpp>
 #include <slant/contact/friction/verify.hpp>
 #include <slant/io/friction_folder.hpp>
 
@@ -31,7 +30,6 @@ static_assert(slant::iterative_method<method<3>, VectorXd>);
 struct outcome {
   VectorXd r, inside;
   slant::contact::friction_error<double> error;
-  slant::status status;
   slant::index steps, factorizations, sparse, evaluations;
 };
 
@@ -44,8 +42,8 @@ outcome run(test::friction_problem const& p, double tolerance, options const& o)
          !s.best_error.at_most(tolerance)) {
     m.step(s);
   }
-  return {b.force(s.best), b.force(s.x),     s.best_error, s.status,
-          s.iteration,     s.factorizations, s.sparse,     s.evaluations};
+  return {b.force(s.best),  b.force(s.x), s.best_error, s.iteration,
+          s.factorizations, s.sparse,     s.evaluations};
 }
 outcome run(test::friction_problem const& p, double tolerance, options o = {}) {
   o.small = std::min(o.small, tolerance / 100);
@@ -77,12 +75,6 @@ TEST_CASE("interior point: every state of one contact, in any units") {
       }
     }
   }
-  auto const three = run(test::three_solutions_case().problem, 1e-11);
-  double nearest = 1;
-  for (auto const& r : test::three_solutions_case().r) {
-    nearest = std::min(nearest, (three.r - r).norm());
-  }
-  CHECK(nearest <= 1e-8);
 }
 
 TEST_CASE("interior point: contacts of simulations, by the independent check") {
@@ -96,19 +88,6 @@ TEST_CASE("interior point: contacts of simulations, by the independent check") {
     auto const check = slant::contact::verify(p, s.r);
     CHECK(check.unit_free_map <= 1.01e-8);  // what its states measure; solve_friction looks further
     CHECK(check.unit_free_penetration <= 1.01e-8);
-  }
-}
-
-TEST_CASE("interior point: the forces of Gauss–Seidel where they are unique") {
-  for (double const mu : {0., 0.3, 3.}) {
-    auto const p = test::random_friction(12, 3, mu, 5);
-    blocks<3> const b(p);
-    slant::contact::friction_gauss_seidel<3, double> const sweeping(b);
-    auto g = sweeping.start(VectorXd::Zero(b.size()));
-    while (g.iteration < 1000 && !g.best_error.at_most(1e-13)) sweeping.step(g);
-    auto const s = run(p, 1e-12);
-    CHECK(s.error.at_most(1e-12));
-    CHECK((s.r - b.force(g.best)).norm() <= 1e-9 * s.r.norm());
   }
 }
 
@@ -149,16 +128,6 @@ TEST_CASE("interior point: a full matrix takes no memory after the first step, a
 }
 
 TEST_CASE("interior point: without a solution it ends, and rests") {
-  using Eigen::Matrix3d;
-  for (auto const& p : {test::no_solution_case(2).problem, test::no_solution_case(3).problem,
-                        test::make_friction_problem(Matrix3d::Zero(), Vector3d(-1, 0, 0),
-                                                    VectorXd::Constant(1, 0.5))}) {
-    auto const s = run(p, 1e-8);
-    CHECK((s.status == slant::status::stalled || s.status == slant::status::breakdown));
-    CHECK(s.steps < 300);
-    CHECK(s.r.allFinite());
-    CHECK(!s.error.at_most(1e-8));
-  }
   auto const p = test::no_solution_case(3).problem;
   blocks<3> const b(p);
   method<3> const m(b, {.patience = 5});
@@ -168,6 +137,7 @@ TEST_CASE("interior point: without a solution it ends, and rests") {
   m.step(s);
   CHECK(s.iteration == last);
   CHECK(last < 300);
+  CHECK((s.status == slant::status::stalled || s.status == slant::status::breakdown));
 }
 
 TEST_CASE("interior point: no contacts, bad options and starts") {

@@ -6,7 +6,6 @@
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/ldlt.hpp>
-#include <slant/methods/kprgp.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <support/testing.hpp>
 
@@ -45,14 +44,15 @@ struct fixture {
   }
 };
 
-/// Follows the path with a method that make(qp) makes; the references are dense and share no code.
-template <class Make>
-void follow(double tolerance, Make make) {
+// The references are dense and share no code.
+TEST_CASE("every step is the solution of its data: Newton's method with a preconditioner") {
   fixture t;
   contact::dual problem(contact::friction_disc{}, t.factor, t.c);
   auto const qp = problem.qp();
-  contact::load_stepper stepper(problem, make(qp, t, problem),
-                                slant::reduced_gradient_below(tolerance) || slant::at_most(20000));
+  slant::symmetric_newton const method{
+      qp, contact::lumped_preconditioner(t.scene.K, problem.constraints())};
+  contact::load_stepper stepper(problem, method,
+                                slant::reduced_gradient_below(1e-11) || slant::at_most(20000));
   Eigen::Index fewest = t.c.nodes(), most = 0;
   slant::index number = 0;
   for (step const& s : t.path()) {
@@ -80,17 +80,6 @@ void follow(double tolerance, Make make) {
     most = std::max(most, pressed);
   }
   CHECK(fewest < most);
-}
-
-TEST_CASE("every step is the solution of its data: Newton's method with a preconditioner") {
-  follow(1e-11, [](auto const& qp, fixture const& t, auto const& problem) {
-    return slant::symmetric_newton{
-        qp, contact::lumped_preconditioner(t.scene.K, problem.constraints())};
-  });
-}
-
-TEST_CASE("every step is the solution of its data: KPRGP") {
-  follow(1e-11, [](auto const& qp, fixture const&, auto const&) { return slant::kprgp{qp}; });
 }
 
 TEST_CASE("proportional loads while nothing slides: a product a step") {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/certificate.hpp>
 
-#include <fem/steel_brick.hpp>
 #include <slant/contact/dual.hpp>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/solve.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <support/testing.hpp>
+#include "scenes.hpp"
 
 namespace newton_certificate_test {
-namespace {
 
 namespace contact = slant::contact;
 
@@ -21,7 +20,7 @@ TEST_CASE("interior points are judged by what lies on the face: 200 products to 
       CAPTURE(k);
       CAPTURE(fem::name_of(load));
       auto const scene = fem::make_steel_brick({.k = k, .load = load});
-      contact::data<double> const data{scene.N, scene.T, scene.f, scene.d, scene.g};
+      auto const data = test::contact_data(scene);
       auto const factor = slant::factorize(scene.K);
       contact::dual const dual(contact::friction_disc{}, factor, data);
       auto const qp = dual.qp();
@@ -46,13 +45,11 @@ TEST_CASE("interior points are judged by what lies on the face: 200 products to 
       CHECK(without > 1e-7);
       auto const exact =
           contact::solve(contact::friction_disc{}, scene.K, data, {.tolerance = 1e-12});
-      auto const size = [&](VectorXd const& v) { return std::sqrt(v.dot(scene.K * v)); };
-      double const error = size(u - exact.u) / size(exact.u);
+      double const error = oracle::energy_error(scene.K, u, exact.u);
       CHECK(error <= 1e-8);
       CHECK(error_of(run.x()).relative() >= error);
     }
   }
 }
 
-}  // namespace
 }  // namespace newton_certificate_test

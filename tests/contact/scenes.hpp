@@ -6,6 +6,8 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/contact/contact_data.hpp>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <fem/steel_brick.hpp>
 #include <oracle/dense_contact_reference.hpp>
@@ -31,12 +33,26 @@ inline slant::contact::data<double> one_tangent(fem::contact_scene<3> const& s) 
   return {s.N, T, s.f, s.d, s.g};
 }
 
-/// n nodes in a row between two walls, springs of stiffness 1.
-inline Eigen::SparseMatrix<double> springs_between_walls(Eigen::Index n) {
+/// n > 1 nodes in a row, springs of stiffness 1; of these stiffnesses to the walls at both ends.
+inline Eigen::SparseMatrix<double> springs(Eigen::Index n, double first = 1, double last = 1) {
   Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(n, n);
   K.diagonal(1).setConstant(-1);
   K.diagonal(-1).setConstant(-1);
+  K(0, 0) = first + 1;
+  K(n - 1, n - 1) = last + 1;
   return K.sparseView();
+}
+
+/// Turns each node's displacement, the three unknowns of which follow each other.
+inline Eigen::SparseMatrix<double> rotation(Eigen::Index n) {
+  Eigen::Matrix3d const Q =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  Eigen::SparseMatrix<double> turn(n, n);
+  turn.reserve(Eigen::VectorXi::Constant(n, 3));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index a = 0; a < 3; ++a) turn.insert(i, i / 3 * 3 + a) = Q(i % 3, a);
+  }
+  return turn;
 }
 
 inline oracle::contact_reference reference(Eigen::SparseMatrix<double> const& K,

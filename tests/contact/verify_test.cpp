@@ -282,12 +282,13 @@ TEST_CASE("verify: forces that are far larger than what they resist") {
   }
 }
 
-TEST_CASE_TEMPLATE("verify: other scalars", S, float, long double) {
+TEST_CASE("verify: another scalar") {
+  using S = float;
   random_case const c(5, 3, 6);
   friction_problem<S> const p{.W = c.p.W.cast<S>(), .q = c.p.q.cast<S>(), .mu = c.p.mu.cast<S>()};
   auto const rounded = verify(p, Eigen::Matrix<S, Eigen::Dynamic, 1>(c.r.cast<S>()));
   auto const plain = verify(c.p, c.r);
-  double const close = 1e3 * std::max(eps, double(std::numeric_limits<S>::epsilon()));
+  double const close = 1e3 * std::numeric_limits<S>::epsilon();
   CHECK(double(rounded.natural_map) == doctest::Approx(plain.natural_map).epsilon(close));
   CHECK(double(rounded.outside_cone.relative) ==
         doctest::Approx(plain.outside_cone.relative).epsilon(close));

@@ -36,13 +36,19 @@ TEST_CASE("a method with rounded products finds the solution of the exact ones")
   auto const rule = slant::reduced_gradient_below(1e-13) || slant::at_most(60);
   slant::separable_qp const exact{slant::matrix<slant::self_adjoint, slant::positive_definite>(A),
                                   b, set};
-  slant::separable_qp const rounded{imprecise{A}, b, set};
+  auto const a = slant::counted(imprecise{A});
+  slant::separable_qp const rounded{a, b, set};
   auto const r = slant::solve(slant::symmetric_newton{exact}, test::zeros(n), rule);
   auto const q = slant::solve(slant::symmetric_newton{rounded}, test::zeros(n), rule);
   REQUIRE(r.converged());
   REQUIRE(q.converged());
   CHECK((r.x() - q.x()).norm() <= 1e-11 * r.x().norm());
   CHECK(q.state.products.at_work());
+  // Rounded products are counted as others are.
+  auto const& work = q.state.work;
+  CHECK(a.applications() == work.operator_applications + work.setup_applications);
+  a.reset_counts();
+  CHECK(slant::unconstrained_start(rounded).applications == a.applications());
 }
 
 TEST_CASE("a twin that is of no use is given up") {
