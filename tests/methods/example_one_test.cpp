@@ -63,24 +63,13 @@ TEST_CASE_TEMPLATE("symmetric Newton method in every precision", S, float, wide)
   CHECK(r.state.work.operator_applications <= (std::is_same_v<S, wide> ? 90 : 40));
 }
 
-TEST_CASE("MSSN, IMSSN, GIMSSN and QPC find the solution") {
+TEST_CASE("QPC: a first phase for other methods, as accurate as asked for") {
   test::example_one<double> const p;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
-  auto const check = [&](auto const& method, double tolerance, slant::index steps, double allowed) {
-    auto const r = test::minimise(method, p.zero(), tolerance, steps);
-    REQUIRE(r.converged());
-    CHECK(error_of(r.x()) <= wide(allowed));
-    return r;
-  };
-  auto const to_the_last_digits = [&](auto const& method) {
-    CHECK(check(method, 1e-13, 40, 1e-11).state.face.free_count() == 3);  // the discs 1, 4, 6
-  };
-  to_the_last_digits(slant::mssn{qp});
-  to_the_last_digits(slant::imssn{qp});
-  to_the_last_digits(slant::gimssn{qp});
-  // A first phase for other methods.
   for (double const tolerance : {1e-1, 1e-3, 1e-6}) {
-    check(slant::qpc{qp}, tolerance, 60, 10 * tolerance);
+    auto const r = test::minimise(slant::qpc{qp}, p.zero(), tolerance, 60);
+    REQUIRE(r.converged());
+    CHECK(error_of(r.x()) <= wide(10 * tolerance));
   }
 }
 
@@ -122,7 +111,6 @@ TEST_CASE("QPQ: the discontinuous conditions end at an accuracy of about √ε, 
   auto const r = slant::solve(slant::qpq{qp, {.patience = 200}}, p.zero(), stop);
   CHECK(r.status == slant::status::stalled);
   CHECK(error_of(r.x()) <= wide(1e-7));
-  CHECK(slant::solve(slant::kprgp{qp}, p.zero(), stop).converged());
 }
 
 /// All inner systems solved to the last digit that the scalar has.
