@@ -58,14 +58,4 @@ TEST_CASE("symmetric_newton with A⁻¹: no descent step is needed") {
   });
 }
 
-TEST_CASE("semismooth_newton: at most 30 steps, with few halvings") {
-  check_cells(test::effort(4, 2), [](auto const& qp, auto const& wire) {
-    auto const F = slant::natural_residual(qp.a(), qp.b(), qp.set(), 5 * wire.h());
-    auto const r = slant::solve(slant::semismooth_newton{F, slant::sparse_direct_solver{}},
-                                zero(wire), slant::residual_below(1e-11) || slant::at_most(30));
-    CHECK(r.state.work.operator_applications <= 2 * r.iterations() + 8);
-    return r;
-  });
-}
-
 }  // namespace wire_test
