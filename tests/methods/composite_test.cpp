@@ -255,9 +255,7 @@ TEST_CASE("forward–backward: the projected gradient method, options, and what 
   auto const reference = test::minimise(slant::kprgp{qp}, x0, 1e-13, 5000);
   auto const stop = slant::reduced_gradient_below(1e-11) || slant::at_most(20000);
   auto const fast = slant::solve(slant::forward_backward{qp}, x0, stop);
-  slant::forward_backward_options<double> plain;
-  plain.extrapolate = false;
-  auto const slow = slant::solve(slant::forward_backward{qp, plain}, x0, stop);
+  auto const slow = slant::solve(slant::forward_backward{qp, {.extrapolate = false}}, x0, stop);
   for (auto const& r : {fast, slow}) {
     CHECK(r.converged());
     CHECK((r.x() - reference.x()).norm() <= 1e-8 * reference.x().norm());
@@ -265,10 +263,8 @@ TEST_CASE("forward–backward: the projected gradient method, options, and what 
   }
   CHECK(fast.iterations() < slow.iterations());
 
-  slant::forward_backward_options<double> o;
-  o.step_length = -1.0;
   CHECK(test::complaint([&] {
-          slant::forward_backward{qp, o};
+          slant::forward_backward{qp, {.step_length = -1.0}};
         }) == "step_length: got -1, expected a number > 0");
   CHECK(test::complaint([&] {
           static_cast<void>(slant::separable_qp{A, p.b, support(slant::intervals(p.w))});

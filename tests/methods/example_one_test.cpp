@@ -113,14 +113,6 @@ TEST_CASE("QPQ: the discontinuous conditions end at an accuracy of about √ε, 
   CHECK(error_of(r.x()) <= wide(1e-7));
 }
 
-/// All inner systems solved to the last digit that the scalar has.
-template <class S>
-slant::symmetric_newton_options<S> exactly(double tolerance) {
-  slant::symmetric_newton_options<S> o;
-  o.forcing = {.γ = tolerance, .exponent = 2, .η_max = tolerance, .η_first = tolerance};
-  return o;
-}
-
 TEST_CASE("symmetric Newton method: superlinear convergence, the order of the last steps") {
   test::example_one<wide> const p;
   auto const qp = slant::separable_qp{p.a(), p.b, p.set()};
@@ -132,8 +124,9 @@ TEST_CASE("symmetric Newton method: superlinear convergence, the order of the la
       logarithms.push_back(static_cast<double>(log10(wide(s.residual_norm / s.gradient_scale))));
     }
   };
-  auto const r =
-      slant::solve(slant::symmetric_newton{qp, exactly<wide>(1e-49)}, p.zero(), stop, note);
+  slant::symmetric_newton const exact{
+      qp, {.forcing = {.γ = 1e-49, .exponent = 2, .η_max = 1e-49, .η_first = 1e-49}}};
+  auto const r = slant::solve(exact, p.zero(), stop, note);
   REQUIRE(r.converged());
   auto const n = logarithms.size();
   REQUIRE(n >= 5);

@@ -57,9 +57,8 @@ TEST_CASE("estimated multipliers: a solution is recognised as one") {
   auto const solution = fem::run_wire_ssnm(w, 0, 0.3, slant::saddle_direct{}, {});
   REQUIRE(solution.converged());
   VectorXd const x = slant::project(qp.set(), solution.x);
-  slant::ssnm_options<double> o;
-  o.multipliers = slant::ssnm_multipliers::estimated;
-  slant::ssnm const method{qp, slant::saddle_direct{}, o};
+  slant::ssnm const method{
+      qp, slant::saddle_direct{}, {.multipliers = slant::ssnm_multipliers::estimated}};
   auto s = method.start(x);
   CHECK(s.residual_norm <= 1e-6 * w.b.norm());
   CHECK(s.multipliers.minCoeff() >= 0);

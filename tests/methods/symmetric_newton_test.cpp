@@ -17,9 +17,8 @@ TEST_CASE("the same steps as Newton's method for the natural residual") {
   auto const set = p.set();
   slant::separable_qp const qp{A, p.b, set};
   VectorXd const x0 = VectorXd::Zero(20);
-  slant::symmetric_newton_options<double> exact;
-  exact.forcing = {.γ = 1e-14, .exponent = 2, .η_max = 1e-14, .η_first = 1e-14};
-  slant::symmetric_newton const method{qp, exact};
+  slant::symmetric_newton const method{
+      qp, {.forcing = {.γ = 1e-14, .exponent = 2, .η_max = 1e-14, .η_first = 1e-14}}};
   auto s = method.start(x0);
   slant::semismooth_newton const generic{slant::natural_residual(A, p.b, set, s.step_length),
                                          slant::direct_solver{}};
@@ -151,10 +150,8 @@ TEST_CASE("where Newton's method fails KPRGP takes over, and hands back") {
   slant::separable_qp const qp{A, p.b, set};
   VectorXd const exact = oracle::solve_dense(p.plain()).x.cast<double>();
   // A search that is never content: every step with ‖F‖ above 1 % of the last one is a failure.
-  slant::symmetric_newton_options<double> o;
-  o.halvings = 0;
-  o.sufficient = 0.99;
-  auto const r = test::minimise(slant::symmetric_newton{qp, o}, test::zeros(20), 1e-11, 5000);
+  slant::symmetric_newton const method{qp, {.sufficient = 0.99, .halvings = 0}};
+  auto const r = test::minimise(method, test::zeros(20), 1e-11, 5000);
   CHECK(r.converged());
   CHECK(r.state.descent.count() >= 1);
   CHECK((r.x() - exact).norm() <= 1e-8 * exact.norm());
@@ -170,10 +167,8 @@ TEST_CASE(
   VectorXd const b{{1.0, 1.0, 2.0}};
   auto const positive = slant::half_lines(3);
   slant::separable_qp const qp{A, b, positive};
-  slant::symmetric_newton_options<double> o;
-  o.halvings = 0;
-  o.sufficient = 0.999;
-  auto const r = test::minimise(slant::symmetric_newton{qp, o}, test::zeros(3), 1e-10, 5000);
+  slant::symmetric_newton const method{qp, {.sufficient = 0.999, .halvings = 0}};
+  auto const r = test::minimise(method, test::zeros(3), 1e-10, 5000);
   CHECK(r.status == slant::status::unbounded);
 
   test::mixture const p(1e3);
@@ -183,10 +178,8 @@ TEST_CASE(
                         g = p.g.cast<float>();
   auto const set =
       slant::cartesian(slant::half_lines(lower), slant::discs(g), slant::free_components<float>(6));
-  slant::symmetric_newton_options<float> of;
-  of.sufficient = 0.95F;
-  auto const rf = test::minimise(slant::symmetric_newton{slant::separable_qp{Af, bf, set}, of},
-                                 Eigen::VectorXf(Eigen::VectorXf::Zero(20)), 1e-3F, 5000);
+  slant::symmetric_newton const strict{slant::separable_qp{Af, bf, set}, {.sufficient = 0.95F}};
+  auto const rf = test::minimise(strict, Eigen::VectorXf(Eigen::VectorXf::Zero(20)), 1e-3F, 5000);
   CHECK(rf.converged());
 }
 
