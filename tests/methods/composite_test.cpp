@@ -213,7 +213,7 @@ TEST_CASE("products that M knows roughly: used where they are good enough, and o
 }
 
 TEST_CASE("the certificate: never below the error by more than it may be, and not far above it") {
-  double worst = 0, sharpest = 1e300;
+  double worst = 0;
   for (double const κ : {30.0, 1e4, 1e7}) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
       scene const p(κ, seed);
@@ -235,14 +235,10 @@ TEST_CASE("the certificate: never below the error by more than it may be, and no
         CAPTURE(truth);
         CAPTURE(claimed);
         CHECK(claimed >= 0.5 * truth);
-        if (truth < 1e-3) {
-          worst = std::max(worst, claimed / truth);
-          sharpest = std::min(sharpest, claimed / truth);
-        }
+        if (truth < 1e-3) worst = std::max(worst, claimed / truth);
       }
     }
   }
-  MESSAGE("claimed over true: ", sharpest, " to ", worst);
   CHECK(worst <= 100);
 }
 

@@ -5,7 +5,7 @@
 #include <slant/slant.hpp>
 
 #include <fem/active_counts.hpp>
-#include <fem/string_1d.hpp>
+#include <fem/thesis_ssnm.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/minimise.hpp>
 #include <support/testing.hpp>
@@ -22,9 +22,7 @@ void check_cells(std::size_t entries, Run const& run) {
       CAPTURE(printed.g);
       CAPTURE(m);
       auto const wire = fem::make_wire(m);
-      auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
-                                        slant::discs(VectorXd::Constant(m, printed.g).eval()),
-                                        slant::free_components(m));
+      auto const set = fem::wire_set(wire, printed.l, printed.g);
       auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A);
       auto const r = run(slant::separable_qp{A, wire.b, set}, wire);
       CHECK(r.converged());
