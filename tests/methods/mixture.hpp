@@ -12,8 +12,8 @@
 
 namespace test {
 
-/// Half lines, intervals around 0, discs and free components, of any numbers: one type of set, so that
-/// a method is compiled once for many tests.
+/// Half lines, intervals around 0, discs and free components, of any numbers: one type of set, so
+/// that a method is compiled once for many tests.
 inline auto mixed_set(Eigen::VectorXd const& lower, Eigen::VectorXd const& width,
                       Eigen::VectorXd const& g, Eigen::Index free) {
   return slant::cartesian(slant::half_lines(lower), slant::intervals(width), slant::discs(g),
