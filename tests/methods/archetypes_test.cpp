@@ -42,7 +42,6 @@ TEST_CASE("operator, vector and set that can do the least") {
   entrywise const set(2);
   auto const qp = slant::separable_qp{A, b, set};
   check(slant::mssn{qp});
-  check(slant::imssn{qp});
   check(slant::gimssn{qp});
   check(slant::as_s(qp));
   check(slant::qpq{qp});

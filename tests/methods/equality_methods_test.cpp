@@ -21,9 +21,7 @@ template <class Make>
 auto solved(known_problem const& p, Make const& make) {
   auto const qp = p.qp();
   auto const constraints = p.constraints();
-  auto r = slant::solve(make(qp, constraints), test::zeros(p.n), accurate(1e-10));
-  CAPTURE(r.reason);
-  return r;
+  return slant::solve(make(qp, constraints), test::zeros(p.n), accurate(1e-10));
 }
 
 TEST_CASE("as many equations as unknowns: the point that they leave") {

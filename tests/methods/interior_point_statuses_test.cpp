@@ -34,7 +34,8 @@ VectorXd zero() {
 
 template <class Problem>
 std::string refusal(Problem const& p) {
-  return test::complaint([&] { static_cast<void>(slant::interior_point{p.qp()}.start(zero())); });
+  auto const qp = p.qp();
+  return test::complaint([&] { static_cast<void>(slant::interior_point{qp}.start(zero())); });
 }
 
 TEST_CASE("an empty interior: the block, and what to use instead") {
@@ -92,8 +93,8 @@ TEST_CASE("a nearly empty interior: the same solution as another method's") {
 TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
   auto const solve_in = [](int stiffness, int length) {
     problem const p{.t = std::ldexp(1.0, length)};
-    auto r =
-        test::minimise(slant::interior_point{p.qp(std::ldexp(1.0, stiffness))}, zero(), 1e-10, 60);
+    auto const qp = p.qp(std::ldexp(1.0, stiffness));
+    auto r = test::minimise(slant::interior_point{qp}, zero(), 1e-10, 60);
     for (int i = 0; i < 3; ++i) {
       CHECK(r.x()(i) > p.lower(i));
       CHECK(r.x()(3 + i) > p.below(i));
@@ -116,14 +117,19 @@ TEST_CASE("all digits: stalled at the floor, in the interior") {
   for (int i = 0; i < 3; ++i) CHECK(r.x()(i) > p.lower(i));
 }
 
+/// A program of which no more is known than that A is semidefinite.
+template <class Set>
+auto semidefinite(MatrixXd const& M, VectorXd const& b, Set const& set) {
+  return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M), b,
+                             set};
+}
+
 TEST_CASE("a semidefinite A: with a minimum, and without") {
-  VectorXd const b = VectorXd::Ones(2);
-  auto const stop = slant::reduced_gradient_below(1e-10) || slant::at_most(300);
+  VectorXd const b = VectorXd::Ones(2), lower = VectorXd::Zero(2);
+  auto const set = slant::half_lines(lower);
   auto const run = [&](MatrixXd const& M) {
-    auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
-    auto const set = slant::half_lines(2);
-    slant::separable_qp const qp{A, b, set};
-    return slant::solve(slant::interior_point{qp}, test::zeros(2), stop);
+    auto const qp = semidefinite(M, b, set);
+    return test::minimise(slant::interior_point{qp}, lower, 1e-10, 300);
   };
   auto const r = run(MatrixXd{{1.0, 1.0}, {1.0, 1.0}});
   CHECK(r.converged());
@@ -141,8 +147,9 @@ TEST_CASE("no minimum along unknowns without constraint: the direction at which 
   // A is the projection along a random unit vector k, b has a part along k, everything is free.
   VectorXd const k = test::random_vector(6).normalized();
   MatrixXd const M = MatrixXd::Identity(6, 6) - k * k.transpose();
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
-  slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(6)), slant::free_components(6)};
+  VectorXd const b = VectorXd::Ones(6);
+  auto const set = slant::free_components(6);
+  auto const qp = semidefinite(M, b, set);
   auto const r = test::minimise(slant::interior_point{qp}, test::zeros(6), 1e-10, 50);
   CHECK(r.status == slant::status::unbounded);
   VectorXd const d = r.state.step.normalized();
@@ -153,10 +160,10 @@ TEST_CASE("no minimum along unknowns without constraint: the direction at which 
 TEST_CASE("no minimum over a large kernel, seen through rounding") {
   MatrixXd B(40, 5);
   for (int j = 0; j < 5; ++j) B.col(j) = test::random_vector(40, 30U + static_cast<unsigned>(j));
-  MatrixXd const M = B * B.transpose();
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(
-      MatrixXd((M + M.transpose()) / 2));
-  slant::separable_qp const qp{A, VectorXd(VectorXd::Ones(40)), slant::free_components(40)};
+  MatrixXd const product = B * B.transpose(), M = (product + product.transpose()) / 2;
+  VectorXd const b = VectorXd::Ones(40);
+  auto const set = slant::free_components(40);
+  auto const qp = semidefinite(M, b, set);
   auto const r = test::minimise(slant::interior_point{qp}, test::zeros(40), 1e-10, 50);
   CHECK(r.status == slant::status::unbounded);
 }
@@ -165,8 +172,8 @@ TEST_CASE("a semidefinite A whose kernel holds the first gradient up to rounding
   // b lies in the kernel of A but for rounding; half lines bound the descent along it from above.
   VectorXd const k = -VectorXd::LinSpaced(5, 1.0, 2.0).normalized();
   MatrixXd const M = MatrixXd::Identity(5, 5) - k * k.transpose();
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
-  slant::separable_qp const qp{A, k, slant::half_lines(VectorXd::Constant(5, -3.0).eval())};
+  auto const set = slant::half_lines(VectorXd::Constant(5, -3.0).eval());
+  auto const qp = semidefinite(M, k, set);
   auto const r = test::minimise(slant::interior_point{qp}, test::zeros(5), 1e-9, 60);
   CHECK(r.converged());
   auto const exact = test::minimise(slant::symmetric_newton{qp}, test::zeros(5), 1e-12, 200);
@@ -180,7 +187,8 @@ TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   p.b.setZero();
   p.lower.setConstant(-1);
   p.below(1) = -1;
-  auto const r = test::minimise(slant::interior_point{p.qp()}, zero(), 1e-10, 5);
+  auto const qp = p.qp();
+  auto const r = test::minimise(slant::interior_point{qp}, zero(), 1e-10, 5);
   CHECK(r.converged());
   CHECK(r.iterations() == 0);
   problem free;
@@ -188,7 +196,8 @@ TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   free.below.setConstant(-infinity);
   free.above.setConstant(infinity);
   free.g.setConstant(infinity);
-  auto const unconstrained = test::minimise(slant::interior_point{free.qp()}, zero(), 1e-12, 50);
+  auto const at_ease = free.qp();
+  auto const unconstrained = test::minimise(slant::interior_point{at_ease}, zero(), 1e-12, 50);
   CHECK(unconstrained.converged());
   CHECK(unconstrained.state.constraints == 0);
   CHECK((free.A * unconstrained.x() - free.b).norm() <= 1e-11 * free.b.norm());

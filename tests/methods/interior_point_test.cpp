@@ -5,10 +5,12 @@
 #include <support/minimise.hpp>
 #include <support/testing.hpp>
 #include "example_one.hpp"
+#include "second_differences.hpp"
 
 namespace interior_point_test {
 
-TEST_CASE("Example 1: the solution, products counted, every iterate in the interior") {
+TEST_CASE(
+    "Example 1: the solution, products counted, every iterate in the interior, no allocation") {
   test::example_one<double> const p;
   auto const A = slant::counted(p.a());
   auto const set = p.set();
@@ -19,7 +21,7 @@ TEST_CASE("Example 1: the solution, products counted, every iterate in the inter
   CHECK(s.work.setup_applications == 1);
   CHECK(A.applications() == 1);
   while (s.status == slant::status::running && s.reduced_gradient_norm > 1e-10 * s.gradient_scale) {
-    method.step(s);
+    CHECK(test::allocations_of([&] { method.step(s); }) == 0);
     CHECK(A.applications() == 1 + s.work.operator_applications);
     CHECK(s.work.operator_applications == s.work.inner_iterations);  // none besides those of CG
     for (Eigen::Index i = 0; i < 6; ++i) {
@@ -37,17 +39,6 @@ TEST_CASE("Example 1: the solution, products counted, every iterate in the inter
   CHECK(slant::solve(method, p.zero(), slant::step_below(1e-8) || slant::at_most(60)).converged());
 }
 
-TEST_CASE("steps do not allocate") {
-  test::example_one<double> const p;
-  slant::separable_qp const qp{p.a(), p.b, p.set()};
-  slant::interior_point const method{qp};
-  auto s = method.start(p.zero());
-  slant::testing::allocation_guard guard;
-  for (int k = 0; k < 8 && s.status == slant::status::running; ++k) method.step(s);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
-}
-
 /// A block of every kind, and images of some: 30 unknowns.
 auto every_kind() {
   double const infinity = std::numeric_limits<double>::infinity();
@@ -61,7 +52,7 @@ auto every_kind() {
       slant::free_components(3));
 }
 
-TEST_CASE("a product of all blocks: the solution of the symmetric Newton method") {
+TEST_CASE("a product of all blocks: that of the symmetric Newton method, digits as promised") {
   auto const set = every_kind();
   slant::index const n = slant::dimension_of(set);
   for (unsigned seed = 1; seed <= 4; ++seed) {
@@ -81,25 +72,13 @@ TEST_CASE("a product of all blocks: the solution of the symmetric Newton method"
       auto const& s = r.state;
       CHECK(s.multipliers.minCoeff() >= 0);
       CHECK(s.slacks.minCoeff() > 0);
+      if (size > 0) continue;
+      // The reduced gradient falls as fast as the products: centred by c = 1/5, ϑ falls by 5 in a
+      // step; 6 digits take 9 steps, and one more is granted.
+      auto const rough = test::minimise(slant::interior_point{qp}, x0, 1e-4, 60);
+      CHECK(rough.converged());
+      CHECK(r.iterations() - rough.iterations() <= 10);
     }
-  }
-}
-
-TEST_CASE("along curved boundaries the reduced gradient falls as fast as the products") {
-  // Centred by c = 1/5, ϑ falls by 5 in a step: 6 digits take 9 steps, and one more is granted.
-  auto const set = every_kind();
-  slant::index const n = slant::dimension_of(set);
-  VectorXd const zero = VectorXd::Zero(n);
-  for (unsigned seed = 1; seed <= 4; ++seed) {
-    CAPTURE(seed);
-    auto const A = test::spd(test::with_spectrum(test::log_spaced(n, 100), seed));
-    slant::separable_qp const qp{A, VectorXd(2 * test::random_vector(n, seed + 10)), set};
-    auto const steps = [&](double target) {
-      auto const r = test::minimise(slant::interior_point{qp}, zero, target, 60);
-      CHECK(r.converged());
-      return r.iterations();
-    };
-    CHECK(steps(1e-10) - steps(1e-4) <= 10);
   }
 }
 
@@ -146,24 +125,22 @@ TEST_CASE("cones: apex, mantle and interior; at an angle, no axis leads from the
         test::with_spectrum(test::log_spaced(8, 10), 3), 4);
 }
 
+/// x ≥ lower for the first unknowns, |x| ≤ width for the next, the others free.
+auto program(MatrixXd const& M, VectorXd const& b, VectorXd const& lower, VectorXd const& width) {
+  return slant::separable_qp{
+      test::spd(M), b,
+      slant::cartesian(slant::half_lines(lower), slant::intervals(width),
+                       slant::free_components(b.size() - lower.size() - width.size()))};
+}
+VectorXd const none;
+
 /// Half lines and free components; A is a stiff string, whose diagonal says little.
 struct problem {
   static constexpr Eigen::Index n = 60;
-  MatrixXd M = MatrixXd::Zero(n, n);
+  MatrixXd M = test::second_differences(n);
   VectorXd b = VectorXd::LinSpaced(n, -0.1, 0.3);
 
-  problem() {
-    M.diagonal().setConstant(2);
-    M.diagonal(1).setConstant(-1);
-    M.diagonal(-1).setConstant(-1);
-  }
-  [[nodiscard]] auto a() const {
-    return slant::matrix<slant::self_adjoint, slant::positive_definite>(M);
-  }
-  [[nodiscard]] auto set() const {
-    return slant::cartesian(slant::half_lines(n / 2), slant::free_components(n / 2));
-  }
-  [[nodiscard]] auto qp() const { return slant::separable_qp{a(), b, set()}; }
+  [[nodiscard]] auto qp() const { return program(M, b, test::zeros(n / 2), none); }
 };
 
 auto const accurate = slant::reduced_gradient_below(1e-9) || slant::at_most(60);
@@ -187,8 +164,8 @@ TEST_CASE("M = A⁻¹: without constraints one product solves, with them some do
   problem const p;
   VectorXd const zero = VectorXd::Zero(p.n);
   auto const inverse = slant::inverse(slant::dense_ldlt(p.M));
-  slant::separable_qp const free{p.a(), p.b, slant::free_components(p.n)};
-  auto const at_once = slant::solve(slant::interior_point{free, inverse}, zero, accurate);
+  auto const at_once =
+      slant::solve(slant::interior_point{program(p.M, p.b, none, none), inverse}, zero, accurate);
   CHECK(at_once.converged());
   CHECK(at_once.state.work.inner_iterations <= 2);
   CHECK((p.M * at_once.x() - p.b).norm() <= 1e-9 * p.b.norm());
@@ -212,25 +189,20 @@ TEST_CASE("a preconditioner of another size is named") {
 /// of the start, taken from the mean of all gradients, are too small to keep a Newton step inside.
 TEST_CASE("forces that are too small at the start are raised") {
   Eigen::Index const n = 200, bounded = 20;
-  MatrixXd M = MatrixXd::Zero(n, n);
+  MatrixXd M = test::second_differences(n);
   M.diagonal().setConstant(2.0001);
-  M.diagonal(1).setConstant(-1);
-  M.diagonal(-1).setConstant(-1);
   M.bottomRightCorner(n - bounded, n - bounded) *= 1e-3;
   M(bounded - 1, bounded) = M(bounded, bounded - 1) = -1e-3;
   VectorXd b = VectorXd::Constant(n, 0.01);
   for (Eigen::Index i = 0; i < bounded; ++i) b(i) = std::pow(10, double(i) / double(bounded));
-  auto const set = slant::cartesian(slant::intervals(VectorXd::Constant(bounded, 1e-4).eval()),
-                                    slant::free_components(n - bounded));
-  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(M), b,
-                               set};
+  auto const qp = [&] { return program(M, b, none, VectorXd::Constant(bounded, 1e-4)); };
   VectorXd const zero = VectorXd::Zero(n);
-  auto const solution = slant::solve(slant::interior_point{qp}, zero, accurate);
+  auto const solution = slant::solve(slant::interior_point{qp()}, zero, accurate);
   REQUIRE(solution.converged());
   // Once the forces have their size, both take the same steps, of 100 and more products each.
   auto const on_the_way = slant::reduced_gradient_below(1e-4) || slant::at_most(60);
-  auto const raised = slant::solve(slant::interior_point{qp}, zero, on_the_way);
-  auto const left = slant::solve(slant::interior_point{qp, {.raises = 0}}, zero, on_the_way);
+  auto const raised = slant::solve(slant::interior_point{qp()}, zero, on_the_way);
+  auto const left = slant::solve(slant::interior_point{qp(), {.raises = 0}}, zero, on_the_way);
   REQUIRE(raised.converged());
   REQUIRE(left.converged());
   CHECK(raised.state.raises == 1);

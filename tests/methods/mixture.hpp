@@ -12,6 +12,14 @@
 
 namespace test {
 
+/// Half lines, intervals around 0, discs and free components, of any numbers: one type of set, so
+/// that a method is compiled once for many tests.
+inline auto mixed_set(Eigen::VectorXd const& lower, Eigen::VectorXd const& width,
+                      Eigen::VectorXd const& g, Eigen::Index free) {
+  return slant::cartesian(slant::half_lines(lower), slant::intervals(width), slant::discs(g),
+                          slant::free_components(free));
+}
+
 /// 20 unknowns: half lines, intervals, discs (of radius 0 and ∞ as well), free ones.
 struct mixture {
   Eigen::MatrixXd A;
@@ -21,11 +29,7 @@ struct mixture {
 
   explicit mixture(double κ, unsigned seed = 1) : A(with_spectrum(log_spaced(20, κ), seed)) {}
 
-  [[nodiscard]] auto set() const {
-    return slant::cartesian(slant::half_lines(lower),
-                            slant::intervals(Eigen::VectorXd{{0.1, 1e-3}}), slant::discs(g),
-                            slant::free_components(4));
-  }
+  [[nodiscard]] auto set() const { return mixed_set(lower, Eigen::VectorXd{{0.1, 1e-3}}, g, 4); }
   [[nodiscard]] oracle::dense_qp plain() const {
     oracle::dense_qp qp{A, b.cast<long double>(), {}, {}};
     for (Eigen::Index i = 0; i < 6; ++i) qp.intervals.push_back({i, lower(i)});

@@ -10,28 +10,7 @@ namespace reduced_systems_test {
 using namespace test::evaluated;
 using test::dense_of;
 
-/// Iterations of preconditioned conjugate gradients, for matrices that need not be definite, until
-/// the first n entries of the residual are small.
-int iterations(MatrixXd const& J, MatrixXd const& P_inverse, VectorXd x, VectorXd const& b,
-               Eigen::Index n, double target) {
-  VectorXd r = b - J * x, p;
-  double last = 0;
-  for (int k = 0; k < 200; ++k) {
-    if (r.head(n).norm() <= target) return k;
-    VectorXd const z = P_inverse * r;
-    double const rz = r.dot(z);
-    p = k == 0 ? z : VectorXd(z + rz / last * p);
-    last = rz;
-    VectorXd const Jp = J * p;
-    double const α = rz / p.dot(Jp);
-    x += α * p;
-    r -= α * Jp;
-  }
-  return 200;
-}
-
-TEST_CASE(
-    "the spectra of [K Theorems 3 and 4] at every iterate, and the same work for both systems") {
+TEST_CASE("both systems and their preconditioners: the spectra of [K Theorems 3 and 4]") {
   // 4 bounds, 2 intervals, 3 discs, an ellipse, 2 free: diag(A) between 1 and 30.
   auto const set = slant::cartesian(slant::half_lines(VectorXd{{0.0, -1.0, 0.5, 0.0}}),
                                     slant::intervals(VectorXd{{0.3, 0.1}}),
@@ -93,14 +72,6 @@ TEST_CASE(
       CHECK((image - numbers(j) * vectors.col(j)).norm() <= 1e-6 * vectors.col(j).norm());
     }
 
-    // The same right-hand side for Δx, the second row solved at the start: ν = −D₂₂⁻¹ r₂ = 0.
-    VectorXd rhs = VectorXd::Zero(16 + m);
-    rhs.head(16) = -s.r;
-    double const target = 1e-6 * s.r.norm();
-    int const by_SC = iterations(J_SC, P_SC_inverse, VectorXd::Zero(16), rhs.head(16), 16, target);
-    int const by_AM = iterations(J_AM, P_AM_inverse, VectorXd::Zero(16 + m), rhs, 16, target);
-    CHECK(by_SC < 200);
-    CHECK(std::abs(by_SC - by_AM) <= 1);
     method.step(s);
     REQUIRE(s.status == slant::status::running);
     REQUIRE(s.iteration < 40);

@@ -133,14 +133,15 @@ TEST_CASE(
   CHECK(total >= 30);
 }
 
+/// The last of four points against the first of four others, walls at both ends.
+small_problem two_chains() {
+  return {both(chain(4), chain(4)), VectorXd{{0, 1, 0, 2, 0, 0, -1, 1}},
+          MatrixXd{{0, 0, 0, 1, -1, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 1}, {-1, 0, 0, 0, 0, 0, 0, 0}},
+          VectorXd{{0.5, 1, 0}}};
+}
+
 TEST_CASE("the same in other units, bit for bit in the steps") {
-  small_problem p{both(chain(4), chain(4)), VectorXd(8), MatrixXd::Zero(3, 8),
-                  VectorXd{{0.5, 1, 0}}};
-  p.f << 0, 1, 0, 2, 0, 0, -1, 1;
-  p.B(0, 3) = 1;
-  p.B(0, 4) = -1;
-  p.B(1, 7) = 1;
-  p.B(2, 0) = -1;
+  small_problem const p = two_chains();
   std::vector<slant::index> steps;
   VectorXd first;
   for (int const e : {0, 480, -480}) {
@@ -162,10 +163,7 @@ TEST_CASE("the same in other units, bit for bit in the steps") {
 }
 
 TEST_CASE("rows of any size: the same displacements, multipliers in the units of the rows") {
-  small_problem const p{
-      both(chain(4), chain(4)), VectorXd{{0, 1, 0, 2, 0, 0, -1, 1}},
-      MatrixXd{{0, 0, 0, 1, -1, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 1}, {-1, 0, 0, 0, 0, 0, 0, 0}},
-      VectorXd{{0.5, 1, 0}}};
+  small_problem const p = two_chains();
   VectorXd u, λ;
   solve(p, {}, [&](body_list const&, report_type const& r) {
     u = r.x();

@@ -7,6 +7,12 @@
 
 namespace solve_program_test {
 
+/// x ≥ lower and discs of radii g.
+auto dense_program(MatrixXd const& A, VectorXd const& b, VectorXd const& lower, VectorXd const& g) {
+  return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
+                             slant::cartesian(slant::half_lines(lower), slant::discs(g))};
+}
+
 /// Half lines and discs around a known solution: pressed, open, sliding and sticking nodes, with
 /// the stiffness of the nodes from 1 to `contrast`.
 struct known_program {
@@ -34,10 +40,7 @@ struct known_program {
     }
     b = A * x - force;
   }
-  [[nodiscard]] auto program() const {
-    return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
-                               slant::cartesian(slant::half_lines(g.size()), slant::discs(g))};
-  }
+  [[nodiscard]] auto program() const { return dense_program(A, b, 0 * g, g); }
   [[nodiscard]] double error(VectorXd const& y) const {
     VectorXd const e = y - x;
     return std::sqrt(e.dot(A * e) / x.dot(A * x));
@@ -83,6 +86,12 @@ TEST_CASE("solve(qp, M, tolerance): a preconditioner saves applications") {
   CHECK(run.work.operator_applications <= slant::solve(qp, 1e-10).work.operator_applications);
 }
 
+/// No more is known of A than that it is semidefinite.
+auto program_of(oracle::random_program const& p) {
+  return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A),
+                             p.b, test::set_of(p)};
+}
+
 TEST_CASE("solve(qp, 1e-8): hard programs, degenerate and singular ones, tiny ones") {
   for (auto const suite : {oracle::program_suite::nasty, oracle::program_suite::degenerate,
                            oracle::program_suite::tiny}) {
@@ -90,10 +99,7 @@ TEST_CASE("solve(qp, 1e-8): hard programs, degenerate and singular ones, tiny on
       CAPTURE(int(suite));
       CAPTURE(k);
       auto const p = oracle::make_program(suite, k);
-      auto const set = test::set_of(p);
-      auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A);
-      slant::separable_qp const qp{A, p.b, set};
-      auto const run = slant::solve(qp, 1e-8);
+      auto const run = slant::solve(program_of(p), 1e-8);
       CHECK(run.converged());
       auto const exact = p.definite ? oracle::exact_solution(p) : std::nullopt;
       if (exact) {
@@ -109,31 +115,31 @@ TEST_CASE("solve(qp, 1e-8): hard programs, degenerate and singular ones, tiny on
 }
 
 TEST_CASE("solve(qp, tolerance): scaled or not, x is in Λ to the last bit") {
-  MatrixXd const A{{3e6, 1e2, 0}, {1e2, 0.7, 1e-4}, {0, 1e-4, 1e-5}};
-  VectorXd const b{{1e9, 5, 9}}, high{{1.0 / 3, 0.1, 0.7}};
-  slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
-                               slant::intervals(VectorXd(-high), high)};
-  auto const run = slant::solve(qp, 1e-8);
+  oracle::random_program p;
+  p.A = MatrixXd{{3e6, 1e2, 0}, {1e2, 0.7, 1e-4}, {0, 1e-4, 1e-5}};
+  p.b = VectorXd{{1e9, 5, 9}};
+  p.right = VectorXd{{1.0 / 3, 0.1, 0.7}};
+  p.left = -p.right;
+  auto const run = slant::solve(program_of(p), 1e-8);
   CHECK(run.converged());
   CHECK(run.choice.find("blocks scaled") == 0);
-  CHECK(run.x() == VectorXd{{high[0], -high[1], high[2]}});
+  CHECK(run.x() == VectorXd{{p.right[0], p.left[1], p.right[2]}});
 }
 
 TEST_CASE("solve(qp, tolerance): an unbounded program, with the direction of descent") {
   for (double const stiffness : {1.0, 1e-6}) {  // the latter scaled
-    VectorXd const b{{1, 1, -1}};
-    MatrixXd const A = VectorXd{{1, 0, stiffness}}.asDiagonal();
-    auto const a = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A);
-    auto const set = slant::half_lines(3);
-    slant::separable_qp const qp{a, b, set};
-    auto const run = slant::solve(qp, 1e-8);
+    oracle::random_program p;
+    p.A = VectorXd{{1, 0, stiffness}}.asDiagonal();
+    p.b = VectorXd{{1, 1, -1}};
+    p.lower = VectorXd::Zero(3);
+    auto const run = slant::solve(program_of(p), 1e-8);
     CAPTURE(stiffness);
     CAPTURE(run.reason);
     CHECK(run.status == slant::status::unbounded);
     REQUIRE(run.descent.size() == 3);
     CHECK((run.descent.array() >= 0).all());
-    CHECK((A * run.descent).norm() <= 1e-12 * run.descent.norm());
-    CHECK(b.dot(run.descent) > 0);
+    CHECK((p.A * run.descent).norm() <= 1e-12 * run.descent.norm());
+    CHECK(p.b.dot(run.descent) > 0);
   }
 }
 
@@ -271,15 +277,13 @@ TEST_CASE("solve(qp, tolerance): a hard sparse program gets all that a dense one
     VectorXd const b = VectorXd::NullaryExpr(n, [&] { return number(random); });
     VectorXd const floor = VectorXd::NullaryExpr(n, [&] { return number(random) - 1; });
     Eigen::SparseMatrix<double> const sparse = A.sparseView();
-    auto const of = [&](auto matrix) {
-      return slant::solve(slant::separable_qp{std::move(matrix), b, slant::half_lines(floor)},
-                          1e-7);
-    };
     CAPTURE(seed);
-    auto const r = of(slant::matrix<slant::self_adjoint, slant::positive_definite>(sparse));
+    auto const r = slant::solve(
+        slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(sparse), b,
+                            slant::half_lines(floor)},
+        1e-7);
     CHECK(r.converged());
-    VectorXd const e =
-        r.x() - of(slant::matrix<slant::self_adjoint, slant::positive_definite>(A)).x();
+    VectorXd const e = r.x() - slant::solve(dense_program(A, b, floor, VectorXd()), 1e-7).x();
     // Estimates; 30 times the tolerance is what the adversarial bench calls wrong.
     CHECK(e.dot(A * e) <= 9e-12 * r.x().dot(A * r.x()));
   }

@@ -6,12 +6,16 @@
 
 namespace ssnm_test {
 
+/// Bounds 0 and circles of radius g.
+auto program(fem::wire<> const& w, double g) {
+  return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A), w.b,
+                             fem::wire_set(w, 0, g)};
+}
+
 /// Variant B, and its steps, allocate nothing.
 TEST_CASE("variant B: BiCGSTAB on the whole system, nothing factored, nothing allocated") {
   auto const w = fem::make_thesis_wire(8);
-  auto const set = fem::wire_set(w, 0, 0.5);
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
-  slant::separable_qp const qp{A, w.b, set};
+  auto const qp = program(w, 0.5);
   slant::ssnm const method{qp, slant::bicgstab_solver{}, fem::thesis_options(1, 0.01, 0.9)};
   auto s = method.start(VectorXd::Zero(32).eval());
   method.step(s);
@@ -49,15 +53,12 @@ TEST_CASE("the function of [T] with the generic Newton method ends at the same p
 
 TEST_CASE("estimated multipliers: a solution is recognised as one") {
   auto const w = fem::make_thesis_wire(32);
-  auto const set = fem::wire_set(w, 0, 0.3);
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
-  slant::separable_qp const qp{A, w.b, set};
+  auto const qp = program(w, 0.3);
   auto const solution = fem::run_wire_ssnm(w, 0, 0.3, slant::saddle_direct{}, {});
   REQUIRE(solution.converged());
-  VectorXd const x = slant::project(set, solution.x);
-  slant::ssnm_options<double> o;
-  o.multipliers = slant::ssnm_multipliers::estimated;
-  slant::ssnm const method{qp, slant::saddle_direct{}, o};
+  VectorXd const x = slant::project(qp.set(), solution.x);
+  slant::ssnm const method{
+      qp, slant::saddle_direct{}, {.multipliers = slant::ssnm_multipliers::estimated}};
   auto s = method.start(x);
   CHECK(s.residual_norm <= 1e-6 * w.b.norm());
   CHECK(s.multipliers.minCoeff() >= 0);
@@ -87,9 +88,7 @@ TEST_CASE("an empty choice: bounds at −∞, circles without end") {
 
 TEST_CASE("at the last digits the run stalls, with a residual of rounding errors") {
   auto const w = fem::make_thesis_wire(8);
-  auto const set = fem::wire_set(w, 0, 0.5);
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
-  slant::separable_qp const qp{A, w.b, set};
+  auto const qp = program(w, 0.5);
   slant::ssnm const method{qp, slant::saddle_direct{}};
   auto const r = slant::solve(method, test::zeros(32), slant::at_most(100));
   CHECK((r.status == slant::status::stalled || r.status == slant::status::converged ||
@@ -102,9 +101,7 @@ TEST_CASE("at the last digits the run stalls, with a residual of rounding errors
 
 TEST_CASE("bad input") {
   auto const w = fem::make_thesis_wire(4);
-  auto const set = fem::wire_set(w, 0, 1);
-  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(w.A);
-  slant::separable_qp const qp{A, w.b, set};
+  auto const qp = program(w, 1);
   auto const with = [&](slant::ssnm_options<double> const& o) {
     static_cast<void>(slant::ssnm{qp, slant::saddle_direct{}, o});
   };

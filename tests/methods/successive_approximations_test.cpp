@@ -101,8 +101,7 @@ TEST_CASE("acceleration: no more steps than the plain iteration") {
     CAPTURE(rate);
     auto const steps = [&](slant::index window) {
       moving_obstacle family(rate);
-      slant::successive_options<double> o;
-      o.window = window;
+      slant::successive_options<double> const o{.window = window};
       slant::successive_approximations const method(family, newton(family), o);
       auto const r = slant::solve(method, test::zeros(n), stop(1e-12));
       CHECK(r.converged());
@@ -162,8 +161,7 @@ TEST_CASE("products are counted, and iterations do not allocate") {
 
 TEST_CASE("no contraction and no solution in reach: stalled or at the limit, never converged") {
   moving_obstacle family(3);
-  slant::successive_options<double> o;
-  o.window = 0;
+  slant::successive_options<double> const o{.window = 0};
   slant::successive_approximations const method(family, newton(family), o);
   auto const r = slant::solve(method, VectorXd(VectorXd::Ones(n)), stop(1e-10));
   if (r.converged()) {

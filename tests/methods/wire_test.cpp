@@ -5,7 +5,7 @@
 #include <slant/slant.hpp>
 
 #include <fem/active_counts.hpp>
-#include <fem/string_1d.hpp>
+#include <fem/thesis_ssnm.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/minimise.hpp>
 #include <support/testing.hpp>
@@ -22,9 +22,7 @@ void check_cells(std::size_t entries, Run const& run) {
       CAPTURE(printed.g);
       CAPTURE(m);
       auto const wire = fem::make_wire(m);
-      auto const set = slant::cartesian(slant::half_lines(VectorXd::Constant(m, printed.l).eval()),
-                                        slant::discs(VectorXd::Constant(m, printed.g).eval()),
-                                        slant::free_components(m));
+      auto const set = fem::wire_set(wire, printed.l, printed.g);
       auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(wire.A);
       auto const r = run(slant::separable_qp{A, wire.b, set}, wire);
       CHECK(r.converged());
@@ -54,16 +52,6 @@ TEST_CASE("symmetric_newton with A⁻¹: no descent step is needed") {
     CHECK(r.state.descent.count() == 0);
     // The thesis needs up to 223 steps where bounds alone are active; the front moves by a node.
     CHECK(r.iterations() <= 8 + wire.m / 2);
-    return r;
-  });
-}
-
-TEST_CASE("semismooth_newton: at most 30 steps, with few halvings") {
-  check_cells(test::effort(4, 2), [](auto const& qp, auto const& wire) {
-    auto const F = slant::natural_residual(qp.a(), qp.b(), qp.set(), 5 * wire.h());
-    auto const r = slant::solve(slant::semismooth_newton{F, slant::sparse_direct_solver{}},
-                                zero(wire), slant::residual_below(1e-11) || slant::at_most(30));
-    CHECK(r.state.work.operator_applications <= 2 * r.iterations() + 8);
     return r;
   });
 }

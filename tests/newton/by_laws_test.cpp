@@ -40,17 +40,6 @@ static_assert(std::is_same_v<choice<archetype::spd_operator, archetype::vector>,
 static_assert(std::is_same_v<slant::chosen_solver_t<slant::bicgstab_solver, spd, VectorXd>,
                              slant::bicgstab_solver>);
 
-TEST_CASE("the choice is a type of the method") {
-  auto const square = slant::smooth(
-      2, 2, [](auto const& y, auto& f) { f = y.cwiseAbs2(); },
-      [](auto const& y) { return MatrixXd(2 * y.asDiagonal()); });
-  slant::semismooth_newton const method{square};
-  using by_default = std::remove_const_t<decltype(method)>;
-  static_assert(std::is_same_v<by_default::solver_for<VectorXd>, slant::direct_solver>);
-  static_assert(slant::iterative_method<by_default, VectorXd>);
-  CHECK(method.start(VectorXd(VectorXd::Ones(2))).residual_norm == doctest::Approx(std::sqrt(2.0)));
-}
-
 /// dy = −F: a fixed-point iteration as the least of all linear solvers.
 struct picard {
   template <class G, class V>

@@ -101,15 +101,4 @@ TEST_CASE("singular matrices, and those that are not numbers, are breakdowns") {
   }
 }
 
-TEST_CASE("who can be solved directly, and at what price") {
-  using dense = decltype(slant::matrix(MatrixXd()));
-  using sparse = decltype(slant::matrix(sparse_matrix()));
-  using counted = decltype(slant::counted(MatrixXd()));
-  static_assert(slant::solved_cheaply<dense, VectorXd> && slant::solved_cheaply<sparse, VectorXd>);
-  static_assert(slant::solved_cheaply<slant::identity_operator, VectorXd>);
-  static_assert(!slant::solved_cheaply<counted, VectorXd>);
-  static_assert(slant::solved_directly<counted, VectorXd>);
-  static_assert(slant::direction_solver<direct_solver, counted, VectorXd>);
-}
-
 }  // namespace direct_solver_test

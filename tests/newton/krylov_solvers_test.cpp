@@ -118,7 +118,6 @@ TEST_CASE("gmres_solver: an application a step, and one for a small residual") {
     CHECK(r.report.status == status::converged);
     CHECK(r.applications == r.report.iterations + (η < 1e-8 ? 1 : 0));
     CHECK((f + A * r.dy).norm() <= 1.001 * η * f.norm() + 1e-14);
-    CHECK(r.report.residual_norm == doctest::Approx((f + A * r.dy).norm()).epsilon(1e-2));
   }
 }
 

@@ -465,25 +465,6 @@ TEST_CASE("a warm start costs one more, and only after a shortened step") {
   CHECK(warm > 0);
 }
 
-TEST_CASE("bicgstab_solver: two an iteration, less one if it ends half way") {
-  scene const p;
-  run(p, slant::semismooth_newton{p.F, slant::bicgstab_solver{}}, p.d.zero(),
-      [&](auto const&, auto const& s, slant::index products) {
-        CHECK(products <= 2 * s.inner_iterations + s.trials);
-        CHECK(products >= 2 * s.inner_iterations - 1 + s.trials);
-      });
-}
-
-TEST_CASE("direct_solver: the columns of A once a step, and one product for F") {
-  scene const p;
-  run(p, slant::semismooth_newton{p.F, slant::direct_solver{}}, p.d.zero(),
-      [&](auto const&, auto const& s, slant::index products) {
-        CHECK(products == s.trials);
-        CHECK(s.work.factorizations == s.iteration);
-        CHECK(p.A.counts().columns == 24 * s.iteration);
-      });
-}
-
 TEST_CASE("inexact steps cost less than accurate ones") {
   scene const p;
   auto const stop = slant::residual_below(1e-10) || slant::at_most(60);
