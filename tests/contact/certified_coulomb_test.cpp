@@ -4,7 +4,6 @@
 #include <slant/contact/optimality.hpp>
 
 #include <fem/two_bricks.hpp>
-#include <support/optimised.hpp>
 #include <support/testing.hpp>
 #include "coulomb_scenes.hpp"
 #include "counting_factor.hpp"

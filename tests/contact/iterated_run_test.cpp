@@ -18,7 +18,6 @@
 #include "scenes.hpp"
 #include "spring_scenes.hpp"
 #include "support/chequered_brick.hpp"
-#include "support/optimised.hpp"
 
 namespace iterated_run_test {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The numbers copied from the documents, where they can be checked against each other.
-#include <fem/lecture_tables.hpp>
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/testing.hpp>
@@ -45,14 +44,6 @@ TEST_CASE("what two tables print of the same run is the same") {
   CHECK(same(fem::thesis_table_4_6[0].entries[1], fem::thesis_table_4_7[1].entries[0]));
   // The adaptive column of 4.5 at n = 512 is r_tol = 0.01, ρ = 0.5 of 4.7.
   CHECK(same(fem::thesis_table_4_5[4].adaptive, fem::thesis_table_4_7[10].entries[2]));
-}
-
-TEST_CASE("sizes of the bricks follow from their cells") {
-  for (auto const& row : fem::thesis_table_4_9) CHECK(9 * row.k * (row.k + 1) == row.multipliers);
-  for (auto const& row : fem::lecture_table_3) {
-    CHECK(9 * row.k * (row.k + 1) * (row.k + 1) == row.unknowns);
-    CHECK(9 * row.k * (row.k + 1) == row.multipliers);
-  }
 }
 
 }  // namespace printed_tables_test

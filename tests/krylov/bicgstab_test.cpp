@@ -78,25 +78,6 @@ TEST_CASE("rᵀA r = 0 for all r: a turned shadow residual solves what r̂ = r c
   }
 }
 
-TEST_CASE("singular systems end without success, with finite numbers") {
-  VectorXd const zero = VectorXd::Zero(3);
-  VectorXd const b = VectorXd::Unit(3, 0);
-  auto const stop = slant::residual_below(1e-10) || slant::at_most(50);
-
-  auto const Z = slant::matrix(MatrixXd(MatrixXd::Zero(3, 3)));
-  auto const nothing = slant::solve(slant::bicgstab{Z, b}, zero, stop);
-  CHECK(nothing.status == slant::status::breakdown);
-  CHECK(nothing.x() == zero);
-
-  MatrixXd nilpotent = MatrixXd::Zero(3, 3);  // A b is in the kernel: no Krylov space helps
-  nilpotent(1, 0) = 1;
-  auto const N = slant::matrix(nilpotent);
-  auto const r = slant::solve(slant::bicgstab{N, b}, zero, stop);
-  CHECK(!r.converged());
-  CHECK(r.x().allFinite());
-  CHECK(r.state.r.allFinite());
-}
-
 TEST_CASE("a shadow residual that becomes orthogonal is renewed") {
   // Permutation-like matrices make ρ = r̂ᵀr vanish within a few steps.
   MatrixXd M = MatrixXd::Zero(4, 4);

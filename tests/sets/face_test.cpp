@@ -98,18 +98,4 @@ TEST_CASE("face: the archetypes of a set and a vector") {
   CHECK(y.local() == Vector3d(0, 0, 0));
 }
 
-TEST_CASE("face: free components ask nobody, frictionless products never ask a disc") {
-  counting_disc::questions = 0;
-  auto const set = slant::cartesian(slant::half_lines(2), slant::free_components(3),
-                                    slant::power(counting_disc{}, vec<>(vec<>::Ones(0))));
-  vec<> const x = numbers(5, 2);
-  vec<> const y = slant::project(set, x);
-  CHECK(set.contains(y));
-  static_cast<void>(set.step_to_boundary(y, x));
-  static_cast<void>(set.slant(x));
-  auto const face = face_of(set, y);
-  CHECK(face.free_count() >= 3);
-  CHECK(counting_disc::questions == 0);
-}
-
 }  // namespace face_test
