@@ -4,7 +4,7 @@
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/operators.hpp>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <oracle/precise.hpp>
 #include <slanting/slanting_support.hpp>
 #include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
@@ -12,8 +12,6 @@
 namespace operators_test {
 
 using namespace test::evaluated;
-using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
-                                                     boost::multiprecision::et_off>;
 
 /// A composition made from temporaries that are long gone when it is applied.
 template <class S>
@@ -54,7 +52,7 @@ test::dense<S> inverse_of(test::dense<S> const& k) {
 }
 
 TEST_CASE("another scalar") {
-  using S = multiprecision;
+  using S = oracle::float_50;
   test::dense<S> const k = test::random_spd<S>(5, 1);
   Eigen::SparseMatrix<S> const b = test::random_sparse<S>(3, 5, 2);
   auto const a = composition<S>(b, k);
