@@ -48,7 +48,8 @@ TEST_CASE("a method with rounded products finds the solution of the exact ones")
   auto const& work = q.state.work;
   CHECK(a.applications() == work.operator_applications + work.setup_applications);
   a.reset_counts();
-  CHECK(slant::unconstrained_start(rounded).applications == a.applications());
+  auto const start = slant::unconstrained_start(rounded);
+  CHECK(start.applications == a.applications());
 }
 
 TEST_CASE("a twin that is of no use is given up") {

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <functional>
 #include <string>
 #include <utility>
 
@@ -43,11 +42,12 @@ template <class QP, class C, class M>
   o.inner_steps = std::min<index>(o.inner_steps, most.applications);
   auto const run = [&](auto const& method, auto&& certificate) {
     certified_point<V> result{.method = "constrained_newton"};
+    auto const certify = [&](V const& x, V const& ν) { return result.error = certificate(x, ν); };
     auto state = method.start(x0);
-    auto stop = energy_error_below<S, decltype(std::ref(certificate))>(tolerance, certificate) ||
-                slant::at_most(most.steps) || slant::at_most_applications(most.applications);
+    auto stop = energy_error_below(tolerance, certify) || slant::at_most(most.steps) ||
+                slant::at_most_applications(most.applications);
     auto end = run_to_end(method, state, stop);
-    result.error = certificate(state.x, state.ν);
+    if (end.how != status::converged) static_cast<void>(certify(state.x, state.ν));
     result.status = end.how;
     result.reason = state.infeasible ? state.reason() : std::move(end.why);
     result.steps = state.iteration;
@@ -70,6 +70,7 @@ template <class QP, class C, class M>
 /// that the estimated error is at most the tolerance; x is in Λ. Throws bad_input for a tolerance
 /// that is not in [0, 1), a limit < 0, or a program that constrained_newton refuses.
 template <equality_constrained_program P>
+  requires constrained_newton_problem<typename P::program_type, typename P::constraints_type>
 [[nodiscard]] auto solve(P const& p, typename P::scalar tolerance, index max_steps = 1000) {
   using QP = typename P::program_type;
   using A = typename QP::operator_type;
@@ -102,6 +103,16 @@ template <equality_constrained_program P>
   } else {
     return by(I, zero, {.steps = max_steps});
   }
+}
+
+/// A program that lacks something ends here and is told so by constrained_newton.
+template <equality_constrained_program P>
+  requires(!constrained_newton_problem<typename P::program_type, typename P::constraints_type>)
+auto solve(P const&, typename P::scalar, index = 0) -> certified_point<typename P::vector_type> {
+  static_assert(sizeof(constrained_newton<typename P::program_type const&,
+                                          typename P::constraints_type const&, identity_operator>) >
+                0);
+  return {};
 }
 
 }  // namespace slant
