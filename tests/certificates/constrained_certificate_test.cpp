@@ -88,6 +88,20 @@ TEST_CASE("a residual of 1e-3 with an error of 900 %, in a wedge: the certificat
   }
 }
 
+TEST_CASE("an angle below the root of the precision: no claim that is wrong") {
+  for (double const θ : {1e-7, 1e-9, 1e-12}) {
+    CAPTURE(θ);
+    test::wedge w(θ);
+    w.b(0) = 1 + 1e-6;  // pulls to 1 + 1e-6, which misses the equation by less than rounding
+    auto const qp = w.qp();
+    slant::constrained_certificate certificate(qp, w.constraints);
+    auto const run =
+        slant::solve(slant::constrained_newton{qp, w.constraints}, test::zeros(2),
+                     slant::energy_error_below(1e-8, std::ref(certificate)) || slant::at_most(400));
+    CHECK((!run.converged() || (run.x() - VectorXd{{1.0, 0.0}}).norm() <= 1e-8));
+  }
+}
+
 TEST_CASE("any units and lengths; a singular A; products are counted, nothing is allocated") {
   for (auto const& [unit, length] : {std::array{1.0, 1.0}, std::array{1e140, 1.0},
                                      std::array{1e-140, 1.0}, std::array{1.0, 1e-100}}) {

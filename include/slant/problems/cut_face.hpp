@@ -23,6 +23,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -55,10 +56,12 @@ class cut_face {
   [[nodiscard]] bool assign(Set const& set, Z const& z, S const& κ) {
     assemble(set, z, κ);
     independent_.clear();
+    all_told_ = true;
     if (factor(coarse_)) return true;
     independent_ = detail::independent_rows(coarse_);
     coarse_ = dense_type(coarse_(independent_, independent_));
     static_cast<void>(factor(coarse_));
+    look_at_rows_left_out();
     return false;
   }
 
@@ -86,12 +89,14 @@ class cut_face {
     y += image_;
   }
 
-  /// Whether rounding is all of N x, for a sum x of terms of that length.
+  /// Whether rounding is all of N x, for a sum x of terms of that length. False where a row that was
+  /// left out does not depend on others up to rounding: then that says nothing.
   [[nodiscard]] bool meets(vector_type const& x, S const& length) const {
     using std::sqrt;
     weights_.noalias() = N_ * x;
     S const n(static_cast<double>(x.size()));
-    return weights_.norm() <= S(16) * std::numeric_limits<S>::epsilon() * sqrt(n) * length;
+    return all_told_ &&
+           weights_.norm() <= S(16) * std::numeric_limits<S>::epsilon() * sqrt(n) * length;
   }
   /// y = Π Nᵀ(N Π Nᵀ)⁻¹N x: the shortest step in the face that N maps to N x.
   void lift(vector_type const& x, vector_type& y) const {
@@ -118,6 +123,21 @@ class cut_face {
         }
       }
     });
+  }
+
+  /// N Π Nᵀ sees the squares of distances: whether the rows left out are combinations of the others
+  /// is told by what the projector, applied twice, leaves of them.
+  void look_at_rows_left_out() {
+    using std::sqrt;
+    S const n(static_cast<double>(N_.cols()));
+    for (index i = 0; i < N_.rows(); ++i) {
+      if (std::binary_search(independent_.begin(), independent_.end(), i)) continue;
+      vector_type const row = N_.row(i).transpose();
+      vector_type rest(N_.cols());
+      keep(row, rest);
+      cut(rest);
+      if (rest.norm() > S(16) * std::numeric_limits<S>::epsilon() * sqrt(n)) all_told_ = false;
+    }
   }
 
   /// Whether all pivots can be told from zero.
@@ -154,6 +174,7 @@ class cut_face {
   sparse_type N_;
   dense_type coarse_;               // N Π Nᵀ
   std::vector<index> independent_;  // its rows, where it is singular
+  bool all_told_ = true;            // and the others depend on these up to rounding
   Eigen::LLT<dense_type> factors_;
   mutable vector_type weights_, part_, normal_, kept_, image_;  // scratch
 };
