@@ -4,7 +4,7 @@
 #pragma once
 
 #include <fem/decomposition.hpp>
-#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/contact/total_feti.hpp>
 
 namespace examples {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/factorizations/factorizations.hpp>
 #include <slant/testing/laws.hpp>
 

@@ -2,7 +2,7 @@
 #include "block_vectors.hpp"
 #include "grids.hpp"
 
-#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/multilevel/aggregation.hpp>
 
 #include <fem/steel_brick.hpp>

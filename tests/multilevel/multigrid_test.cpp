@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grids.hpp"
 
-#include <slant/contact/rigid_body_modes.hpp>
+#include <slant/contact/free_motions.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/krylov/preconditioner.hpp>

@@ -31,7 +31,6 @@
 #include <slant/contact/load_stepper.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/preconditioners.hpp>
-#include <slant/contact/rigid_body_modes.hpp>
 #include <slant/contact/route.hpp>
 
 // Coulomb friction of elastic bodies:

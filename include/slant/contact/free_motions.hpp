@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// The motions of bodies that a stiffness matrix K does not resist, and their names. Bodies are the
-// connected components of the graph of K, numbered from 0 in the order of their first unknowns; the
-// free motions of a body are the kernel of its block, rigid motions for an elastic one.
+// The motions of bodies that a stiffness matrix K does not resist, and their names.
 //
-//     kernel    R, orthonormal, by inverse iteration (computed_kernel)
+//     given     of nodes that nothing holds: translations, and the linearised rotations ω × (x − x̄)
+//               about their centre (rigid_body_modes)
+//     found     bodies are the connected components of the graph of K, numbered from 0 in the order
+//               of their first unknowns; the free motions R of a body are the kernel of its block,
+//               orthonormal, by inverse iteration (computed_kernel): rigid ones, if it is elastic
 //     names     where the places of the unknowns are known: R = Φ C with the rigid motions Φ about
 //               the centre of the body. Combinations without rotation are translations, the others
 //               turn about the axes that are left.
 //
-// Costs a factorisation for each body, and a few solves.
+// Finding them costs a factorisation for each body, and a few solves.
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/compiled.hpp>
+#include <slant/concepts/bad_input.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/prepared_body.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
+#include <slant/multilevel/aggregation.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -27,10 +33,63 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+namespace slant::contact::detail {
+
+// --- rigid-body modes ----------------------------------------------------------------------------
+
+/// Coordinates about the mean of all nodes, in multiples of the largest one. Directions in which
+/// they differ by no more than its rounding errors are left out: a line must not become a rotation,
+/// wherever it lies.
+template <class S, class M>
+[[nodiscard]] Eigen::MatrixX<S> about_centre(M const& nodes) {
+  using std::sqrt;
+  using matrix_type = Eigen::MatrixX<S>;
+  auto const n = static_cast<S>(static_cast<double>(nodes.cols()));
+  matrix_type x = nodes;
+  S const factor = S(1) / unit_near(slant::detail::largest_of(x));
+  for (index i = 0; i < x.rows(); ++i) {
+    x.row(i) *= factor;
+    x.row(i).array() -= x.row(i).sum() / n;
+  }
+  Eigen::JacobiSVD<matrix_type> const svd(x, Eigen::ComputeThinU);
+  S const rounding = S(16) * sqrt(n) * std::numeric_limits<S>::epsilon();
+  index rank = 0;
+  for (S const& σ : svd.singularValues()) rank += σ > rounding ? 1 : 0;
+  matrix_type const axes = svd.matrixU().leftCols(rank);
+  return axes * matrix_type(axes.transpose() * x);
+}
+
+}  // namespace slant::contact::detail
+
+namespace slant::contact {
+
+/// Orthonormal basis of the motions of n nodes, D n × 3 in the plane (D = 2) and D n × 6 in space;
+/// fewer where nodes on a line, or a single one, leave rotations without effect. `nodes` has D rows
+/// and a column for each node; node i has the unknowns D i … D i + D − 1. Throws bad_input for
+/// another number of rows, coordinates that are not finite, or no nodes.
+template <class M>
+[[nodiscard]] auto rigid_body_modes(Eigen::MatrixBase<M> const& nodes)
+    -> Eigen::Matrix<typename M::Scalar, Eigen::Dynamic, Eigen::Dynamic> {
+  using S = typename M::Scalar;
+  index const D = nodes.rows(), n = nodes.cols();
+  if (D != 2 && D != 3) {
+    throw bad_input("rows of nodes", slant::detail::show(D), "2 or 3 coordinates");
+  }
+  if (n < 1) throw bad_input("columns of nodes", slant::detail::show(n), "at least one node");
+  slant::detail::require_finite_entries("nodes", nodes.derived());
+
+  return slant::detail::orthonormal_basis<S>(slant::detail::rigid_motions<S>(
+      detail::about_centre<S>(nodes), D * n, [D](index j) { return j / D; },
+      [D](index j) { return j % D; }));
+}
+
+}  // namespace slant::contact
 
 namespace slant::contact::detail {
 

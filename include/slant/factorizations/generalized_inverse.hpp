@@ -11,7 +11,7 @@
 // some R α; what the projector onto the orthogonal complement of R leaves of it is the same, that
 // of the Moore–Penrose inverse [K refs 42, 44].
 //
-//     auto Kplus = slant::generalized_inverse(K, slant::rigid_body_modes(nodes));
+//     auto Kplus = slant::generalized_inverse(K, slant::contact::rigid_body_modes(nodes));
 //     auto F = slant::congruence(B, Kplus);
 #pragma once
 
