@@ -4,6 +4,8 @@
 #include <slant/contact/primal_stepper.hpp>
 
 #include <slant/contact/dual.hpp>
+#include <slant/contact/optimality.hpp>
+#include <slant/contact/solve.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/symmetric_newton.hpp>
@@ -18,6 +20,7 @@ namespace contact = slant::contact;
 using sparse = Eigen::SparseMatrix<double>;
 using step = contact::load_step<double>;
 using options = contact::solve_options<double>;
+using coulomb_options = contact::certified_coulomb_options<double>;
 
 struct scene {
   sparse K;
@@ -123,6 +126,120 @@ TEST_CASE("tangential positions in the first step") {
   agree(s, {{.w = VectorXd::Constant(s.data.T.rows(), 1e-4)}, {.f = VectorXd(2 * s.data.f)}});
 }
 
+coulomb_options coulomb_options_of(scene const& s) {
+  coulomb_options o;
+  o.tolerance = s.o.tolerance;
+  o.layout = s.o.layout;
+  return o;
+}
+
+/// Data whose solution is u − Tᵀw (rows of T are unit vectors): friction acts from 0 there.
+contact::data<double> from_zero(sparse const& K, contact::data<double> c, VectorXd const& w) {
+  c.f -= K * VectorXd(c.T.transpose() * w);
+  return c;
+}
+
+TEST_CASE("Coulomb's law on increments: each step as a problem of its own by the forces") {
+  for (auto const load : fem::brick_loads) {
+    scene const s(test::effort(5, 2), load);
+    VectorXd const F = VectorXd::Constant(s.data.d.size(), 0.3);
+    contact::data<double> c = s.data;
+    contact::primal_coulomb_stepper stepper(s.K, c, F, coulomb_options_of(s));
+    VectorXd const f = c.f;
+    VectorXd w = VectorXd::Zero(c.T.rows());
+    VectorXd gaps = c.d;
+    gaps.head(3).setConstant(1e-5);
+    for (step const& next : std::vector<step>{
+             {.f = VectorXd(0.5 * f)},
+             {},
+             {.f = f, .w = VectorXd::LinSpaced(w.size(), -2e-5, 3e-5)},
+             {.d = gaps},
+             {.f = VectorXd(1e-6 * f), .d = VectorXd(1e-6 * gaps), .w = VectorXd(0 * w)},
+             {.f = VectorXd(0.8 * f), .d = c.d}}) {
+      if (next.f) c.f = *next.f;
+      if (next.d) c.d = *next.d;
+      if (next.w) w = *next.w;
+      auto const& r = stepper.advance(next);
+      CAPTURE(r.reason);
+      REQUIRE(r.converged());
+      auto const alone = contact::certified_coulomb(
+          contact::friction_disc{}, s.K, from_zero(s.K, c, w), F,
+          {.tolerance = 1e-12, .route = contact::solution_route::factor});
+      VectorXd const u = alone.u + c.T.transpose() * w;
+      CHECK(oracle::energy_error(s.K, r.u, u) <= s.o.tolerance);
+      CHECK((r.λ - alone.λ).norm() <= 100 * s.o.tolerance * alone.λ.norm());
+      CHECK(r.error.frozen.size == doctest::Approx(std::sqrt(u.dot(s.K * u))).epsilon(1e-6));
+      if (!next.f && !next.d && !next.w) CHECK(r.steps <= 2);  // nothing has changed
+    }
+  }
+}
+
+TEST_CASE("a path with Coulomb's law costs a part of as many problems") {
+  scene const s(test::effort(8, 4), fem::brick_load::pull, 1e-8);
+  VectorXd const F = VectorXd::Constant(s.data.d.size(), 0.3);
+  contact::primal_coulomb_stepper stepper(s.K, s.data, F, coulomb_options_of(s));
+  auto alone = coulomb_options_of(s);
+  alone.route = contact::solution_route::iterate;
+  VectorXd const press =
+      fem::make_steel_brick({.k = test::effort(8, 4), .load = fem::brick_load::press}).f;
+  slant::index cycles = 0, cycles_alone = 0;
+  for (int i = 1; i <= 10; ++i) {
+    contact::data<double> c = s.data;
+    c.f = press + i / 10.0 * (s.data.f - press);
+    cycles += stepper.advance({.f = c.f}).work.inner_iterations;
+    cycles_alone += contact::certified_coulomb(contact::friction_disc{}, s.K, c, F, alone)
+                        .work.inner_iterations;
+  }
+  CHECK(cycles <= 0.7 * static_cast<double>(cycles_alone));  // 0.6
+}
+
+TEST_CASE("bodies that contact and friction hold, on a path") {
+  for (double const friction : {0.05, 0.0}) {  // slip bound; 0: Coulomb's law
+    CAPTURE(friction);
+    test::loose_brick const loose(0.3, {-0.05, 0, 0}, friction);
+    contact::data<double> c = loose.data;
+    contact::solve_options<double> o{.tolerance = 1e-9};
+    o.layout = contact::interleaved_layout(loose.mesh.nodes);
+    coulomb_options with_law;
+    with_law.tolerance = o.tolerance;
+    with_law.layout = o.layout;
+    contact::primal_stepper tresca(loose.K, c, o);
+    contact::primal_coulomb_stepper coulomb(loose.K, c, VectorXd::Constant(c.d.size(), 0.3),
+                                            with_law);
+    VectorXd const f = c.f, w = VectorXd::LinSpaced(c.T.rows(), -2e-6, 3e-6);
+    VectorXd const none = VectorXd::Zero(w.size()), gaps = VectorXd::Constant(c.d.size(), 1e-5);
+    VectorXd at = none;
+    for (step const& next : std::vector<step>{{.f = VectorXd(0.5 * f)},
+                                              {},
+                                              {.f = f},
+                                              {.w = w},
+                                              {.f = VectorXd(0.9 * f), .d = gaps, .w = none}}) {
+      if (next.f) c.f = *next.f;
+      if (next.d) c.d = *next.d;
+      if (next.w) at = *next.w;
+      VectorXd u;
+      if (friction > 0) {
+        auto const& r = tresca.advance(next);
+        CAPTURE(r.reason);
+        CHECK(r.converged());
+        CHECK(r.motions.free.size() == 1);
+        u = r.u;
+      } else {
+        auto const& r = coulomb.advance(next);
+        CAPTURE(r.reason);
+        CHECK(r.converged());
+        c.g = 0.3 * r.λ.head(c.d.size()).cwiseMax(0);
+        u = r.u;
+      }
+      auto const alone =
+          contact::solve(loose.K, from_zero(loose.K, c, at),
+                         {.tolerance = 1e-11, .route = contact::solution_route::factor});
+      REQUIRE(alone.converged());
+      CHECK(oracle::energy_error(loose.K, u, VectorXd(alone.u + c.T.transpose() * at)) <= 1e-9);
+    }
+  }
+}
+
 TEST_CASE("what does not fit is named and changes nothing") {
   scene const s(2, fem::brick_load::pull);
   auto const& c = s.data;
@@ -150,10 +267,14 @@ TEST_CASE("what does not fit is named and changes nothing") {
   contact::data<double> half = c;
   half.T.prune([](Eigen::Index row, Eigen::Index, double) { return row > 1; });
   CHECK(complaint(s.K, half, s.o).find("N and T: got contact 0 has an empty row of T") == 0);
-  test::loose_brick const loose(1, Vector3d::Zero(), 0.05);
-  o = {.tolerance = 1e-8, .layout = contact::interleaved_layout(loose.mesh.nodes)};
-  CHECK(complaint(loose.K, loose.data, o).find("expected supports of every body") !=
-        std::string::npos);
+  contact::primal_coulomb_stepper coulomb(s.K, c, VectorXd::Constant(c.d.size(), 0.3),
+                                          coulomb_options_of(s));
+  CHECK(test::complaint([&] { static_cast<void>(coulomb.advance({.g = c.g})); }) ==
+        "g: got slip bounds, expected none, which are F times the pressures");
+  CHECK(test::complaint([&] {
+          contact::primal_coulomb_stepper(s.K, c, VectorXd::Constant(c.d.size(), -1),
+                                          coulomb_options_of(s));
+        }).find("F[0]: got -1") == 0);
 }
 
 TEST_CASE("a step that ends early is told, and not gone on from") {

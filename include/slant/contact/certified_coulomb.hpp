@@ -329,14 +329,10 @@ template <class V>
 
 // --- without factors -----------------------------------------------------------------------------
 
-template <class Friction, class S>
-[[nodiscard]] auto iterated_certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K,
-                                              data<S> const& c, Eigen::VectorX<S> const& F,
-                                              free_motions<S> const& floating,
-                                              certified_coulomb_options<S> const& o)
-    -> certified_coulomb_result<Eigen::VectorX<S>> {
-  auto found = detail::iterated_coulomb(friction, K, c, F, o.layout, floating, o.multigrid,
-                                        S(o.tolerance), o.outer_steps);
+/// What was found without factors, as it is reported.
+template <class S>
+[[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> reported(
+    iterated_coulomb_result<S> found, certified_coulomb_options<S> const& o) {
   certified_coulomb_result<Eigen::VectorX<S>> result{std::move(found.λ)};
   result.u = std::move(found.u);
   result.error = found.error;
@@ -371,17 +367,18 @@ template <class Friction, class S>
   c.g = vector_type::Zero(c.nodes());
   detail::validated(friction, c, K.rows());
   detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
-  auto const outlook =
-      o.method == coulomb_method::automatic
-          ? detail::outlook_of_iteration(K, c, o)
-          : detail::iteration_outlook<S>{"the method works on forces"};
+  auto const outlook = o.method == coulomb_method::automatic
+                           ? detail::outlook_of_iteration(K, c, o)
+                           : detail::iteration_outlook<S>{"the method works on forces"};
   // The methods with factors need supports.
   bool const needs_none = !outlook.floating.free.empty() && o.route == solution_route::automatic;
   auto const route = needs_none ? solution_route::iterate : o.route;
   route_choice choice = choose_route(K, outlook.refusal, route, o.costs);
   if (needs_none) choice.reason = "iterated: factors need supports of every body";
   auto const iterate = [&] {
-    return detail::iterated_certified_coulomb(friction, K, c, F, outlook.floating, o);
+    return detail::reported(detail::iterated_coulomb(friction, K, c, F, o.layout, outlook.floating,
+                                                     o.multigrid, S(o.tolerance), o.outer_steps),
+                            o);
   };
   if (auto found = detail::iterated_first(choice, route, iterate)) return *std::move(found);
   auto const factor = factorize_stiffness(K, o.layout);

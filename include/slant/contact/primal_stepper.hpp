@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// One load step after the other by the displacements, K never factored:
+// One load step after the other by the displacements, K never factored: with given slip bounds,
 //
 //     contact::primal_stepper stepper(K, data, {.tolerance = 1e-8, .layout = layout});
 //     auto const& first = stepper.advance({});                            // the data that are there
 //     auto const& next = stepper.advance({.f = 2 * f, .w = T * first.u});  // friction on increments
 //
+// or with Coulomb's law, where F is a coefficient for each contact:
+//
+//     contact::primal_coulomb_stepper stepper(K, data, F, {.tolerance = 1e-8, .layout = layout});
+//
 // Levels of multigrid, step lengths and all memory stay. The first step starts from the same problem
 // on the coarser levels, each other one on the line through the last two solutions, where the line
-// through their loads is nearest to the new load. Rejected: where the energy of the body is least on
-// that line, which knows nothing of what contact holds back (5 steps where nothing has changed).
+// through their loads is nearest to the new load, as do pressures in Coulomb's law.
+// Springs of bodies that contact alone holds end there. Rejected: where the energy of the body is
+// least on that line, which knows nothing of what contact holds back (5 steps where nothing has
+// changed).
 #pragma once
 
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/concepts/bad_input.hpp>
+#include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/load_stepper.hpp>
+#include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/parts/iterated_run.hpp>
 #include <slant/contact/solve_options.hpp>
 
@@ -26,59 +34,88 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
-namespace slant::contact {
+namespace slant::contact::detail {
 
-/// Refers to K. Not movable.
-template <class S = double>
-class primal_stepper {
+/// A primal_run that goes from one load step to the next. Refers to K; not movable.
+template <class S>
+class stepped_run {
  public:
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using report_type = solution<S>;
+  using sparse_type = Eigen::SparseMatrix<S>;
 
-  /// K: n × n, both triangles. Of the options `route`, `costs`, `scale`, `condensation` and `start`
-  /// have no part. Throws bad_input for data that do not fit or options out of range; where
-  /// displacements cannot be solved for, for the reason that contact::solve would give for factors;
-  /// and for bodies that K leaves free,
-  /// which options.layout tells.
-  primal_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, solve_options<S> options)
-      : K_(&K), c_(std::move(c)), options_(std::move(options)) {
-    options_.validate();
-    detail::validated(law(), c_, K.rows());
-    if (options_.prove) throw bad_input("prove", "true", "false, as a proof takes factors");
-    options_.route = solution_route::iterate;
-    auto const outlook = detail::outlook_of_iteration(K, c_, options_);
-    if (outlook.refusal) {
-      throw bad_input("N and T", *outlook.refusal,
-                      "rows that displacements can be solved for with");
-    }
-    if (!outlook.floating.free.empty()) {
-      throw bad_input("K", outlook.floating.free.front().text, "supports of every body");
-    }
-  }
-  primal_stepper(primal_stepper const&) = delete;
-  primal_stepper& operator=(primal_stepper const&) = delete;
+  /// Of options with layout and multigrid; at most `most` steps of Newton's method in each.
+  template <class Options>
+  stepped_run(sparse_type const& K, data<S> c, Options const& o, index most)
+      : c_(std::move(c)),
+        layout_(o.layout),
+        multigrid_(o.multigrid),
+        most_(most),
+        floating_(bodies_that_float(K, c_, o)),
+        springs_(K, floating_) {}
 
-  /// Solves the next step; the report is that of contact::solve, and stays until the one after it.
-  /// `iterations` and `work` are of the step. Throws bad_input, and has then done nothing, for data
-  /// that do not fit or a K that is found not to be definite; numerical trouble is a status. A step
-  /// that did not converge is not remembered: the next one starts from those before.
-  [[nodiscard]] report_type const& advance(load_step<S> step) {
-    take(step);
+  [[nodiscard]] friction_of_data law() const { return friction_of_data{c_.tangents()}; }
+  [[nodiscard]] data<S> const& scene() const { return c_; }
+  [[nodiscard]] vector_type const& positions() const { return w_; }
+  [[nodiscard]] free_motions<S> const& floating() const { return floating_; }
+  [[nodiscard]] primal_run<S>& run() { return *run_; }
+  [[nodiscard]] moving_springs<S>& springs() { return springs_; }
+  [[nodiscard]] auto& certificate() { return *certificate_; }
+
+  /// Begins the step. Throws bad_input, and has then done nothing, for data that do not fit or a K
+  /// that is found not to be definite.
+  void begin(load_step<S> step) {
+    if (step.w) {
+      slant::detail::check_size("w", step.w->size(), c_.T.rows(), "one per row of T,");
+      slant::detail::check_finite("w", *step.w);
+    }
+    exchange(step);
     try {
-      begin(step);
+      c_.validate();
+      slant::detail::check_size("f", c_.f.size(), springs_.held().rows(), "the size of K,");
+      if (run_) {
+        go_on(step);
+      } else {
+        run_.emplace(springs_.held(), c_, layout_, multigrid_, most_, w_);
+        certificate_.emplace(run_->qp(), run_->levels());
+      }
     } catch (bad_input const&) {
       exchange(step);
       throw;
     }
-    detail::run_to_certified(law(), *run_, *certificate_, c_, options_, report_);
-    if (report_.converged()) remember();
-    return report_;
+  }
+
+  /// Where the line through the last two loads is nearest to f: 0 at the last one, 1 as far again.
+  /// Before the first load stands 0.
+  [[nodiscard]] S line_to(vector_type const& f) const {
+    if (v_.size() == 0) return S(0);
+    S const unit = unit_near(std::max<S>(way_of_f_.norm(), vector_type(f - f_).norm()));
+    vector_type const way = way_of_f_ / unit;
+    S const square = way.squaredNorm();
+    return square > S(0) ? S(way.dot((f - f_) / unit) / square) : S(0);
+  }
+
+  /// What was found is a solution, from which the next step starts.
+  void remember() {
+    vector_type v = run_->state().x;
+    if (auto const& s = run_->problem().offset(); s.size() > 0) v += s;
+    bool const is_first = v_.size() == 0;
+    way_ = is_first ? v : vector_type(v - v_);
+    way_of_f_ = is_first ? c_.f : vector_type(c_.f - f_);
+    v_ = std::move(v);
+    f_ = c_.f;
   }
 
  private:
-  [[nodiscard]] friction_of_data law() const { return friction_of_data{c_.tangents()}; }
+  template <class Options>
+  static free_motions<S> bodies_that_float(sparse_type const& K, data<S> const& c, Options o) {
+    o.route = solution_route::iterate;
+    auto outlook = outlook_of_iteration(K, c, o);
+    if (!outlook.refusal) return std::move(outlook.floating);
+    throw bad_input("N and T", *outlook.refusal, "rows that displacements can be solved for with");
+  }
 
   /// The data of the step in place of those before, which it keeps.
   void exchange(load_step<S>& step) {
@@ -87,80 +124,93 @@ class primal_stepper {
     if (step.g) c_.g.swap(*step.g);
     if (step.w) w_.swap(*step.w);
   }
-  void take(load_step<S>& step) {
-    if (step.w) {
-      slant::detail::check_size("w", step.w->size(), c_.T.rows(), "one per row of T,");
-      slant::detail::check_finite("w", *step.w);
-    }
-    exchange(step);
-    try {
-      c_.validate();
-      slant::detail::check_size("f", c_.f.size(), K_->rows(), "the size of K,");
-    } catch (bad_input const&) {
-      exchange(step);
-      throw;
-    }
-  }
 
-  void begin(load_step<S> const& step) {
-    if (!run_) {
-      run_.emplace(*K_, c_, options_.layout, options_.multigrid, options_.max_steps, w_);
-      certificate_.emplace(run_->qp(), run_->levels());
-      report_.factorization = run_->levels().description();
-      report_.choice.route = solution_route::iterate;
-      report_.choice.reason = "iterated, as asked for";
-      return;
-    }
+  void go_on(load_step<S> const& step) {
     run_->restart([&](primal<S>& p, vector_type& x) {
       if (step.w) p.set_positions(w_);
       if (step.f) p.set_load(c_.f);
       if (step.d) p.set_gaps(c_.d);
-      if (step.g) p.set_slip_bounds(c_.g);
-      x = predicted(whole_load());
+      if (c_.g.size() > 0) p.set_slip_bounds(c_.g);
+      x = predicted();
       if (p.offset().size() > 0) x -= p.offset();
+      if (springs_.empty()) return;
+      springs_.restart(p.displacement(x));
+      p.set_load(springs_.load(c_.f));
     });
   }
 
-  /// Before the first solution stands 0, of the load 0.
-  [[nodiscard]] vector_type predicted(vector_type const& f) const {
-    if (v_.size() == 0) return vector_type::Zero(f.size());
-    S const unit = unit_near(std::max<S>(way_of_f_.norm(), vector_type(f - f_).norm()));
-    vector_type const way = way_of_f_ / unit;
-    S const square = way.squaredNorm();
-    S const τ = square > S(0) ? S(way.dot((f - f_) / unit) / square) : S(0);
-    return v_ + τ * way_;
+  [[nodiscard]] vector_type predicted() const {
+    if (v_.size() == 0) return vector_type::Zero(c_.f.size());
+    return v_ + line_to(c_.f) * way_;
   }
 
-  /// G⁻ᵀf.
-  [[nodiscard]] vector_type whole_load() const {
-    primal<S> const& p = run_->problem();
-    vector_type b = run_->qp().b();
-    if (p.offset().size() > 0) b += p.image_of_offset();
-    return b;
-  }
-  void remember() {
-    primal<S> const& p = run_->problem();
-    vector_type v = run_->state().x, f = whole_load();
-    if (p.offset().size() > 0) v += p.offset();
-    bool const is_first = v_.size() == 0;
-    way_ = is_first ? v : vector_type(v - v_);
-    way_of_f_ = is_first ? f : vector_type(f - f_);
-    v_ = std::move(v);
-    f_ = std::move(f);
-  }
+  using certificate_type = decltype(energy_certificate(
+      std::declval<primal_run<S> const&>().qp(), std::declval<primal_run<S> const&>().levels()));
 
-  using run_type = detail::primal_run<S>;
-  using certificate_type = decltype(energy_certificate(std::declval<run_type const&>().qp(),
-                                                       std::declval<run_type const&>().levels()));
-
-  Eigen::SparseMatrix<S> const* K_;
   data<S> c_;
   vector_type w_{};  // empty: 0
-  solve_options<S> options_;
-  std::optional<run_type> run_{};
+  node_layout<S> layout_;
+  multigrid_options multigrid_;
+  index most_;
+  free_motions<S> floating_;
+  moving_springs<S> springs_;
+  std::optional<primal_run<S>> run_{};
   std::optional<certificate_type> certificate_{};
-  vector_type v_{}, f_{};           // the last solution as G u, and G⁻ᵀf; empty: none
+  vector_type v_{}, f_{};           // the last solution as G u, and its load; empty: none
   vector_type way_{}, way_of_f_{};  // from those before
+};
+
+}  // namespace slant::contact::detail
+
+namespace slant::contact {
+
+/// With slip bounds of the data. Refers to K. Not movable.
+template <class S = double>
+class primal_stepper {
+ public:
+  using report_type = solution<S>;
+
+  /// K: n × n, both triangles. Of the options `route`, `costs`, `scale`, `condensation` and `start`
+  /// have no part. Throws bad_input for data that do not fit or options out of range, and where
+  /// displacements cannot be solved for, for the reason that contact::solve would give for factors.
+  primal_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, solve_options<S> options)
+      : options_(checked(std::move(options), K, c)),
+        steps_(K, std::move(c), options_, options_.max_steps) {
+    report_.motions = steps_.floating();
+    report_.choice.route = solution_route::iterate;
+    report_.choice.reason = "iterated, as asked for";
+  }
+
+  /// Solves the next step; the report is that of contact::solve, and stays until the one after it.
+  /// `iterations` and `work` are of the step. Throws bad_input, and has then done nothing, for data
+  /// that do not fit or a K that is found not to be definite; numerical trouble is a status. A step
+  /// that did not converge is not remembered: the next one starts from those before.
+  [[nodiscard]] report_type const& advance(load_step<S> step) {
+    steps_.begin(std::move(step));
+    auto& run = steps_.run();
+    if (report_.factorization.empty()) report_.factorization = run.levels().description();
+    if (steps_.springs().empty()) {
+      detail::run_to_certified(steps_.law(), run, steps_.certificate(), steps_.scene(), options_,
+                               report_);
+    } else {
+      detail::run_floating_to_certified(steps_.law(), run, steps_.springs(), steps_.certificate(),
+                                        steps_.scene(), options_, report_);
+    }
+    if (report_.converged()) steps_.remember();
+    return report_;
+  }
+
+ private:
+  static solve_options<S> checked(solve_options<S> o, Eigen::SparseMatrix<S> const& K,
+                                  data<S> const& c) {
+    o.validate();
+    detail::validated(friction_of_data{c.tangents()}, c, K.rows());
+    if (o.prove) throw bad_input("prove", "true", "false, as a proof takes factors");
+    return o;
+  }
+
+  solve_options<S> options_;
+  detail::stepped_run<S> steps_;
   report_type report_{};
 };
 
@@ -168,5 +218,70 @@ template <class S>
 primal_stepper(Eigen::SparseMatrix<S> const&, data<S>, solve_options<S>) -> primal_stepper<S>;
 template <class S>
 primal_stepper(Eigen::SparseMatrix<S> const&, data<S>) -> primal_stepper<S>;
+
+/// With Coulomb's law; the slip bounds of the data have no meaning. Refers to K. Not movable.
+template <class S = double>
+class primal_coulomb_stepper {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using report_type = certified_coulomb_result<vector_type>;
+
+  /// F: a coefficient for each contact. Of the options `route`, `method`, `costs`, `newton_steps` and
+  /// `scale` have no part. Throws bad_input as primal_stepper does, and for coefficients that are
+  /// negative or not finite.
+  primal_coulomb_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, vector_type F,
+                         certified_coulomb_options<S> options = {})
+      : F_(std::move(F)),
+        options_(checked(std::move(options), K, c, F_)),
+        steps_(K, std::move(c), options_, detail::steps_for_bounds * (options_.outer_steps + 1)) {}
+
+  /// Solves the next step, as primal_stepper::advance; the report is that of certified_coulomb. A
+  /// step has no slip bounds g: bad_input.
+  [[nodiscard]] report_type const& advance(load_step<S> step) {
+    if (step.g) throw bad_input("g", "slip bounds", "none, which are F times the pressures");
+    S const τ =
+        step.f && step.f->size() == steps_.scene().f.size() ? steps_.line_to(*step.f) : S(0);
+    step.g = (g_ + τ * way_of_g_).cwiseMax(S(0));
+    steps_.begin(std::move(step));
+    auto found = detail::run_coulomb_to_certified(
+        steps_.law(), steps_.run(), steps_.springs(), steps_.certificate(),
+        detail::checked_rows<S>(steps_.scene(), steps_.positions()), F_, S(options_.tolerance),
+        options_.outer_steps);
+    report_ = detail::reported(std::move(found), options_);
+    report_.choice.route = solution_route::iterate;
+    report_.choice.reason = "iterated, as asked for";
+    if (report_.converged()) {
+      steps_.remember();
+      vector_type const g = F_.cwiseProduct(report_.λ.head(F_.size()));
+      way_of_g_ = g - g_;
+      g_ = g;
+    }
+    return report_;
+  }
+
+ private:
+  static certified_coulomb_options<S> checked(certified_coulomb_options<S> o,
+                                              Eigen::SparseMatrix<S> const& K, data<S>& c,
+                                              vector_type& F) {
+    o.validate();
+    c.g = vector_type::Zero(c.nodes());
+    detail::validated(friction_of_data{c.tangents()}, c, K.rows());
+    F = detail::one_per_contact(std::move(F), c.nodes());
+    detail::check_coefficients("F", F);
+    return o;
+  }
+
+  vector_type F_;
+  certified_coulomb_options<S> options_;
+  detail::stepped_run<S> steps_;
+  vector_type g_ = vector_type::Zero(F_.size());  // of the last solution
+  vector_type way_of_g_ = g_;                     // from the one before
+  report_type report_{};
+};
+
+template <class S>
+primal_coulomb_stepper(Eigen::SparseMatrix<S> const&, data<S>,
+                       std::type_identity_t<Eigen::VectorX<S>>, certified_coulomb_options<S> = {})
+    -> primal_coulomb_stepper<S>;
 
 }  // namespace slant::contact

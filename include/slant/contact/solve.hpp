@@ -305,11 +305,7 @@ template <class Friction, class S>
                            ? detail::iteration_outlook<S>{"forces to start from are given"}
                            : detail::outlook_of_iteration(K, c, o);
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
-  auto const iterate = [&] {
-    return outlook.floating.free.empty()
-               ? detail::iterated_run(friction, K, c, o)
-               : detail::iterated_floating_run(friction, K, c, outlook.floating, o);
-  };
+  auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
   if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   free_motions<S> motions;
   try {

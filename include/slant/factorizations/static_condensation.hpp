@@ -41,7 +41,7 @@ template <class S = double>
 class static_condensation {
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
   static constexpr bool condenses = std::is_same_v<S, double>;
-  using factors = std::conditional_t<condenses, detail::cholmod_condensation, ldlt<S>>;
+  using factors = std::conditional_t<condenses, detail::cholmod_condensation<S>, ldlt<S>>;
 #else
   static constexpr bool condenses = false;
   using factors = ldlt<S>;

@@ -41,14 +41,16 @@ class checked_rows {
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  explicit checked_rows(data<S> const& c)
+  /// With tangential positions w; none: 0.
+  checked_rows(data<S> const& c, vector_type const& w)
       : f_(c.f), B_(stacked_constraints(c)), b_(vector_type::Zero(B_.rows())) {
     b_.head(c.nodes()) = c.d;
+    if (w.size() > 0) b_.tail(w.size()) = w;
   }
   [[nodiscard]] vector_type const& b() const { return b_; }
   [[nodiscard]] vector_type const& load() const { return f_; }
   [[nodiscard]] sparse_type const& constraints() const { return B_; }
-  /// −(N u − d), −T u
+  /// −(N u − d), −(T u − w)
   [[nodiscard]] vector_type openings(vector_type const& u) const { return b_ - B_ * u; }
 
  private:
@@ -56,6 +58,9 @@ class checked_rows {
   sparse_type B_;
   vector_type b_;
 };
+
+/// Of Newton's method at most, for each problem of Tresca's.
+constexpr index steps_for_bounds = 40;
 
 /// What a run of iterated_coulomb found.
 template <class S>
@@ -71,24 +76,20 @@ struct iterated_coulomb_result {
   std::string levels;
 };
 
-/// The run, from c without its slip bounds; `floating` bodies that contact holds.
-/// Throws bad_input where K is found not to be definite or does not fit the nodes.
-template <class Friction, class S>
-[[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
-    Friction law, Eigen::SparseMatrix<S> const& K, data<S> c, Eigen::VectorX<S> const& F,
-    node_layout<S> const& layout, free_motions<S> const& floating, multigrid_options const& levels,
-    S const& tolerance, index most) {
+/// Steps and bounds until the certificate agrees, from where the run is and the bounds that it has;
+/// `most` problems of Tresca's.
+template <class Friction, class S, class Certificate>
+[[nodiscard]] iterated_coulomb_result<S> run_coulomb_to_certified(
+    Friction law, primal_run<S>& run, moving_springs<S>& springs, Certificate& frozen,
+    checked_rows<S> const& rows, Eigen::VectorX<S> const& F, S const& tolerance, index most) {
   using vector_type = Eigen::VectorX<S>;
-  constexpr index patience = 15, rounds = 12, steps_for_bounds = 40;
+  constexpr index patience = 15, rounds = 12;
   iterated_coulomb_result<S> result;
-  c.g = vector_type::Zero(c.nodes());
-  moving_springs<S> springs(K, floating);
-  primal_run<S> run(springs.held(), c, layout, levels, (most + 1) * steps_for_bounds);
   result.levels = run.levels().description();
-  energy_certificate frozen(run.qp(), run.levels());
-  checked_rows<S> const rows(c);
+  index const before = frozen.applications() + springs.products();
   coulomb_check const check(rows, F);
-  vector_type λ(c.nodes());
+  index const nodes = F.size();
+  vector_type λ(nodes);
 
   auto const& state = run.state();
   for (index k = 0; k < steps_for_bounds && state.status == status::running; ++k) {
@@ -96,16 +97,17 @@ template <class Friction, class S>
   }
   S share = tolerance / S(2), best = std::numeric_limits<S>::infinity(), nearest = best;
   index since = 0, round = 0;
-  // As in iterated_floating_run.
+  // As in run_floating_to_certified.
   auto const goal = [&] {
     return S(share * (springs.size() > S(0) ? springs.size() : run.size()));
   };
   auto const judge = [&] {
     result.u = run.displacement();
     result.λ = run.problem().multipliers(state.x);
-    vector_type const g = F.cwiseProduct(result.λ.head(c.nodes()).cwiseMax(S(0)));
-    slant::project(feasible_set(law, c.nodes(), g), result.λ, result.λ);
+    vector_type const g = F.cwiseProduct(result.λ.head(nodes).cwiseMax(S(0)));
+    slant::project(feasible_set(law, nodes, g), result.λ, result.λ);
     result.error = {check(result.λ, result.u), frozen(state.x)};
+    if (run.problem().offset().size() > 0) result.error.frozen.size = run.size();
     if (!springs.empty()) {
       springs.measure(result.u, goal());
       result.error.frozen = springs.error(result.error.frozen.bound);
@@ -116,7 +118,7 @@ template <class Friction, class S>
     if (!springs.empty()) {
       springs.measure(run.displacement(), goal());
       springs.move();
-      run.set_load(springs.load(c.f));
+      run.set_load(springs.load(rows.load()));
     }
     run.pressures(λ);
     run.set_slip_bounds(F.cwiseProduct(λ));
@@ -162,8 +164,23 @@ template <class Friction, class S>
     if (is_known) share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
   }
   result.work = state.work;
-  result.work.operator_applications += frozen.applications() + springs.products();
+  result.work.operator_applications += frozen.applications() + springs.products() - before;
   return result;
+}
+
+/// The run from nothing, of c without its slip bounds; `floating` bodies that contact holds. Throws
+/// bad_input where K is found not to be definite or does not fit the nodes.
+template <class Friction, class S>
+[[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
+    Friction law, Eigen::SparseMatrix<S> const& K, data<S> c, Eigen::VectorX<S> const& F,
+    node_layout<S> const& layout, free_motions<S> const& floating, multigrid_options const& levels,
+    S const& tolerance, index most) {
+  c.g = Eigen::VectorX<S>::Zero(c.nodes());
+  moving_springs<S> springs(K, floating);
+  primal_run<S> run(springs.held(), c, layout, levels, (most + 1) * steps_for_bounds);
+  energy_certificate frozen(run.qp(), run.levels());
+  return run_coulomb_to_certified(law, run, springs, frozen, checked_rows<S>(c, {}), F, tolerance,
+                                  most);
 }
 
 }  // namespace slant::contact::detail

@@ -325,18 +325,6 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
   result.work.operator_applications += certificate.applications() - before;
 }
 
-/// Contact with given slip bounds, or none.
-template <class Friction, class S>
-[[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
-                                       data<S> const& c, solve_options<S> const& o) {
-  solution<S> result;
-  primal_run<S> run(K, c, o.layout, o.multigrid, o.max_steps);
-  result.factorization = run.levels().description();
-  energy_certificate certificate(run.qp(), run.levels());
-  run_to_certified(law, run, certificate, c, o, result);
-  return result;
-}
-
 // --- bodies that float ---------------------------------------------------------------------------
 //
 // Contact or friction holds them, or nothing. The proximal point method [Rockafellar 1976]
@@ -380,6 +368,12 @@ class moving_springs {
   [[nodiscard]] bool empty() const { return D_.size() == 0; }
   /// K + D.
   [[nodiscard]] sparse_type const& held() const { return empty() ? *K_ : held_; }
+
+  /// They end at u, and nothing is known of another problem.
+  void restart(vector_type const& u) {
+    centre_ = u;
+    way_ = last_ = size_ = noise_ = before_ = S(0);
+  }
 
   /// u⁺ = u has been found, up to `noise` in ‖·‖_{K + D}. One product.
   void measure(vector_type u, S const& noise) {
@@ -439,27 +433,23 @@ class moving_springs {
   index products_ = 0;
 };
 
-/// As iterated_run, where these bodies float.
-template <class Friction, class S>
-[[nodiscard]] solution<S> iterated_floating_run(Friction law, Eigen::SparseMatrix<S> const& K,
-                                                data<S> const& c, free_motions<S> const& floating,
-                                                solve_options<S> const& o) {
+/// As run_to_certified, where bodies float.
+template <class Friction, class S, class Certificate>
+void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<S>& springs,
+                               Certificate& certificate, data<S> const& c,
+                               solve_options<S> const& o, solution<S>& result) {
   using slant::detail::show;
   constexpr index rounds = 40, patience = 12;
-  moving_springs<S> springs(K, floating);
-  solution<S> result;
-  result.motions = floating;
-  primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
+  index const before = certificate.applications() + springs.products();
   auto const& state = run.state();
-  result.factorization = run.levels().description();
   S const share =
       std::clamp<S>(o.tolerance / S(8), S(1e3) * std::numeric_limits<S>::epsilon(), S(1e-4));
   // ‖u‖_K, where that is known: far from where they began bodies have a large ‖u‖_D.
   auto const goal = [&] {
     return S(share * (springs.size() > S(0) ? springs.size() : run.size()));
   };
-  index slow = 0, applications = 0;
-  while (true) {
+  result.springs = 0;
+  for (index slow = 0;;) {
     tell_progress(o, state);
     while (state.status == status::running) {
       run.step(goal());
@@ -473,9 +463,7 @@ template <class Friction, class S>
     springs.measure(run.displacement(), noise);
     result.error = springs.error(noise);
     if (result.error.relative() <= o.tolerance || ended) {
-      energy_certificate certificate(run.qp(), run.levels());
       result.error = springs.error(certificate(state.x).bound);
-      applications += certificate.applications();
     } else {
       result.error.bound = std::numeric_limits<S>::infinity();
     }
@@ -497,12 +485,29 @@ template <class Friction, class S>
     springs.move();
     run.set_load(springs.load(c.f));
   }
-  applications += springs.products();
   result.u = run.displacement();
   result.multipliers = run.multipliers(feasible_set(law, c));
   result.iterations = state.iteration;
   result.work = state.work;
-  result.work.operator_applications += applications;
+  result.work.operator_applications += certificate.applications() + springs.products() - before;
+}
+
+/// Contact with given slip bounds, or none; `floating` bodies that it holds.
+template <class Friction, class S>
+[[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
+                                       data<S> const& c, free_motions<S> const& floating,
+                                       solve_options<S> const& o) {
+  moving_springs<S> springs(K, floating);
+  solution<S> result;
+  primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
+  result.factorization = run.levels().description();
+  energy_certificate certificate(run.qp(), run.levels());
+  if (springs.empty()) {
+    run_to_certified(law, run, certificate, c, o, result);
+  } else {
+    result.motions = floating;
+    run_floating_to_certified(law, run, springs, certificate, c, o, result);
+  }
   return result;
 }
 

@@ -127,10 +127,11 @@ class cholmod_ordering {
   std::vector<int> length_;  // entries of each column of L, its diagonal included
 };
 
-/// See static_condensation.hpp.
+/// See static_condensation.hpp. S: double; a template, so that only who condenses compiles it.
+template <class S>
 class cholmod_condensation {
  public:
-  using sparse_type = Eigen::SparseMatrix<double>;
+  using sparse_type = Eigen::SparseMatrix<S>;
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
   cholmod_condensation(auto const& matrix, std::vector<char> marked,
@@ -165,10 +166,10 @@ class cholmod_condensation {
       for (std::size_t i = 0; i < contact.size(); ++i) {
         number[static_cast<std::size_t>(contact[i])] = static_cast<int>(i);
       }
-      return condensed_operator<double>(moved(b, number, inverse_->size()), inverse_,
+      return condensed_operator<S>(moved(b, number, inverse_->size()), inverse_,
                                         factor_.unit());
     }
-    return condensed_operator<double>(moved(b, place_, tail_->shape().size()), tail_,
+    return condensed_operator<S>(moved(b, place_, tail_->shape().size()), tail_,
                                       factor_.unit());
   }
 
@@ -176,9 +177,9 @@ class cholmod_condensation {
   /// B with column j at number[j].
   static std::shared_ptr<sparse_type const> moved(sparse_type const& b,
                                                   std::vector<int> const& number, index columns) {
-    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<Eigen::Triplet<S>> entries;
     for (index j = 0; j < b.cols(); ++j) {
-      for (sparse_type::InnerIterator e(b, j); e; ++e) {
+      for (typename sparse_type::InnerIterator e(b, j); e; ++e) {
         if (e.value() == 0) continue;
         entries.emplace_back(static_cast<int>(e.row()), number[static_cast<std::size_t>(j)],
                              e.value());
@@ -292,7 +293,7 @@ class cholmod_condensation {
     inverse_.reset();
     if (!report_.chosen.inverse) return;
     std::vector<int> numbers = contact_unknowns();
-    std::vector<double> stiffness;
+    std::vector<S> stiffness;
     for (int& j : numbers) {
       stiffness.push_back(matrix.coeff(j, j) * factor_.unit());
       j = place_[static_cast<std::size_t>(j)];
@@ -310,7 +311,7 @@ class cholmod_condensation {
   cholmod factor_;
   std::vector<int> place_;  // unknown → number in the tail, or −1
   std::shared_ptr<tail_columns const> tail_;
-  std::shared_ptr<packed_symmetric<double> const> inverse_;  // on contact unknowns; may be missing
+  std::shared_ptr<packed_symmetric<S> const> inverse_;  // on contact unknowns; may be missing
 };
 
 }  // namespace slant::detail
