@@ -25,13 +25,4 @@ TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
          std::vector<bool>{true, true, false}));
 }
 
-TEST_CASE("sizes are checked") {
-  auto const set = slant::half_lines(2);
-  MatrixXd const A = MatrixXd::Identity(2, 2);
-  VectorXd const two = VectorXd::Zero(2), three = VectorXd::Zero(3);
-  CHECK_THROWS_WITH_AS((void)fem::active_blocks(set, A, two, three),
-                       "x: got 3, expected the dimension of the set", std::invalid_argument);
-  CHECK_THROWS_AS((void)fem::active_blocks(set, A, three, two), std::invalid_argument);
-}
-
 }  // namespace active_counts_test

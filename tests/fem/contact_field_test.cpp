@@ -71,17 +71,4 @@ TEST_CASE("two bricks [K Ex 6]") {
   CHECK(field.count(fem::contact_state::open) == 12);
 }
 
-TEST_CASE("sizes are checked") {
-  auto const scene = fem::make_steel_brick({.k = 1});
-  VectorXd const u = VectorXd::Zero(36);
-  VectorXd const normal = VectorXd::Zero(6);
-  VectorXd const tangential = VectorXd::Zero(12);
-  CHECK_NOTHROW((void)fem::make_contact_field(scene, u, normal, tangential));
-  CHECK_THROWS_WITH_AS((void)fem::make_contact_field(scene, normal, normal, tangential),
-                       "u: got 6, expected one entry per unknown of the scene",
-                       std::invalid_argument);
-  CHECK_THROWS_AS((void)fem::make_contact_field(scene, u, u, tangential), std::invalid_argument);
-  CHECK_THROWS_AS((void)fem::make_contact_field(scene, u, normal, normal), std::invalid_argument);
-}
-
 }  // namespace contact_field_test

@@ -124,27 +124,6 @@ TEST_CASE("trapezoidal weights sum to the area and patches tile the side") {
     }
     CHECK(sum == doctest::Approx(mesh.size.prod() / mesh.size[side.axis]).epsilon(1e-14));
   }
-  // 6 x 2 cells of 2.5/6 x 0.75/2 on the bottom: full, half and quarter weights.
-  double const cell = 2.5 / 6 * 0.75 / 2;
-  auto const weight = [&](std::size_t i) {
-    int const node = mesh.nodes_on(fem::brick_side::bottom)[i];
-    return fem::patch_of<3>(mesh, fem::brick_side::bottom, node).measure();
-  };
-  CHECK(weight(0) == doctest::Approx(cell / 4));
-  CHECK(weight(1) == doctest::Approx(cell / 2));
-  CHECK(weight(4) == doctest::Approx(cell));
-}
-
-TEST_CASE("displacements return to their nodes") {
-  auto const mesh = fem::make_box_mesh<2>({2, 1}, {1, 1});
-  auto const unknowns = fem::number_unknowns(mesh, [&](Eigen::Index node) {
-    return mesh.on({0, false}, node);
-  });
-  VectorXd const u = VectorXd::LinSpaced(unknowns.count, 1, 8);
-  auto const nodal = fem::nodal_displacement<2>(unknowns, u);
-  CHECK(nodal.leftCols<2>().isZero(0));  // the last axis runs fastest: nodes 0 and 1 are at x = 0
-  CHECK(nodal.col(2) == Vector2d(1, 2));
-  CHECK(nodal.col(5) == Vector2d(7, 8));
 }
 
 TEST_CASE("material constants") {

@@ -47,22 +47,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the condition grows like 1/h") {
-  auto const condition = [](int n) {
-    fem::five_point<> const a(fem::rectangle_grid<>{n, n, 1, 1}, [](double) { return 1.0; });
-    // Of L Lᵀ A, in a symmetric form.
-    MatrixXd const L = dense_of(fem::incomplete_five_point<>(a, 1)).llt().matrixL();
-    MatrixXd const B = L.transpose() * (a.matrix() * L);
-    VectorXd const λ = test::eigenvalues_of(B);
-    return λ.maxCoeff() / λ.minCoeff();
-  };
-  double const coarse = condition(7);
-  double const fine = condition(15);
-  CHECK(fine / coarse > 1.5);
-  CHECK(fine / coarse < 2.3);  // that of A: 4
-  CHECK(fine < 10);            // that of A: 103
-}
-
 TEST_CASE("an application does not allocate; what is no factor τ") {
   auto const a = some_operator(6, 5);
   fem::incomplete_five_point<> const m(a);

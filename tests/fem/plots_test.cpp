@@ -52,15 +52,4 @@ TEST_CASE(
                  "cannot write"));
 }
 
-TEST_CASE("the program runs in the folder of the picture, however that is called") {
-  temporary_folder const folder;
-  auto const odd = folder / "it's a $(folder)";
-  std::filesystem::create_directory(odd);
-  io_test::put(odd / "draw", "#!/bin/sh\ncat \"$1\" > drawn.png\n");
-  std::filesystem::permissions(odd / "draw", std::filesystem::perms::owner_all);
-  auto const result = fem::run_gnuplot(odd / "drawn.png", "content", (odd / "draw").string());
-  CHECK(result.written);
-  CHECK(io_test::get(odd / "drawn.png") == "content");
-}
-
 }  // namespace plots_test

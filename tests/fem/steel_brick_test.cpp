@@ -50,15 +50,6 @@ TEST_CASE("the three loads") {
   CHECK_FALSE(fem::brick_load_named("twist").has_value());
 }
 
-TEST_CASE("units: the load factor scales load and slip bound, E scales the stiffness") {
-  auto const one = fem::make_steel_brick({.k = 1, .load = fem::brick_load::lift});
-  auto const other = fem::make_steel_brick(
-      {.k = 1, .load = fem::brick_load::lift, .E = 4 * 2.119e5, .load_factor = 0.5});
-  CHECK(other.f == 0.5 * one.f);
-  CHECK(other.g == 0.5 * one.g);
-  CHECK((other.K - 4 * one.K).norm() == 0);
-}
-
 TEST_CASE("a contact scene in the plane") {
   fem::box_on_foundation<2> plate{.mesh = fem::make_box_mesh<2>({6, 2}, {3, 1}),
                                   .material = fem::lame_plane_stress(2e5, 0.3),

@@ -132,14 +132,6 @@ TEST_CASE("A is what its laws say, and what the formula says") {
   CHECK(test::eigenvalues_of(expected)[0] > 1e-6);
 }
 
-TEST_CASE("matrices are symmetric bit for bit") {
-  auto const scene = fem::make_stokes_scene(small_flow(1, 0.5));
-  bool const A = scene.A.toDense() == scene.A.toDense().transpose();
-  bool const E = scene.E.toDense() == scene.E.toDense().transpose();
-  CHECK(A);
-  CHECK(E);
-}
-
 TEST_CASE("bad data are refused") {
   auto const refused = [](fem::stokes_flow const& flow, char const* message) {
     CHECK_THROWS_WITH_AS(static_cast<void>(fem::make_stokes_scene(flow)), message,

@@ -81,16 +81,6 @@ TEST_CASE("rigid rotations of both bodies keep the contact closed, of one they o
   }
 }
 
-TEST_CASE("numbers of unknowns and multipliers") {
-  auto const plates = fem::make_two_plates(5);
-  CHECK(plates.K.rows() == 12 * 5 * 6);
-  CHECK(plates.N.rows() + plates.T.rows() == 2 * 3 * 5);
-  auto const bricks = fem::make_two_bricks(5);
-  CHECK(bricks.K.rows() == 6 * 5 * 5 * 5);
-  CHECK(bricks.contact_count() == 25);
-  CHECK(bricks.T.rows() == 50);
-}
-
 TEST_CASE("the loads of both scenes have the printed resultants") {
   // Force and, for the plates, moment about the origin; fixed nodes would have taken the rest, so
   // everything is summed on meshes so fine that their share is small and known.

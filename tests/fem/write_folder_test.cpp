@@ -25,14 +25,4 @@ TEST_CASE("a scene comes back from its folder bit for bit") {
   CHECK((slant::read_text_vector(folder / "g.txt") == scene.g));
 }
 
-TEST_CASE("a scene that cannot be written leaves nothing behind") {
-  io_test::temporary_folder const folder;
-  auto scene = fem::make_steel_brick({.k = 1});
-  scene.g[2] = std::nan("");
-  CHECK_THROWS_AS(fem::write_folder(scene, folder.path()), slant::bad_input);
-  CHECK(folder.entries() == 0);
-  io_test::put(folder / "file", "not a folder");
-  CHECK_THROWS_AS(fem::write_folder(scene, folder / "file"), std::filesystem::filesystem_error);
-}
-
 }  // namespace write_folder_test

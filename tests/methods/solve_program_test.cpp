@@ -163,6 +163,13 @@ TEST_CASE("solve(qp, 0): the digits that there are, as `stalled`") {
   CHECK(p.error(run.x()) <= 1e-14);
 }
 
+/// No more is known of A than that it is semidefinite.
+auto sparse_program(Eigen::SparseMatrix<double> const& A, VectorXd const& b,
+                    VectorXd const& lower) {
+  return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(A), b,
+                             slant::half_lines(lower)};
+}
+
 /// An obstacle under a membrane on N × N nodes that are linked by springs of stiffness 1, or, in the
 /// stripes, of `contrast`.
 struct membrane {
@@ -190,10 +197,7 @@ struct membrane {
     b = VectorXd::Constant(N * N, -4.0 / (N * N));
     floor = VectorXd::Constant(N * N, -0.1);
   }
-  [[nodiscard]] auto program() const {
-    return slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(A), b,
-                               slant::half_lines(floor)};
-  }
+  [[nodiscard]] auto program() const { return sparse_program(A, b, floor); }
   /// A bound of ‖x − x*‖_A / ‖x‖_A from the violation e of r ≥ 0 where x is on the floor, r = 0 where
   /// not: ‖e‖ / √λ, λ ≤ λ_min(A) that of the membrane of springs 1, all of them ≥ 1.
   [[nodiscard]] double error_at_most(VectorXd const& x) const {
@@ -278,10 +282,7 @@ TEST_CASE("solve(qp, tolerance): a hard sparse program gets all that a dense one
     VectorXd const floor = VectorXd::NullaryExpr(n, [&] { return number(random) - 1; });
     Eigen::SparseMatrix<double> const sparse = A.sparseView();
     CAPTURE(seed);
-    auto const r = slant::solve(
-        slant::separable_qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(sparse), b,
-                            slant::half_lines(floor)},
-        1e-7);
+    auto const r = slant::solve(sparse_program(sparse, b, floor), 1e-7);
     CHECK(r.converged());
     VectorXd const e = r.x() - slant::solve(dense_program(A, b, floor, VectorXd()), 1e-7).x();
     // Estimates; 30 times the tolerance is what the adversarial bench calls wrong.
@@ -309,10 +310,7 @@ TEST_CASE("solve(qp, tolerance): a sparse matrix that levels refuse is solved wi
   m.A.coeffRef(0, 0) = 0;
   m.A.coeffRef(0, 1) = m.A.coeffRef(1, 0) = m.A.coeffRef(0, 120) = m.A.coeffRef(120, 0) = 0;
   m.b(0) = -1;
-  slant::separable_qp const qp{
-      slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(m.A), m.b,
-      slant::half_lines(m.floor)};
-  auto const run = slant::solve(qp, 1e-8);
+  auto const run = slant::solve(m.program(), 1e-8);
   CHECK(run.converged());
   CHECK(run.x()(0) == m.floor(0));
   CHECK(run.choice.find("no multigrid, because") != std::string::npos);
@@ -326,7 +324,7 @@ TEST_CASE("solve(program with equations, tolerance): multigrid where it takes lo
     Eigen::SparseMatrix<double> G(2, n);
     for (Eigen::Index j = part; j < 3 * part; ++j) G.insert(j / (2 * part), j) = 1;
     VectorXd const e = static_cast<double>(part) * VectorXd{{-0.05, -0.02}};
-    auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(m->A);
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(m->A);
     auto const set = slant::half_lines(m->floor);
     auto const run =
         slant::solve(slant::minimise(slant::quadratic(A, m->b)).over(set).subject_to(G, e), 1e-8);
