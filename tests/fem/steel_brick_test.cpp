@@ -72,18 +72,6 @@ TEST_CASE("impossible scenes are refused by name") {
   CHECK_THROWS_WITH_AS((void)fem::make_steel_brick({.load_factor = 0}),
                        "load_factor: got 0, expected a positive finite number",
                        std::invalid_argument);
-  fem::box_on_foundation<2> plate{.mesh = fem::make_box_mesh<2>({1, 1}, {1, 1}),
-                                  .material = fem::lame(1, 0),
-                                  .fixed = {0, false},
-                                  .contact = {1, false}};
-  plate.slip_bound = -1;
-  CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
-  plate.slip_bound = 0;
-  plate.gap = std::nan("");
-  CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
-  plate.gap = 0;
-  plate.contact = plate.fixed;
-  CHECK_THROWS_AS((void)fem::make_contact_scene(plate), std::invalid_argument);
 }
 
 }  // namespace steel_brick_test

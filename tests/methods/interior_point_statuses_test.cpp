@@ -143,6 +143,43 @@ TEST_CASE("a semidefinite A: with a minimum, and without") {
   CHECK(d.minCoeff() >= 0);
 }
 
+TEST_CASE("two forces that grow against each other: unbounded, in a few steps") {
+  // u <= 0.5 and -u <= -0.6 of a spring.
+  MatrixXd const M = 0.25 * MatrixXd{{1.0, -1.0}, {-1.0, 1.0}};
+  VectorXd const b{{0.0, 0.1}};
+  auto const set = slant::half_lines(2);
+  auto const qp = semidefinite(M, b, set);
+  auto const r = test::minimise(slant::interior_point{qp}, test::zeros(2), 1e-10, 300);
+  CHECK(r.status == slant::status::unbounded);
+  CHECK(r.state.step(0) == r.state.step(1));
+  CHECK(r.iterations() <= 16);
+  CHECK(r.state.work.operator_applications <= 60);
+}
+
+TEST_CASE("programs with a minimum, of any rank, are not called unbounded, and none takes long") {
+  for (unsigned seed = 1; seed < 400; seed += 2) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int const n = 2 + int(random() % 20), rank = int(random() % unsigned(n + 1));
+    MatrixXd B = MatrixXd::NullaryExpr(n, std::max(1, rank), [&] { return normal(random); });
+    for (int j = 0; j < B.cols(); ++j) B.col(j) *= std::pow(10, -4 * uniform(random) * (seed % 3));
+    MatrixXd const product = B * B.transpose(), A = (product + product.transpose()) / 2;
+    VectorXd const x = VectorXd::NullaryExpr(n, [&] { return std::max(0.0, normal(random)); });
+    VectorXd const r = VectorXd::NullaryExpr(n, [&] { return uniform(random); });
+    VectorXd const b = A * x - (x.array() > 0).select(0, r);
+    CAPTURE(seed);
+    auto const set = slant::half_lines(n);
+    auto const qp = semidefinite(A, b, set);
+    auto const run = test::minimise(slant::interior_point{qp}, test::zeros(n), 1e-8, 3000);
+    // Where all of x is positive b lies in the range of A, but for its rounding errors.
+    VectorXd const noise = 4e-16 * (A.cwiseAbs() * x + b.cwiseAbs());
+    bool const is_unclear = b.dot(run.state.step) <= noise.dot(run.state.step.cwiseAbs());
+    CHECK((run.status != slant::status::unbounded || is_unclear));
+    CHECK(run.iterations() <= 400);
+  }
+}
+
 TEST_CASE("no minimum along unknowns without constraint: the direction at which CG ends") {
   // A is the projection along a random unit vector k, b has a part along k, everything is free.
   VectorXd const k = test::random_vector(6).normalized();

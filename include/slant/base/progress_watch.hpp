@@ -3,11 +3,11 @@
 // Stagnation test of descent methods. ‖r̃‖ may rise for a long time while q falls, and falls on when
 // q has no more digits to lose, so either is progress:
 //
-//     ‖r̃‖ < (1 − √ε) × its value at the last progress,   or   q lower by more than rounding
+//     ‖r̃‖ < (1 − share) × its value at the last progress,   or   q lower by more than rounding
 //
 // within `patience` steps. A value lower by some units in the last place is none: at the rounding
-// floor there is always another one. A slow method passes: half of the digits of ‖r̃‖ may stay the
-// same for `patience` steps, and any fall of q is enough that is not a rounding error.
+// floor there is always another one. With the share √ε a slow method passes: half of the digits of ‖r̃‖
+// may stay the same for `patience` steps, and any fall of q is enough that is not a rounding error.
 //
 // Once ‖r̃‖ has been below `floor`, what its rounding errors may amount to, nothing but a halving
 // counts, and the time for it is half of what it took to get there: a run ends after a small
@@ -27,6 +27,9 @@ namespace slant {
 template <class S>
 class progress_watch {
  public:
+  progress_watch() : progress_watch(root(std::numeric_limits<S>::epsilon())) {}
+  explicit progress_watch(S share) : share_(share) {}
+
   /// Has there been no progress for `patience` steps? energy() → {q, its rounding error} is asked
   /// only if ‖r̃‖ has not fallen for so long. floor: what ‖r̃‖ may be without being an error of x; 0
   /// if that is unknown.
@@ -38,8 +41,7 @@ class progress_watch {
       last_norm_ = norm_now;
       since_ = iteration;
     }
-    using std::sqrt;
-    S const share = at_floor_ ? S(0.5) : S(sqrt(std::numeric_limits<S>::epsilon()));
+    S const share = at_floor_ ? S(0.5) : share_;
     S const enough = last_norm_ - share * last_norm_;
     if (norm_now < enough || last_norm_ > std::numeric_limits<S>::max()) {
       last_norm_ = norm_now;
@@ -73,6 +75,12 @@ class progress_watch {
   void forget_energy() { smallest_energy_ = std::numeric_limits<S>::infinity(); }
 
  private:
+  static S root(S const& v) {
+    using std::sqrt;
+    return sqrt(v);
+  }
+
+  S share_;
   S last_norm_ = std::numeric_limits<S>::infinity();        // at the last progress
   S smallest_energy_ = std::numeric_limits<S>::infinity();  // when last asked
   index since_ = 0;                                         // the last step that got somewhere

@@ -470,21 +470,38 @@ class interior_point_steps {
   }
 
   /// Is Δx, or the direction at which conjugate gradients ended, one without curvature and without
-  /// end in which q falls (parts/recession.hpp)? step is this direction then.
+  /// end in which q falls (parts/recession.hpp)? Or Δx less its part in range(A), where steps are
+  /// long and hardly anything of the last could be gone? step is this direction then.
   bool descends_for_ever(state_type& s) const {
     if constexpr (spd_operator<typename problem::operator_type, vector_type>) {
       return false;
     } else {
-      if (is_endless(s, s.inner.t, s.inner.image)) return true;
-      if (!s.inner.flat || !is_endless(s, s.inner.direction, s.inner.direction_image)) return false;
-      vectors::scale(s.unit, s.inner.direction, s.step);
-      return true;
+      auto const is_flat = [&](vector_type const& d, vector_type const& image) {
+        return !(inner_product(d, image) > flatness(d, s.trace));
+      };
+      // Seldom asked, for the products that it takes.
+      bool const drifts = s.step_fraction < scalar(0.01) && s.iteration > 0 &&
+                          (s.iteration & (s.iteration + 1)) == 0;
+      if ((drifts || is_flat(s.inner.t, s.inner.image)) &&
+          is_endless(s, s.inner.t, s.inner.image)) {
+        return true;
+      }
+      return s.inner.flat && is_flat(s.inner.direction, s.inner.direction_image) &&
+             is_endless(s, s.inner.direction, s.inner.direction_image);
     }
   }
-  bool is_endless(state_type const& s, vector_type const& d, vector_type const& Ad) const {
-    if (inner_product(d, Ad) > flatness(d, s.trace)) return false;
-    return is_descent(scalar(-inner_product(d, s.r)), d, scalar(s.size_of_b + norm(s.r))) &&
-           !(way_out(s, d) < infinity);
+  bool is_endless(state_type& s, vector_type const& d, vector_type const& image) const {
+    constexpr index most_products = 100;
+    if (!(inner_product(d, s.r) < scalar(0)) || way_out(s, d) < infinity) return false;
+    vectors::copy(d, s.trial);
+    vectors::copy(image, s.rhs);
+    scalar const σ = s.trace / scalar(slant::global_size(s.x));
+    auto const all = [](vector_type const& x, vector_type& y) { vectors::copy(x, y); };
+    bool const is_one = confirm_descent(qp_.get(), s, all, s.trial, s.rhs, s.reduced, s.lagrangian,
+                                        s.projected, σ, most_products);
+    if (is_one) vectors::copy(s.trial, s.step);
+    s.reduce(qp_.get());
+    return is_one;
   }
 
   /// The step length α, 0 if there is none; the point at its end is the trial point.

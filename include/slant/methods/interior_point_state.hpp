@@ -57,10 +57,10 @@ struct interior_point_state : gradient_point<QP> {
   vector_type slack_step;       ///< −Δz = GᵀΔx
   vector_type rhs;              ///< scratch: minus the right-hand side of [K (43)]
   vector_type row_scratch;      ///< scratch, one entry per inequality
-  vector_type trial_slacks, trial_multipliers;  ///< those of the trial point
-  barrier_minimum<vector_type, M> inner;        ///< solves for Δx
-  forcing_history<scalar> forcing{};            ///< errors and inner tolerances so far
-  progress_watch<scalar> progress;              ///< looks for steps that get nowhere
+  vector_type trial_slacks, trial_multipliers;    ///< those of the trial point
+  barrier_minimum<vector_type, M> inner;          ///< solves for Δx
+  forcing_history<scalar> forcing{};              ///< errors and inner tolerances so far
+  progress_watch<scalar> progress{scalar(1e-4)};  ///< looks for steps that get nowhere
 
   index constraints = 0;    ///< number of inequalities with a bound, on all processes
   scalar degree{0};         ///< Σ counted

@@ -50,73 +50,79 @@ template <class V, class S>
   return S(32) * std::numeric_limits<S>::epsilon() * sqrt(S(slant::global_size(d))) * norm(d) * σ;
 }
 
-/// Is q unbounded along d = s.trial? With the image A d in s.φ:
+/// Is q unbounded along d, with the image A d?
 ///
 ///     x + t d ∈ Λ for all t ≥ 0,   ‖A d‖ at rounding level,   bᵀd > 0 beyond its rounding errors.
 ///
 /// Where A d = 0 the slope is −bᵀd, whatever of x is in r.
-template <class QP, class State>
-[[nodiscard, gnu::cold]] bool is_endless_descent(QP const& qp, State const& s) {
-  using S = typename State::scalar;
-  S const slope = inner_product(s.trial, qp.b()) / s.unit;
-  return norm(s.φ) <= kernel_image(s.trial, s.σ) &&
-         is_descent(slope, s.trial, S(4) * s.size_of_b) &&
-         !(slant::minimum(s.x,
-                          qp.set().step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
+template <class QP, class State, class V, class S>
+[[nodiscard, gnu::cold]] bool is_endless_descent(QP const& qp, State const& s, V const& d,
+                                                 V const& image, S σ) {
+  S const slope = inner_product(d, qp.b()) / s.unit;
+  return norm(image) <= kernel_image(d, σ) && is_descent(slope, d, S(4) * s.size_of_b) &&
+         !(slant::minimum(s.x, qp.set().step_to_boundary(slant::local(s.x), slant::local(d))) <
            std::numeric_limits<S>::infinity());
 }
 
-/// Takes the part in range(A) out of a direction of descent d = −s.directions.p that is flat and
-/// does not leave Λ: conjugate gradients for
+/// Takes the part in range(A) out of a direction of descent d that is flat and does not leave Λ:
+/// conjugate gradients for
 ///
-///     minimise   ½ δᵀA δ − (A d)ᵀδ   over the face,      d ← d − δ.
+///     minimise   ½ δᵀA δ − (A d)ᵀδ   over what keep(x, y) keeps,      d ← d − δ.
 ///
 /// A curvature of ε σ ‖d‖² leaves ‖A d‖ of √ε σ ‖d‖, no proof that there is no minimum. True if d
-/// then is one, with A d computed anew; s.directions.p is −d. Scratch: φ, trial, projected,
-/// reduced. One application for each of at most `steps` steps and one for the proof.
-template <class QP, class State>
-[[nodiscard, gnu::cold]] bool confirm_descent(QP const& qp, State& s, index steps) {
-  using S = typename State::scalar;
+/// then is one, with image = A d computed anew. Scratch: w, Aw, g. One application for each of at
+/// most `steps` steps and one for the proof.
+template <class QP, class State, class Keep, class V, class S>
+[[nodiscard, gnu::cold]] bool confirm_descent(QP const& qp, State& s, Keep const& keep, V& d,
+                                              V& image, V& w, V& Aw, V& g, S σ, index steps) {
   using std::abs;
-  auto& d = s.directions.p;
-  auto& image = s.directions.Ap;
-  auto& w = s.projected;
-  auto& Aw = s.reduced;
-  s.directions.live = false;
   S const first = norm(d);
   if (!(first > S(0)) || !detail::is_finite(first)) return false;
   S const size = unit_near(first), least = first / size / S(128);
-  vectors::scale(S(-1) / size, d);
-  vectors::scale(S(-1) / size, image);
+  vectors::scale(S(1) / size, d);
+  vectors::scale(S(1) / size, image);
   S curvature(0);
   for (index k = 0; k < steps && norm(d) > least; ++k) {
-    s.face.keep(image, s.trial);
-    S const residual = norm(s.trial);
-    if (!(residual > kernel_image(d, s.σ) / S(8))) break;
+    keep(image, g);
+    S const residual = norm(g);
+    if (!(residual > kernel_image(d, σ) / S(8))) break;
     if (k == 0) {
-      vectors::copy(s.trial, w);
+      vectors::copy(g, w);
     } else {
-      S const γ = inner_product(s.trial, Aw) / curvature;
-      vectors::waxpy(-γ, w, s.trial, w);
+      S const γ = inner_product(g, Aw) / curvature;
+      vectors::waxpy(-γ, w, g, w);
     }
     slant::apply(qp.a(), w, Aw, s.a_workspace);
     ++s.work.operator_applications;
     curvature = inner_product(w, Aw);
-    if (!(curvature > flatness(w, s.σ))) break;
-    S const α = inner_product(s.trial, w) / curvature;
+    if (!(curvature > flatness(w, σ))) break;
+    S const α = inner_product(g, w) / curvature;
     vectors::axpy(-α, w, d);
     vectors::axpy(-α, Aw, image);
   }
   // What is left of components that d does not have are rounding errors of the others.
   S const nothing = S(8) * std::numeric_limits<S>::epsilon() * norm(d);
   for (index i = 0; i < index(slant::local(d).size()); ++i) {
-    S const& entry = slant::local(d).coeff(i);
-    slant::local(s.trial).coeffRef(i) = abs(entry) <= nothing ? S(0) : entry;
+    S& entry = slant::local(d).coeffRef(i);
+    if (abs(entry) <= nothing) entry = S(0);
   }
-  slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
+  slant::apply(qp.a(), d, image, s.a_workspace);
   ++s.work.operator_applications;
-  vectors::negate(s.trial, d);
-  return norm(s.trial) > least && is_endless_descent(qp, s);
+  return norm(d) > least && is_endless_descent(qp, s, d, image, σ);
+}
+/// The same on the face of a method of conjugate gradients, of d = −s.directions.p, which stays that.
+/// Scratch: φ, trial, projected, reduced.
+template <class QP, class State>
+[[nodiscard, gnu::cold]] bool confirm_descent(QP const& qp, State& s, index steps) {
+  auto& p = s.directions.p;
+  s.directions.live = false;
+  vectors::negate(p, p);
+  vectors::negate(s.directions.Ap, s.directions.Ap);
+  auto const keep = [&](auto const& x, auto& y) { s.face.keep(x, y); };
+  bool const is_one =
+      confirm_descent(qp, s, keep, p, s.directions.Ap, s.projected, s.reduced, s.trial, s.σ, steps);
+  vectors::negate(p, p);
+  return is_one;
 }
 
 /// Compares iterates with an earlier one, which is replaced whenever the number of comparisons is a
@@ -152,7 +158,7 @@ class recession_watch {
         vectors::scale(S(1) / unit_near(norm(s.trial)), s.trial);
         slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
         ++s.work.operator_applications;
-        yes = is_endless_descent(qp, s);
+        yes = is_endless_descent(qp, s, s.trial, s.φ, s.σ);
         next_ = 2 * seen_;
       }
     }
