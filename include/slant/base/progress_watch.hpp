@@ -27,8 +27,10 @@ namespace slant {
 template <class S>
 class progress_watch {
  public:
-  progress_watch() : progress_watch(root(std::numeric_limits<S>::epsilon())) {}
-  explicit progress_watch(S share) : share_(share) {}
+  progress_watch() : progress_watch(S(0)) {}
+  /// A share of less than √ε is √ε.
+  explicit progress_watch(S share)
+      : share_(std::max<S>(share, root(std::numeric_limits<S>::epsilon()))) {}
 
   /// Has there been no progress for `patience` steps? energy() → {q, its rounding error} is asked
   /// only if ‖r̃‖ has not fallen for so long. floor: what ‖r̃‖ may be without being an error of x; 0

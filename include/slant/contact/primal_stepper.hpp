@@ -18,6 +18,8 @@
 // changed).
 #pragma once
 
+#include <slant/base/entries.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/certified_coulomb.hpp>
@@ -75,7 +77,7 @@ class stepped_run {
     try {
       c_.validate();
       slant::detail::check_size("f", c_.f.size(), springs_.held().rows(), "the size of K,");
-      if (run_) {
+      if (certificate_) {
         go_on(step);
       } else {
         run_.emplace(springs_.held(), c_, layout_, multigrid_, most_, w_);
@@ -91,21 +93,29 @@ class stepped_run {
   /// Before the first load stands 0.
   [[nodiscard]] S line_to(vector_type const& f) const {
     if (v_.size() == 0) return S(0);
-    S const unit = unit_near(std::max<S>(way_of_f_.norm(), vector_type(f - f_).norm()));
+    vector_type const rest = f - f_;
+    S const unit = unit_near(std::max<S>(slant::norm(way_of_f_), slant::norm(rest)));
     vector_type const way = way_of_f_ / unit;
-    S const square = way.squaredNorm();
-    return square > S(0) ? S(way.dot((f - f_) / unit) / square) : S(0);
+    S const τ = way.dot(rest / unit) / way.squaredNorm();
+    return slant::detail::is_finite(τ) ? τ : S(0);
   }
 
-  /// What was found is a solution, from which the next step starts.
-  void remember() {
+  /// What was found is a solution, from which the next step starts. Whether it gives the line another
+  /// direction, which loads that hardly differ do not.
+  bool remember() {
     vector_type v = run_->state().x;
     if (auto const& s = run_->problem().offset(); s.size() > 0) v += s;
-    bool const is_first = v_.size() == 0;
-    way_ = is_first ? v : vector_type(v - v_);
-    way_of_f_ = is_first ? c_.f : vector_type(c_.f - f_);
+    if (v_.size() == 0) v_ = f_ = way_ = way_of_f_ = vector_type::Zero(v.size());
+    vector_type const way_of_f = c_.f - f_;
+    bool const differs =
+        slant::norm(way_of_f) > S(1e-6) * std::max<S>(slant::norm(c_.f), slant::norm(f_));
+    if (differs) {
+      way_ = v - v_;
+      way_of_f_ = way_of_f;
+    }
     v_ = std::move(v);
     f_ = c_.f;
+    return differs;
   }
 
  private:
@@ -140,7 +150,8 @@ class stepped_run {
   }
 
   [[nodiscard]] vector_type predicted() const {
-    if (v_.size() == 0) return vector_type::Zero(c_.f.size());
+    // Without a load nothing moves; where bodies have been says nothing then.
+    if (v_.size() == 0 || slant::detail::all_zero(c_.f)) return vector_type::Zero(c_.f.size());
     return v_ + line_to(c_.f) * way_;
   }
 
@@ -170,13 +181,14 @@ class primal_stepper {
  public:
   using report_type = solution<S>;
 
-  /// K: n × n, both triangles. Of the options `route`, `costs`, `scale`, `condensation` and `start`
+  /// K: n × n, both triangles; bodies that it leaves free are known where options.layout is. Of the
+  /// options `route`, `costs`, `scale`, `condensation` and `start`
   /// have no part. Throws bad_input for data that do not fit or options out of range, and where
   /// displacements cannot be solved for, for the reason that contact::solve would give for factors.
   primal_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, solve_options<S> options)
       : options_(checked(std::move(options), K, c)),
         steps_(K, std::move(c), options_, options_.max_steps) {
-    report_.motions = steps_.floating();
+    if (!steps_.springs().empty()) report_.motions = steps_.floating();
     report_.choice.route = solution_route::iterate;
     report_.choice.reason = "iterated, as asked for";
   }
@@ -196,7 +208,7 @@ class primal_stepper {
       detail::run_floating_to_certified(steps_.law(), run, steps_.springs(), steps_.certificate(),
                                         steps_.scene(), options_, report_);
     }
-    if (report_.converged()) steps_.remember();
+    if (report_.converged()) static_cast<void>(steps_.remember());
     return report_;
   }
 
@@ -239,8 +251,8 @@ class primal_coulomb_stepper {
   /// step has no slip bounds g: bad_input.
   [[nodiscard]] report_type const& advance(load_step<S> step) {
     if (step.g) throw bad_input("g", "slip bounds", "none, which are F times the pressures");
-    S const τ =
-        step.f && step.f->size() == steps_.scene().f.size() ? steps_.line_to(*step.f) : S(0);
+    auto const& f = step.f ? *step.f : steps_.scene().f;
+    S const τ = f.size() == steps_.scene().f.size() ? steps_.line_to(f) : S(0);
     step.g = (g_ + τ * way_of_g_).cwiseMax(S(0));
     steps_.begin(std::move(step));
     auto found = detail::run_coulomb_to_certified(
@@ -251,9 +263,8 @@ class primal_coulomb_stepper {
     report_.choice.route = solution_route::iterate;
     report_.choice.reason = "iterated, as asked for";
     if (report_.converged()) {
-      steps_.remember();
       vector_type const g = F_.cwiseProduct(report_.λ.head(F_.size()));
-      way_of_g_ = g - g_;
+      if (steps_.remember()) way_of_g_ = g - g_;
       g_ = g;
     }
     return report_;

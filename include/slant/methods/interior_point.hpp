@@ -496,8 +496,11 @@ class interior_point_steps {
     vectors::copy(d, s.trial);
     vectors::copy(image, s.rhs);
     scalar const σ = s.trace / scalar(slant::global_size(s.x));
-    auto const all = [](vector_type const& x, vector_type& y) { vectors::copy(x, y); };
-    bool const is_one = confirm_descent(qp_.get(), s, all, s.trial, s.rhs, s.reduced, s.lagrangian,
+    auto const keep = [&](vector_type const& x, vector_type& y) {
+      vectors::copy(x, y);
+      s.barrier.keep_fixed(y);
+    };
+    bool const is_one = confirm_descent(qp_.get(), s, keep, s.trial, s.rhs, s.reduced, s.lagrangian,
                                         s.projected, σ, most_products);
     if (is_one) vectors::copy(s.trial, s.step);
     s.reduce(qp_.get());

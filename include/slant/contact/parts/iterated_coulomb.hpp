@@ -86,7 +86,7 @@ template <class Friction, class S, class Certificate>
   constexpr index patience = 15, rounds = 12;
   iterated_coulomb_result<S> result;
   result.levels = run.levels().description();
-  index const before = frozen.applications() + springs.products();
+  index const before = frozen.applications();
   coulomb_check const check(rows, F);
   index const nodes = F.size();
   vector_type λ(nodes);

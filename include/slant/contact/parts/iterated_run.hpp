@@ -369,10 +369,15 @@ class moving_springs {
   /// K + D.
   [[nodiscard]] sparse_type const& held() const { return empty() ? *K_ : held_; }
 
-  /// They end at u, and nothing is known of another problem.
+  /// They end at u, and nothing is known of another problem but how contact has held so far. One
+  /// product.
   void restart(vector_type const& u) {
-    centre_ = u;
-    way_ = last_ = size_ = noise_ = before_ = S(0);
+    S const c = contraction();
+    unknown_ = slant::detail::is_finite(c) ? std::max<S>(S(0.25), c) : S(0.25);
+    products_ = 0;
+    measure(u, S(0));
+    centre_ = u_;
+    way_ = last_ = before_ = S(0);
   }
 
   /// u⁺ = u has been found, up to `noise` in ‖·‖_{K + D}. One product.
@@ -389,7 +394,7 @@ class moving_springs {
   }
   /// The springs end there.
   void move() {
-    before_ = contraction();
+    if (way_ > noise_ || before_ > S(0)) before_ = contraction();
     last_ = way_;
     centre_ = u_;
   }
@@ -400,14 +405,14 @@ class moving_springs {
 
   /// ‖u‖_K; 0 before anything has been found.
   [[nodiscard]] S size() const { return size_; }
-  /// Applications of K so far.
+  /// Applications of K since the last restart.
   [[nodiscard]] index products() const { return products_; }
   /// w over that of the step before, from above; ∞ where there was none. A way that is all noise
   /// says no more than that the springs are at rest.
   [[nodiscard]] S contraction() const {
     if (!(way_ > noise_)) {
       bool const was_good = S(0) < before_ && before_ < S(0.25);
-      return was_good ? before_ : S(0.25);
+      return was_good ? before_ : unknown_;
     }
     return last_ > S(0) ? S((way_ + noise_) / last_) : std::numeric_limits<S>::infinity();
   }
@@ -429,7 +434,8 @@ class moving_springs {
   sparse_type held_;
   vector_type D_, centre_, u_;
   S way_{0}, last_{0}, size_{0}, noise_{0};
-  S before_{0};  // the contraction of the step before; 0: there was none, and none is known
+  S before_{0};      // the contraction of the step before; 0: there was none, and none is known
+  S unknown_{0.25};  // what is taken for it where ways are noise
   index products_ = 0;
 };
 
@@ -440,7 +446,7 @@ void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<
                                solve_options<S> const& o, solution<S>& result) {
   using slant::detail::show;
   constexpr index rounds = 40, patience = 12;
-  index const before = certificate.applications() + springs.products();
+  index const before = certificate.applications();
   auto const& state = run.state();
   S const share =
       std::clamp<S>(o.tolerance / S(8), S(1e3) * std::numeric_limits<S>::epsilon(), S(1e-4));

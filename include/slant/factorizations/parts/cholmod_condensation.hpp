@@ -166,11 +166,9 @@ class cholmod_condensation {
       for (std::size_t i = 0; i < contact.size(); ++i) {
         number[static_cast<std::size_t>(contact[i])] = static_cast<int>(i);
       }
-      return condensed_operator<S>(moved(b, number, inverse_->size()), inverse_,
-                                        factor_.unit());
+      return condensed_operator<S>(moved(b, number, inverse_->size()), inverse_, factor_.unit());
     }
-    return condensed_operator<S>(moved(b, place_, tail_->shape().size()), tail_,
-                                      factor_.unit());
+    return condensed_operator<S>(moved(b, place_, tail_->shape().size()), tail_, factor_.unit());
   }
 
  private:

@@ -64,8 +64,8 @@ template <class QP, class State, class V, class S>
            std::numeric_limits<S>::infinity());
 }
 
-/// Takes the part in range(A) out of a direction of descent d that is flat and does not leave Λ:
-/// conjugate gradients for
+/// Takes the part in range(A) out of a direction of descent d that does not leave Λ, and is flat or
+/// long: conjugate gradients for
 ///
 ///     minimise   ½ δᵀA δ − (A d)ᵀδ   over what keep(x, y) keeps,      d ← d − δ.
 ///
@@ -111,7 +111,7 @@ template <class QP, class State, class Keep, class V, class S>
   return norm(d) > least && is_endless_descent(qp, s, d, image, σ);
 }
 /// The same on the face of a method of conjugate gradients, of d = −s.directions.p, which stays that.
-/// Scratch: φ, trial, projected, reduced.
+/// Scratch: trial, projected, reduced, directions.Ap.
 template <class QP, class State>
 [[nodiscard, gnu::cold]] bool confirm_descent(QP const& qp, State& s, index steps) {
   auto& p = s.directions.p;
