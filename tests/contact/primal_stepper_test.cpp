@@ -171,6 +171,11 @@ TEST_CASE("Coulomb's law on increments: each step as a problem of its own by the
       CHECK(r.error.frozen.size == doctest::Approx(std::sqrt(u.dot(s.K * u))).epsilon(1e-6));
       if (!next.f && !next.d && !next.w) CHECK(r.steps <= 3);  // nothing has changed
     }
+    // Without pressure nothing holds what friction has held.
+    auto const& rest =
+        stepper.advance({.f = VectorXd(0 * f), .w = VectorXd::Constant(w.size(), 1e-4)});
+    CHECK((rest.converged() && rest.u == 0 * f && rest.λ.isZero(0)));
+    CHECK(stepper.advance({.f = f}).converged());
   }
 }
 
