@@ -91,9 +91,10 @@ struct certified_coulomb_result {
   coulomb_error<scalar_t<V>> error{};  ///< of (λ, u)
   slant::status status = status::running;
   std::string reason{};  ///< the status as a sentence
-  /// "Newton", "successive approximations", "cones", or "successive slip bounds" without factors.
+  /// "Newton", "successive approximations", "cones"; without factors "slip bounds and Newton", or
+  /// "successive slip bounds" alone.
   std::string_view method{};
-  index steps = 0;              ///< of that method
+  index steps = 0;              ///< of that method; of slip bounds each of Tresca's problems is one
   slant::work work{};           ///< of all methods and the certificate
   scalar_t<V> condition{0};     ///< estimate of the condition number of K; 0: K was not factored
   bool scaled = false;          ///< whether rows of B were scaled
@@ -343,8 +344,8 @@ template <class S>
   } else {
     result.reason += "; asked was " + slant::detail::show(o.tolerance) + "; " + found.reason;
   }
-  result.method = "successive slip bounds";
-  result.steps = found.bounds;
+  result.method = found.newton_steps > 0 ? "slip bounds and Newton" : "successive slip bounds";
+  result.steps = found.bounds + found.newton_steps;
   result.work = found.work;
   result.factorization = std::move(found.levels);
   return result;

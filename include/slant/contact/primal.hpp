@@ -67,6 +67,7 @@ class surface_function {
     return static_cast<index>(contacts_.size()) * (tangents_ > 0 ? 2 : 1);
   }
   [[nodiscard]] std::vector<contact> const& contacts() const { return contacts_; }
+  [[nodiscard]] index tangents() const { return tangents_; }
   /// change(contact) for all of them, of their bounds alone.
   template <class F>
   void change_bounds(F change) {

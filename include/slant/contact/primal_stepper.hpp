@@ -26,6 +26,7 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/load_stepper.hpp>
+#include <slant/contact/parts/alart_curnier_steps.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/parts/iterated_run.hpp>
 #include <slant/contact/solve_options.hpp>
@@ -255,11 +256,12 @@ class primal_coulomb_stepper {
     S const τ = f.size() == steps_.scene().f.size() ? steps_.line_to(f) : S(0);
     step.g = (g_ + τ * way_of_g_).cwiseMax(S(0));
     steps_.begin(std::move(step));
-    auto found = rests() ? at_rest()
-                         : detail::run_coulomb_to_certified(
-                               steps_.law(), steps_.run(), steps_.springs(), steps_.certificate(),
-                               detail::checked_rows<S>(steps_.scene(), steps_.positions()), F_,
-                               S(options_.tolerance), options_.outer_steps);
+    auto found =
+        rests() ? at_rest()
+                : detail::run_coulomb_to_certified(
+                      steps_.law(), steps_.run(), newton_, steps_.springs(), steps_.certificate(),
+                      detail::checked_rows<S>(steps_.scene(), steps_.positions()), F_,
+                      S(options_.tolerance), options_.outer_steps);
     report_ = detail::reported(std::move(found), options_);
     report_.choice.route = solution_route::iterate;
     report_.choice.reason = "iterated, as asked for";
@@ -303,6 +305,7 @@ class primal_coulomb_stepper {
   vector_type F_;
   certified_coulomb_options<S> options_;
   detail::stepped_run<S> steps_;
+  std::optional<detail::alart_curnier_steps<S>> newton_{};
   vector_type g_ = vector_type::Zero(F_.size());  // of the last solution
   vector_type way_of_g_ = g_;                     // from the one before
   report_type report_{};

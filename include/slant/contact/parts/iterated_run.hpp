@@ -158,6 +158,7 @@ class primal_run {
   primal_run& operator=(primal_run const&) = delete;
 
   [[nodiscard]] primal<S> const& problem() const { return problem_; }
+  [[nodiscard]] primal<S>& problem() { return problem_; }
   [[nodiscard]] slant::multigrid<S> const& levels() const { return M_; }
   [[nodiscard]] qp_type const& qp() const { return qp_; }
   [[nodiscard]] state_type const& state() const { return state_; }
@@ -189,6 +190,11 @@ class primal_run {
     vector_type λ = problem_.multipliers(state_.x);
     slant::project(Λ, λ, λ);
     return λ;
+  }
+  /// Goes on from another x. One product.
+  void go_to(vector_type const& x) {
+    state_.x = x;
+    method(S(0)).resume(state_);
   }
   /// Goes on from x with another load.
   void set_load(vector_type const& f);
