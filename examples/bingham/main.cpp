@@ -43,13 +43,12 @@ int show(double g, double tolerance) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Flow of a Bingham fluid in a pipe beside its closed form.", "bingham");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("Flow of a Bingham fluid in a pipe beside its closed form.",
+                             "bingham");
   double g = 0.25, tolerance = 1e-8;
-  app.add_option("--yield", g, "yield stress of the runs on four meshes")
-      ->check(examples::expects<double>("a number >= 0", [](double x) { return x >= 0; }));
-  app.add_option("--tolerance", tolerance, "relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  return examples::run_program(app, argc, argv, [&] { return show(g, tolerance); });
+  app.option("--yield", g, "yield stress of the runs on four meshes",
+             examples::expects<double>("a number >= 0", [](double x) { return x >= 0; }));
+  app.option("--tolerance", tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  return app.run(argc, argv, [&] { return show(g, tolerance); });
 }

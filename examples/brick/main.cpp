@@ -25,7 +25,7 @@ namespace {
 
 struct settings {
   int k = 6;
-  int refined = 0;  ///< k of the mesh for multigrid; 0: none
+  std::optional<int> refined{};  ///< k of the mesh for multigrid
   std::string load = "lift";
   double tolerance = 1e-10;
   slant::index max_iterations = 1000;
@@ -81,7 +81,7 @@ int solve_brick(settings const& s) {
 /// To a relative energy error of `tolerance`.
 int solve_refined(settings const& s) {
   auto const load = fem::brick_load_named(s.load).value();
-  auto const scene = fem::make_steel_brick({.k = s.refined, .load = load});
+  auto const scene = fem::make_steel_brick({.k = *s.refined, .load = load});
   if (!s.output.empty()) examples::make_folder("--output", s.output);
   slant::contact::data<double> const contact{scene.N, scene.T, scene.f, scene.d, scene.g};
   brick::print_problem(scene, load, "none: multigrid");
@@ -109,29 +109,19 @@ int solve_refined(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("A steel brick with Tresca friction on a rigid foundation.", "brick");
-  app.footer(std::string(examples::exit_status_help));
+  examples::command_line app("A steel brick with Tresca friction on a rigid foundation.", "brick");
   settings s;
-  app.add_option("--load", s.load, "press, pull or lift")
-      ->capture_default_str()
-      ->check(examples::expects<std::string>("press, pull or lift", [](std::string const& name) {
-        return fem::brick_load_named(name).has_value();
-      }));
-  app.add_option("--cells", s.k, "k of the 3k x k x k cells")
-      ->capture_default_str()
-      ->check(examples::expects_at_least(1));
-  app.add_option("--refine", s.refined, "k of a fine mesh: multigrid, without factors")
-      ->check(examples::expects_at_least(1));
-  app.add_option("--tolerance", s.tolerance,
-                 "relative norm of the reduced gradient; with --refine relative energy error")
-      ->capture_default_str()
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.max_iterations, "steps at most")
-      ->capture_default_str()
-      ->check(examples::expects_at_least(0));
-  app.add_option("--output", s.output,
-                 "folder for brick.vtu (ParaView) and the pictures contact.png and history.png")
-      ->check(examples::expects_name());
-  return examples::run_program(app, argc, argv,
-                               [&] { return s.refined > 0 ? solve_refined(s) : solve_brick(s); });
+  app.option("--load", s.load, "press, pull or lift",
+             examples::expects_one_of({"press", "pull", "lift"}));
+  app.option("--cells", s.k, "k of the 3k x k x k cells", examples::expects_at_least(1));
+  app.option("--refine", s.refined, "k of a fine mesh: multigrid, without factors",
+             examples::expects_at_least(1));
+  app.option("--tolerance", s.tolerance,
+             "relative norm of the reduced gradient; with --refine relative energy error",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.max_iterations, "steps at most", examples::expects_at_least(0));
+  app.option("--output", s.output,
+             "folder for brick.vtu (ParaView) and the pictures contact.png and history.png",
+             examples::expects_name());
+  return app.run(argc, argv, [&] { return s.refined ? solve_refined(s) : solve_brick(s); });
 }

@@ -104,22 +104,17 @@ int print_tables(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The steel brick: tables of the thesis and the lecture beside ours.",
-               "brick_tables");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("The steel brick: tables of the thesis and the lecture beside ours.",
+                             "brick_tables");
   settings s;
-  app.add_option("--cells", s.largest, "largest k of the 3k x k x k cells; rows from 4 on")
-      ->check(examples::expects<int>("a whole number from 4 to 16",
-                                     [](int k) { return k >= 4 && k <= 16; }));
-  app.add_option("--load", s.load, "press, pull, lift or all")
-      ->check(
-          examples::expects<std::string>("press, pull, lift or all", [](std::string const& name) {
-            return name == "all" || fem::brick_load_named(name).has_value();
-          }));
-  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most")
-      ->check(examples::expects_at_least(0));
-  return examples::run_program(app, argc, argv, [&] { return print_tables(s); });
+  app.option("--cells", s.largest, "largest k of the 3k x k x k cells; rows from 4 on",
+             examples::expects<int>("a whole number from 4 to 16",
+                                    [](int k) { return k >= 4 && k <= 16; }));
+  app.option("--load", s.load, "press, pull, lift or all",
+             examples::expects_one_of({"press", "pull", "lift", "all"}));
+  app.option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.limits.max_iterations, "steps at most",
+             examples::expects_at_least(0));
+  return app.run(argc, argv, [&] { return print_tables(s); });
 }

@@ -108,29 +108,23 @@ int solve(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("A steel brick cut into cubes, solved by Total-FETI.", "decomposed_brick");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("A steel brick cut into cubes, solved by Total-FETI.",
+                             "decomposed_brick");
   settings s;
-  app.add_option("--cubes", s.cubes, "cubes along each axis, one for each subdomain")
-      ->expected(3)
-      ->check(examples::expects<int>("a whole number from 1 to 100",
-                                     [](int n) { return n >= 1 && n <= 100; }));
-  app.add_option("--cells", s.cells, "cells along the edge of a cube, H/h")
-      ->check(examples::expects<int>("a whole number from 1 to 100",
-                                     [](int n) { return n >= 1 && n <= 100; }));
-  app.add_option("--load", s.load, "press, pull or lift")
-      ->check(examples::expects<std::string>("press, pull or lift", [](std::string const& name) {
-        return fem::brick_load_named(name).has_value();
-      }));
-  app.add_option("--method", s.method, "newton, for all multipliers together, or smalse")
-      ->check(examples::expects<std::string>("newton or smalse", [](std::string const& name) {
-        return name == "newton" || name == "smalse";
-      }));
-  app.add_flag("--frictionless", s.frictionless, "no friction");
-  app.add_option("--tolerance", s.tolerance, "relative accuracy")
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.max_iterations, "outer steps at most")
-      ->check(examples::expects_at_least(0));
-  return examples::run_program(app, argc, argv, [&] { return solve(s); });
+  app.option("--cubes", s.cubes, "cubes along each axis, one for each subdomain",
+             examples::expects<int>("a whole number from 1 to 100",
+                                    [](int n) { return n >= 1 && n <= 100; }),
+             3, 3);
+  app.option("--cells", s.cells, "cells along the edge of a cube, H/h",
+             examples::expects<int>("a whole number from 1 to 100",
+                                    [](int n) { return n >= 1 && n <= 100; }));
+  app.option("--load", s.load, "press, pull or lift",
+             examples::expects_one_of({"press", "pull", "lift"}));
+  app.option("--method", s.method, "newton, for all multipliers together, or smalse",
+             examples::expects_one_of({"newton", "smalse"}));
+  app.flag("--frictionless", s.frictionless, "no friction");
+  app.option("--tolerance", s.tolerance, "relative accuracy", examples::expects_tolerance());
+  app.option("--max-iterations", s.max_iterations, "outer steps at most",
+             examples::expects_at_least(0));
+  return app.run(argc, argv, [&] { return solve(s); });
 }

@@ -128,15 +128,14 @@ int solve_folder(arguments const& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  examples::command_line app(
       "Contact with friction from files. DIR holds either\n"
       "  a body with Tresca friction: K.mtx, N.mtx, f.txt, d.txt and, for friction, T.mtx, g.txt:\n"
       "    min 1/2 u'Ku - f'u + sum g_i |(Tu)_i|  subject to  Nu <= d\n"
       "  or with Coulomb friction (--coulomb)\n"
       "  or contacts with Coulomb friction, each [n, t1(, t2)]: W.mtx, q.txt, mu.txt:\n"
       "    u = Wr + q,  |r_t| <= mu r_n,  r orthogonal to u + mu |u_t| n,  u_n >= 0",
-      "from_files");
-  app.footer(
+      "from_files",
       "Prints one JSON object. For a body \"energy_error\" bounds |u - u*|/|u*| in the energy norm "
       "and\n\"kkt_residual\" is relative; both are computed from the "
       "matrices;\n\"operator_applications\" includes \"setup_applications\". For contacts "
@@ -147,48 +146,42 @@ int main(int argc, char** argv) {
       "that cannot be used or\noutput that cannot be written, named in one line on standard "
       "error; no file is written then.");
   arguments a;
-  app.add_option("DIR", a.folder, "folder with the problem");
-  app.add_option("--method", a.method,
-                 "name of a method; see --list-methods; default: the one recommended there");
-  app.add_option(
-         "--tolerance", a.tolerance,
-         "bodies with Tresca friction: relative error in the energy norm, estimated or, with "
-         "--prove, proven;\nwith Coulomb friction: of that, for the slip bounds F lambda_n, and of "
-         "the violation of the law;\ncontacts: of the natural map in units of each contact; 0: as "
-         "far as rounding allows, with exit\nstatus 1: for a body mostly status \"stalled\"")
-      ->capture_default_str()
-      ->check(examples::expects_tolerance());
-  app.add_option("--start", a.start,
-                 "automatic, zero, or qpc or interior_point: where that method has reduced the "
-                 "reduced gradient to a tenth")
-      ->capture_default_str()
-      ->check(examples::expects<std::string>(
-          "automatic, zero, qpc or interior_point",
-          [](std::string const& start) { return starts.contains(start); }));
-  app.add_option("--max-iterations", a.max_iterations, "steps at most")
-      ->check(examples::expects_at_least(0));
-  app.add_option("--coulomb", a.coefficients,
-                 "file with a friction coefficient F_i >= 0 for each contact node of a body: "
-                 "Coulomb friction,\n|lambda_t,i| <= F_i lambda_n,i; g.txt is not read")
-      ->check(examples::expects_name());
-  app.add_flag(
-      "--prove", a.prove,
-      "prove the bound of the error (bodies with Tresca friction): one more factorisation");
-  app.add_flag("--symmetric", a.symmetric,
-               "refuse a W that is not symmetric up to rounding; else it is used as given");
-  app.add_option("--output", a.output,
-                 "folder for u.txt and lambda.txt (normal, then tangential forces), or r.txt and "
-                 "u.txt")
-      ->check(examples::expects_name());
-  app.add_flag("--strict", a.strict,
-               "refuse a body about whose data there are warnings (\"warnings\" in the JSON "
-               "object, and on standard error)");
-  app.add_option(
-         "--coordinates", a.coordinates,
-         "file with the coordinates of the nodes of a body, D x p (Matrix Market), each "
-         "with D consecutive\nunknowns: messages name directions, more can be checked, and large "
-         "bodies are solved by multigrid")
-      ->check(examples::expects_name());
-  app.add_flag("--list-methods", a.list_methods, "print the methods and end");
-  return examples::run_program(app, argc, argv, [&] { return solve_folder(a); });
+  app.option("DIR", a.folder, "folder with the problem");
+  app.option("--method", a.method,
+             "name of a method; see --list-methods; default: the one recommended there");
+  app.option(
+      "--tolerance", a.tolerance,
+      "bodies with Tresca friction: relative error in the energy norm, estimated or, with "
+      "--prove, proven;\nwith Coulomb friction: of that, for the slip bounds F lambda_n, and of "
+      "the violation of the law;\ncontacts: of the natural map in units of each contact; 0: as "
+      "far as rounding allows, with exit\nstatus 1: for a body mostly status \"stalled\"",
+      examples::expects_tolerance());
+  app.option("--start", a.start,
+             "automatic, zero, or qpc or interior_point: where that method has reduced the "
+             "reduced gradient to a tenth",
+             examples::expects_one_of({"automatic", "zero", "qpc", "interior_point"}));
+  app.option("--max-iterations", a.max_iterations, "steps at most", examples::expects_at_least(0));
+  app.option("--coulomb", a.coefficients,
+             "file with a friction coefficient F_i >= 0 for each contact node of a body: "
+             "Coulomb friction,\n|lambda_t,i| <= F_i lambda_n,i; g.txt is not read",
+             examples::expects_name());
+  app.flag("--prove", a.prove,
+           "prove the bound of the error (bodies with Tresca friction): one more factorisation");
+  app.flag("--symmetric", a.symmetric,
+           "refuse a W that is not symmetric up to rounding; else it is used as given");
+  app.option("--output", a.output,
+             "folder for u.txt and lambda.txt (normal, then tangential forces), or r.txt and "
+             "u.txt",
+             examples::expects_name());
+  app.flag("--strict", a.strict,
+           "refuse a body about whose data there are warnings (\"warnings\" in the JSON "
+           "object, and on standard error)");
+  app.option(
+      "--coordinates", a.coordinates,
+      "file with the coordinates of the nodes of a body, D x p (Matrix Market), each "
+      "with D consecutive\nunknowns: messages name directions, more can be checked, and large "
+      "bodies are solved by multigrid",
+      examples::expects_name());
+  app.flag("--list-methods", a.list_methods, "print the methods and end");
+  return app.run(argc, argv, [&] { return solve_folder(a); });
 }

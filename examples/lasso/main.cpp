@@ -68,12 +68,11 @@ int recover(double tolerance) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Recovers sparse signals by the lasso, for five weights of the norm.", "lasso");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("Recovers sparse signals by the lasso, for five weights of the norm.",
+                             "lasso");
   double tolerance = 1e-8;
-  app.add_option("--tolerance", tolerance,
-                 "relative error in the energy norm; relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  return examples::run_program(app, argc, argv, [&] { return recover(tolerance); });
+  app.option("--tolerance", tolerance,
+             "relative error in the energy norm; relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  return app.run(argc, argv, [&] { return recover(tolerance); });
 }

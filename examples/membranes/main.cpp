@@ -101,44 +101,32 @@ int solve_problems(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Obstacle problems of the literature, with the numbers of nodes on their bounds.",
-               "membranes");
-  app.footer(std::string(examples::exit_status_help));
+  examples::command_line app(
+      "Obstacle problems of the literature, with the numbers of nodes on their bounds.",
+      "membranes");
   settings s;
-  auto const one_of = [](std::string const& expectation, std::vector<std::string> const& names) {
-    return examples::expects<std::string>(expectation, [names](std::string const& name) {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    });
-  };
-  std::vector<std::string> names{"all"};
-  names.insert(names.end(), membranes::problems.begin(), membranes::problems.end());
-  app.add_option("--problem", s.problem, "torsion, bearing, lower_obstacle, double_obstacle or all")
-      ->capture_default_str()
-      ->check(one_of("torsion, bearing, lower_obstacle, double_obstacle or all", names));
-  app.add_option("--method", s.method, "newton or kprgp")
-      ->capture_default_str()
-      ->check(one_of("newton or kprgp", {"newton", "kprgp"}));
-  app.add_option("--size", s.size, "interior nodes in x and, if given, another number in y")
-      ->expected(1, 2)
-      ->capture_default_str()
-      ->check(examples::expects<int>("a whole number from 1 to 2000",
-                                     [](int n) { return n >= 1 && n <= 2000; }));
-  app.add_option("--twist", s.twist, "c of the torsion; the literature has 5, 10 and 20")
-      ->capture_default_str()
-      ->check(examples::expects<double>("a number > 0 below infinity",
-                                        [](double c) { return c > 0 && c < HUGE_VAL; }));
-  app.add_option("--eccentricity", s.eccentricity, "ε of the bearing")
-      ->capture_default_str()
-      ->check(
-          examples::expects<double>("a number in (0, 1)", [](double ε) { return ε > 0 && ε < 1; }));
-  app.add_flag("--from-zero", s.from_zero, "only the finest grid, from zero");
-  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
-      ->capture_default_str()
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most, on each grid")
-      ->capture_default_str()
-      ->check(examples::expects_at_least(0));
-  app.add_option("--output", s.output, "folder for a VTU file (ParaView) and a PNG of each problem")
-      ->check(examples::expects_name());
-  return examples::run_program(app, argc, argv, [&] { return solve_problems(s); });
+  std::vector<std::string> names(membranes::problems.begin(), membranes::problems.end());
+  names.emplace_back("all");
+  app.option("--problem", s.problem, "torsion, bearing, lower_obstacle, double_obstacle or all",
+             examples::expects_one_of(names));
+  app.option("--method", s.method, "newton or kprgp",
+             examples::expects_one_of({"newton", "kprgp"}));
+  app.option("--size", s.size, "interior nodes in x and, if given, another number in y",
+             examples::expects<int>("a whole number from 1 to 2000",
+                                    [](int n) { return n >= 1 && n <= 2000; }),
+             1, 2);
+  app.option("--twist", s.twist, "c of the torsion; the literature has 5, 10 and 20",
+             examples::expects<double>("a number > 0 below infinity",
+                                       [](double c) { return c > 0 && c < HUGE_VAL; }));
+  app.option(
+      "--eccentricity", s.eccentricity, "ε of the bearing",
+      examples::expects<double>("a number in (0, 1)", [](double ε) { return ε > 0 && ε < 1; }));
+  app.flag("--from-zero", s.from_zero, "only the finest grid, from zero");
+  app.option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.limits.max_iterations, "steps at most, on each grid",
+             examples::expects_at_least(0));
+  app.option("--output", s.output, "folder for a VTU file (ParaView) and a PNG of each problem",
+             examples::expects_name());
+  return app.run(argc, argv, [&] { return solve_problems(s); });
 }

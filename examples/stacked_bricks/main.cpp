@@ -99,29 +99,23 @@ int solve_stack(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Floating bricks on each other in a corner, held by contact alone.",
-               "stacked_bricks");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("Floating bricks on each other in a corner, held by contact alone.",
+                             "stacked_bricks");
   settings s;
-  app.add_option("--load", s.load, "hold, lift or tip; the last two have no equilibrium")
-      ->check(examples::expects<std::string>("hold, lift or tip", [](std::string const& name) {
-        return name == "hold" || name == "lift" || name == "tip";
-      }));
-  app.add_option("--bricks", s.bricks, "one on top of the other")
-      ->check(examples::expects<int>("a whole number from 1 to 100",
-                                     [](int n) { return n >= 1 && n <= 100; }));
-  app.add_option("--cells", s.k, "k of the 2k x k x k cells of each brick")
-      ->check(examples::expects<int>("a whole number from 1 to 100",
-                                     [](int k) { return k >= 1 && k <= 100; }));
-  app.add_option("--gap", s.gap, "between the bricks and to the floor")
-      ->check(examples::expects<double>("a number >= 0",
-                                        [](double g) { return g >= 0 && std::isfinite(g); }));
-  app.add_option("--tolerance", s.tolerance, "relative norm of the residual")
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.max_iterations, "steps at most")
-      ->check(examples::expects_at_least(0));
-  app.add_option("--output", s.output, "folder for stack.vtu (ParaView)")
-      ->check(examples::expects_name());
-  return examples::run_program(app, argc, argv, [&] { return solve_stack(s); });
+  app.option("--load", s.load, "hold, lift or tip; the last two have no equilibrium",
+             examples::expects_one_of({"hold", "lift", "tip"}));
+  app.option("--bricks", s.bricks, "one on top of the other",
+             examples::expects<int>("a whole number from 1 to 100",
+                                    [](int n) { return n >= 1 && n <= 100; }));
+  app.option("--cells", s.k, "k of the 2k x k x k cells of each brick",
+             examples::expects<int>("a whole number from 1 to 100",
+                                    [](int k) { return k >= 1 && k <= 100; }));
+  app.option("--gap", s.gap, "between the bricks and to the floor",
+             examples::expects<double>("a number >= 0",
+                                       [](double g) { return g >= 0 && std::isfinite(g); }));
+  app.option("--tolerance", s.tolerance, "relative norm of the residual",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.max_iterations, "steps at most", examples::expects_at_least(0));
+  app.option("--output", s.output, "folder for stack.vtu (ParaView)", examples::expects_name());
+  return app.run(argc, argv, [&] { return solve_stack(s); });
 }

@@ -21,19 +21,23 @@ struct settings {
   fem::channel_options channel{};
   std::string method = "newton";
   examples::run_limits limits{.tolerance = 1e-8};
-  std::filesystem::path meshes = SLANT_EXAMPLE_MESHES;
+  std::filesystem::path meshes{};  ///< empty: those beside this file
   std::filesystem::path output{};
+
+  [[nodiscard]] std::filesystem::path mesh_folder() const {
+    return meshes.empty() ? std::filesystem::path(SLANT_EXAMPLE_MESHES) : meshes;
+  }
 };
 
 int solve_flow(settings const& s) {
-  auto const flow = make_channel_flow(stokes::read_mesh(s.meshes, s.refinement), s.channel);
+  auto const flow = make_channel_flow(stokes::read_mesh(s.mesh_folder(), s.refinement), s.channel);
   if (!s.output.empty()) examples::make_folder("--output", s.output);
 
   auto const start = std::chrono::steady_clock::now();
   stokes::flow_problem const problem(flow);
   double const setup =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  auto const mesh = stokes::mesh_file(s.meshes, s.refinement).filename().string();
+  auto const mesh = stokes::mesh_file(s.mesh_folder(), s.refinement).filename().string();
   stokes::print_problem(problem, s.channel, mesh, setup);
 
   auto const run = stokes::run(s.method, problem, s.limits);
@@ -69,7 +73,7 @@ int print_table(settings const& s) {
   bool converged = true;
   for (auto const& printed : fem::lecture_table_4) {
     if (printed.refinement > s.refinement) break;
-    auto const domain = stokes::read_mesh(s.meshes, printed.refinement);
+    auto const domain = stokes::read_mesh(s.mesh_folder(), printed.refinement);
     for (std::size_t column = 0; column < fem::lecture_slip_bounds.size(); ++column) {
       double const g = fem::lecture_slip_bounds[column];
       stokes::flow_problem const problem(
@@ -96,36 +100,34 @@ int print_table(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Stokes flow past an obstacle on which the fluid sticks or slips.", "stokes");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("Stokes flow past an obstacle on which the fluid sticks or slips.",
+                             "stokes");
   settings s;
   bool table = false;
   auto const not_negative = [](char const* expectation) {
     return examples::expects<double>(expectation,
                                      [](double x) { return x >= 0 && std::isfinite(x); });
   };
-  app.add_option("--refinement", s.refinement, "mesh 1 to 4; 1 and 2 are shipped")
-      ->check(examples::expects<int>("a whole number from 1 to 4", [](int k) {
-        return k >= 1 && k <= stokes::finest_refinement;
-      }));
-  app.add_option("--g", s.channel.slip_bound, "slip bound of the obstacle, a stress")
-      ->check(not_negative("a finite number >= 0"));
-  app.add_option("--kappa", s.channel.adhesion, "adhesion of the obstacle, a stress per velocity")
-      ->check(not_negative("a finite number >= 0"));
-  app.add_option("--method", s.method, stokes::method_names())
-      ->check(examples::expects<std::string>(
-          stokes::method_names(), [](std::string const& name) { return stokes::is_method(name); }));
-  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most")
-      ->check(examples::expects_at_least(0));
-  app.add_flag("--table", table, "Table 4 up to this refinement, all methods, instead of one flow");
-  app.add_option("--meshes", s.meshes, "folder of channel_1.msh ...")
-      ->default_str("meshes beside main.cpp")
-      ->check(examples::expects_name());
-  app.add_option("--output", s.output, "folder for flow.vtu (ParaView) and the picture flow.png")
-      ->check(examples::expects_name());
-  return examples::run_program(app, argc, argv,
-                               [&] { return table ? print_table(s) : solve_flow(s); });
+  app.option("--refinement", s.refinement, "mesh 1 to 4; 1 and 2 are shipped",
+             examples::expects<int>("a whole number from 1 to 4", [](int k) {
+               return k >= 1 && k <= stokes::finest_refinement;
+             }));
+  app.option("--g", s.channel.slip_bound, "slip bound of the obstacle, a stress",
+             not_negative("a finite number >= 0"));
+  app.option("--kappa", s.channel.adhesion, "adhesion of the obstacle, a stress per velocity",
+             not_negative("a finite number >= 0"));
+  app.option("--method", s.method, stokes::method_names(),
+             examples::expects<std::string>(stokes::method_names(), [](std::string const& name) {
+               return stokes::is_method(name);
+             }));
+  app.option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.limits.max_iterations, "steps at most",
+             examples::expects_at_least(0));
+  app.flag("--table", table, "Table 4 up to this refinement, all methods, instead of one flow");
+  app.option("--meshes", s.meshes, "folder of channel_1.msh ...; default: beside main.cpp",
+             examples::expects_name());
+  app.option("--output", s.output, "folder for flow.vtu (ParaView) and the picture flow.png",
+             examples::expects_name());
+  return app.run(argc, argv, [&] { return table ? print_table(s) : solve_flow(s); });
 }

@@ -35,14 +35,13 @@ int denoise(Eigen::Index n, double tolerance) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Removes noise by total variation, for five weights.", "total_variation");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("Removes noise by total variation, for five weights.",
+                             "total_variation");
   Eigen::Index n = 2000;
   double tolerance = 1e-8;
-  app.add_option("--values", n, "length of the signal")
-      ->check(examples::expects<Eigen::Index>("an integer >= 3", [](auto k) { return k >= 3; }));
-  app.add_option("--tolerance", tolerance, "relative error in the energy norm")
-      ->check(examples::expects_tolerance());
-  return examples::run_program(app, argc, argv, [&] { return denoise(n, tolerance); });
+  app.option("--values", n, "length of the signal",
+             examples::expects<Eigen::Index>("an integer >= 3", [](auto k) { return k >= 3; }));
+  app.option("--tolerance", tolerance, "relative error in the energy norm",
+             examples::expects_tolerance());
+  return app.run(argc, argv, [&] { return denoise(n, tolerance); });
 }

@@ -63,16 +63,15 @@ int solve_example(double tolerance, double step) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Example 1 of the lecture: products of KPRGP for eleven proportioning constants.",
-               "tridiagonal");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app(
+      "Example 1 of the lecture: products of KPRGP for eleven proportioning constants.",
+      "tridiagonal");
   double tolerance = 1e-6;
   double step = 1;
-  app.add_option("--tolerance", tolerance, "relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  app.add_option("--step", step, "step length times the bound 6 of the largest eigenvalue")
-      ->check(
-          examples::expects<double>("a number in (0, 2)", [](double s) { return s > 0 && s < 2; }));
-  return examples::run_program(app, argc, argv, [&] { return solve_example(tolerance, step); });
+  app.option("--tolerance", tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option(
+      "--step", step, "step length times the bound 6 of the largest eigenvalue",
+      examples::expects<double>("a number in (0, 2)", [](double s) { return s > 0 && s < 2; }));
+  return app.run(argc, argv, [&] { return solve_example(tolerance, step); });
 }

@@ -103,28 +103,25 @@ int print_tables(settings const& s, std::string const& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Two plates and two bricks in contact: tables 5 and 6 of the lecture beside ours.",
-               "two_bodies");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app(
+      "Two plates and two bricks in contact: tables 5 and 6 of the lecture beside ours.",
+      "two_bodies");
   settings s;
   std::string scene = "both";
-  app.add_option("--scene", scene, "plates, bricks or both")
-      ->check(examples::expects<std::string>("plates, bricks or both", [](std::string const& name) {
-        return name == "plates" || name == "bricks" || name == "both";
-      }));
-  app.add_option("--plates", s.plates, "k of 3k x k cells per plate; printed: 60 80 100 120 130")
-      ->check(examples::expects<int>("a whole number from 2 to 1000",
-                                     [](int k) { return k >= 2 && k <= 1000; }));
-  app.add_option("--bricks", s.bricks,
-                 "p of p x (p-1) x (p-1) cells per brick; printed: 16 21 26 31 36 41")
-      ->check(examples::expects<int>("a whole number from 2 to 100",
-                                     [](int p) { return p >= 2 && p <= 100; }));
-  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most")
-      ->check(examples::expects_at_least(0));
-  app.add_option("--output", s.output, "folder for pictures of histories and of the contact")
-      ->check(examples::expects_name());
-  return examples::run_program(app, argc, argv, [&] { return print_tables(s, scene); });
+  app.option("--scene", scene, "plates, bricks or both",
+             examples::expects_one_of({"plates", "bricks", "both"}));
+  app.option("--plates", s.plates, "k of 3k x k cells per plate; printed: 60 80 100 120 130",
+             examples::expects<int>("a whole number from 2 to 1000",
+                                    [](int k) { return k >= 2 && k <= 1000; }));
+  app.option("--bricks", s.bricks,
+             "p of p x (p-1) x (p-1) cells per brick; printed: 16 21 26 31 36 41",
+             examples::expects<int>("a whole number from 2 to 100",
+                                    [](int p) { return p >= 2 && p <= 100; }));
+  app.option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.limits.max_iterations, "steps at most",
+             examples::expects_at_least(0));
+  app.option("--output", s.output, "folder for pictures of histories and of the contact",
+             examples::expects_name());
+  return app.run(argc, argv, [&] { return print_tables(s, scene); });
 }

@@ -87,25 +87,20 @@ int solve_wires(settings const& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  examples::command_line app(
       "The wire over a plane and through a tube. Without --lower and --radius: all printed cases.",
       "wire");
-  app.footer(std::string(examples::exit_status_help));
   settings s;
-  app.add_option("--unknowns", s.unknowns, "number of unknowns, a multiple of 4")
-      ->capture_default_str()
-      ->check(examples::expects<long long>("a multiple of 4, at least 4",
-                                           [](long long n) { return n >= 4 && n % 4 == 0; }));
-  app.add_option("--lower", s.lower, "lower bound of the second component on the first half")
-      ->check(examples::expects<double>("a number below infinity",
-                                        [](double l) { return l < HUGE_VAL; }));
-  app.add_option("--radius", s.radius, "radius of the tube on the second half")
-      ->check(examples::expects<double>("a number >= 0", [](double g) { return g >= 0; }));
-  app.add_option("--tolerance", s.tolerance, "relative norm of the reduced gradient")
-      ->capture_default_str()
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.max_iterations, "steps at most")
-      ->capture_default_str()
-      ->check(examples::expects_at_least(0));
-  return examples::run_program(app, argc, argv, [&] { return solve_wires(s); });
+  app.option("--unknowns", s.unknowns, "number of unknowns, a multiple of 4",
+             examples::expects<long long>("a multiple of 4, at least 4",
+                                          [](long long n) { return n >= 4 && n % 4 == 0; }));
+  app.option(
+      "--lower", s.lower, "lower bound of the second component on the first half",
+      examples::expects<double>("a number below infinity", [](double l) { return l < HUGE_VAL; }));
+  app.option("--radius", s.radius, "radius of the tube on the second half",
+             examples::expects<double>("a number >= 0", [](double g) { return g >= 0; }));
+  app.option("--tolerance", s.tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.max_iterations, "steps at most", examples::expects_at_least(0));
+  return app.run(argc, argv, [&] { return solve_wires(s); });
 }

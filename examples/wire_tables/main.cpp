@@ -41,23 +41,22 @@ int print_tables(wire_tables::settings const& s, std::string const& only) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The wire: tables 4.1 to 4.8 of the thesis beside ours.", "wire_tables");
-  app.footer(std::string(examples::exit_status_help));
-  app.option_defaults()->always_capture_default();
+  examples::command_line app("The wire: tables 4.1 to 4.8 of the thesis beside ours.",
+                             "wire_tables");
   wire_tables::settings s;
   std::string table = "all";
-  app.add_option("--unknowns", s.largest, "of the finest mesh; all coarser ones are printed too")
-      ->check(examples::expects<int>("32, 64, 128, 256, 512, 1024 or 2048", [](int n) {
-        return std::find(fem::wire_sizes.begin(), fem::wire_sizes.end(), n) !=
-               fem::wire_sizes.end();
-      }));
-  app.add_option("--table", table, "4.1 to 4.7 (4.5 and 4.8 are one), or all")
-      ->check(examples::expects<std::string>("4.1 to 4.7, or all", [](std::string const& name) {
-        return name == "all" || (name.size() == 3 && name >= "4.1" && name <= "4.7");
-      }));
-  app.add_option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient")
-      ->check(examples::expects_tolerance());
-  app.add_option("--max-iterations", s.limits.max_iterations, "steps at most")
-      ->check(examples::expects_at_least(0));
-  return examples::run_program(app, argc, argv, [&] { return print_tables(s, table); });
+  app.option("--unknowns", s.largest, "of the finest mesh; all coarser ones are printed too",
+             examples::expects<int>("32, 64, 128, 256, 512, 1024 or 2048", [](int n) {
+               return std::find(fem::wire_sizes.begin(), fem::wire_sizes.end(), n) !=
+                      fem::wire_sizes.end();
+             }));
+  app.option("--table", table, "4.1 to 4.7 (4.5 and 4.8 are one), or all",
+             examples::expects<std::string>("4.1 to 4.7, or all", [](std::string const& name) {
+               return name == "all" || (name.size() == 3 && name >= "4.1" && name <= "4.7");
+             }));
+  app.option("--tolerance", s.limits.tolerance, "relative norm of the reduced gradient",
+             examples::expects_tolerance());
+  app.option("--max-iterations", s.limits.max_iterations, "steps at most",
+             examples::expects_at_least(0));
+  return app.run(argc, argv, [&] { return print_tables(s, table); });
 }
