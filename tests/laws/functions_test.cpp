@@ -38,6 +38,8 @@ TEST_CASE("laws: support functions of blocks") {
 
 TEST_CASE("laws: support functions of products, and sums with sets") {
   auto const Λ = slant::discs(radii);
+  check(slant::power(support(slant::ellipse<>{1.0, 0.2}), 3),
+        separable_sum(slant::power<slant::planar>(support(slant::ball<2>{0.7}), 2), Λ));
   check(support(Λ), support(slant::intervals(radii)), support(slant::half_lines(2) * Λ),
         separable_sum(slant::half_lines(3), support(Λ)),
         separable_sum(support(slant::ball<2>{}), slant::free_components(2),

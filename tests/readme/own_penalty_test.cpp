@@ -41,7 +41,8 @@ TEST_CASE("two springs and a point with friction") {
   Eigen::Matrix3d const K{{4, -1, 0}, {-1, 4, -1}, {0, -1, 4}};
   Eigen::VectorXd const b = Eigen::Vector3d(-4, 2, -1), w = Eigen::VectorXd::Constant(1, 0.25);
   auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
-  auto const φ = slant::separable_sum(spring{3}, spring{3}, slant::support(slant::intervals(w)));
+  auto const φ =
+      slant::separable_sum(slant::power(spring{3}, 2), slant::support(slant::intervals(w)));
   auto const program = slant::minimise(slant::quadratic(A, b) + φ);
   auto const run =
       slant::solve(slant::symmetric_newton{program}, Eigen::VectorXd(Eigen::VectorXd::Zero(3)),

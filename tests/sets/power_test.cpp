@@ -127,6 +127,31 @@ TEST_CASE("power: update changes the parameters without allocation") {
   CHECK(set.block(49).radius() == 2.0);
 }
 
+TEST_CASE("power: of a function it is the sum, in both layouts, and allocates once") {
+  auto const φ = slant::support(slant::ball<2>{0.7});
+  auto const three = power(φ, 3);
+  auto const planes = power<planar>(φ, 3);
+  auto const sum = slant::separable_sum(φ, φ, φ);
+  vec<> const z = numbers(6, 4), v = z / 10;
+  vec<> x(6), y(6), mixed(6);
+  three.prox(0.5, z, x);
+  sum.prox(0.5, z, y);
+  CHECK(x == y);
+  CHECK(three.value(z) == sum.value(z));
+  CHECK(three.conjugate(v) == sum.conjugate(v));
+  CHECK(three.conjugate(z) == infinity);
+  for (int i = 0; i < 6; ++i) mixed[i] = z[i / 3 + 2 * (i % 3)];
+  planes.prox(0.5, mixed, mixed);
+  for (int i = 0; i < 6; ++i) CHECK(mixed[i] == x[i / 3 + 2 * (i % 3)]);
+  auto g = three.slant(0.5, z);
+  auto const of_sum = sum.slant(0.5, v);
+  CHECK(test::allocations_of([&] { three.slant(0.5, v, g); }) == 0);
+  vec<> by_power(6), by_sum(6);
+  g.apply(z, by_power);
+  of_sum.apply(z, by_sum);
+  CHECK(by_power == by_sum);
+}
+
 TEST_CASE("power: bad parameters are named with their block, and change nothing") {
   vec<> g = vec<>::Ones(5);
   auto set = power(slant::ball<2>{}, g);

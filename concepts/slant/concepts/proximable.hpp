@@ -26,7 +26,7 @@
 //         ‖x − y‖² ≤ ⟨z − w, x − y⟩,  y = prox_{ρφ}(w)  firmly nonexpansive
 //         ‖prox(z+h) − prox(z) − G(z+h) h‖ = o(‖h‖)
 //
-// Models. every convex set; slant::support(Λ), slant::separable_sum(φ, ψ, …).
+// Models. every convex set; slant::support(Λ), slant::power(φ, m), slant::separable_sum(φ, ψ, …).
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Powers: m blocks of one shape, each with parameters of its own. power(ball<2>{}, radii) are the
-// friction discs of m nodes.
+// friction discs of m nodes; the power of a function φ is the sum φ₁(x₁) + … + φ_m(x_m), as of m
+// springs.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
 #include <slant/concepts/convex_set.hpp>
+#include <slant/concepts/proximable.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/proximal_step.hpp>
 #include <slant/sets/slants.hpp>
 
 #include <type_traits>
@@ -14,19 +17,17 @@
 
 namespace slant {
 
-/// Λ₁ × … × Λ_m, all of the type Block with n components. Made by `power`. Every member costs what
-/// a loop over the blocks written by hand costs; none allocates except slant(x).
-template <class Block, class Layout, class Blocks>
-class power_product {
-  static constexpr int n = Block::dimension;
-  using vector_type = Eigen::Matrix<set_scalar_t<Block>, n, 1>;
+namespace detail {
 
+/// What powers of sets and of functions share: m blocks of the type Block with n components.
+template <class Block, class Layout, class Blocks>
+class equal_parts {
  public:
   using scalar = set_scalar_t<Block>;
   using block_type = Block;
   using layout = Layout;
 
-  explicit power_product(Blocks blocks) : blocks_(std::move(blocks)) {}
+  explicit equal_parts(Blocks blocks) : blocks_(std::move(blocks)) {}
 
   /// Number of components, m n.
   [[nodiscard]] index size() const { return blocks_.size() * n; }
@@ -38,14 +39,75 @@ class power_product {
   [[nodiscard]] Block const& block(index i) const { return blocks_[i]; }
 
   /// New parameters for all blocks (lists of length m, or one value for all); does not allocate.
-  /// @throws bad_input naming parameter and block; the set is then unchanged.
+  /// @throws bad_input naming parameter and block; nothing is changed then.
   template <class... Params>
   void update(Params const&... params)
-    requires detail::takes_parameters<Block, Params...> &&
-             requires(Blocks& b) { b.update(params...); }
+    requires takes_parameters<Block, Params...> && requires(Blocks& b) { b.update(params...); }
   {
     blocks_.update(params...);
   }
+
+  /// f(block, place) for every innermost block.
+  template <class F>
+  void visit(F&& f) const {
+    auto const blocks = blocks_.view();
+    for (index i = 0; i < blocks_.size(); ++i) {
+      if constexpr (has_visit<Block>) {
+        auto const outer = at(i);
+        blocks[i].visit([&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+      } else {
+        f(blocks[i], at(i));
+      }
+    }
+  }
+  /// f(block, place) for innermost block k.
+  template <class F>
+  void visit_block(index k, F&& f) const {
+    if constexpr (has_visit<Block>) {
+      index const inner_count = slant::block_count(blocks_[0]);
+      auto const outer = at(k / inner_count);
+      slant::visit_block(blocks_[k / inner_count], k % inner_count,
+                         [&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
+    } else {
+      f(blocks_[k], at(k));
+    }
+  }
+
+ protected:
+  static constexpr int n = Block::dimension;
+
+  /// Where factor i is, numbered by innermost blocks.
+  [[nodiscard]] auto at(index i) const {
+    if constexpr (has_visit<Block>) {
+      return block_place<n, Layout>(i, blocks_.size(), slant::block_count(blocks_[i]));
+    } else {
+      return block_place<n, Layout>(i, blocks_.size(), index(1));
+    }
+  }
+
+  /// f(block, place) for every factor, innermost or not.
+  template <class F>
+  void for_each_factor(F&& f) const {
+    auto const blocks = blocks_.view();
+    for (index i = 0; i < blocks_.size(); ++i) f(blocks[i], at(i));
+  }
+
+  Blocks blocks_;
+};
+
+}  // namespace detail
+
+/// Λ₁ × … × Λ_m, all of the type Block with n components. Made by `power`. Every member costs what
+/// a loop over the blocks written by hand costs; none allocates except slant(x).
+template <class Block, class Layout, class Blocks>
+class power_product : public detail::equal_parts<Block, Layout, Blocks> {
+  using base = detail::equal_parts<Block, Layout, Blocks>;
+  using base::at, base::blocks_, base::n;
+  using vector_type = Eigen::Matrix<set_scalar_t<Block>, n, 1>;
+
+ public:
+  using base::base;
+  using base::size;
 
   /// y = P(x); y may be x.
   template <class X, class Y>
@@ -127,42 +189,7 @@ class power_product {
     }
   }
 
-  /// f(block, place) for every innermost block.
-  template <class F>
-  void visit(F&& f) const {
-    auto const blocks = blocks_.view();
-    for (index i = 0; i < blocks_.size(); ++i) {
-      if constexpr (has_visit<Block>) {
-        auto const outer = at(i);
-        blocks[i].visit([&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
-      } else {
-        f(blocks[i], at(i));
-      }
-    }
-  }
-  /// f(block, place) for innermost block k.
-  template <class F>
-  void visit_block(index k, F&& f) const {
-    if constexpr (has_visit<Block>) {
-      index const inner_count = slant::block_count(blocks_[0]);
-      auto const outer = at(k / inner_count);
-      slant::visit_block(blocks_[k / inner_count], k % inner_count,
-                         [&](auto const& b, auto const& inner) { f(b, outer.then(inner)); });
-    } else {
-      f(blocks_[k], at(k));
-    }
-  }
-
  private:
-  /// Where factor i is, numbered by innermost blocks.
-  [[nodiscard]] auto at(index i) const {
-    if constexpr (has_visit<Block>) {
-      return block_place<n, Layout>(i, blocks_.size(), slant::block_count(blocks_[i]));
-    } else {
-      return block_place<n, Layout>(i, blocks_.size(), index(1));
-    }
-  }
-
   template <class X, class Y>
   void project_blocks(X const& from, Y& to) const {
     if constexpr (requires { blocks_.repeats_one(); }) {
@@ -186,11 +213,61 @@ class power_product {
 #endif
     for (index i = 0; i < m; ++i) detail::project_part(blocks[i], at(i), from, to);
   }
-
-  Blocks blocks_;
 };
 
-/// Λ₁ × … × Λ_m of one shape, in the layout `consecutive` (default) or `planar`:
+/// φ₁(x₁) + … + φ_m(x_m), all of the type Block, a function of n components. Made by `power`. None
+/// of its members allocates except slant(ρ, z).
+template <class Block, class Layout, class Blocks>
+class function_power : public detail::equal_parts<Block, Layout, Blocks> {
+  using base = detail::equal_parts<Block, Layout, Blocks>;
+  using base::blocks_, base::for_each_factor, base::n;
+  using vector_type = Eigen::Matrix<set_scalar_t<Block>, n, 1>;
+
+ public:
+  using base::base;
+
+  /// x = prox_{ρφ}(z), ρ > 0; x may be z.
+  template <class S, class Z, class X>
+  void prox(S const& ρ, Z const& z, X&& x) const {
+    for_each_factor([&](auto const& b, auto const& p) { p.put(x, b.prox(ρ, p.value(z))); });
+  }
+  /// φ(x), ∞ where a summand is.
+  template <class X>
+  [[nodiscard]] scalar_t<X> value(X const& x) const {
+    scalar_t<X> sum(0);
+    for_each_factor([&](auto const& b, auto const& p) { sum += b.value(p.value(x)); });
+    return sum;
+  }
+  /// φ*(v), the sum of the conjugates.
+  template <class V>
+  [[nodiscard]] scalar_t<V> conjugate(V const& v) const
+    requires has_conjugate<Block, vector_type>
+  {
+    scalar_t<V> sum(0);
+    for_each_factor([&](auto const& b, auto const& p) { sum += b.conjugate(p.value(v)); });
+    return sum;
+  }
+
+  /// The slanting operator of the proximal map at z: block diagonal, symmetric, 0 ⪯ G ⪯ I.
+  template <class S, class Z>
+  [[nodiscard]] auto slant(S const& ρ, Z const& z) const
+    requires has_prox_slant<Block, vector_type>
+  {
+    detail::power_slant<scalar_t<Z>, Block, Layout> g(blocks_.size());
+    slant(ρ, z, g);
+    return g;
+  }
+  /// The same into an operator made earlier.
+  template <class S, class Z>
+  void slant(S const& ρ, Z const& z, detail::power_slant<scalar_t<Z>, Block, Layout>& g) const
+    requires has_prox_slant<Block, vector_type>
+  {
+    for (index i = 0; i < blocks_.size(); ++i)
+      g.assign(i, blocks_[i].slant(ρ, this->at(i).value(z)));
+  }
+};
+
+/// Λ₁ × … × Λ_m of one shape, or φ₁ + … + φ_m for a function, in the layout `consecutive` (default) or `planar`:
 ///     power(block, m)              m copies of a block: power(free_space<1>{}, m)
 ///     power(shape, parameters…)    one block shape.with(parameters[i]…) per entry of the lists
 ///                                  (Eigen or standard vectors of one length; a single number
@@ -200,15 +277,22 @@ class power_product {
 template <class Layout = consecutive, class Block, class... Params>
   requires detail::power_parameters<Block, Params...>
 [[nodiscard]] auto power(Block const& shape, Params const&... params) {
-  if constexpr (!set_block<Block>) {
-    static_assert(set_block<Block>, "power: the shape must be a convex set of fixed dimension");
+  constexpr bool is_function = has_static_dimension<Block> && proximable<Block, point_t<Block>>;
+  if constexpr (!set_block<Block> && !is_function) {
+    static_assert(set_block<Block>,
+                  "power: the shape must be a convex set or function of fixed dimension");
     return detail::stand_in{};
-  } else if constexpr (detail::is_count<Params...>) {
-    return power_product<Block, Layout, detail::identical_blocks<Block>>(
-        detail::identical_blocks<Block>(shape, static_cast<index>(params)...));
   } else {
-    return power_product<Block, Layout, detail::listed_blocks<Block>>(
-        detail::listed_blocks<Block>(shape, params...));
+    auto const of = [&]<class Blocks>(Blocks blocks) {
+      using made = std::conditional_t<set_block<Block>, power_product<Block, Layout, Blocks>,
+                                      function_power<Block, Layout, Blocks>>;
+      return made(std::move(blocks));
+    };
+    if constexpr (detail::is_count<Params...>) {
+      return of(detail::identical_blocks<Block>(shape, static_cast<index>(params)...));
+    } else {
+      return of(detail::listed_blocks<Block>(shape, params...));
+    }
   }
 }
 

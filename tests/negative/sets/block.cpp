@@ -2,8 +2,8 @@
 // case USE=product WITHOUT_PROJECT: has_project
 // case USE=product WITHOUT_PROJECT, max-lines-gcc: 25
 // case USE=product WITHOUT_PROJECT, max-lines-clang: 37
-// case USE=power WITHOUT_CONTAINS: power: the shape must be a convex set of fixed dimension.*has_contains
-// case USE=power WITHOUT_DIMENSION: power: the shape must be a convex set of fixed dimension.*has_static_dimension
+// case USE=power WITHOUT_CONTAINS: power: the shape must be a convex set or function of fixed dimension.*has_contains
+// case USE=power WITHOUT_DIMENSION: power: the shape must be a convex set or function of fixed dimension.*has_static_dimension
 // case USE=power WITHOUT_DIMENSION, max-lines-clang: 25
 // case USE=face WITHOUT_STATE: a block of this set has no state.x., so its points have no face
 // case USE=face WITHOUT_STATE, max-lines-gcc: 25
