@@ -33,7 +33,7 @@
 #   coulomb             Coulomb friction on the brick against Tresca's problem at its slip bounds
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks with and without friction by multigrid, and one linear solve
-#   multilevel_large    the same with 313632 unknowns, K never factored
+#   multilevel_large    the same with 135000 and 313632 unknowns, K factored for one linear solve only
 #   multilevel_huge     one load with 1037232 and 2433600 unknowns, seconds and memory (4 GB)
 #   multilevel_linear   contact with friction beside one linear solve with the multigrid of PETSc, if found
 #   robustness          the same where multigrid has a hard time; with a mesh of Gmsh if that is found
@@ -173,7 +173,7 @@ run_precision() { "$here/precision.sh" precision "$programs" "$output"; }
 run_growth() { "$here/precision.sh" growth "$programs" "$output"; }
 run_multilevel() { "$(program multilevel)" 8 12 16 >"$output/multilevel.csv"; }
 run_multilevel_large() {
-  "$(program multilevel)" --no-direct 32 >"$output/multilevel_large.csv"
+  "$(program multilevel)" --no-dual 24 32 >"$output/multilevel_large.csv"
 }
 run_multilevel_huge() {  # a process each, for its memory
   "$(program multilevel)" --no-direct --load lift 48 >"$output/multilevel_huge.csv" &&
@@ -378,7 +378,7 @@ write_summary() {
   section coulomb "Coulomb friction 0.3: products until the relative energy error is at most 1e-8"
   section coulomb_models "The same on two bricks and two plates"
   section multilevel "Multigrid: bricks with and without friction, processor seconds, tolerance 1e-8"
-  section multilevel_large "Multigrid: the same, where K is not factored"
+  section multilevel_large "Multigrid: the same, larger"
   section multilevel_huge "Multigrid: one load, seconds and memory"
   section multilevel_linear "Multigrid: contact with friction beside one linear solve with the same K"
   section robustness "Multigrid: contact with friction where it has a hard time"
