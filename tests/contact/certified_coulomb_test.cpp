@@ -2,6 +2,7 @@
 #include <slant/contact/certified_coulomb.hpp>
 
 #include <slant/contact/optimality.hpp>
+#include <slant/contact/primal_stepper.hpp>
 
 #include <fem/two_bricks.hpp>
 #include <support/testing.hpp>
@@ -151,6 +152,12 @@ TEST_CASE("certified_coulomb: options and coefficients that do not fit are refus
   CHECK(message(F, {.tolerance = 1}).starts_with("tolerance: got 1"));
   CHECK(message(F, {.newton_steps = 0}) == "newton_steps: got 0, expected at least 1");
   CHECK(message(F, {.outer_steps = 0}) == "outer_steps: got 0, expected at least 1");
+  auto frictionless = c;
+  frictionless.T.resize(0, c.T.cols());
+  CHECK(test::complaint([&] { static_cast<void>(solve(s.K, frictionless, F, {})); }) ==
+        "rows of T: got 0, expected 6 (2D) or 12 (3D)");
+  CHECK(test::complaint([&] { contact::primal_coulomb_stepper(s.K, frictionless, F); }) ==
+        "rows of T: got 0, expected 6 (2D) or 12 (3D)");
 }
 
 TEST_CASE("certified_coulomb: a body without supports is refused by the name of its motions") {

@@ -115,6 +115,18 @@ std::ostream& operator<<(std::ostream& out, certified_coulomb_result<V> const& r
 
 namespace detail {
 
+/// Slip bounds of 0 in the place of those of the data, which have no meaning for Coulomb's law: it
+/// has F times the pressures. Throws bad_input without T.
+template <class S>
+void clear_slip_bounds(data<S>& c) {
+  index const m = c.nodes();
+  if (m > 0 && c.T.rows() == 0) {
+    using slant::detail::show;
+    throw bad_input("rows of T", "0", show(m) + " (2D) or " + show(2 * m) + " (3D)");
+  }
+  c.g = Eigen::VectorX<S>::Zero(m);
+}
+
 // --- coulomb run ---------------------------------------------------------------------------------
 //
 // The methods for a dual problem under the control of a check. Newton's method for the residual of
@@ -365,7 +377,7 @@ template <class Friction, class S>
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
   o.validate();
-  c.g = vector_type::Zero(c.nodes());
+  detail::clear_slip_bounds(c);
   detail::validated(friction, c, K.rows());
   detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
   auto const outlook = o.method == coulomb_method::automatic

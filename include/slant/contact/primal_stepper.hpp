@@ -295,7 +295,7 @@ class primal_coulomb_stepper {
                                               Eigen::SparseMatrix<S> const& K, data<S>& c,
                                               vector_type& F) {
     o.validate();
-    c.g = vector_type::Zero(c.nodes());
+    detail::clear_slip_bounds(c);
     detail::validated(friction_of_data{c.tangents()}, c, K.rows());
     F = detail::one_per_contact(std::move(F), c.nodes());
     detail::check_coefficients("F", F);

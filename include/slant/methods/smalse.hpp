@@ -95,10 +95,12 @@ namespace detail {
 [[nodiscard, gnu::cold]] inline std::string reason_with_equalities(slant::status end,
                                                                    bool infeasible) {
   return reason_of(
-      end, {.converged = "the reduced gradient and the residual of the equality constraints vanish",
-            .stalled = infeasible ? "no point of the set satisfies the equality constraints"
-                                  : "neither the reduced gradient nor the residual of the equality "
-                                    "constraints falls any further at this precision"});
+      end,
+      {.converged = "the reduced gradient and the residual of the equality constraints vanish",
+       .stalled = infeasible ? "no point of the set satisfies the equality constraints"
+                             : "the last outer steps have lowered neither the reduced gradient "
+                               "nor the residual of the equality constraints: rounding, or a "
+                               "small angle between the set and the equations"});
 }
 
 /// The inner problem: its operator is owned, its linear term and set are referenced.

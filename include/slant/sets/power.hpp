@@ -267,7 +267,8 @@ class function_power : public detail::equal_parts<Block, Layout, Blocks> {
   }
 };
 
-/// Λ₁ × … × Λ_m of one shape, or φ₁ + … + φ_m for a function, in the layout `consecutive` (default) or `planar`:
+/// Λ₁ × … × Λ_m of one shape, or φ₁ + … + φ_m of one function, in the layout `consecutive`
+/// (default) or `planar`:
 ///     power(block, m)              m copies of a block: power(free_space<1>{}, m)
 ///     power(shape, parameters…)    one block shape.with(parameters[i]…) per entry of the lists
 ///                                  (Eigen or standard vectors of one length; a single number
