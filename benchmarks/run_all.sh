@@ -34,7 +34,7 @@
 #   coulomb_models      the same on two bricks and two plates, friction coefficients 0 to 2
 #   multilevel          bricks with and without friction by multigrid, and one linear solve
 #   multilevel_large    the same with 135000 and 313632 unknowns, K factored for one linear solve only
-#   multilevel_huge     one load with 1037232 and 2433600 unknowns, seconds and memory (4 GB)
+#   multilevel_huge     one load with 1037232 and 2433600 unknowns, seconds and memory (5 GB)
 #   multilevel_linear   contact with friction beside one linear solve with the multigrid of PETSc, if found
 #   robustness          the same where multigrid has a hard time; with a mesh of Gmsh if that is found
 #   stability           every method on every adversity, judged in quadruple precision

@@ -9,6 +9,10 @@
 #include <cstdio>
 #include <limits>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 namespace benchmarks {
 
 /// In MiB; NaN where the system does not tell.
@@ -25,9 +29,12 @@ namespace benchmarks {
   return kib / 1024;
 }
 
-/// From here on the peak is that of what follows, what is held now included. Without effect where the
-/// system does not know it.
+/// From here on the peak is that of what follows, what is held now included, but not what has been
+/// given back to the heap. Without effect where the system does not know it.
 inline void forget_peak_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
   if (std::FILE* const file = std::fopen("/proc/self/clear_refs", "w")) {
     std::fputs("5", file);
     std::fclose(file);

@@ -152,6 +152,35 @@ TEST_CASE("power: of a function it is the sum, in both layouts, and allocates on
   CHECK(by_power == by_sum);
 }
 
+/// ½ x² on a line, which ends at 9: a set as well.
+struct in_place {
+  static constexpr int dimension = 1;
+  using point = Eigen::Matrix<double, 1, 1>;
+  void prox(double ρ, point const& z, point& x) const { x = z / (1 + ρ); }
+  [[nodiscard]] double value(point const& x) const { return x[0] * x[0] / 2; }
+  [[nodiscard]] point project(point const& x) const { return x.cwiseMin(9.0); }
+  [[nodiscard]] bool contains(point const& x) const { return x[0] <= 9; }
+};
+
+TEST_CASE(
+    "power: what has prox is a function; support functions take the parameters of their sets") {
+  auto const φ = power(in_place{}, 2);
+  static_assert(!slant::set_part<decltype(φ)>);
+  vec<> const z = Vector2d(30, -4);
+  CHECK(slant::prox(φ, 1.0, z) == z / 2);
+  CHECK(slant::prox(slant::separable_sum(φ, in_place{}), 1.0, vec<>(vec<>::Ones(3))) ==
+        vec<>::Constant(3, 0.5));
+  auto norms = power(slant::support(slant::ball<2>{}), Vector2d(3, 0.5));
+  CHECK(norms.value(vec<>(vec<>::Ones(4))) == doctest::Approx(3.5 * std::sqrt(2.0)));
+  CHECK(test::complaint([&] { norms.update(Vector2d(3, -1)); }) ==
+        "radius[1]: got -1, expected a number >= 0");
+  auto const pairs = power(slant::support(slant::half_line<>{} * slant::ball<2>{}), 2);
+  slant::visit_block(pairs, 3, [](auto const& block, auto const& p) {
+    CHECK(p.component(0) == 4);
+    CHECK(slant::dimension_of(block) == 2);
+  });
+}
+
 TEST_CASE("power: bad parameters are named with their block, and change nothing") {
   vec<> g = vec<>::Ones(5);
   auto set = power(slant::ball<2>{}, g);

@@ -87,7 +87,7 @@ struct prox_fn {
     check_rows("z", z, index(slant::dimension_of(φ)), "the dimension of the function");
     if constexpr (requires { φ.prox(ρ, z); }) {
       return φ.prox(ρ, z);
-    } else if constexpr (requires { φ.project(z); }) {
+    } else if constexpr (!has_prox<F, plain_t<Z>> && requires { φ.project(z); }) {
       return φ.project(z);
     } else {
       auto x = slant::like(z, slant::dimension_of(φ));

@@ -80,7 +80,9 @@ class separable_qp<A, V, C> {
   using vector_type = std::remove_cvref_t<V>;
   using set_type = std::remove_cvref_t<C>;
   using scalar = scalar_t<vector_type>;
-  static constexpr bool is_set = convex_set<set_type, local_t<vector_type>>;
+  // What has prox is meant as a function.
+  static constexpr bool is_set =
+      convex_set<set_type, local_t<vector_type>> && !has_prox<set_type, local_t<vector_type>>;
 
   separable_qp(held<A> a, held<V> b, held<C> set)
       : a_(std::move(a)), b_(std::move(b)), set_(std::move(set)) {

@@ -229,7 +229,7 @@ class function_power : public detail::equal_parts<Block, Layout, Blocks> {
   /// x = prox_{ρφ}(z), ρ > 0; x may be z.
   template <class S, class Z, class X>
   void prox(S const& ρ, Z const& z, X&& x) const {
-    for_each_factor([&](auto const& b, auto const& p) { p.put(x, b.prox(ρ, p.value(z))); });
+    for_each_factor([&](auto const& b, auto const& p) { p.put(x, slant::prox(b, ρ, p.value(z))); });
   }
   /// φ(x), ∞ where a summand is.
   template <class X>
@@ -250,20 +250,19 @@ class function_power : public detail::equal_parts<Block, Layout, Blocks> {
 
   /// The slanting operator of the proximal map at z: block diagonal, symmetric, 0 ⪯ G ⪯ I.
   template <class S, class Z>
-  [[nodiscard]] auto slant(S const& ρ, Z const& z) const
-    requires has_prox_slant<Block, vector_type>
-  {
-    detail::power_slant<scalar_t<Z>, Block, Layout> g(blocks_.size());
+    requires has_slant<step_t<Block const&, S>, vector_type>
+  [[nodiscard]] auto slant(S const& ρ, Z const& z) const {
+    block_diagonal_slant<scalar_t<Z>, n, Layout> g(blocks_.size());
     slant(ρ, z, g);
     return g;
   }
   /// The same into an operator made earlier.
   template <class S, class Z>
-  void slant(S const& ρ, Z const& z, detail::power_slant<scalar_t<Z>, Block, Layout>& g) const
-    requires has_prox_slant<Block, vector_type>
-  {
-    for (index i = 0; i < blocks_.size(); ++i)
+    requires has_slant<step_t<Block const&, S>, vector_type>
+  void slant(S const& ρ, Z const& z, block_diagonal_slant<scalar_t<Z>, n, Layout>& g) const {
+    for (index i = 0; i < blocks_.size(); ++i) {
       g.assign(i, blocks_[i].slant(ρ, this->at(i).value(z)));
+    }
   }
 };
 
@@ -278,15 +277,20 @@ class function_power : public detail::equal_parts<Block, Layout, Blocks> {
 template <class Layout = consecutive, class Block, class... Params>
   requires detail::power_parameters<Block, Params...>
 [[nodiscard]] auto power(Block const& shape, Params const&... params) {
-  constexpr bool is_function = has_static_dimension<Block> && proximable<Block, point_t<Block>>;
-  if constexpr (!set_block<Block> && !is_function) {
+  // What has prox is meant as a function, all else as a set.
+  if constexpr (has_static_dimension<Block> && function_part<Block> &&
+                !proximable<Block, point_t<Block>>) {
+    static_assert(proximable<Block, point_t<Block>>, "power: a function must have value(x)");
+    return detail::stand_in{};
+  } else if constexpr (!has_static_dimension<Block> ||
+                       (!function_part<Block> && !set_part<Block>)) {
     static_assert(set_block<Block>,
                   "power: the shape must be a convex set or function of fixed dimension");
     return detail::stand_in{};
   } else {
     auto const of = [&]<class Blocks>(Blocks blocks) {
-      using made = std::conditional_t<set_block<Block>, power_product<Block, Layout, Blocks>,
-                                      function_power<Block, Layout, Blocks>>;
+      using made = std::conditional_t<function_part<Block>, function_power<Block, Layout, Blocks>,
+                                      power_product<Block, Layout, Blocks>>;
       return made(std::move(blocks));
     };
     if constexpr (detail::is_count<Params...>) {

@@ -38,7 +38,7 @@ class proximal_step : public detail::static_size<static_dimension_of<F>> {
   template <class Z>
     requires has_static_dimension<function_type>
   [[nodiscard]] auto project(Z const& z) const {
-    return φ_.get().prox(ρ_, z);
+    return slant::prox(φ_.get(), ρ_, z);
   }
   /// x may be z.
   template <class Z, class X>

@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 
+#include <concepts>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -77,6 +78,12 @@ class support_function : public detail::static_size<static_dimension_of<C>> {
 
   /// Λ.
   [[nodiscard]] set_type const& part() const { return set_.get(); }
+  /// σ of the block with other parameters, as `power` asks for it.
+  template <class... Params>
+    requires std::same_as<C, set_type> && detail::takes_parameters<set_type, Params...>
+  [[nodiscard]] support_function with(Params const&... params) const {
+    return support_function(held<C>(set_type(part().with(params...))));
+  }
   [[nodiscard]] index size() const { return slant::dimension_of(part()); }
   [[nodiscard]] index block_count() const { return slant::block_count(part()); }
 
@@ -153,6 +160,16 @@ class support_function : public detail::static_size<static_dimension_of<C>> {
     requires has_visit<set_type>
   {
     part().visit([&](auto const& block, auto const& p) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      f(support_function<block_type const&>(held<block_type const&>(block)), p);
+    });
+  }
+  /// f(block, place) for block k alone.
+  template <class F>
+  void visit_block(index k, F&& f) const
+    requires has_visit<set_type>
+  {
+    slant::visit_block(part(), k, [&](auto const& block, auto const& p) {
       using block_type = std::remove_cvref_t<decltype(block)>;
       f(support_function<block_type const&>(held<block_type const&>(block)), p);
     });
