@@ -6,20 +6,21 @@
 //     multilevel [--no-dual | --no-direct] [--load NAME] [K...]     sizes of the brick, 8 12 16
 //                                                                   without any
 //
-// under the loads of the brick, with Tresca's friction also by the interpolation of nested meshes in
-// place of aggregation (`press nested`, …), and `loose`, the brick without its clamp, pressed onto the
-// floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge; with --load only the one
-// of that name, and its nested meshes. It prints comma-separated values: friction, load, size,
-// unknowns, Newton steps (of Coulomb's law: problems of Tresca's and Newton's steps together), cycles, products by K, processor
-// seconds of the hierarchy, of everything from K, N, T, f, d, g and the coordinates to a certified u
-// (the hierarchy included; the least of three runs), of factoring K and solving once by
-// slant::factorize (for each size, the least of three up to k = 16), and, where a body is loose or there are two, of the dual
-// method with factors to the same tolerance; the most memory that the process has held at once while
-// it solved, in MiB, K and all data included (Linux; elsewhere nan); the relative error in the energy
-// norm, as certified, and against a reference: the dual method with factors at 1e-12, or with
-// --no-dual, where its factors take too long, the same method at 1e-11. --no-direct: nothing is
-// factored, and each solution is timed once. Exit status 1 if a run does not converge, or an error is
-// above 1e-8 or above what is certified by more than a tenth.
+// under the loads of the brick, with Tresca's friction also by the interpolation of nested meshes
+// in place of aggregation (`press nested`, …), and `loose`, the brick without its clamp, pressed
+// onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge; with --load
+// only the one of that name, and its nested meshes. It prints comma-separated values: friction,
+// load, size, unknowns, Newton steps (of Coulomb's law together with problems of Tresca's), cycles,
+// products by K, processor seconds of the hierarchy, of everything from K, N, T, f, d, g and the
+// coordinates to a certified u (the hierarchy included; the least of three runs), of factoring K
+// and solving once by slant::factorize (for each size, the least of three up to K = 16), and, where
+// a body is loose or there are two, of the dual method with factors to the same tolerance; the most
+// memory that the process has held at once while it solved, in MiB, K and all data included (Linux;
+// elsewhere nan); the relative error in the energy norm, as certified, and against a reference: the
+// dual method with factors at 1e-12, or with --no-dual, where its factors take too long, the same
+// method at 1e-11. --no-direct: as --no-dual, but K is not factored at all, and each solution is
+// timed once. Exit status 1 if a run does not converge, or an error is above 1e-8 or above what is
+// certified by more than a tenth.
 
 #include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/solve.hpp>
