@@ -16,6 +16,7 @@ import sys
 
 OURS_ERROR = 1e-8
 PEER_ERROR = 1e-6
+LINEAR = "K u = f by multigrid"
 
 
 class Row:
@@ -31,9 +32,17 @@ class Row:
     def case(self):
         return (self.scene, int(self.size))
 
+    def is_linear(self):
+        """One linear solve with the same matrix, by multigrid."""
+        return self.formulation == LINEAR
+
     def is_run(self):
         """A method at a tolerance, with a time and an error."""
-        return not math.isnan(self.seconds) and not math.isnan(self.error) and self.error >= 0
+        return (not math.isnan(self.seconds) and not math.isnan(self.error) and self.error >= 0
+                and not self.is_linear())
+
+    def is_without_factors(self):
+        return self.formulation == "displacements"
 
     def is_ours(self):
         return self.library == "slant"
@@ -52,13 +61,20 @@ def read(path):
 
 
 def cases(rows):
-    return list(dict.fromkeys(row.case() for row in rows if row.method == "linear_solve"))
+    return list(dict.fromkeys(row.case() for row in rows))
 
 
-def fastest(rows, case, ours, error):
-    """The quickest run within that error, or None."""
-    good = [row for row in rows if row.case() == case and row.is_run()
+def fastest(rows, case, ours, error, which=lambda row: True):
+    """The quickest run within that error, of those which are asked for, or None."""
+    good = [row for row in rows if row.case() == case and row.is_run() and which(row)
             and row.is_ours() == ours and row.error <= error]
+    return min(good, key=lambda row: row.seconds, default=None)
+
+
+def fastest_linear(rows, case, ours):
+    """The quickest linear solve by multigrid, or None."""
+    good = [row for row in rows if row.case() == case and row.is_linear()
+            and row.is_ours() == ours and row.status == "converged"]
     return min(good, key=lambda row: row.seconds, default=None)
 
 
@@ -80,6 +96,21 @@ def seconds(value):
     return f"{value:.3g} s"
 
 
+def ratio(run, reference, digits):
+    """run's time over that of a reference, both of which may be missing."""
+    if not run or not reference:
+        return ""
+    return f"{run.seconds / reference.seconds:.{digits}f}"
+
+
+def time_of(run):
+    return f"{seconds(run.seconds)}, `{run.method}`" if run else ""
+
+
+def unknowns_of(rows, case):
+    return str(next(row.unknowns for row in rows if row.case() == case))
+
+
 def precision_table(rows):
     lines = []
     for case in cases(rows):
@@ -87,15 +118,9 @@ def precision_table(rows):
         best = fastest(rows, case, True, OURS_ERROR)
         ours = fastest(rows, case, True, PEER_ERROR)
         peer = fastest(rows, case, False, PEER_ERROR)
-        line = [name_of(case), str(linear.unknowns), seconds(linear.seconds), "", "", "", ""]
-        if best:
-            line[3] = f"{seconds(best.seconds)}, `{best.method}`"
-            line[4] = f"{best.seconds / best.linear:.1f}"
-        if peer:
-            line[5] = f"{seconds(peer.seconds)}, {peer.label()}"
-        if ours and peer:
-            line[6] = f"{peer.seconds / ours.seconds:.1f}"
-        lines.append(line)
+        lines.append([name_of(case), unknowns_of(rows, case), seconds(linear.seconds) if linear else "",
+                      time_of(best), ratio(best, linear, 2),
+                      f"{seconds(peer.seconds)}, {peer.label()}" if peer else "", ratio(peer, ours, 1)])
     head = ["scene, size", "unknowns", "linear solve", f"ours, error ≤ {OURS_ERROR:g}",
             "over linear solve", f"fastest other, error ≤ {PEER_ERROR:g}",
             f"it over ours, both ≤ {PEER_ERROR:g}"]
@@ -106,24 +131,34 @@ def growth_table(rows):
     lines = []
     for case in cases(rows):
         linear = one(rows, case, "linear_solve")
-        best = fastest(rows, case, True, OURS_ERROR)
-        formation = one(rows, case, "formation")
+        line = [name_of(case), unknowns_of(rows, case), seconds(linear.seconds) if linear else "",
+                f"{linear.memory:.0f}" if linear else ""]
+        for without in (False, True):
+            best = fastest(rows, case, True, OURS_ERROR, lambda r: r.is_without_factors() == without)
+            line += [time_of(best), ratio(best, linear, 2), f"{best.memory:.0f}" if best else ""]
         peer = fastest(rows, case, False, PEER_ERROR)
-        line = [name_of(case), str(linear.unknowns), seconds(linear.seconds), "", "", "", "", "", ""]
-        line[3] = f"{linear.memory:.0f}"
-        if best:
-            line[4] = f"{seconds(best.seconds)}, `{best.method}`"
-            line[5] = f"{best.seconds / linear.seconds:.1f}"
-            line[6] = f"{best.memory:.0f}"
-        if formation:
-            line[7] = seconds(formation.seconds)
-        if peer:
-            line[8] = f"{seconds(peer.seconds)}, {peer.label()}"
+        line.append(f"{seconds(peer.seconds)}, {peer.label()}" if peer else "")
         lines.append(line)
-    head = ["scene, size", "unknowns", "linear solve", "its MiB", f"ours, error ≤ {OURS_ERROR:g}",
-            "over linear solve", "its MiB", "to form the dense dual",
+    head = ["scene, size", "unknowns", "linear solve", "its MiB",
+            f"with factors, error ≤ {OURS_ERROR:g}", "over linear solve", "its MiB",
+            f"without, error ≤ {OURS_ERROR:g}", "over linear solve", "its MiB",
             f"fastest other, error ≤ {PEER_ERROR:g}"]
     return table(head, lines)
+
+
+def multigrid_table(rows):
+    """Friction beside one linear solve of the same matrix by multigrid, coordinates given alone."""
+    lines = []
+    for case in cases(rows):
+        ours, other = (fastest_linear(rows, case, mine) for mine in (True, False))
+        run = fastest(rows, case, True, OURS_ERROR, lambda r: r.method == "multigrid")
+        if ours:
+            lines.append([name_of(case), unknowns_of(rows, case), seconds(ours.seconds),
+                          f"{seconds(other.seconds)}, PETSc {other.method}" if other else "",
+                          seconds(run.seconds) if run else "", ratio(run, ours, 1), ratio(run, other, 2)])
+    head = ["scene, size", "unknowns", "one linear solve by our multigrid", "fastest other",
+            f"friction by `multigrid`, error ≤ {OURS_ERROR:g}", "over ours", "over the other"]
+    return table(head, lines) if lines else ""
 
 
 def limitations(rows):
@@ -149,7 +184,7 @@ def limitations(rows):
     reached = {(r.case(), r.label()) for r in rows if r.is_run() and r.error <= PEER_ERROR}
     short = {}
     for row in rows:
-        if row.method not in ("linear_solve", "reference", "formation"):
+        if row.method not in ("linear_solve", "reference", "formation") and not row.is_linear():
             if (row.case(), row.label()) not in reached:
                 short.setdefault(row.label(), {})[name_of(row.case())] = row.status
     for label, where in sorted(short.items()):
@@ -164,11 +199,12 @@ def finding(rows):
         ours, peer = fastest(rows, case, True, PEER_ERROR), fastest(rows, case, False, PEER_ERROR)
         if ours and peer:
             ratios.append(peer.seconds / ours.seconds)
-    overhead = [best.seconds / best.linear for case in cases(rows)
-                if (best := fastest(rows, case, True, OURS_ERROR))]
+    overhead = [best.seconds / linear.seconds for case in cases(rows)
+                if (best := fastest(rows, case, True, OURS_ERROR))
+                and (linear := one(rows, case, "linear_solve"))]
     text = ""
     if overhead:
-        text += (f"An error of {OURS_ERROR:g} costs {min(overhead):.1f} to {max(overhead):.1f} "
+        text += (f"An error of {OURS_ERROR:g} costs {min(overhead):.2g} to {max(overhead):.2g} "
                  "linear solves with the same matrix")
     if ratios:
         text += (f"{'; the' if text else 'The'} fastest of the other libraries takes "
@@ -234,7 +270,7 @@ def main(folder):
                  "solve with the same matrix.\n"]
     page += [precision_table(rows)]
     if grown:
-        page += ["## Growth with the size\n", growth_table(grown)]
+        page += ["## Growth with the size\n", growth_table(grown), multigrid_table(grown)]
     page += ["## Machine and versions\n", text_of(folder, "machine.md"),
              "One thread: `OMP_THREAD_LIMIT=1`, `OPENBLAS_NUM_THREADS=1`. Other libraries:\n",
              "\n".join(f"- {line}" for line in peers) + "\n",

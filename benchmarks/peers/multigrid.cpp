@@ -4,8 +4,9 @@
 // with friction on the same K, the steel brick with K × 3K × K cells:
 //
 //     peer_multigrid [K...]     8 16 24 without any
+//     peer_multigrid --rows K   the linear solves alone, as rows of ../support/precision_table.hpp
 //
-// It prints comma-separated values: solver, k, unknowns, steps, cycles, processor seconds of the
+// The first prints comma-separated values: solver, k, unknowns, steps, cycles, processor seconds of the
 // hierarchy and of everything (the hierarchy included), the relative error in the energy norm. The
 // linear solves end at a relative residual of 1e-8, contact::solve (loads press, pull, lift) at a
 // certified energy error of 1e-8. GAMG is given the block size and the rigid body motions, hypre's
@@ -26,10 +27,12 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "../support/cpu_clock.hpp"
+#include "../support/precision_table.hpp"
 
 namespace {
 
@@ -142,13 +145,25 @@ timed by_petsc(sparse const& K, vector const& f, Eigen::MatrixXd const& motions,
   return result;
 }
 
+/// A line of a linear solve by `library`, preconditioned by `type`.
+void print_row(char const* library, char const* type, int k, timed const& r, double error) {
+  benchmarks::precision_row row{
+      .library = library, .method = type, .formulation = "K u = f by multigrid"};
+  row.tolerance = 1e-8;
+  row.seconds = r.all;
+  row.error = error;
+  row.products = double(r.steps);
+  row.status = r.converged ? "converged" : "failed";
+  row.print({"lift", std::to_string(k), r.u.size(), std::nan("")});
+}
+
 void print(std::string const& solver, int k, timed const& r, double error) {
   std::printf("%s,%d,%td,%td,%td,%.3f,%.3f,%.1e\n", solver.c_str(), k, r.u.size(), r.steps,
               r.cycles, r.setup, r.all, error);
   std::fflush(stdout);
 }
 
-bool measure(int k) {
+bool measure(int k, bool as_rows) {
   auto const scene = fem::make_steel_brick({.k = k, .load = fem::brick_load::lift});
   auto const& K = scene.K;
   auto const layout = contact::layout_of(scene.mesh.nodes, scene.unknowns.first);
@@ -160,13 +175,19 @@ bool measure(int k) {
   auto const exact = slant::solve(slant::cg{A, scene.f, M}, ours.u,
                                   slant::residual_below(1e-13) || slant::at_most(200));
   double const size = energy(K, exact.x());
-  print("slant cg", k, ours, energy(K, ours.u - exact.x()) / size);
+  auto const show = [&](char const* library, char const* type, timed const& r) {
+    double const error = energy(K, r.u - exact.x()) / size;
+    if (as_rows) return print_row(library, type, k, r, error);
+    print(std::string(library) + " " + type, k, r, error);
+  };
+  show("slant", "cg", ours);
   bool good = ours.converged;
   for (PCType const type : {PCGAMG, PCHYPRE}) {
     auto const r = quickest([&] { return by_petsc(K, scene.f, motions, type); });
-    print(std::string("PETSc ") + type, k, r, energy(K, r.u - exact.x()) / size);
+    show("PETSc", type, r);
     good = good && r.converged;
   }
+  if (as_rows) return good;
   for (auto const load : fem::brick_loads) {
     auto const loaded = fem::make_steel_brick({.k = k, .load = load});
     contact::data<double> const c{loaded.N, loaded.T, loaded.f, loaded.d, loaded.g};
@@ -185,15 +206,16 @@ int main(int argc, char** argv) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
     check(PetscInitializeNoArguments());
     check(PetscOptionsSetValue(nullptr, "-pc_hypre_boomeramg_strong_threshold", "0.5"));
+    bool const as_rows = argc > 1 && std::string_view(argv[1]) == "--rows";
     std::vector<int> sizes;
-    for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+    for (int i = as_rows ? 2 : 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
     if (sizes.empty()) sizes = {8, 16, 24};
     if (*std::min_element(sizes.begin(), sizes.end()) < 1) {
-      throw std::invalid_argument("usage: peer_multigrid [K...], sizes >= 1");
+      throw std::invalid_argument("usage: peer_multigrid [--rows] [K...], sizes >= 1");
     }
-    std::printf("solver,k,unknowns,steps,cycles,setup_seconds,seconds,error\n");
+    if (!as_rows) std::printf("solver,k,unknowns,steps,cycles,setup_seconds,seconds,error\n");
     bool good = true;
-    for (int const k : sizes) good = measure(k) && good;
+    for (int const k : sizes) good = measure(k, as_rows) && good;
     return good ? EXIT_SUCCESS : EXIT_FAILURE;
   } catch (std::exception const& failure) {
     std::fprintf(stderr, "peer_multigrid: %s\n", failure.what());

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <cmath>
+#include <fem/box_prolongations.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
 #include <fem/two_plates.hpp>
@@ -15,6 +17,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace benchmarks {
 
@@ -28,6 +31,7 @@ struct contact_case {
   std::string name;
   int size;
   fem::contact_scene<D> scene;
+  std::vector<Eigen::SparseMatrix<double>> nested{};  ///< prolongations, where meshes are nested
 
   [[nodiscard]] slant::contact::data<double> data() const {
     return {scene.N, scene.T, scene.f, scene.d, scene.g};
@@ -48,7 +52,9 @@ void with_contact_case(std::string const& name, int size, Visit const& visit) {
   } else if (name == "bricks") {
     visit(contact_case<3>{name, size, fem::make_two_bricks(size)});
   } else if (auto const load = fem::brick_load_named(name)) {
-    visit(contact_case<3>{name, size, fem::make_steel_brick({.k = size, .load = *load})});
+    contact_case<3> c{name, size, fem::make_steel_brick({.k = size, .load = *load})};
+    c.nested = fem::box_prolongations(fem::make_brick_mesh(size, {3, 1, 1}), c.scene.unknowns);
+    visit(c);
   } else {
     throw std::invalid_argument("scene: got " + name +
                                 ", expected press, pull, lift, plates or bricks");

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Our methods for contact with friction, by name: a line of `contact_methods` is all that a further
-// one takes. Each starts from the matrices of the scene and ends with the displacements.
+// one takes. Each starts from the matrices of the scene, those without factors also from the
+// coordinates of nodes or prolongations, and ends with the displacements.
 #pragma once
 
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/dual.hpp>
+#include <slant/contact/node_layout.hpp>
 #include <slant/contact/preconditioners.hpp>
+#include <slant/contact/solve.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/methods/interior_point.hpp>
@@ -77,9 +80,34 @@ struct condensed_newton {
   }
 };
 
+/// contact::solve by multigrid for the displacements, K never factored; the tolerance is that of
+/// the certified error. Levels by aggregation, or `nested`: those of the case, if it has any.
+struct multigrid_newton {
+  bool nested;
+
+  template <class Case>
+  [[nodiscard]] bool fits(Case const& c) const {
+    return !nested || !c.nested.empty();
+  }
+  template <class Case>
+  outcome operator()(Case const& c, request const& asked) const {
+    slant::contact::solve_options<double> o{.tolerance = asked.tolerance};
+    o.route = slant::contact::solution_route::iterate;
+    if (nested) {
+      o.multigrid.prolongations = c.nested;
+    } else {
+      o.layout = slant::contact::layout_of(c.scene.mesh.nodes, c.scene.unknowns.first);
+    }
+    auto const s = slant::contact::solve(typename Case::friction{}, c.scene.K, c.data(), o);
+    return {s.u, all_products(s.work), status_name(s.status)};
+  }
+};
+
 [[nodiscard]] inline auto contact_methods() {
   using slant::contact::dirichlet_preconditioner, slant::contact::lumped_preconditioner;
   return std::tuple{
+      contact_method{"multigrid", "displacements", multigrid_newton{.nested = false}},
+      contact_method{"multigrid_nested", "displacements", multigrid_newton{.nested = true}},
       contact_method{"condensed_newton", "dual by condensation", condensed_newton{}},
       by_sweeps("symmetric_newton",
                 [](auto const& dual, auto const&, request const& r) {
