@@ -3,7 +3,7 @@
 
 #include <support/testing.hpp>
 
-namespace node_blocks_test {
+namespace partitions_test {
 
 using sparse = Eigen::SparseMatrix<double>;
 
@@ -44,4 +44,4 @@ TEST_CASE("every unknown has a node") {
   CHECK(slant::node_blocks(0, 3).count() == 0);
 }
 
-}  // namespace node_blocks_test
+}  // namespace partitions_test

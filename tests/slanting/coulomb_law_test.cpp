@@ -5,7 +5,7 @@
 #include <support/testing.hpp>
 #include "slanting_support.hpp"
 
-namespace blockwise_test {
+namespace coulomb_law_test {
 
 using slanting_support::dense;
 using slanting_support::dense_slant;
@@ -69,4 +69,4 @@ TEST_CASE("blockwise: the block to blame is named") {
         }) == "c[1]: got -3, expected a number >= 0");
 }
 
-}  // namespace blockwise_test
+}  // namespace coulomb_law_test

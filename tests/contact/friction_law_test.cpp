@@ -2,7 +2,7 @@
 #include <slant/contact/friction_law.hpp>
 #include <support/testing.hpp>
 
-namespace friction_coefficient_test {
+namespace friction_law_test {
 
 namespace contact = slant::contact;
 
@@ -50,4 +50,4 @@ TEST_CASE("coefficients out of range are refused") {
       }).starts_with("F2: got 1"));
 }
 
-}  // namespace friction_coefficient_test
+}  // namespace friction_law_test
