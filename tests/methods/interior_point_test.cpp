@@ -217,7 +217,7 @@ TEST_CASE("forces that are too small at the start are raised") {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Half lines, intervals, discs and two free unknowns: 12 of them, all lengths in units of t.
-struct problem {
+struct twelve_unknowns {
   double t = 1;
   VectorXd lower = t * VectorXd{{0.0, -1.0, 0.5}};
   VectorXd below = t * VectorXd{{-0.3, 0.1, -1.0}}, above = t * VectorXd{{0.2, 0.4, infinity}};
@@ -249,7 +249,7 @@ TEST_CASE("an empty interior: the block, and what to use instead") {
       " of the set: got no point inside that f(x) tells, expected points with f(x) < 0, which an "
       "interval between neighbouring numbers or a cone with friction coefficient 0 does not have; "
       "another method takes it (symmetric_newton, kprgp)";
-  problem p;
+  twelve_unknowns p;
   p.above(1) = std::nextafter(p.below(1), 1.0);  // two numbers, none between them
   CHECK(refusal(p) == "block 4" + words);
   p.above(1) = infinity;
@@ -258,7 +258,7 @@ TEST_CASE("an empty interior: the block, and what to use instead") {
 }
 
 TEST_CASE("a slip bound 0 and an interval with equal ends are held") {
-  problem p;
+  twelve_unknowns p;
   p.g(1) = 0;
   p.above(1) = p.below(1);
   auto const qp = p.qp();
@@ -280,7 +280,7 @@ TEST_CASE("a slip bound 0 and an interval with equal ends are held") {
 TEST_CASE("a nearly empty interior: the same solution as another method's") {
   for (double tiny : {1e-6, 1e-12, 1e-15}) {
     CAPTURE(tiny);
-    problem p;
+    twelve_unknowns p;
     p.g(0) = tiny;
     p.above(0) = p.below(0) + tiny;
     auto const qp = p.qp();
@@ -298,7 +298,7 @@ TEST_CASE("a nearly empty interior: the same solution as another method's") {
 
 TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
   auto const solve_in = [](int stiffness, int length) {
-    problem const p{.t = std::ldexp(1.0, length)};
+    twelve_unknowns const p{.t = std::ldexp(1.0, length)};
     auto const qp = p.qp(std::ldexp(1.0, stiffness));
     auto r = test::minimise(slant::interior_point{qp}, zero(), 1e-10, 60);
     for (int i = 0; i < 3; ++i) {
@@ -314,7 +314,7 @@ TEST_CASE("scales from 1e-100 to 1e100 give the same bits") {
 }
 
 TEST_CASE("all digits: stalled at the floor, in the interior") {
-  problem const p;
+  twelve_unknowns const p;
   auto const qp = p.qp();
   auto const r = test::minimise(slant::interior_point{qp}, zero(), 0.0, 300);
   CHECK(r.status == slant::status::stalled);
@@ -341,9 +341,9 @@ TEST_CASE("a semidefinite A: with a minimum, and without") {
   CHECK(r.converged());
   CHECK(r.x().sum() == doctest::Approx(1.0));
   MatrixXd const M{{1.0, -1.0}, {-1.0, 1.0}};
-  auto const none = run(M);
-  CHECK(none.status == slant::status::unbounded);
-  VectorXd const d = none.state.step;
+  auto const endless = run(M);
+  CHECK(endless.status == slant::status::unbounded);
+  VectorXd const d = endless.state.step;
   CHECK((M * d).norm() <= 1e-7 * d.norm());
   CHECK(b.dot(d) > 0);
   CHECK(d.minCoeff() >= 0);
@@ -426,7 +426,7 @@ TEST_CASE("a semidefinite A whose kernel holds the first gradient up to rounding
 }
 
 TEST_CASE("nothing to do: solved at the start, no constraint at all") {
-  problem p;
+  twelve_unknowns p;
   p.b.setZero();
   p.lower.setConstant(-1);
   p.below(1) = -1;
@@ -434,7 +434,7 @@ TEST_CASE("nothing to do: solved at the start, no constraint at all") {
   auto const r = test::minimise(slant::interior_point{qp}, zero(), 1e-10, 5);
   CHECK(r.converged());
   CHECK(r.iterations() == 0);
-  problem free;
+  twelve_unknowns free;
   free.lower.setConstant(-infinity);
   free.below.setConstant(-infinity);
   free.above.setConstant(infinity);
