@@ -65,7 +65,8 @@ def sentences(root):
         yield (f"| {name.format(large[1])} | "
                f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve{more} |")
     largest, by_nested = table(results, "| scene, size | unknowns | one linear")[-1], growth[-1]
-    yield (f"| {largest[1]} unknowns | {largest[4]}; {by_nested[7].split(',')[0]} and {by_nested[9]} MiB with "
+    yield (f"| contact with Tresca friction, {largest[1]} unknowns, multigrid | {largest[4]}; "
+           f"{by_nested[7].split(',')[0]} and {by_nested[9]} MiB with "
            f"nested meshes |")
 
     linear = table(accuracy, "| k | unknowns | one linear solve, ours")
