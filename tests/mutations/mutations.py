@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Do the tests find defects? Each mutation changes one expression of the library; a test must fail.
 
-    tests/mutations/mutations.py [--jobs 2] [--compiler g++] [NAME...]
+    tests/mutations/mutations.py [--jobs 2] [--compiler g++] [--check] [NAME...]
 
 mutations.txt lists, for each: its name, the file, what stands there (once), what stands there
 instead, and the test files that must notice. Sources are copied, changed, compiled with those tests
 alone, and run; a test that fails, does not end or does not compile any more has found the mutation.
 First every test must pass with the library as it is. Prints a line for each, and ends with status 1
-if one survives. The include folders are those of the release build, -O1.
+if one survives. The include folders are those of the release build, -O1. --check only looks whether
+the list fits the sources, in a second.
 """
 import argparse
 import concurrent.futures
@@ -110,18 +111,26 @@ class Workshop:
             return False
 
 
+def misfit(mutation):
+    """What of the mutation the sources do not have, or nothing."""
+    missing = [f for f in (mutation["file"], *mutation["tests"].split()) if not (ROOT / f).is_file()]
+    if missing:
+        return "no file " + ", ".join(missing)
+    times = (ROOT / mutation["file"]).read_text().count(mutation["from"])
+    return "" if times == 1 else f"\"{mutation['from']}\" stands {times} times in {mutation['file']}"
+
+
 def survives(workshop, mutation, number):
     """The name of what is wrong, or nothing."""
+    if problem := misfit(mutation):
+        return problem
     where = workshop.folder / str(number)
     where.mkdir()
     library = where / "library"
     for part in ("include", "concepts"):
         shutil.copytree(ROOT / part, library / part)
     changed = library / mutation["file"]
-    text = changed.read_text()
-    if text.count(mutation["from"]) != 1:
-        return f"\"{mutation['from']}\" stands {text.count(mutation['from'])} times in {mutation['file']}"
-    changed.write_text(text.replace(mutation["from"], mutation["to"]))
+    changed.write_text(changed.read_text().replace(mutation["from"], mutation["to"]))
     found = any(not workshop.passes(t, library, where) for t in mutation["tests"].split())
     shutil.rmtree(where)
     return "" if found else "survives: no test has noticed"
@@ -132,8 +141,13 @@ def main():
     parser.add_argument("names", nargs="*")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--compiler", default="g++")
+    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     mutations = [m for m in read_mutations() if not options.names or m["name"] in options.names]
+    if options.check:
+        problems = [f"no file {p}" for p in PARTNERS if not (ROOT / p).is_file()]
+        problems += [f"{m['name']}: {problem}" for m in mutations if (problem := misfit(m))]
+        sys.exit("\n".join(problems) or 0)
     failures = 0
     with tempfile.TemporaryDirectory() as folder, \
             concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
