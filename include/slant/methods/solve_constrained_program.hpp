@@ -5,8 +5,8 @@
 //     auto const run = slant::solve(minimise(quadratic(A, b)).over(Λ).subject_to(G, e), 1e-8);
 //     run.x(), run.multipliers;                          // x ∈ Λ, μ of G x = e
 //
-// as solve_program.hpp does it without: constrained_newton under the control of
-// constrained_certificate, preconditioned by A⁻¹ where A offers it, and by multigrid where A is a
+// as solve_program.hpp does it without: blocks scaled where their stiffness differs, then
+// constrained_newton under the control of constrained_certificate, preconditioned by A⁻¹ where A offers it, and by multigrid where A is a
 // sparse matrix, once conjugate gradients have taken long without. `run.choice` tells.
 #pragma once
 
@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -64,6 +65,39 @@ template <class QP, class C, class M>
   }
 }
 
+/// qp in unknowns y with x = D y, or in its own with an empty d, under equations in these unknowns.
+template <class Original, class QP, class C, class S>
+[[nodiscard]] auto solve_constrained(Original const& original, QP const& qp, C const& c,
+                                     Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, S tolerance,
+                                     index max_steps) {
+  auto const by = [&](auto const& m, auto const& x0, newton_limits most) {
+    return constrained_and_certified(qp, c, m, x0, tolerance, most);
+  };
+  auto const zero = zero_of(qp);
+  identity_operator const I(qp.size());
+  if constexpr (inverse_preconditions<QP>) {
+    auto run = by(qp.a().inverse(), zero, {.steps = max_steps});
+    run.choice = "A⁻¹ as preconditioner, because A offers it";
+    return run;
+  } else if constexpr (levels_precondition<Original>) {
+    auto const& k = matrix_behind<typename Original::operator_type>::of(original.a());
+    index const enough = enough_without_levels(k);
+    auto first = by(I, zero, {.steps = max_steps, .applications = enough});
+    index const spent = first.work.operator_applications;
+    bool const is_long = first.status == status::iteration_limit && first.steps < max_steps;
+    if (!is_long) return first;
+    return with_levels(k, d, spent, [&](auto const& m, std::string choice) {
+      auto run = by(m, first.point, {.steps = max_steps - first.steps});
+      run.steps += first.steps;
+      run.work += first.work;
+      run.choice = std::move(choice);
+      return run;
+    });
+  } else {
+    return by(I, zero, {.steps = max_steps});
+  }
+}
+
 }  // namespace detail
 
 /// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e from 0; see the top of this file. `converged` means
@@ -73,36 +107,31 @@ template <equality_constrained_program P>
   requires constrained_newton_problem<typename P::program_type, typename P::constraints_type>
 [[nodiscard]] auto solve(P const& p, typename P::scalar tolerance, index max_steps = 1000) {
   using QP = typename P::program_type;
-  using A = typename QP::operator_type;
   using S = typename P::scalar;
+  using V = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   QP const& qp = p.qp();
-  auto const by = [&](auto const& m, auto const& x0, detail::newton_limits most) {
-    return detail::constrained_and_certified(qp, p.constraints(), m, x0, tolerance, most);
-  };
-  auto const zero = detail::zero_of(qp);
-  identity_operator const I(qp.size());
-  if constexpr (detail::inverse_preconditions<QP>) {
-    auto run = by(qp.a().inverse(), zero, {.steps = max_steps});
-    run.choice = "A⁻¹ as preconditioner, because A offers it";
-    return run;
-  } else if constexpr (detail::levels_precondition<QP>) {
-    auto const& k = detail::matrix_behind<A>::of(qp.a());
-    index const enough = detail::enough_without_levels(k);
-    auto first = by(I, zero, {.steps = max_steps, .applications = enough});
-    index const spent = first.work.operator_applications;
-    bool const is_long = first.status == status::iteration_limit && first.steps < max_steps;
-    if (!is_long) return first;
-    return detail::with_levels(k, Eigen::Matrix<S, Eigen::Dynamic, 1>(), spent,
-                               [&](auto const& m, std::string choice) {
-                                 auto run = by(m, first.point, {.steps = max_steps - first.steps});
-                                 run.steps += first.steps;
-                                 run.work += first.work;
-                                 run.choice = std::move(choice);
-                                 return run;
-                               });
-  } else {
-    return by(I, zero, {.steps = max_steps});
+  auto const& c = p.constraints();
+  if constexpr (quadratic_program<QP> &&
+                may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
+    if (auto d = detail::block_factors_if_needed(qp); d.size() > 0) {
+      equilibrated<QP const&> const scaled(qp, std::move(d));
+      auto const alike = scaled.qp();
+      std::optional<equality_constraints<S>> rows;
+      try {
+        rows.emplace(Eigen::SparseMatrix<S>(c.unit_rows() * scaled.d().asDiagonal()),
+                     V(c.unit_rows() * c.nearest()));
+      } catch (bad_input const&) {  // In these unknowns they nearly depend on each other.
+      }
+      if (rows) {
+        auto result = detail::solve_constrained(qp, alike, *rows, scaled.d(), tolerance, max_steps);
+        result.point = scaled.back(std::move(result.point));
+        result.multipliers = c.multipliers(V(c.unit_rows().transpose() * result.multipliers));
+        detail::note_scaling(result.choice);
+        return result;
+      }
+    }
   }
+  return detail::solve_constrained(qp, qp, c, V(), tolerance, max_steps);
 }
 
 /// A program that lacks something ends here and is told so by constrained_newton.

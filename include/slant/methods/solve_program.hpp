@@ -338,6 +338,11 @@ template <class QP>
   return d;
 }
 
+inline void note_scaling(std::string& choice) {
+  choice.insert(0, choice.empty() ? "" : "; ");
+  choice.insert(0, "blocks scaled, because their stiffness differs by more than 64");
+}
+
 }  // namespace detail
 
 /// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this
@@ -369,8 +374,7 @@ template <class QP>
       if (result.status == status::unbounded) {
         result.descent = scaled.back(std::move(result.descent));
       }
-      result.choice = "blocks scaled, because their stiffness differs by more than 64" +
-                      (result.choice.empty() ? "" : "; " + result.choice);
+      detail::note_scaling(result.choice);
       return result;
     }
   }
