@@ -190,7 +190,6 @@ class constrained_newton : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
 
   static_assert(detail::program_demands<problem>::told);
-  static_assert(detail::active_set_demands<problem>::told);
   static_assert(detail::symmetric_newton_demands<problem, std::remove_cvref_t<M>>::told);
   static_assert(
       !symmetric_newton_problem<problem> ||

@@ -306,10 +306,10 @@ template <composite_problem QP, class M>
 struct symmetric_newton_demands<QP, M> {
   using set_type = typename QP::set_type;
   using points = local_t<typename QP::vector_type>;
-  static_assert(
-      (quadratic_program<QP> && !active_set_domain<set_type, points>) ||
-          has_block_slants<set_type, points>,
-      "the set must be made of blocks with slant(x), a function of blocks with slant(ρ, z)");
+  static_assert(has_block_slants<set_type, points> &&
+                    (!quadratic_program<QP> || active_set_domain<set_type, points>),
+                "the set must be made of blocks with slant(x), state(x) and "
+                "step_to_boundary(x, d), a function of blocks with slant(ρ, z)");
   static constexpr bool told =
       preconditioner_demands<M, typename QP::vector_type, law_demand::semidefinite>::told;
 };
@@ -321,7 +321,6 @@ template <class QP, class M = identity_operator>
 class symmetric_newton : public detail::refused_program<QP, detail::plain_symmetric_newton_state,
                                                         detail::symmetric_newton_options_of> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
-  static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
 

@@ -23,7 +23,8 @@
 // case USE=solved SOLVER=qpq WITHOUT_STATE: the set must.*'has_block_states['<]
 // case USE=solved SOLVER=kprgp WITHOUT_STEP: the set must.*'has_step_to_boundary['<]
 // case USE=solved SOLVER=gimssn WITHOUT_STEP: the set must.*'has_step_to_boundary['<]
-// case USE=solved SOLVER=symmetric_newton WITHOUT_SLANT: the set must be made of blocks with slant\(x\)
+// case USE=solved SOLVER=symmetric_newton WITHOUT_SLANT: made of blocks with slant\(x\), state\(x\) and step_to_boundary
+// case USE=solved SOLVER=symmetric_newton WITHOUT_STATE: made of blocks with slant\(x\), state\(x\) and step_to_boundary
 // case USE=solved SOLVER=interior_point WITHOUT_INEQUALITY: the set must be made of blocks with a smooth inequality form
 // max-lines-gcc: 20
 // max-lines-clang: 30
