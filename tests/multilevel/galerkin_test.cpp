@@ -105,8 +105,13 @@ struct surface {
     Π.block<3, 3>(3 * i, 3 * i).setIdentity();
     C.block<3, 3>(3 * i, 3 * i).setZero();
   }
-  void keep(VectorXd const& x, VectorXd& y) const { y.noalias() = Π * x; }
-  void add_curvature(double α, VectorXd const& x, VectorXd& y) const { y.noalias() += α * (C * x); }
+  void block_entries(auto const& f) const {
+    for (Eigen::Index i = 0; i < Π.rows(); ++i) {
+      for (Eigen::Index j = 0; j < Π.rows(); ++j) {
+        if (i / 3 == j / 3 || Π(i, j) != 0) f(i, j, Π(i, j), C(i, j));
+      }
+    }
+  }
 };
 
 template <int M>
@@ -129,13 +134,12 @@ void check_face(bool weights) {
   }
   slant::detail::node_face<3, double> face(A.nodes(), test::block_inverses<3, double>(inverse));
   surface s(n);
-  VectorXd probe(n), image(n);
   std::vector<int> moved, parents;
   Vector3d const direction = Vector3d(1, -2, 2) / 3;
 
   auto const follow = [&](std::set<int> const& expected) {
     MatrixXd const before = test::dense(C);
-    face.assign(s, 0.5, diagonal, probe, image, moved);
+    face.assign(s, 0.5, diagonal, moved);
     CHECK(std::set<int>(moved.begin(), moved.end()) == expected);
     slant::detail::galerkin_anew(A, P, C, moved, parents, w, face.formed_blocks());
     MatrixXd const H = s.Π * MatrixXd(K) * s.Π + 0.5 * s.C;
@@ -175,7 +179,7 @@ void check_face(bool weights) {
   s.line(30, Vector3d::UnitX(), 0.7);
   follow({1, 7, 30});
   s.line(30, Vector3d::UnitX(), 0.7 * (1 + 1e-3));  // less than coarse levels care for
-  face.assign(s, 0.5, diagonal, probe, image, moved);
+  face.assign(s, 0.5, diagonal, moved);
   CHECK(moved.empty());
   s.hold(30);
   follow({30});
@@ -184,7 +188,7 @@ void check_face(bool weights) {
   slant::testing::allocation_guard guard;
   s.hold(0);
   s.hold(30);
-  face.assign(s, 0.5, diagonal, probe, image, moved);
+  face.assign(s, 0.5, diagonal, moved);
   slant::detail::galerkin_anew(A, P, C, moved, parents, w, face.formed_blocks());
   auto const allocations = guard.count();
   CHECK(allocations == 0);
@@ -207,13 +211,12 @@ TEST_CASE("great curvature is left to the sweeps: coarse levels hold its directi
   slant::detail::node_face<3, float> face(A.nodes(),
                                           test::block_inverses<3, float>(MatrixXd::Identity(n, n)));
   Vector3d const v = Vector3d(2, 1, -2) / 3;
-  VectorXd probe(n), image(n);
   std::vector<int> moved;
   for (double const bend : {1e6, 1e12, 1e200}) {
     surface s(n);
     s.C.block<3, 3>(6, 6) = bend * v * v.transpose();
-    face.assign(s, 1, diagonal, probe, image, moved);
-    auto const& node = face.surface().front();
+    face.assign(s, 1, diagonal, moved);
+    auto const& node = face.surface()[2];
     CHECK((node.level_projector - (Matrix3d::Identity() - v * v.transpose())).norm() <= 1e-12);
     CHECK(node.level_curvature.norm() <= 1e-6 * bend);
     Matrix3d const inverse = Eigen::Map<Eigen::Matrix<float, 4, 3> const>(face.inverses() + 24)
@@ -239,17 +242,16 @@ TEST_CASE("what is no projector within nodes is named") {
       int(n / 3), test::block_inverses<3, double>(MatrixXd::Identity(n, n)));
   surface s(n);
   s.Π(0, 3) = s.Π(3, 0) = s.Π(0, 0) = s.Π(3, 3) = 0.5;  // two nodes move together
-  VectorXd probe(n), image(n);
   std::vector<int> moved;
   std::vector<double> const diagonal(static_cast<std::size_t>(3 * n), 1.0);
-  CHECK_THROWS_WITH_AS(face.assign(s, 0, diagonal, probe, image, moved),
+  CHECK_THROWS_WITH_AS(face.assign(s, 0, diagonal, moved),
                        "face: got node 0 that moves with others, expected blocks of the set within "
                        "the nodes of 3 unknowns",
                        slant::bad_input);
   surface t(n);
   t.Π(4, 4) = 0.5;
-  CHECK_THROWS_WITH_AS(face.assign(t, 0, diagonal, probe, image, moved),
-                       "face: got no projector on node 1, expected keep(x, y) to project onto the "
+  CHECK_THROWS_WITH_AS(face.assign(t, 0, diagonal, moved),
+                       "face: got no projector on node 1, expected a face that projects onto the "
                        "motions that are left",
                        slant::bad_input);
 }

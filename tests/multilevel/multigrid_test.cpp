@@ -33,6 +33,9 @@ static_assert(slant::preconditions_faces<multigrid, VectorXd, slant::curved_face
 struct mask {
   VectorXd kept;
   void keep(VectorXd const& x, VectorXd& y) const { y = kept.cwiseProduct(x); }
+  void block_entries(auto const& f) const {
+    for (Eigen::Index i = 0; i < kept.size(); ++i) f(i, i, kept(i), 0.0);
+  }
 };
 
 /// Projectors and curvatures on nodes of three unknowns.
@@ -52,7 +55,12 @@ struct surface {
     }
   }
   void keep(VectorXd const& x, VectorXd& y) const { y = Π * x; }
-  void add_curvature(double α, VectorXd const& x, VectorXd& y) const { y += α * (C * x); }
+  void block_entries(auto const& f) const {
+    for (Eigen::Index i = 0; i < Π.rows(); ++i) {
+      for (Eigen::Index j = i / 3 * 3; j < i / 3 * 3 + 3; ++j)
+        f(i, j, Π.coeff(i, j), C.coeff(i, j));
+    }
+  }
   [[nodiscard]] sparse operator_on(sparse const& K, double α) const {
     return sparse(Π * sparse(K * Π)) + sparse(α * C);
   }

@@ -402,7 +402,7 @@ struct level_vectors {
 };
 
 /// What belongs to a face: copies of the coarse levels whose rows follow it.
-template <int N, int M, class T, class V>
+template <int N, int M, class T>
 struct levels_on_face {
   node_face<N, T> face;
   std::vector<block_matrix<M, T>> A;  // of coarse levels
@@ -413,14 +413,9 @@ struct levels_on_face {
   galerkin_scratch<N, M, T> first_scratch;
   std::vector<galerkin_scratch<M, M, T>> scratch;
   std::vector<int> moved, parents;
-  V probe, image;
 
-  levels_on_face(hierarchy<N, M, T> const& h, V const& prototype)
-      : face(h.fine.A.nodes(), h.fine.inverses),
-        only(h.only),
-        last(h.last),
-        probe(prototype),
-        image(prototype) {
+  explicit levels_on_face(hierarchy<N, M, T> const& h)
+      : face(h.fine.A.nodes(), h.fine.inverses), only(h.only), last(h.last) {
     if (!h.coarse.empty()) first_scratch = {h.fine.P, h.fine.longest};
     std::size_t most = static_cast<std::size_t>(h.fine.A.nodes());
     moved.reserve(most);
@@ -438,12 +433,12 @@ struct levels_on_face {
   }
 };
 
-/// The workspace of a cycle for vectors V.
-template <int N, int M, class T, class V>
+/// The workspace of a cycle.
+template <int N, int M, class T>
 struct cycle_workspace {
   level_vectors<T> fine;
   std::vector<level_vectors<T>> coarse;
-  std::optional<levels_on_face<N, M, T, V>> on_face;
+  std::optional<levels_on_face<N, M, T>> on_face;
 
   explicit cycle_workspace(hierarchy<N, M, T> const& h) : fine(h.fine.A.padded_size()) {
     for (auto const& l : h.coarse) coarse.emplace_back(l.A.padded_size());
@@ -459,8 +454,8 @@ void smooth_before(block_matrix<N, T> const& A, T const* inverses, level_vectors
 }
 
 /// x = cycle(b) on the levels below the finest, from l on.
-template <int N, int M, class T, class V>
-void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, bool on_face,
+template <int N, int M, class T>
+void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_face,
                   std::size_t l, index sweeps) {
   auto const& A = on_face ? w.on_face->A[l] : h.coarse[l].A;
   auto const& inverses = on_face ? w.on_face->inverses[l] : h.coarse[l].inverses;
@@ -482,9 +477,8 @@ void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, b
 }
 
 /// x = cycle(b) on all levels.
-template <int N, int M, class T, class V>
-void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, bool on_face,
-           index sweeps) {
+template <int N, int M, class T>
+void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_face, index sweeps) {
   auto& v = w.fine;
   auto* const face = on_face ? &w.on_face->face : nullptr;
   T const* const inverses = face ? face->inverses() : h.fine.inverses.data();
@@ -513,8 +507,8 @@ void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w, bool on_
 
 /// The coarse levels follow a face of which w.on_face->moved are the nodes that have changed. Returns
 /// how many of their rows were formed anew.
-template <int N, int M, class T, class V>
-index follow_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T, V>& w) {
+template <int N, int M, class T>
+index follow_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w) {
   auto& f = *w.on_face;
   if (f.moved.empty()) return 0;
   auto const blocks = f.face.formed_blocks();
@@ -644,11 +638,9 @@ class multigrid {
 
   /// Vectors of all levels, and the face entered last with the coarse levels that follow it.
   struct workspace_type {
-    std::variant<detail::cycle_workspace<3, 6, T, vector_type>,
-                 detail::cycle_workspace<3, 3, T, vector_type>,
-                 detail::cycle_workspace<2, 3, T, vector_type>,
-                 detail::cycle_workspace<2, 2, T, vector_type>,
-                 detail::cycle_workspace<1, 1, T, vector_type>>
+    std::variant<detail::cycle_workspace<3, 6, T>, detail::cycle_workspace<3, 3, T>,
+                 detail::cycle_workspace<2, 3, T>, detail::cycle_workspace<2, 2, T>,
+                 detail::cycle_workspace<1, 1, T>>
         levels;
     index rows_formed = 0;  ///< rows of blocks of coarse levels formed anew for faces, so far
   };
@@ -673,24 +665,24 @@ class multigrid {
     rough(slant::local(x).data(), slant::local(y).data(), w);
   }
 
-  /// From now on apply_on_face is for H = Π K Π + weight · C, where face.keep(x, y) is y = Π x and
-  /// face.add_curvature(α, x, y), if there is one, y += α C x; blocks of the face lie within nodes.
+  /// From now on apply_on_face is for H = Π K Π + weight · C with Π and C of a face that knows their
+  /// entries (sets/curved_face.hpp); its blocks lie within nodes.
   /// Rows of coarse levels are formed where the face has changed. The first face of a workspace
   /// allocates, later ones where they have nodes that no face had before. Throws bad_input if Π is
   /// no projector on every node.
-  template <class Face>
+  template <detail::face_of_entries Face>
   void enter(Face const& face, S const& weight, workspace_type& w) const {
     if (rows_ == 0) return;
     prepare_face(w);
     with_workspace(w, [&](auto const& h, auto& v) {
       double const κ = static_cast<double>(S(weight * factor_));
       auto& f = *v.on_face;
-      f.face.assign(face, κ, h.diagonal, f.probe, f.image, f.moved);
+      f.face.assign(face, κ, h.diagonal, f.moved);
     });
     follow_face(w);
   }
   /// The same without curvature.
-  template <class Face>
+  template <detail::face_of_entries Face>
   void enter(Face const& face, workspace_type& w) const {
     enter(face, S(0), w);
   }
@@ -803,7 +795,7 @@ class multigrid {
   void with_workspace(workspace_type& w, F f) const {
     std::visit(
         [&]<int N, int M>(levels<N, M> const& h) {
-          f(h, std::get<detail::cycle_workspace<N, M, T, vector_type>>(w.levels));
+          f(h, std::get<detail::cycle_workspace<N, M, T>>(w.levels));
         },
         *levels_);
   }
@@ -979,7 +971,7 @@ template <class S, class T>
 auto multigrid<S, T>::make_workspace() const -> workspace_type {
   return std::visit(
       []<int N, int M>(levels<N, M> const& h) {
-        return workspace_type{detail::cycle_workspace<N, M, T, vector_type>(h), 0};
+        return workspace_type{detail::cycle_workspace<N, M, T>(h), 0};
       },
       *levels_);
 }
@@ -987,8 +979,7 @@ auto multigrid<S, T>::make_workspace() const -> workspace_type {
 template <class S, class T>
 void multigrid<S, T>::run(S const* x, S* y, workspace_type& w, bool on_face) const {
   if (rows_ == 0) return;
-  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
-                                      detail::cycle_workspace<N, M, T, vector_type>& v) {
+  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h, detail::cycle_workspace<N, M, T>& v) {
     S const unit = shorten<N>(x, rows_, v.fine.b);
     bool const faced = on_face && v.on_face.has_value();
     detail::cycle(h, v, faced, sweeps_);
@@ -1000,8 +991,7 @@ void multigrid<S, T>::run(S const* x, S* y, workspace_type& w, bool on_face) con
 template <class S, class T>
 void multigrid<S, T>::rough(S const* x, S* y, workspace_type& w) const {
   if (rows_ == 0) return;
-  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h,
-                                      detail::cycle_workspace<N, M, T, vector_type>& v) {
+  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h, detail::cycle_workspace<N, M, T>& v) {
     S const unit = shorten<N>(x, rows_, v.fine.b);
     h.fine.A.multiply(v.fine.b.data(), v.fine.r.data());
     lengthen<N>(v.fine.r, unit / factor_, y, rows_);
@@ -1011,7 +1001,7 @@ void multigrid<S, T>::rough(S const* x, S* y, workspace_type& w) const {
 template <class S, class T>
 void multigrid<S, T>::prepare_face(workspace_type& w) const {
   with_workspace(w, [](auto const& h, auto& v) {
-    if (!v.on_face) v.on_face.emplace(h, vector_type(h.fine.A.rows()));
+    if (!v.on_face) v.on_face.emplace(h);
   });
 }
 

@@ -5,11 +5,7 @@
 //
 //     H = Π A Π + C,      Π = diag(Π_i),   C = diag(C_i).
 //
-// Nodes with Π_i = I and C_i = 0 are all but those of the surface and are not stored. From a face of
-// any set (sets/face.hpp, or the user's) Π and C are read by applying them to N vectors, the c-th of
-// which is 1 in component c of every node; where their image of one vector of pseudo-random numbers
-// is what it was, nothing has changed and nothing is read. sets/curved_face.hpp knows its entries,
-// and only the surface is read.
+// Nodes with Π_i = I and C_i = 0 are all but those of the surface and are not stored.
 //
 // Great curvature. A direction v in which C_i is λ, more than 1/√ε of A_ii, hardly moves, and in
 // short scalars A_ii + C_i would forget A_ii. The levels hold such directions: they work with
@@ -23,7 +19,6 @@
 #include <slant/base/entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/concepts/vector.hpp>
 #include <slant/multilevel/parts/dense_factor.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 
@@ -37,6 +32,12 @@
 #include <vector>
 
 namespace slant::detail {
+
+/// A face that knows its blocks, as sets/curved_face.hpp does: f(row, column, Π_ij, C_ij) for the
+/// entries of those where Π is not the identity or C not 0.
+template <class F>
+concept face_of_entries =
+    requires(F const& face) { face.block_entries([](index, index, double, double) {}); };
 
 template <int N, class T>
 class node_face {
@@ -67,14 +68,13 @@ class node_face {
   [[nodiscard]] T const* inverses() const { return inverses_.data(); }
 
   /// Becomes the face, its curvature times `weight`. `moved`: the nodes that the coarse levels have
-  /// to follow. Returns whether anything changed at all. probe and image: vectors for the face.
-  /// Throws bad_input if Π or C has entries between nodes, or Π_i is no projector.
-  template <class Face, class V>
-  bool assign(Face const& face, double weight, std::vector<double> const& diagonal, V& probe,
-              V& image, std::vector<int>& moved) {
+  /// to follow. Returns whether anything changed at all. Throws bad_input if Π or C has entries
+  /// between nodes, or Π_i is no projector.
+  template <face_of_entries Face>
+  bool assign(Face const& face, double weight, std::vector<double> const& diagonal,
+              std::vector<int>& moved) {
     moved.clear();
-    std::fill(changed_.begin(), changed_.end(), static_cast<unsigned char>(0));
-    if (!read(face, weight, probe, image)) return false;
+    if (!read(face, weight)) return false;
     for (std::size_t k = 0; k < surface_.size(); ++k) {
       if (changed_[k] == 0) continue;
       node& here = surface_[k];
@@ -214,132 +214,38 @@ class node_face {
       }
       fresh.stiff_inverse.setZero();
       fresh.mask.fill(T(0));
+      for (std::size_t c = 0; c < N; ++c) fresh.mask[(stride + 1) * c] = T(1);
       surface_.push_back(fresh);
       changed_.push_back(0);
       kept_.resize(surface_.size() * stride);
     }
     return static_cast<std::size_t>(place);
   }
-  /// Π and C from the entries that the face knows. Returns whether anything has changed.
-  template <class Face, class V>
-  bool read(Face const& face, double weight, V& probe, V& image) {
-    if constexpr (requires { face.block_entries([](index, index, double, double) {}); }) {
-      projected_.clear();
-      bent_.clear();
-      now_.assign(surface_.size(), {small::Identity(), small::Zero()});
-      face.block_entries([&](index row, index column, auto const& π, auto const& c) {
-        index const i = row / N;
-        if (column / N != i) {
-          if (π == 0 && c == 0) return;
-          refuse(static_cast<std::size_t>(i));
-        }
-        std::size_t const k = at(static_cast<int>(i));
-        if (k == now_.size()) now_.push_back({small::Identity(), small::Zero()});
-        now_[k].projector(row % N, column % N) = static_cast<double>(π);
-        now_[k].curvature(row % N, column % N) = weight * static_cast<double>(c);
-      });
-      bool changed = false;
-      for (std::size_t k = 0; k < surface_.size(); ++k) {
-        bool const same = now_[k].projector == surface_[k].projector &&
-                          now_[k].curvature == surface_[k].curvature;
-        changed_[k] = same ? 0 : 1;
-        changed = changed || !same;
-        surface_[k].projector = now_[k].projector;
-        surface_[k].curvature = now_[k].curvature;
+  /// Π and C. Returns whether anything has changed.
+  template <class Face>
+  bool read(Face const& face, double weight) {
+    now_.assign(surface_.size(), {small::Identity(), small::Zero()});
+    face.block_entries([&](index row, index column, auto const& π, auto const& c) {
+      index const i = row / N;
+      if (column / N != i) {
+        if (π == 0 && c == 0) return;
+        refuse(static_cast<std::size_t>(i));
       }
-      return changed;
-    } else {
-      using S = scalar_t<V>;
-      auto const project = [&] { face.keep(probe, image); };
-      bool changed = read(project, &node::projector, projected_, probe, image);
-      auto const bend = [&] {
-        slant::local(image).setZero();
-        if constexpr (requires { face.add_curvature(S(1), probe, image); }) {
-          if (weight > 0) face.add_curvature(S(weight), probe, image);
-        }
-      };
-      if (weight > 0 || !bent_.empty()) {
-        changed = read(bend, &node::curvature, bent_, probe, image) || changed;
-      }
-      return changed;
+      std::size_t const k = at(static_cast<int>(i));
+      if (k == now_.size()) now_.push_back({small::Identity(), small::Zero()});
+      now_[k].projector(row % N, column % N) = static_cast<double>(π);
+      now_[k].curvature(row % N, column % N) = weight * static_cast<double>(c);
+    });
+    bool changed = false;
+    for (std::size_t k = 0; k < surface_.size(); ++k) {
+      bool const same =
+          now_[k].projector == surface_[k].projector && now_[k].curvature == surface_[k].curvature;
+      changed_[k] = same ? 0 : 1;
+      changed = changed || !same;
+      surface_[k].projector = now_[k].projector;
+      surface_[k].curvature = now_[k].curvature;
     }
-  }
-  /// Reads the blocks of Π or C by `act`, which makes image of probe. `before` is the image of a
-  /// vector of pseudo-random numbers: where it is the same, nothing has changed. Returns whether
-  /// it has.
-  template <class Act, class V>
-  bool read(Act const& act, small node::*part, std::vector<double>& before, V& probe, V& image) {
-    using S = scalar_t<V>;
-    auto& x = slant::local(probe);
-    auto const& y = slant::local(image);
-    auto const n = static_cast<int>(place_.size());
-    auto const scatter = [&] {
-      unsigned random = 1;
-      for (index k = 0; k < index(n) * N; ++k) {
-        random = random * 1664525u + 1013904223u;
-        x[k] = S(1) + S(double(random >> 8) / double(1 << 24));
-      }
-    };
-    scatter();
-    act();
-    bool const projects = part == &node::projector;
-    auto const unseen = before.empty();
-    bool same = !unseen;
-    if (unseen) before.assign(static_cast<std::size_t>(n) * N, 0.0);
-    for (std::size_t k = 0; k < before.size(); ++k) {
-      auto const value = static_cast<double>(y[static_cast<index>(k)]);
-      same = same && before[k] == value;
-      before[k] = value;
-    }
-    if (same) return false;
-    for (int c = 0; c < N; ++c) {
-      x.setZero();
-      for (int i = 0; i < n; ++i) x[index(N) * i + c] = S(1);
-      act();
-      for (int i = 0; i < n; ++i) {
-        S const* const column = y.data() + index(N) * i;
-        bool plain = true;
-        for (int q = 0; q < N; ++q) plain = plain && column[q] == S(projects && q == c ? 1 : 0);
-        if (plain && place_[static_cast<std::size_t>(i)] < 0) continue;
-        set_column(c, column, at(i), part);
-      }
-    }
-    scatter();
-    require_blocks(projects, part, before, x.data());
-    return true;
-  }
-  template <class S>
-  void set_column(int c, S const* values, std::size_t k, small node::*part) {
-    double* const to = (surface_[k].*part).data() + N * c;
-    for (int q = 0; q < N; ++q) {
-      auto const value = static_cast<double>(values[q]);
-      if (!(to[q] == value)) changed_[k] = 1;
-      to[q] = value;
-    }
-  }
-  /// Whether the blocks read make that image of x.
-  template <class S>
-  void require_blocks(bool projects, small node::*part, std::vector<double> const& image,
-                      S const* x) const {
-    for (std::size_t i = 0; i < place_.size(); ++i) {
-      double error = 0, size = 0;
-      for (int q = 0; q < N; ++q) {
-        double expected = projects ? static_cast<double>(x[i * N + std::size_t(q)]) : 0.0;
-        if (place_[i] >= 0) {
-          small const& m = surface_[static_cast<std::size_t>(place_[i])].*part;
-          expected = 0;
-          for (int c = 0; c < N; ++c) {
-            double const term =
-                m.data()[N * c + q] * static_cast<double>(x[i * N + std::size_t(c)]);
-            expected += term;
-            size += std::abs(term);
-          }
-        }
-        error += std::abs(expected - image[i * N + std::size_t(q)]);
-      }
-      if (error <= tolerance() * (projects ? std::max(size, 1.0) : size)) continue;
-      refuse(i);
-    }
+    return changed;
   }
   [[noreturn, gnu::cold]] static void refuse(std::size_t i) {
     throw bad_input("face", "node " + show(static_cast<index>(i)) + " that moves with others",
@@ -437,7 +343,7 @@ class node_face {
     }
     if (!good) {
       throw bad_input("face", "no projector on node " + show(index(here.i)),
-                      "keep(x, y) to project onto the motions that are left");
+                      "a face that projects onto the motions that are left");
     }
   }
 
@@ -447,8 +353,7 @@ class node_face {
   std::vector<node> surface_;
   std::vector<unsigned char> changed_;
   std::vector<T> kept_;
-  std::vector<read_node> now_;            // what read finds
-  std::vector<double> projected_, bent_;  // images of Π and C, see read
+  std::vector<read_node> now_;  // what read finds
 };
 
 }  // namespace slant::detail
