@@ -18,8 +18,8 @@ slant::direction_report<double> solve_twice(Solver const& solver, G const& g, Ve
                                             VectorXd& dy) {
   auto p = solver.prepare(g, f);
   auto q = p;  // states are copied, factors included or not
-  static_cast<void>(solver.solve(g, f, {0, f.norm(), 0}, dy, p));
-  return solver.solve(g, f, {0, f.norm(), 0}, dy, q);
+  static_cast<void>(solver.solve(g, f, {0, f.norm()}, dy, p));
+  return solver.solve(g, f, {0, f.norm()}, dy, q);
 }
 
 /// One factorisation, and the direction of a dense solve.

@@ -71,7 +71,7 @@ TEST_CASE("the report of variant A is true, and a direction comes with it") {
   auto prepared = solver.prepare(G, f);
   VectorXd dy(F.cols()), Gdy(F.cols());
   for (double const η : {0.1, 1e-8}) {
-    auto const report = solver.solve(G, f, {η, f.norm(), 0}, dy, prepared);
+    auto const report = solver.solve(G, f, {η, f.norm()}, dy, prepared);
     slant::apply(G, dy, Gdy);
     CHECK(report.status == slant::status::converged);
     CHECK(report.factorizations == 1);
@@ -94,9 +94,9 @@ TEST_CASE("variant C: the same direction as by LU, whatever is active; here with
     VectorXd by_cg(F.cols()), by_lu(F.cols());
     auto p = cg.prepare(G, f);
     auto q = lu.prepare(G, f);
-    auto const report = cg.solve(G, f, {1e-12, f.norm(), 0}, by_cg, p);
+    auto const report = cg.solve(G, f, {1e-12, f.norm()}, by_cg, p);
     CHECK(report.status == slant::status::converged);
-    static_cast<void>(lu.solve(G, f, {0, f.norm(), 0}, by_lu, q));
+    static_cast<void>(lu.solve(G, f, {0, f.norm()}, by_lu, q));
     CHECK((by_cg - by_lu).norm() <= 1e-8 * by_lu.norm());
   }
 }
@@ -113,7 +113,7 @@ TEST_CASE("K that is singular, or for CG not definite, is a breakdown: no except
   schur_bicgstab const solver;
   auto prepared = solver.prepare(G, f);
   VectorXd dy = VectorXd::Constant(3, std::nan(""));
-  CHECK(solver.solve(G, f, {1e-6, f.norm(), 0}, dy, prepared).status == slant::status::breakdown);
+  CHECK(solver.solve(G, f, {1e-6, f.norm()}, dy, prepared).status == slant::status::breakdown);
   CHECK(dy.norm() == 0);
 
   auto const w = fem::make_thesis_wire(8);

@@ -372,9 +372,8 @@ TEST_CASE("all solvers and globalisations find the same solution") {
     CHECK(r.iterations() <= 20);
     CHECK((r.x() - reference.x()).norm() <= 1e-12 * reference.x().norm());
   };
-  check(slant::semismooth_newton{F, slant::symmetrized_cg{.warm_start = true}});
+  check(slant::semismooth_newton{F, slant::symmetrized_cg{}});
   check(slant::semismooth_newton{F, slant::bicgstab_solver{}});
-  check(slant::semismooth_newton{F, slant::bicgstab_solver{.warm_start = true}});
   check(slant::semismooth_newton{F, slant::direct_solver{}});
   check(slant::semismooth_newton{F, slant::by_laws{}, slant::halving_line_search{},
                                  slant::adaptive_precision{}});
@@ -453,18 +452,6 @@ TEST_CASE(
   CHECK(inner > 10);
 }
 
-TEST_CASE("a warm start costs one more, and only after a shortened step") {
-  scene const p;
-  slant::index warm = 0;
-  run(p, slant::semismooth_newton{p.F, slant::symmetrized_cg{.warm_start = true}}, p.d.zero(),
-      [&](auto const& before, auto const& s, slant::index products) {
-        bool const shortened = before.iteration > 0 && before.length < 1;
-        CHECK(products == 1 + shortened + s.inner_iterations + s.trials);
-        warm += shortened;
-      });
-  CHECK(warm > 0);
-}
-
 TEST_CASE("inexact steps cost less than accurate ones") {
   scene const p;
   auto const stop = slant::residual_below(1e-10) || slant::at_most(60);
@@ -496,7 +483,6 @@ TEST_CASE("no step allocates, shortened ones included") {
     CHECK(halvings > 0);
   };
   check(slant::semismooth_newton{p.F});
-  check(slant::semismooth_newton{p.F, slant::symmetrized_cg{.warm_start = true}});
   check(slant::semismooth_newton{p.F, slant::bicgstab_solver{}, slant::halving_line_search{},
                                  slant::eisenstat_walker{.η_first = 0.1}});
 }

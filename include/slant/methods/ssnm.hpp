@@ -266,7 +266,7 @@ class ssnm<QP, LinearSolver> {
   void step(state_type& s) const {
     if (s.status != status::running) return;
     scalar const tolerance = inner_tolerance(s);
-    auto const r = solver_.solve(s.slant_operator, s.residual, {tolerance, s.residual_norm, 0},
+    auto const r = solver_.solve(s.slant_operator, s.residual, {tolerance, s.residual_norm},
                                  s.direction, s.prepared);
     s.solver_status = r.status;
     s.linear_residual = r.residual_norm;

@@ -18,8 +18,7 @@
 // Laws.   report.residual_norm = ‖F + G dy‖ up to rounding;   converged ⇒ it is ≤ η ‖F‖.
 //
 // Why increments. [T Remark 3.1] starts the inner iteration for the new multipliers z⁺ from the old
-// z. For the increment dz = z⁺ − z that is the start from zero, which is what solvers here do. What
-// can still be carried over is the part of a shortened step that was not gone: `leftover`.
+// z. For the increment dz = z⁺ − z that is the start from zero, which is what solvers here do.
 //
 // Models. symmetrized_cg, cg_solver, bicgstab_solver, direct_solver, sparse_direct_solver, by_laws.
 #pragma once
@@ -40,7 +39,6 @@ template <class S>
 struct direction_request {
   S tolerance{0};      ///< η in [0, 1); 0: as accurate as can be
   S residual_norm{0};  ///< ‖F‖, finite and > 0
-  S leftover{0};       ///< in [0, 1): the part of the last direction that has not been gone
 };
 
 /// What a linear solver did.

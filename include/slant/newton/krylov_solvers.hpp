@@ -26,7 +26,6 @@ namespace slant {
 /// krylov/cg.hpp on G d = F, dy = −d; for operators that declare definiteness.
 struct cg_solver {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
-  bool warm_start = false;   ///< begin with what a shortened step left over
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
@@ -47,7 +46,7 @@ struct cg_solver {
     using S = scalar_t<V>;
     cg const method{g, f};
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
-    vectors::scale(warm_start ? request.leftover : S(0), s.x);
+    vectors::set_zero(s.x);
     method.restart(s);
     detail::run_until(method, s, target, detail::iteration_limit(max_iterations, f),
                       [](auto const&) {});
@@ -77,7 +76,6 @@ struct cg_solver {
 /// krylov/bicgstab.hpp on G d = F, dy = −d.
 struct bicgstab_solver {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
-  bool warm_start = false;   ///< begin with what a shortened step left over: one product more
 
   [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
@@ -100,7 +98,7 @@ struct bicgstab_solver {
     index const limit = detail::iteration_limit(max_iterations, f);
     direction_report<S> report;
 
-    vectors::scale(warm_start ? request.leftover : S(0), s.x);
+    vectors::set_zero(s.x);
     report.residual_norm = request.residual_norm;
     // Where G is nearly singular a vector of any size changes the residual in its last digits.
     using std::sqrt;

@@ -370,10 +370,9 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
   bool solve(State& s) const {
     using S = typename State::scalar;
     using V = typename State::vector_type;
-    S const leftover = s.length < S(1) && s.iteration > 0 ? S(1) - s.length : S(0);
-    auto const r = solver<V>().solve(std::as_const(s.slant_operator), std::as_const(s.residual),
-                                     {s.forcing.next(forcing_), s.residual_norm, leftover},
-                                     s.direction, s.prepared);
+    auto const r =
+        solver<V>().solve(std::as_const(s.slant_operator), std::as_const(s.residual),
+                          {s.forcing.next(forcing_), s.residual_norm}, s.direction, s.prepared);
     s.linear_residual = r.residual_norm;
     s.solver_status = r.status;
     s.inner_iterations = r.iterations;

@@ -23,6 +23,7 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/cg.hpp>
 #include <slant/newton/direction.hpp>
+#include <slant/operators/declare.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/slants.hpp>
@@ -140,45 +141,11 @@ class slant_preconditioner {
   G blocks_;
 };
 
-}  // namespace slant
-
-namespace slant::detail {
-
-// --- definite on range ---------------------------------------------------------------------------
+// --- symmetrized cg ------------------------------------------------------------------------------
 //
 // H = G (I − G) + ρ G A G is semidefinite. Its kernel is that of G, and right-hand sides lie in
 // range(G): there it is definite, ⟨H x, x⟩ ≥ ρ ⟨A G x, G x⟩ > 0, and conjugate gradients need no
 // more. The library's CG asks for a promise, which is given here for that reason.
-
-/// H as CG meets it.
-template <class M>
-class definite_on_range {
- public:
-  static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
-
-  explicit definite_on_range(symmetrized_operator<M> h) : h_(std::move(h)) {}
-
-  [[nodiscard]] index rows() const { return h_.rows(); }
-  [[nodiscard]] index cols() const { return h_.cols(); }
-
-  template <class X>
-  [[nodiscard]] auto workspace(X const& x) const {
-    return h_.workspace(x);
-  }
-  template <class X, class Y, class W>
-  void apply(X const& x, Y& y, W& w) const {
-    h_.apply(x, y, w);
-  }
-
- private:
-  symmetrized_operator<M> h_;
-};
-
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- symmetrized cg ------------------------------------------------------------------------------
 
 /// What symmetrized_cg keeps.
 template <class V, class M, class State>
@@ -191,7 +158,6 @@ struct symmetrized_cg_workspace {
 /// CG on the symmetrised Newton system; for operators F°(y) that are `symmetrizable`.
 struct symmetrized_cg {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
-  bool warm_start = false;   ///< begin with what a shortened step left over
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
@@ -203,7 +169,7 @@ struct symmetrized_cg {
     auto zero = like(f, slant::local(f).size());
     vectors::set_zero(zero);
     slant_preconditioner<slant_type> m(slant::slant_of_projection(newton));
-    detail::definite_on_range const h(slant::symmetrized(newton));
+    auto const h = declare<positive_definite>(slant::symmetrized(newton));
     auto s = cg{h, zero, m}.start(zero);
     return symmetrized_cg_workspace<V, decltype(m), decltype(s)>{std::move(zero), std::move(m),
                                                                  std::move(s)};
@@ -216,7 +182,7 @@ struct symmetrized_cg {
                                       P& p) const {
     using S = scalar_t<V>;
     auto const symmetric = slant::symmetrized(newton);
-    detail::definite_on_range const h(symmetric);
+    auto const h = declare<positive_definite>(symmetric);
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
 
     symmetric.right_hand_side(f, p.b, p.s.a_workspace);
@@ -226,7 +192,7 @@ struct symmetrized_cg {
     }
     p.preconditioner.assign(slant::slant_of_projection(newton));
     cg const method{h, p.b, p.preconditioner};
-    vectors::scale(warm_start ? request.leftover : S(0), p.s.x);
+    vectors::set_zero(p.s.x);
     method.restart(p.s);
     detail::run_until(method, p.s, target, detail::iteration_limit(max_iterations, f),
                       [](auto const&) {});
