@@ -136,7 +136,7 @@ class constrained_certificate {
     slant::apply(constraints_->kernel_projector(), d, image_, of_P_);
     if (!(norm(image_) > scalar(0))) return norm(image_);
     auto const e = dual_norm(hessian_, preconditioner(), image_, most(), false, workspace_, norm_,
-                             scalar(0), std::optional(sizes()));
+                             std::optional(sizes()));
     applications_ += e.applications;
     return e.value;
   }

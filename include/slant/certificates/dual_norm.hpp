@@ -20,8 +20,6 @@
 
 #include <slant/base/scaling.hpp>
 #include <slant/base/vector_algebra.hpp>
-#include <slant/certificates/energy_error.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
@@ -57,14 +55,11 @@ struct gradient_size {
   S load;   ///< ‖b‖
 };
 
-/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. `enough`, if positive: ends as soon as
-/// the value is known to be below or, since it only grows, above. Infinite where A or M shows no
-/// curvature along what is left of d; with `sizes`, for a semidefinite A, only if that is more than
-/// rounding.
+/// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. Infinite where A or M shows no curvature
+/// along what is left of d; with `sizes`, for a semidefinite A, only if that is more than rounding.
 template <class A, class M, class V, class WA>
 [[nodiscard]] auto dual_norm(A const& a, M const& m, V const& d, index most, bool dominates,
                              WA& of_a, dual_norm_workspace<V, M>& w,
-                             scalar_t<V> const& enough = scalar_t<V>(0),
                              std::optional<gradient_size<scalar_t<V>>> sizes = {})
     -> dual_norm_result<scalar_t<V>> {
   using S = scalar_t<V>;
@@ -111,10 +106,6 @@ template <class A, class M, class V, class WA>
       noise = slant::norm(w.r);
       without_noise = energy;
     }
-    if (enough > S(0) && dominates) {
-      S const limit = enough / unit, least = sqrt(energy);
-      if (least > limit || least + sqrt(rz > S(0) ? rz : S(0)) <= limit) break;
-    }
     if (noise >= S(0)) {
       if (slant::norm(w.r) <= noise / S(10)) break;
     } else if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) {
@@ -133,10 +124,7 @@ template <class A, class M, class V, class WA>
 
 namespace slant::detail {
 
-// --- gradient split ------------------------------------------------------------------------------
-//
-// What the certificates that take a Newton step share: how the gradient behind the step is split
-// into a part that Λ balances and a rest, and sizes of A⁻¹.
+// --- sizes ---------------------------------------------------------------------------------------
 
 /// √(xᵀy) for a product that is ≥ 0 but for rounding.
 template <class V>
@@ -192,41 +180,6 @@ index set_stiffness(A const& a, scalar_t<V> const& typical, V& stiffness, V& x, 
     return n;
   }
   return 0;
-}
-
-/// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
-/// top.
-template <class S>
-struct bound_split {
-  S bound = std::numeric_limits<S>::infinity();
-  S moved{0}, root_of_gap{0}, above{0};
-};
-
-/// Splits the gradient at the end of a Newton step, `balanced`, into s and `rest` for x; curved
-/// blocks with a part of the gradient or by the gap alone. What the diagonal of A says is less
-/// becomes `best`. `moved` and `bend`, ‖·‖_A and ‖·‖_{C/ρ} of the step; `remainder`: what of it is
-/// missing on the face, and counted elsewhere. m and d are scratch.
-template <class Set, class Face, class V>
-void consider_split(bound_split<scalar_t<V>>& best, Set const& set, Face const& face, V const& x,
-                    V const& balanced, V const& remainder, V const& stiffness,
-                    scalar_t<V> const& moved, scalar_t<V> const& bend, scalar_t<V> const& above,
-                    V& rest, V& m, V& d) {
-  using S = scalar_t<V>;
-  using std::sqrt;
-  S const bent = bend / S(sqrt(S(2)));
-  for (S const factor : {S(1), S(0x1p27)}) {
-    vectors::copy(stiffness, m);
-    face.curved_components([&](index i) { slant::local(m).coeffRef(i) *= factor; });
-    auto const split = balance(set, x, balanced, m, d);
-    vectors::subtract(remainder, d);
-    S const root = split.root_of_gap > bent ? split.root_of_gap : bent;
-    vectors::multiply(stiffness, d, m);
-    S const bound = error_bound_of_root<S>(moved + root_of_product(d, m), root) + above;
-    // A gap that is NaN may have lost the comparison.
-    if (!(bound < best.bound) || !is_finite(split.root_of_gap)) continue;
-    best = {bound, moved, root, above};
-    vectors::copy(d, rest);
-  }
 }
 
 }  // namespace slant::detail

@@ -135,8 +135,8 @@ class energy_certificate {
 
   [[nodiscard]] scalar norm_of(vector_type const& d) {
     if (!(slant::norm(d) > scalar(0))) return slant::norm(d);
-    auto const e = dual_norm(qp_->a(), preconditioner(), d, most_, false, a_workspace_, norm_,
-                             scalar(0), sizes());
+    auto const e =
+        dual_norm(qp_->a(), preconditioner(), d, most_, false, a_workspace_, norm_, sizes());
     applications_ += e.applications;
     return e.value;
   }

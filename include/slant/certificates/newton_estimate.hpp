@@ -250,7 +250,7 @@ class newton_estimate {
     if (!correction_.found || !detail::is_finite(correction_.energy)) {
       return std::numeric_limits<scalar>::infinity();
     }
-    if constexpr (is_cut) correction_.precede(lift_, image_of_lift_, whole(), at.ρ);
+    if constexpr (is_cut) correction_.precede(lift_, image_of_lift_, whole_face(face_), at.ρ);
     if (!at.trusts_iterations) {
       vectors::set_zero(correction_.remainder);
       correction_.missing = scalar(0);
@@ -268,13 +268,6 @@ class newton_estimate {
     f.balance(x, y);
   };
 
-  [[nodiscard]] auto const& whole() const {
-    if constexpr (is_cut) {
-      return face_.whole();
-    } else {
-      return face_;
-    }
-  }
   template <class WA>
   void apply(vector_type const& x, vector_type& y, WA& of_a) {
     vectors::set_zero(y);
@@ -296,12 +289,12 @@ class newton_estimate {
     }
     vectors::subtract(correction_.image, image_);
     scalar const way = detail::root_of_product(step_, image_);
-    detail::bound_split<scalar> best;
+    bound_split best;
     consider(best, at, projected_, correction_.energy, correction_.bend, way);
     vectors::add(correction_.t, step_);
     vectors::add(correction_.image, image_);
     vectors::set_zero(trial_);
-    whole().add_curvature(scalar(1) / at.ρ, step_, trial_);
+    whole_face(face_).add_curvature(scalar(1) / at.ρ, step_, trial_);
     consider(best, at, at.x, detail::root_of_product(step_, image_),
              detail::root_of_product(step_, trial_), scalar(0));
     if (!detail::is_finite(best.bound)) return best.bound;
@@ -316,11 +309,33 @@ class newton_estimate {
     return error_bound_of_root<scalar>(δ, best.root_of_gap) + best.above;
   }
 
-  void consider(detail::bound_split<scalar>& best, estimated_point<vector_type> const& at,
-                vector_type const& x, scalar const& moved, scalar const& bend,
-                scalar const& above) {
-    detail::consider_split(best, qp_->set(), whole(), x, balanced_, correction_.remainder,
-                           at.stiffness, moved, bend, above, rest_, weight_, trial_);
+  /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
+  /// top.
+  struct bound_split {
+    scalar bound = std::numeric_limits<scalar>::infinity();
+    scalar moved{0}, root_of_gap{0}, above{0};
+  };
+  /// Splits the gradient at the end of the step into a part that Λ balances at x and a rest, what is
+  /// missing on the face left out. `moved` and `bend`: ‖·‖_A and ‖·‖_{C/ρ} of the step.
+  void consider(bound_split& best, estimated_point<vector_type> const& at, vector_type const& x,
+                scalar const& moved, scalar const& bend, scalar const& above) {
+    using std::sqrt;
+    scalar const bent = bend / scalar(sqrt(scalar(2)));
+    for (scalar const factor : {scalar(1), scalar(0x1p27)}) {
+      vectors::copy(at.stiffness, weight_);
+      whole_face(face_).curved_components(
+          [&](index i) { slant::local(weight_).coeffRef(i) *= factor; });
+      auto const split = balance(qp_->set(), x, balanced_, weight_, trial_);
+      vectors::subtract(correction_.remainder, trial_);
+      scalar const root = split.root_of_gap > bent ? split.root_of_gap : bent;
+      vectors::multiply(at.stiffness, trial_, weight_);
+      scalar const rest = detail::root_of_product(trial_, weight_);
+      scalar const bound = error_bound_of_root<scalar>(moved + rest, root) + above;
+      // A gap that is NaN may have lost the comparison.
+      if (!(bound < best.bound) || !detail::is_finite(split.root_of_gap)) continue;
+      best = {bound, moved, root, above};
+      vectors::copy(trial_, rest_);
+    }
   }
 
   QP const* qp_;
