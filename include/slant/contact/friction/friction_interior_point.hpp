@@ -60,55 +60,13 @@ namespace slant::contact::detail {
 // T is kept by its singular values, which are known in closed form: its smallest would be lost
 // beside its largest, and T⁻¹ no longer be its inverse.
 
-/// The algebra of L: e = (1, 0) is its unit, L the squares in it.
-template <int N, class S>
-struct lorentz {
-  using part = Eigen::Matrix<S, N, 1>;
-  using block = Eigen::Matrix<S, N, N>;
-
-  /// x_0² − ‖x_t‖².
-  [[nodiscard]] static S determinant(part const& x) {
-    S const t = tangential_length(x);
-    return (x[0] - t) * (x[0] + t);
-  }
-  [[nodiscard]] static S tangential_length(part const& x) {
-    using std::sqrt;
-    return sqrt(slant::detail::pairwise_squares<N - 1>(x.data() + 1));
-  }
-  /// x ∘ y = (xᵀy, x_0 y_t + y_0 x_t).
-  [[nodiscard]] static part product(part const& x, part const& y) {
-    part z = slant::detail::combination(x[0], y, y[0], x);
-    z[0] = slant::detail::dot_of(x, y);
-    return z;
-  }
-  /// y with x ∘ y = z.
-  [[nodiscard]] static part quotient(part const& z, part const& x) {
-    S const tangential =
-        slant::detail::sum_of<N - 1>([&](int i) -> S { return x[i + 1] * z[i + 1]; });
-    S const y0 = (x[0] * z[0] - tangential) / determinant(x);
-    return slant::detail::from_entries<part>(
-        [&](int i) -> S { return i == 0 ? y0 : S((z[i] - y0 * x[i]) / x[0]); });
-  }
-  /// J x = (x_0, −x_t).
-  [[nodiscard]] static part reflected(part const& x) {
-    return slant::detail::from_entries<part>([&](int i) -> S { return i == 0 ? x[i] : S(-x[i]); });
-  }
-  /// 2 v vᵀ − J.
-  [[nodiscard]] static block hyperbolic(part const& v) {
-    return slant::detail::from_entries<block>([&](int i, int j) -> S {
-      S const J = i != j ? S(0) : i == 0 ? S(1) : S(-1);
-      return S(2) * v[i] * v[j] - J;
-    });
-  }
-};
-
 /// A pair x, s as λ and T = U diag(Σ) Vᵀ.
 template <int N, class S>
 class lorentz_scaling {
  public:
-  using cone = lorentz<N, S>;
+  using cone = slant::detail::lorentz_algebra<N, S>;
   using part = typename cone::part;
-  using block = typename cone::block;
+  using block = Eigen::Matrix<S, N, N>;
 
   /// x = x0 e, s = s0 e; x0, s0 > 0.
   lorentz_scaling(S const& x0, S const& s0) : η_(s0 / x0) {
@@ -217,9 +175,9 @@ using slant::detail::product_of;
 /// See the top of this file.
 template <int N, class S>
 struct friction_cone_pair {
-  using cone = lorentz<N, S>;
+  using cone = slant::detail::lorentz_algebra<N, S>;
   using part = typename cone::part;
-  using block = typename cone::block;
+  using block = Eigen::Matrix<S, N, N>;
 
   /// W: the diagonal block of the contact.
   friction_cone_pair(S const& μ, block const& W) : at(S(1), S(1)) {

@@ -62,51 +62,6 @@ template <class Block>
 inline constexpr int lorentz_entries =
     decltype(std::declval<Block const&>().lorentz_matrix())::RowsAtCompileTime;
 
-/// The algebra of L ⊂ ℝᴹ, entry by entry.
-template <int M, class S>
-struct lorentz_algebra {
-  using part = Eigen::Matrix<S, M, 1>;
-
-  [[nodiscard]] static S tangential_length(part const& x) {
-    using std::sqrt;
-    return sqrt(pairwise_squares<M - 1>(x.data() + 1));
-  }
-  /// x_0² − ‖x_t‖².
-  [[nodiscard]] static S determinant(part const& x) {
-    S const t = tangential_length(x);
-    return (x[0] - t) * (x[0] + t);
-  }
-  /// J x = (x_0, −x_t).
-  [[nodiscard]] static part reflected(part const& x) {
-    return from_entries<part>([&](int i) -> S { return i == 0 ? x[i] : S(-x[i]); });
-  }
-  /// x ∘ y = (xᵀy, x_0 y_t + y_0 x_t).
-  [[nodiscard]] static part product(part const& x, part const& y) {
-    part z = combination(x[0], y, y[0], x);
-    z[0] = dot_of(x, y);
-    return z;
-  }
-  /// y with x ∘ y = z.
-  [[nodiscard]] static part quotient(part const& z, part const& x) {
-    S const along = sum_of<M - 1>([&](int i) -> S { return x[i + 1] * z[i + 1]; });
-    S const y0 = (x[0] * z[0] - along) / determinant(x);
-    return from_entries<part>(
-        [&](int i) -> S { return i == 0 ? y0 : S((z[i] - y0 * x[i]) / x[0]); });
-  }
-  /// xᵀy for x and y of determinant 1 in L, which is at least 1 and would cancel.
-  [[nodiscard]] static S pairing(part const& x, part const& y) {
-    S const u = tangential_length(x), v = tangential_length(y);
-    S turned(0);
-    if (u > S(0) && v > S(0)) {
-      turned = sum_of<M - 1>([&](int i) -> S {
-        S const sum = x[i + 1] / u + y[i + 1] / v;
-        return sum * sum;
-      });
-    }
-    return y[0] / (x[0] + u) + u / (y[0] + v) + u * v * turned / S(2);
-  }
-};
-
 }  // namespace detail
 
 /// Where the data of the sections of L stand, one after the other as the blocks are visited.
