@@ -359,4 +359,19 @@ TEST_CASE("solve(program with equations, tolerance): multigrid where it takes lo
   }
 }
 
+TEST_CASE("solve(program with equations, tolerance): rows that only units make alike") {
+  // With y = 1e7 x₀ they are (1, 1, 0) and (1, 0, 1).
+  Vector3d const x(1e-7, 2, 3);
+  MatrixXd const K = Vector3d(1e14, 1, 1).asDiagonal();
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+  Eigen::SparseMatrix<double> const G = MatrixXd{{1e7, 1, 0}, {1e7, 0, 1}}.sparseView();
+  VectorXd const μ{{1, -1}}, b = K * x + G.transpose() * μ, e = G * x;
+  auto const set = slant::half_lines(VectorXd::Constant(3, -10));
+  auto const run =
+      slant::solve(slant::minimise(slant::quadratic(A, b)).over(set).subject_to(G, e), 1e-10);
+  CHECK(run.converged());
+  CHECK((run.x() - x).cwiseQuotient(x).norm() <= 1e-10);
+  CHECK((run.multipliers - μ).norm() <= 1e-9);
+}
+
 }  // namespace solve_program_test

@@ -111,7 +111,7 @@ template <equality_constrained_program P>
   using V = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   QP const& qp = p.qp();
   auto const& c = p.constraints();
-  if constexpr (quadratic_program<QP> &&
+  if constexpr (quadratic_program<QP> && requires { c.unit_values(); } &&
                 may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
     if (auto d = detail::block_factors_if_needed(qp); d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));
@@ -119,13 +119,13 @@ template <equality_constrained_program P>
       std::optional<equality_constraints<S>> rows;
       try {
         rows.emplace(Eigen::SparseMatrix<S>(c.unit_rows() * scaled.d().asDiagonal()),
-                     V(c.unit_rows() * c.nearest()));
+                     c.unit_values());
       } catch (bad_input const&) {  // In these unknowns they nearly depend on each other.
       }
       if (rows) {
         auto result = detail::solve_constrained(qp, alike, *rows, scaled.d(), tolerance, max_steps);
         result.point = scaled.back(std::move(result.point));
-        result.multipliers = c.multipliers(V(c.unit_rows().transpose() * result.multipliers));
+        result.multipliers = c.of_unit_rows(result.multipliers);
         detail::note_scaling(result.choice);
         return result;
       }

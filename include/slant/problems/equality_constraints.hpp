@@ -103,8 +103,9 @@ class equality_constraints {
         kernel_projector_(detail::complement_of(range_projector_)),
         nearest_(G.cols()) {
     vector_type const unit_e = e.cwiseQuotient(lengths_);
+    unit_values_ = unit_e(kept_);
     vector_type weights(G_.rows());
-    slant::apply(slant::inverse(factors_), vector_type(unit_e(kept_)), weights);
+    slant::apply(slant::inverse(factors_), unit_values_, weights);
     nearest_.noalias() = G_.transpose() * weights;
     detail::check_size("error_of_e", error_of_e.size(), G.rows(), "the rows of G,");
     require_agreement(unit_e, e, vector_type(error_of_e.cwiseQuotient(lengths_)));
@@ -134,6 +135,9 @@ class equality_constraints {
   /// The rows of G that are independent, each divided by its length.
   [[nodiscard]] sparse_type const& unit_rows() const& { return G_; }
   sparse_type const& unit_rows() const&& = delete;
+  /// What they are equal to.
+  [[nodiscard]] vector_type const& unit_values() const& { return unit_values_; }
+  vector_type const& unit_values() const&& = delete;
   /// x̄.
   [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
   vector_type const& nearest() const&& = delete;
@@ -143,11 +147,12 @@ class equality_constraints {
     detail::check_size("v", v.size(), size(), "the columns of G,");
     vector_type weights(G_.rows());
     slant::apply(slant::inverse(factors_), vector_type(G_ * v), weights);
+    return of_unit_rows(weights);
+  }
+  /// μ of multipliers of the unit rows, as many as G has rows; 0 for redundant ones.
+  [[nodiscard]] vector_type of_unit_rows(vector_type const& weights) const {
     vector_type μ = vector_type::Zero(rows_);
-    for (index i = 0; i < weights.size(); ++i) {
-      index const row = kept_[static_cast<std::size_t>(i)];
-      μ[row] = weights[i] / lengths_[row];
-    }
+    μ(kept_) = weights.cwiseQuotient(vector_type(lengths_(kept_)));
     return μ;
   }
 
@@ -195,7 +200,7 @@ class equality_constraints {
     auto const left_out = redundant();
     if (left_out.empty()) return;
     S const rounding = S(4096) * std::numeric_limits<S>::epsilon();
-    vector_type const kept_e = unit_e(kept_), kept_error = error(kept_);
+    vector_type const kept_error = error(kept_);
     sparse_type const columns = unit_rows_.transpose();
     for (index const i : left_out) {
       vector_type rest = columns.col(i);
@@ -206,8 +211,8 @@ class equality_constraints {
         combination += h;
       }
       if (rest.norm() > rounding) refuse_row(i, rest.norm());
-      S const implied = combination.dot(kept_e);
-      S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(kept_e.cwiseAbs());
+      S const implied = combination.dot(unit_values_);
+      S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(unit_values_.cwiseAbs());
       S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
       if (abs(implied - unit_e[i]) <= allowed) continue;
       throw bad_input(
@@ -228,6 +233,7 @@ class equality_constraints {
   sparse_type unit_rows_;    // G_i / ‖G_i‖
   std::vector<index> kept_;  // rows that are independent
   sparse_type G_;            // these, of length 1
+  vector_type unit_values_;  // what they are equal to
   dense_ldlt<S> factors_;    // of GGᵀ
   decltype(detail::onto_range_of(G_, factors_)) range_projector_;
   decltype(detail::complement_of(range_projector_)) kernel_projector_;
