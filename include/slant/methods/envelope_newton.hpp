@@ -315,11 +315,15 @@ class envelope_newton {
     vectors::difference(s.x, s.y, s.trial);
     vectors::difference(s.r, s.gradient, s.reduced);
     scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
-    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
-                         (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit));
-    scalar const allowed = share * way * (way / (s.γ * s.unit));
-    if (!(bend > allowed + noise)) return false;
-    s.γ *= allowed / bend;
+    scalar const ε = scalar(16) * std::numeric_limits<scalar>::epsilon();
+    scalar const noise =
+        ε * (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit)) +
+        s.gradient_error;
+    // dᵀA²d / dᵀA d, of what A shows along d the most, is σ_max at most.
+    scalar const turn = norm(s.reduced) - noise;
+    scalar const allowed = share * (bend / turn) / (s.γ * s.unit);
+    if (!(turn > allowed) || !(bend > noise * way)) return false;
+    s.γ *= allowed / turn;
     return true;
   }
 
