@@ -122,9 +122,7 @@ template <class S, class C>
 [[nodiscard]] auto scaled(S const& c, C&& set) {
   using scalar = set_scalar_t<C>;
   auto const factor = static_cast<scalar>(c);
-  if (!(factor > scalar(0) && detail::is_finite(factor))) {
-    throw bad_input("c", detail::show(factor), "a finite number > 0");
-  }
+  detail::check_positive("c", factor);
   return detail::image_of(std::forward<C>(set), detail::dilation<scalar>(factor));
 }
 

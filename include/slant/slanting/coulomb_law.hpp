@@ -135,9 +135,7 @@ class alart_curnier_block {
 
   /// @throws bad_input if mu is NaN, negative or infinite.
   explicit alart_curnier_block(S const& mu) : mu_(mu) {
-    if (!(mu >= S(0) && detail::is_finite(mu))) {
-      throw bad_input("mu", detail::show(mu), "a finite number >= 0");
-    }
+    detail::check_option("mu", mu, mu >= S(0) && detail::is_finite(mu), "a finite number >= 0");
   }
 
   [[nodiscard]] alart_curnier_block with(S const& mu) const { return alart_curnier_block(mu); }
@@ -298,9 +296,7 @@ class de_saxce_block {
 
  private:
   [[nodiscard]] static S const& checked(char const* name, S const& mu) {
-    if (!(mu >= S(0) && detail::is_finite(mu))) {
-      throw bad_input(name, detail::show(mu), "a finite number >= 0");
-    }
+    detail::check_option(name, mu, mu >= S(0) && detail::is_finite(mu), "a finite number >= 0");
     return mu;
   }
   /// (μ₁u₁, …).

@@ -154,9 +154,7 @@ template <operand A, class V, class C>
   index const n = slant::dimension_of(set);
   detail::require_size("A", a, n, n, "the dimension of the set");
   detail::require_offset("b", b, n);
-  if (!(ρ > scalar_t<V>(0) && detail::is_finite(ρ))) {
-    throw bad_input("rho", detail::show(ρ), "a finite number > 0");
-  }
+  detail::check_positive("rho", ρ);
   return kkt_function<part_t<A>, V, kept_t<C>>(
       held<part_t<A>>(slant::as_operator(std::forward<A>(a))), b,
       held<kept_t<C>>(std::forward<C>(set)), ρ);
