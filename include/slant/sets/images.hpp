@@ -190,7 +190,7 @@ template <class S, class C>
 [[nodiscard]] auto block_scaled(Eigen::Matrix<S, Eigen::Dynamic, 1> d, C&& set) {
   using map = detail::block_dilation<S>;
   detail::check_block_factors(d, set);
-  return image_product<kept_t<C>, map>(held<kept_t<C>>(std::forward<C>(set)), map(std::move(d)));
+  return image_set<kept_t<C>, map>(held<kept_t<C>>(std::forward<C>(set)), map(std::move(d)));
 }
 
 // --- rotated -------------------------------------------------------------------------------------
