@@ -72,17 +72,18 @@ class kkt_operator : public Composed {
 
   /// (H, Jᵀ), with jacobian() = J.
   [[nodiscard]] auto const& curvature() const noexcept {
-    return this->template part<0>().template term<1>();
+    return this->template block<0, 0>().template term<1>();
   }
   /// J.
   [[nodiscard]] auto const& jacobian() const noexcept { return curvature().jacobian(); }
   /// 1 for the inequalities in 𝒜, 0 for those in ℐ.
   [[nodiscard]] auto const& active() const noexcept {
-    return this->template part<1>().first_weights();
+    return this->template block<1, 0>().first_weights();
   }
   /// A.
   [[nodiscard]] auto const& hessian() const noexcept {
-    return expr::operator_behind(this->template part<0>().template term<0>().template factor<0>());
+    return expr::operator_behind(
+        this->template block<0, 0>().template term<0>().template factor<0>());
   }
   /// The composition itself.
   [[nodiscard]] Composed& composed() noexcept { return *this; }
