@@ -251,7 +251,7 @@ TEST_CASE("forward–backward: the projected gradient method, options, and what 
 
   CHECK(test::complaint([&] {
           slant::forward_backward{qp, {.step_length = -1.0}};
-        }) == "step_length: got -1, expected a number > 0");
+        }) == "step_length: got -1, expected a finite number > 0");
   CHECK(test::complaint([&] {
           static_cast<void>(slant::separable_qp{A, p.b, support(slant::intervals(p.w))});
         }).find("dimension of the function: got 4") != std::string::npos);

@@ -70,7 +70,7 @@ TEST_CASE("the parts combine freely: a projected start, unlimited CG, another fo
   auto const r = test::minimise(mixed, p.zero(), 1e-12, 100);
   REQUIRE(r.converged());
   CHECK((r.x() - solution.x).norm() <= 1e-10 * solution.x.norm());
-  CHECK(r.state.face.free_count() == 3);  // the discs 1, 4, 6
+  CHECK(r.state.face.count(slant::block_state::free) == 3);  // the discs 1, 4, 6
 }
 
 TEST_CASE("the inner accuracy is min(r_tol err/err⁰, c_fact tol), relative to err⁰") {

@@ -31,11 +31,11 @@ TEST_CASE("KPRGP and QPC") {
   check<slant::kprgp_options<double>>(
       {{{}},
        {{.proportioning = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}},
-       {{.proportioning = 0}, "proportioning: got 0, expected a number > 0"},
-       {{.proportioning = nan}, "proportioning: got nan, expected a number > 0"},
-       {{.proportioning = inf}, "proportioning: got inf, expected a number > 0"},
-       {{.step_length = -1.0}, "step_length: got -1, expected a number > 0"},
-       {{.step_length = inf}, "step_length: got inf, expected a number > 0"},
+       {{.proportioning = 0}, "proportioning: got 0, expected a finite number > 0"},
+       {{.proportioning = nan}, "proportioning: got nan, expected a finite number > 0"},
+       {{.proportioning = inf}, "proportioning: got inf, expected a finite number > 0"},
+       {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
+       {{.step_length = inf}, "step_length: got inf, expected a finite number > 0"},
        {{.step_factor = 2}, "step_factor: got 2, expected a number in (0, 2)"},
        {{.step_factor = 0}, "step_factor: got 0, expected a number in (0, 2)"},
        {{.refresh = -1}, "refresh: got -1, expected a number >= 0"},
@@ -52,7 +52,7 @@ TEST_CASE("MSSN and IMSSN") {
   check<slant::imssn_options<double>>(
       {{{.forcing = {.r_tol = 1}}, "r_tol: got 1, expected a number in (0, 1)"},
        {{.forcing = {.c_fact = 0}}, "c_fact: got 0"},
-       {{.step_length = -1}, "step_length: got -1, expected a number > 0"},
+       {{.step_length = -1}, "step_length: got -1, expected a finite number > 0"},
        {{.step_factor = nan}, "step_factor: got nan"},
        {{.max_inner = 0}, "max_inner: got 0, expected a number >= 1"}});
 }
@@ -74,7 +74,7 @@ TEST_CASE("successive approximations") {
 TEST_CASE("the symmetric Newton method") {
   check<slant::symmetric_newton_options<double>>(
       {{{}},
-       {{.step_length = -1.0}, "step_length: got -1, expected a number > 0"},
+       {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
        {{.step_factor = nan}, "step_factor: got nan"},
        {{.inner_steps = 0}, "inner_steps: got 0"},
        {{.sufficient = 1.0}, "sufficient: got 1"}});

@@ -105,7 +105,8 @@ TEST_CASE("bad input") {
   auto const with = [&](slant::ssnm_options<double> const& o) {
     static_cast<void>(slant::ssnm{qp, slant::saddle_direct{}, o});
   };
-  CHECK_THROWS_WITH_AS(with({.rho = 0}), "rho: got 0, expected a number > 0", slant::bad_input);
+  CHECK_THROWS_WITH_AS(with({.rho = 0}), "rho: got 0, expected a finite number > 0",
+                       slant::bad_input);
   CHECK_THROWS_AS(with({.precision = {.r_tol = 2}}), slant::bad_input);
   CHECK_THROWS_AS(with({.inner_tolerance = -1}), slant::bad_input);
   slant::ssnm const method{qp, slant::saddle_direct{}};

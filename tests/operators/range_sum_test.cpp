@@ -20,7 +20,6 @@ TEST_CASE("a sum over a range is the sum of the matrices") {
   auto const a = slant::sum(matrices);
   CHECK(test::matches(a, total));
   CHECK(&a.term(2).get() == &matrices[2]);  // referenced
-  CHECK(a.term_count() == 5);
   static_assert(slant::has_accumulate<decltype(a), VectorXd>);
   slant::testing::check_operator_laws(a);
   auto const owner = slant::sum(std::vector<MatrixXd>(matrices));

@@ -165,7 +165,7 @@ TEST_CASE("what has no name is printed by its kind, and so is what holds many op
   CHECK(text(op<"C">(saddle)) == "C   (11 × 11, no laws)");
   CHECK(text(slant::counted(S + P)) == "S + P   (7 × 7, spd)");
   CHECK(text(slant::declare<self_adjoint>(G)) == "G   (7 × 7, self-adjoint)");
-  CHECK(text(slant::restricted(S, {0, 3})) == "restricted_operator   (2 × 2, spd)");
+  CHECK(text(slant::restricted(S, {0, 3})) == "restriction S restrictionᵀ   (2 × 2, spd)");
   CHECK(slant::describe(saddle).find("block_operator   11 × 11, no laws") == 0);
 
   auto const product = slant::kronecker(S, identity(3));  // its workspace has six members

@@ -18,7 +18,7 @@ struct slow_identity {
   }
 };
 
-TEST_CASE("time adds up, over copies, until it is reset") {
+TEST_CASE("time adds up, over copies") {
   auto const a = slant::timed(slow_identity{});
   CHECK(a.seconds() == 0);
   VectorXd y(2);
@@ -27,8 +27,7 @@ TEST_CASE("time adds up, over copies, until it is reset") {
   auto const copy = a;
   slant::apply(copy, VectorXd(VectorXd::Ones(2)), y);
   CHECK(a.seconds() >= 4e-3);
-  a.reset_seconds();
-  CHECK(copy.seconds() == 0);
+  CHECK(copy.seconds() == a.seconds());
 }
 
 }  // namespace timed_test

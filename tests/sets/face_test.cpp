@@ -23,9 +23,9 @@ TEST_CASE("face: a product of half lines and discs") {
   CHECK(face.dimension() == 9);
   CHECK(face.states() == std::vector{block_state::free, block_state::fixed, block_state::free,
                                      block_state::sliding, block_state::free, block_state::fixed});
-  CHECK(face.free_count() == 3);
-  CHECK(face.sliding_count() == 1);
-  CHECK(face.fixed_count() == 2);
+  CHECK(face.count(block_state::free) == 3);
+  CHECK(face.count(block_state::sliding) == 1);
+  CHECK(face.count(block_state::fixed) == 2);
   CHECK(face.components() == indices{0, 2, 5, 6});
 
   vec<> const z = numbers(9, 1);
@@ -79,10 +79,10 @@ TEST_CASE("face: a set of the same size with another layout is another set") {
 TEST_CASE("face: a single block, and a point whose state differs only between sliding and fixed") {
   auto const moving = face_of(slant::ball<2>{1.0}, Vector2d(1, 0));
   CHECK(moving.size() == 1);
-  CHECK(moving.sliding_count() == 1);
+  CHECK(moving.count(block_state::sliding) == 1);
   auto face = moving;
   CHECK(face.assign(slant::ball<2>{0.0}, Vector2d(0, 0)));
-  CHECK(face.fixed_count() == 1);
+  CHECK(face.count(block_state::fixed) == 1);
   CHECK(face.components().empty());
   CHECK(!(face == moving));
 }

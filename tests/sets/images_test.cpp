@@ -25,7 +25,7 @@ struct plain {
   bool contains(auto const&) const { return true; }
 };
 
-TEST_CASE("image_block: images of images") {
+TEST_CASE("image of a block: images of images") {
   auto const set = shifted(scaled(2.0, slant::ball<2>{3.0}), Vector2d(10, 0));
   CHECK(set.project(Vector2d(20, 0)) == Vector2d(16, 0));
   auto const other = scaled(2.0, shifted(slant::ball<2>{3.0}, Vector2d(5, 0)));
@@ -35,7 +35,7 @@ TEST_CASE("image_block: images of images") {
   CHECK(set.slant(Vector2d(20, 0)) == slant::ball<2>{6.0}.slant(Vector2d(10, 0)));
 }
 
-TEST_CASE("image_block: the blocks of a product stay blocks if the map does not mix them") {
+TEST_CASE("image of a block: the blocks of a product stay blocks if the map does not mix them") {
   auto const node = cartesian(slant::half_line<>{}, slant::ball<2>{});
   auto const moved = shifted(node, Vector3d(1, 2, 3));
   CHECK(moved.block_count() == 2);
@@ -52,7 +52,7 @@ TEST_CASE("image_block: the blocks of a product stay blocks if the map does not 
   static_assert(!slant::has_visit<decltype(turned)>);
 }
 
-TEST_CASE("image_block: what rounding may have lost in one block excuses nothing in another") {
+TEST_CASE("image of a block: what rounding may have lost in one block excuses nothing in another") {
   auto const quadrant = cartesian(slant::half_line<>{}, slant::half_line<>{});
   auto const check = [](auto const& set) {
     CHECK(set.contains(Vector2d(1e-6, 2e10)));
@@ -74,7 +74,7 @@ TEST_CASE("image_block: what rounding may have lost in one block excuses nothing
   CHECK(!moved.contains(Vector2d(std::numeric_limits<double>::quiet_NaN(), 2e10)));
 }
 
-TEST_CASE("image_block: has what its part has, no more") {
+TEST_CASE("image of a block: has what its part has, no more") {
   using moved_space = decltype(shifted(slant::free_space<2>{}, Vector2d()));
   static_assert(slant::whole_space<moved_space>);
   using moved_point = decltype(shifted(slant::point<2>{}, Vector2d()));
@@ -102,7 +102,7 @@ struct small_mean {
   bool contains(auto const& x) const { return x.sum() <= double(n); }
 };
 
-TEST_CASE("image_product: of a set that is no product") {
+TEST_CASE("image of a product: of a set that is no product") {
   vec<> const c = Vector3d(1e6, 2e6, 3e6);
   auto const set = shifted(small_mean{3}, c);
   vec<> const x = c + numbers(3, 1) + vec<>::Constant(3, 10.0);
@@ -114,7 +114,7 @@ TEST_CASE("image_product: of a set that is no product") {
   static_assert(!slant::has_slant<decltype(set), vec<>>);
 }
 
-TEST_CASE("image_product: images of images, in place and without allocation") {
+TEST_CASE("image of a product: images of images, in place and without allocation") {
   vec<> const c = numbers(6, 2);
   auto const product = slant::discs(vec<>(vec<>::Ones(3)));
   auto const inner = shifted(product, c);
@@ -137,7 +137,7 @@ TEST_CASE("image_product: images of images, in place and without allocation") {
   CHECK(&set.part() == &inner);
 }
 
-TEST_CASE("image_product: infinite bounds stay infinite") {
+TEST_CASE("image of a product: infinite bounds stay infinite") {
   double const infinity = std::numeric_limits<double>::infinity();
   auto const set = shifted(slant::half_lines(vec<>(Vector2d(-infinity, 0))), vec<>(Vector2d(5, 5)));
   vec<> const x = Vector2d(-1e300, -1);

@@ -86,7 +86,7 @@ template <class T>
 }
 template <class T>
 [[gnu::cold]] void check_positive(std::string_view name, T const& value) {
-  check_option(name, value, value > T(0) && is_finite(value), "a number > 0");
+  check_option(name, value, value > T(0) && is_finite(value), "a finite number > 0");
 }
 template <class T>
 [[gnu::cold]] void check_fraction(std::string_view name, T const& value) {

@@ -142,22 +142,25 @@ template <class S, int R, int C>
 
 // --- symmetric eigen -----------------------------------------------------------------------------
 //
-// Eigenvalues and eigenvectors of a symmetric matrix of fixed size by Jacobi's rotations: accurate
-// to the last digits of each eigenvalue where Eigen's solver is so only to those of the largest,
-// for any scalar, and quick to compile. One rotation does all for 2 × 2.
+// Eigenvalues and eigenvectors of a small symmetric matrix by Jacobi's rotations: accurate to the
+// last digits of each eigenvalue where Eigen's solver is so only to those of the largest, for any
+// scalar, and quick to compile. One rotation does all for 2 × 2.
 
-/// G = V diag(values) Vᵀ, the columns of V orthonormal.
+/// G = V diag(values) Vᵀ, the columns of V orthonormal. N may be Eigen::Dynamic.
 template <class S, int N>
 struct symmetric_eigen {
   Eigen::Matrix<S, N, 1> values;
   Eigen::Matrix<S, N, N> vectors;
 
-  /// Of a symmetric g with finite entries. Does not allocate.
+  /// Of a symmetric g with finite entries. Does not allocate where N is a number.
   explicit symmetric_eigen(Eigen::Matrix<S, N, N> g) {
-    for (int k = 0; k < N * N; ++k) vectors.data()[k] = S(k % (N + 1) == 0 ? 1 : 0);
+    index const n = g.rows();
+    values.resize(n);
+    vectors.resize(n, n);
+    for (index k = 0; k < n * n; ++k) vectors.data()[k] = S(k % (n + 1) == 0 ? 1 : 0);
     for (int sweep = 0; sweep < 60 && rotate_all(g); ++sweep) {
     }
-    for (int k = 0; k < N; ++k) values[k] = g.coeff(k, k);
+    for (index k = 0; k < n; ++k) values[k] = g.coeff(k, k);
   }
 
  private:
@@ -165,9 +168,10 @@ struct symmetric_eigen {
   bool rotate_all(Eigen::Matrix<S, N, N>& g) {
     using std::abs;
     using std::sqrt;
+    index const n = g.rows();
     bool rotated = false;
-    for (int p = 0; p < N; ++p) {
-      for (int q = p + 1; q < N; ++q) {
+    for (index p = 0; p < n; ++p) {
+      for (index q = p + 1; q < n; ++q) {
         S const off = g.coeffRef(p, q);
         S const size = sqrt(S(abs(g.coeffRef(p, p)))) * sqrt(S(abs(g.coeffRef(q, q))));
         if (!(S(abs(off)) > std::numeric_limits<S>::epsilon() * size)) continue;
@@ -181,9 +185,9 @@ struct symmetric_eigen {
           a = c * old - s * b;
           b = s * old + c * b;
         };
-        for (int k = 0; k < N; ++k) rotate(g.coeffRef(k, p), g.coeffRef(k, q));
-        for (int k = 0; k < N; ++k) rotate(g.coeffRef(p, k), g.coeffRef(q, k));
-        for (int k = 0; k < N; ++k) rotate(vectors.coeffRef(k, p), vectors.coeffRef(k, q));
+        for (index k = 0; k < n; ++k) rotate(g.coeffRef(k, p), g.coeffRef(k, q));
+        for (index k = 0; k < n; ++k) rotate(g.coeffRef(p, k), g.coeffRef(q, k));
+        for (index k = 0; k < n; ++k) rotate(vectors.coeffRef(k, p), vectors.coeffRef(k, q));
         g.coeffRef(p, q) = g.coeffRef(q, p) = S(0);
       }
     }

@@ -33,15 +33,6 @@ struct node_blocks {
   [[nodiscard]] index count() const { return static_cast<index>(first.size()) - 1; }
   [[nodiscard]] int begin(index i) const { return first[static_cast<std::size_t>(i)]; }
   [[nodiscard]] int end(index i) const { return first[static_cast<std::size_t>(i) + 1]; }
-  /// The node of each unknown.
-  [[nodiscard]] std::vector<int> owners() const {
-    std::vector<int> node(static_cast<std::size_t>(first.back()));
-    for (index i = 0; i < count(); ++i) {
-      for (int j = begin(i); j < end(i); ++j)
-        node[static_cast<std::size_t>(j)] = static_cast<int>(i);
-    }
-    return node;
-  }
 };
 
 namespace detail {

@@ -48,18 +48,13 @@ struct condensation_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    auto const positive = [](std::string_view name, double value) {
-      if (!(value > 0) || !detail::is_finite(value)) {
-        throw bad_input(name, detail::show(value), "a finite number > 0");
-      }
-    };
     if (levels && *levels < 0) throw bad_input("levels", detail::show(*levels), "a number >= 0");
     detail::check_option("applications", applications, applications >= 0, "a number >= 0");
-    positive("flops_per_second", flops_per_second);
-    positive("forming_per_second", forming_per_second);
-    positive("bytes_per_second", bytes_per_second);
-    positive("cached_per_second", cached_per_second);
-    positive("cache", cache);
+    detail::check_positive("flops_per_second", flops_per_second);
+    detail::check_positive("forming_per_second", forming_per_second);
+    detail::check_positive("bytes_per_second", bytes_per_second);
+    detail::check_positive("cached_per_second", cached_per_second);
+    detail::check_positive("cache", cache);
     if (!(most_memory >= 1))
       throw bad_input("most_memory", detail::show(most_memory), "at least 1");
   }

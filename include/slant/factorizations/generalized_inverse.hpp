@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,12 +46,10 @@ class generalized_inverse {
   /// bad_input if the columns are dependent or not in the kernel (with ‖K R‖ and what was
   /// expected), if they are not all of it, or if K is not symmetric or not semidefinite.
   generalized_inverse(sparse_type const& K, dense_type const& R)
-      : generalized_inverse(checked{}, K, basis(K, R), nullptr) {}
-
-  /// The same with given fixing rows, as many as R has columns: for those who know better than
-  /// fixing_rows. Throws bad_input also if a row is out of range or the rows of R are dependent.
-  generalized_inverse(sparse_type const& K, dense_type const& R, std::vector<index> const& fixing)
-      : generalized_inverse(checked{}, K, basis(K, R), &fixing) {}
+      : kernel_(basis(K, R)),
+        fixing_(fixing_rows(kernel_)),
+        kept_(complement(kernel_.rows(), fixing_)),
+        factors_(factored(K, kept_, kernel_.cols())) {}
 
   [[nodiscard]] index rows() const noexcept { return kernel_.rows(); }
   [[nodiscard]] index cols() const noexcept { return kernel_.rows(); }
@@ -85,7 +84,6 @@ class generalized_inverse {
   }
 
  private:
-  struct checked {};
   using factors_type = decltype(slant::factorize(std::declval<sparse_type const&>()));
 
   template <class V, class Inner>
@@ -94,13 +92,6 @@ class generalized_inverse {
     V solution;  // K_II⁻¹ x_I
     Inner inner;
   };
-
-  generalized_inverse(checked, sparse_type const& K, dense_type kernel,
-                      std::vector<index> const* fixing)
-      : kernel_(std::move(kernel)),
-        fixing_(fixing != nullptr ? *fixing : fixing_rows(kernel_)),
-        kept_(complement(kernel_, fixing_)),
-        factors_(factored(K, kept_, kernel_.cols())) {}
 
   /// Orthonormal columns, after a look at K and R.
   static dense_type basis(sparse_type const& K, dense_type const& R) {
@@ -116,29 +107,11 @@ class generalized_inverse {
     return basis;
   }
 
-  /// The rows that are not in J, after a look at those that are.
-  static std::vector<index> complement(dense_type const& R, std::vector<index> const& fixing) {
-    detail::check_size("number of fixing rows", static_cast<index>(fixing.size()), R.cols(),
-                       "the columns of R,");
-    std::vector<bool> taken(static_cast<std::size_t>(R.rows()), false);
-    for (index const row : fixing) {
-      bool const usable = row >= 0 && row < R.rows() && !taken[static_cast<std::size_t>(row)];
-      if (!usable) {
-        throw bad_input("fixing", detail::show(row),
-                        "different rows of R, from 0 to " + detail::show(index(R.rows() - 1)));
-      }
-      taken[static_cast<std::size_t>(row)] = true;
-    }
-    if (!fixing.empty()) {
-      dense_type const held = R(fixing, Eigen::all);
-      if (detail::orthonormal_basis<S>(held).cols() < R.cols()) {
-        throw bad_input("fixing", "rows of R that are dependent",
-                        "rows that hold the body: a regular block of R");
-      }
-    }
+  /// I: the rows that are not in J.
+  static std::vector<index> complement(index n, std::vector<index> const& fixing) {
     std::vector<index> rest;
-    for (index i = 0; i < R.rows(); ++i) {
-      if (!taken[static_cast<std::size_t>(i)]) rest.push_back(i);
+    for (index i = 0; i < n; ++i) {
+      if (!std::ranges::binary_search(fixing, i)) rest.push_back(i);
     }
     return rest;
   }

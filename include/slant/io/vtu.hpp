@@ -5,7 +5,7 @@
 //   vtu_grid grid(nodes);                                  // D × n, one column per point
 //   grid.add_cells(vtu_cell::tetrahedron, cells);          // 4 × c, one column per cell
 //   grid.add_point_vectors("displacement", u);             // 2 × n or 3 × n
-//   grid.add_cell_scalars("pressure", p);                  // c
+//   grid.add_point_scalars("pressure", p);                 // n
 //   grid.write("brick.vtu");
 //
 // Needs pugixml (CMake component vtu).
@@ -51,7 +51,6 @@ struct vtu_array {
   char const* type;
   char const* format;
   int components;
-  index count;  ///< tuples
   std::string text;
 };
 
@@ -93,7 +92,6 @@ template <class T>
                   .type = vtu_type<T>(),
                   .format = encoding == vtu_encoding::ascii ? "ascii" : "binary",
                   .components = components,
-                  .count = static_cast<index>(values.size()) / components,
                   .text = {}};
   if (encoding == vtu_encoding::ascii) {
     for (T const value : values) {
@@ -153,6 +151,36 @@ template <class Values>
   return vtu_columns(name, values, 3, encoding);
 }
 
+// --- document ------------------------------------------------------------------------------------
+
+/// An XML file of VTK's, <VTKFile type="…" version="…">.
+class vtk_document {
+ public:
+  vtk_document(char const* type, char const* version) {
+    xml_.append_child(pugi::node_declaration).append_attribute("version") = "1.0";
+    xml_.append_child("VTKFile").append_attribute("type") = type;
+    root().append_attribute("version") = version;
+  }
+  [[nodiscard]] pugi::xml_node root() const { return xml_.child("VTKFile"); }
+
+  /// The file appears complete or not at all. Throws as atomic_file.
+  void write(std::filesystem::path const& path) const {
+    struct : pugi::xml_writer {
+      void write(void const* data, std::size_t size) override {
+        text.append(static_cast<char const*>(data), size);
+      }
+      std::string text{};
+    } out;
+    xml_.save(out, " ");
+    atomic_file file(path);
+    file.write(out.text);
+    file.commit();
+  }
+
+ private:
+  pugi::xml_document xml_;
+};
+
 }  // namespace detail
 
 // --- vtu -----------------------------------------------------------------------------------------
@@ -175,34 +203,13 @@ enum class vtu_cell : std::uint8_t {
 };
 
 [[nodiscard]] constexpr index node_count(vtu_cell cell) {
-  switch (cell) {
-    case vtu_cell::vertex:
-      return 1;
-    case vtu_cell::line:
-      return 2;
-    case vtu_cell::triangle:
-    case vtu_cell::quadratic_line:
-      return 3;
-    case vtu_cell::quadrilateral:
-    case vtu_cell::tetrahedron:
-      return 4;
-    case vtu_cell::pyramid:
-      return 5;
-    case vtu_cell::wedge:
-    case vtu_cell::quadratic_triangle:
-      return 6;
-    case vtu_cell::hexahedron:
-    case vtu_cell::quadratic_quadrilateral:
-      return 8;
-    case vtu_cell::quadratic_tetrahedron:
-      return 10;
-    case vtu_cell::quadratic_hexahedron:
-      return 20;
-  }
-  return 0;
+  // By VTK's number; 0 for shapes that are not here.
+  constexpr index counts[] = {0, 1, 0, 2, 0, 3, 0, 0, 0, 4, 4, 0,  8,
+                              6, 5, 0, 0, 0, 0, 0, 0, 3, 6, 8, 10, 20};
+  return counts[static_cast<std::size_t>(cell)];
 }
 
-/// An unstructured grid with named data on its points and cells. Everything is checked when it is
+/// An unstructured grid with named data on its points. Everything is checked when it is
 /// added: sizes, node numbers, names, and that numbers are finite; each failure is a bad_input.
 class vtu_grid {
  public:
@@ -239,84 +246,43 @@ class vtu_grid {
   /// One number per point: floating point, or integers such as states.
   template <class Values>
   void add_point_scalars(std::string_view name, Eigen::MatrixBase<Values> const& values) {
-    add(point_data_, name, detail::vtu_scalars(name, values, points_, encoding_));
+    add(name, detail::vtu_scalars(name, values, points_, encoding_));
   }
 
   /// One vector per point: 2 × n or 3 × n; a missing third component is 0.
   template <class Values>
   void add_point_vectors(std::string_view name, Eigen::MatrixBase<Values> const& values) {
-    add(point_data_, name, detail::vtu_vectors(name, values, points_, encoding_));
+    add(name, detail::vtu_vectors(name, values, points_, encoding_));
   }
 
-  /// One number per cell added so far.
-  template <class Values>
-  void add_cell_scalars(std::string_view name, Eigen::MatrixBase<Values> const& values) {
-    add(cell_data_, name, detail::vtu_scalars(name, values, cell_count(), encoding_));
-  }
-
-  /// One vector per cell added so far.
-  template <class Values>
-  void add_cell_vectors(std::string_view name, Eigen::MatrixBase<Values> const& values) {
-    add(cell_data_, name, detail::vtu_vectors(name, values, cell_count(), encoding_));
-  }
-
-  /// Appends the document. Throws bad_input if cells were added after data on cells.
-  void write(atomic_file& file) const {
-    for (auto const& array : cell_data_)
-      if (array.count != cell_count())
-        throw bad_input(array.name, detail::show(array.count) + " values",
-                        detail::show(cell_count()) + ", one per cell");
-    struct : pugi::xml_writer {
-      void write(void const* data, std::size_t size) override {
-        text.append(static_cast<char const*>(data), size);
-      }
-      std::string text{};
-    } out;
-    document().save(out, " ");
-    file.write(out.text);
-  }
-
-  /// The same as a file of its own, which appears complete or not at all.
+  /// Writes the file, which appears complete or not at all. Throws as atomic_file.
   void write(std::filesystem::path const& path) const {
-    atomic_file file(path);
-    write(file);
-    file.commit();
-  }
-
- private:
-  using arrays = std::vector<detail::vtu_array>;
-
-  [[nodiscard]] index cell_count() const { return static_cast<index>(types_.size()); }
-
-  static void add(arrays& data, std::string_view name, detail::vtu_array array) {
-    for (auto const& other : data)
-      if (other.name == name)
-        throw bad_input("name", detail::quoted(name) + " again", "a new name");
-    data.push_back(std::move(array));
-  }
-
-  [[nodiscard]] pugi::xml_document document() const {
-    pugi::xml_document document;
-    auto declaration = document.append_child(pugi::node_declaration);
-    declaration.append_attribute("version") = "1.0";
-    auto root = document.append_child("VTKFile");
-    root.append_attribute("type") = "UnstructuredGrid";
-    root.append_attribute("version") = "1.0";
+    detail::vtk_document const document("UnstructuredGrid", "1.0");
+    auto root = document.root();
     root.append_attribute("byte_order") =
         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
     root.append_attribute("header_type") = "UInt64";
     auto piece = root.append_child("UnstructuredGrid").append_child("Piece");
     piece.append_attribute("NumberOfPoints") = static_cast<long long>(points_);
-    piece.append_attribute("NumberOfCells") = static_cast<long long>(cell_count());
+    piece.append_attribute("NumberOfCells") = static_cast<long long>(types_.size());
 
     append(piece.append_child("PointData"), point_data_);
-    append(piece.append_child("CellData"), cell_data_);
     append(piece.append_child("Points"), {coordinates_});
     append(piece.append_child("Cells"),
            {detail::vtu_numbers("connectivity", connectivity_, 1, encoding_),
             detail::vtu_numbers("offsets", offsets_, 1, encoding_),
             detail::vtu_numbers("types", types_, 1, encoding_)});
-    return document;
+    document.write(path);
+  }
+
+ private:
+  using arrays = std::vector<detail::vtu_array>;
+
+  void add(std::string_view name, detail::vtu_array array) {
+    for (auto const& other : point_data_)
+      if (other.name == name)
+        throw bad_input("name", detail::quoted(name) + " again", "a new name");
+    point_data_.push_back(std::move(array));
   }
 
   static void append(pugi::xml_node parent, arrays const& data) {
@@ -337,7 +303,6 @@ class vtu_grid {
   std::vector<std::int64_t> offsets_{};
   std::vector<std::uint8_t> types_{};
   arrays point_data_{};
-  arrays cell_data_{};
 };
 
 // --- series --------------------------------------------------------------------------------------
@@ -375,16 +340,15 @@ class vtu_series {
 
   /// Writes the list; it may be written again when the series has grown. Throws as atomic_file.
   void write() const {
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n <Collection>\n";
+    detail::vtk_document const document("Collection", "0.1");
+    auto collection = document.root().append_child("Collection");
     for (std::size_t i = 0; i < times_.size(); ++i) {
-      text += "  <DataSet timestep=\"" + detail::show(times_[i]) + "\" part=\"0\" file=\"" +
-              escaped(name_of(i)) + "\"/>\n";
+      auto entry = collection.append_child("DataSet");
+      entry.append_attribute("timestep") = detail::show(times_[i]).c_str();
+      entry.append_attribute("part") = 0;
+      entry.append_attribute("file") = name_of(i).c_str();
     }
-    text += " </Collection>\n</VTKFile>\n";
-    atomic_file file(list_);
-    file.write(text);
-    file.commit();
+    document.write(list_);
   }
 
  private:
@@ -392,21 +356,6 @@ class vtu_series {
     std::string number = std::to_string(i);
     if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
     return list_.stem().string() + "_" + number + ".vtu";
-  }
-  [[nodiscard]] static std::string escaped(std::string const& text) {
-    std::string result;
-    for (char const c : text) {
-      if (c == '&') {
-        result += "&amp;";
-      } else if (c == '<') {
-        result += "&lt;";
-      } else if (c == '"') {
-        result += "&quot;";
-      } else {
-        result += c;
-      }
-    }
-    return result;
   }
 
   std::filesystem::path list_;

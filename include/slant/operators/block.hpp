@@ -212,6 +212,16 @@ class block_operator {
   [[nodiscard]] index rows() const { return row_begin_[m]; }
   [[nodiscard]] index cols() const { return col_begin_[n]; }
 
+  /// Block (I, J). One that is owned may be renewed; it keeps its size.
+  template <std::size_t I, std::size_t J>
+  [[nodiscard]] auto const& block() const noexcept {
+    return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
+  }
+  template <std::size_t I, std::size_t J>
+  [[nodiscard]] auto& block() noexcept {
+    return boost::hana::at_c<J>(boost::hana::at_c<I>(rows_).blocks).get();
+  }
+
   template <class X>
     requires applicable<false, X>
   [[nodiscard]] auto workspace(X const& x) const {

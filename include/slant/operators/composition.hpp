@@ -171,12 +171,6 @@ void accumulate(A const& a, S const& α, X const& x, Y& y, W& w) {
          (a & slant::laws<law::positive_definite>).when(full_row_rank);
 }
 
-/// R A Rᵀ with R a choice of different components: as for congruence with independent rows, and
-/// ⟨RARᵀx, x⟩ ≥ ‖ARᵀx‖² ≥ ‖RARᵀx‖² keeps firm nonexpansiveness. A projector does not stay one.
-[[nodiscard]] constexpr law_set restricted_laws(law_set a) {
-  return congruence_laws(a, true) | (a & slant::laws<law::firmly_nonexpansive>);
-}
-
 /// diag(A₁, A₂, …): every law that all blocks have holds for the whole.
 [[nodiscard]] constexpr law_set block_diagonal_laws(std::initializer_list<law_set> blocks) {
   law_set common = slant::laws<law::self_adjoint, law::positive_definite, law::projector,

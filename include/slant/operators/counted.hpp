@@ -17,7 +17,6 @@ namespace slant {
 struct application_counts {
   index applications = 0;          ///< right-hand sides of apply and apply_add
   index adjoint_applications = 0;  ///< right-hand sides of apply_adjoint and apply_adjoint_add
-  index calls = 0;                 ///< calls of any of the four, however many right-hand sides
   index columns = 0;               ///< columns delivered by columns(first, Y)
 };
 
@@ -32,22 +31,21 @@ class application_counter {
     (kind == application_kind::forward   ? n.applications
      : kind == application_kind::adjoint ? n.adjoint_applications
                                          : n.columns) += columns;
-    if (kind != application_kind::columns) ++n.calls;
     return {};
   }
 
   [[nodiscard]] application_counts read() const noexcept {
     auto const& n = *counts_;
-    return {n.applications, n.adjoint_applications, n.calls, n.columns};
+    return {n.applications, n.adjoint_applications, n.columns};
   }
   void reset() const noexcept {
     auto& n = *counts_;
-    n.applications = n.adjoint_applications = n.calls = n.columns = 0;
+    n.applications = n.adjoint_applications = n.columns = 0;
   }
 
  private:
   struct counts {
-    std::atomic<index> applications{0}, adjoint_applications{0}, calls{0}, columns{0};
+    std::atomic<index> applications{0}, adjoint_applications{0}, columns{0};
   };
   std::shared_ptr<counts> counts_ = std::make_shared<counts>();
 };

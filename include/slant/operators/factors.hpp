@@ -39,11 +39,7 @@ template <class S>
 class positive_factor {
  public:
   /// Throws bad_input unless 0 < c < ∞.
-  explicit positive_factor(S c) : value_(std::move(c)) {
-    if (!(value_ > S(0)) || !detail::is_finite(value_)) {
-      throw bad_input("c", detail::show(value_), "a finite number > 0");
-    }
-  }
+  explicit positive_factor(S c) : value_(std::move(c)) { detail::check_positive("c", value_); }
   [[nodiscard]] S const& value() const noexcept { return value_; }
 
  private:

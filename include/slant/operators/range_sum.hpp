@@ -30,8 +30,6 @@ class range_sum_operator {
 
   [[nodiscard]] index rows() const { return terms_.front().get().rows(); }
   [[nodiscard]] index cols() const { return terms_.front().get().cols(); }
-  /// p.
-  [[nodiscard]] index term_count() const { return static_cast<index>(terms_.size()); }
   [[nodiscard]] part const& term(index i) const {
     return terms_[static_cast<std::size_t>(i)].get();
   }

@@ -4,7 +4,6 @@
 //
 //     auto R = slant::restriction(n, {1, 4, 5});     // y = (x₁, x₄, x₅)
 //     auto A_FF = slant::restricted(A, free);        // R A Rᵀ, keeps definiteness
-//     A_FF.assign(other);                            // no allocation up to the reserved capacity
 #pragma once
 
 #include <slant/base/sizes.hpp>
@@ -12,8 +11,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/operators/composition.hpp>
-#include <slant/operators/matrix.hpp>
 #include <slant/operators/product.hpp>
 
 #include <cstddef>
@@ -29,27 +26,28 @@ class restriction {
  public:
   static constexpr bool full_row_rank = true;
 
-  /// Throws bad_input unless the components are different numbers in [0, n). Room is reserved for
-  /// n components, so that assign never allocates.
-  restriction(index n, auto const& components) {
+  /// Throws bad_input unless the components are different numbers in [0, n).
+  restriction(index n, auto const& components) : n_(n) {
     if (n < 0) throw bad_input("n", detail::show(n), "a size >= 0");
-    taken_.assign(static_cast<std::size_t>(n), 0);
-    components_.reserve(taken_.size());
-    assign(components);
+    std::vector<bool> taken(static_cast<std::size_t>(n), false);
+    for (auto const& c : components) {
+      auto const next = static_cast<index>(c);
+      bool const exists = next >= 0 && next < n;
+      if (!exists || taken[static_cast<std::size_t>(next)]) {
+        throw bad_input("components", detail::show(next),
+                        exists ? "different components"
+                               : "a component of the vector (>= 0 and less than its size)")
+            .at(rows());
+      }
+      taken[static_cast<std::size_t>(next)] = true;
+      components_.push_back(next);
+    }
   }
   restriction(index n, std::initializer_list<index> components)
       : restriction(n, std::vector<index>(components)) {}
 
-  /// Replaces the components by those of a range of integers, without allocating. Throws bad_input
-  /// unless they are different numbers in [0, cols()); the list is then as before.
-  void assign(auto const& components) {
-    require_valid(components);
-    components_.clear();
-    for (auto const& c : components) components_.push_back(static_cast<index>(c));
-  }
-
   [[nodiscard]] index rows() const noexcept { return static_cast<index>(components_.size()); }
-  [[nodiscard]] index cols() const noexcept { return static_cast<index>(taken_.size()); }
+  [[nodiscard]] index cols() const noexcept { return n_; }
   [[nodiscard]] index component(index i) const { return components_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::vector<index> const& components() const noexcept { return components_; }
 
@@ -70,30 +68,6 @@ class restriction {
   }
 
  private:
-  void require_valid(auto const& components) {
-    index position = 0, offender = 0;
-    char const* expectation = nullptr;
-    for (auto const& c : components) {
-      offender = static_cast<index>(c);
-      bool const exists = offender >= 0 && offender < cols();
-      if (!exists || taken_[static_cast<std::size_t>(offender)] != 0) {
-        expectation = exists ? "different components"
-                             : "a component of the vector (>= 0 and less than its size)";
-        break;
-      }
-      taken_[static_cast<std::size_t>(offender)] = 1;
-      ++position;
-    }
-    index unmark = position;  // the marks are only needed while checking
-    for (auto const& c : components) {
-      if (unmark-- == 0) break;
-      taken_[static_cast<std::size_t>(c)] = 0;
-    }
-    if (expectation != nullptr) {
-      throw bad_input("components", detail::show(offender), expectation).at(position);
-    }
-  }
-
   /// f(full component c_i, short component i) for all i and all right-hand sides.
   void each(auto& full, auto& shorter, auto f) const {
     auto&& a = slant::local(full);
@@ -111,83 +85,16 @@ class restriction {
     }
   }
 
+  index n_;
   std::vector<index> components_;
-  std::vector<unsigned char> taken_;  // all zero between calls; its size is the full size
 };
 
-/// y = R A Rᵀ x: the congruence with R, whose components may change, and which knows its diagonal
-/// and columns. A is `Operator const&` (referenced) or an operator type (owned).
-template <class A>
-class restricted_operator {
-  using part = std::remove_cvref_t<A>;
-
-  [[nodiscard]] auto congruence() const { return slant::congruence(r_, a_.get()); }
-
- public:
-  static constexpr law_set laws = detail::restricted_laws(laws_of<A>);
-
-  /// A is square of size r.cols(); slant::restricted checks it.
-  restricted_operator(held<A> a, restriction r) : a_(std::move(a)), r_(std::move(r)) {}
-
-  [[nodiscard]] index rows() const noexcept { return r_.rows(); }
-  [[nodiscard]] index cols() const noexcept { return r_.rows(); }
-  /// R.
-  [[nodiscard]] restriction const& components() const noexcept { return r_; }
-  /// Other components from now on; as restriction::assign. Workspaces stay valid.
-  void assign(auto const& components) { r_.assign(components); }
-
-  [[nodiscard]] auto workspace(detail::accepted_by<part> auto const& x) const {
-    return congruence().workspace(x);
-  }
-  void apply(detail::accepted_by<part> auto const& x, auto& y, auto& w) const {
-    congruence().apply(x, y, w);
-  }
-  template <detail::accepted_by<part> X, class Y, class W>
-  void apply_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    congruence().apply_add(α, x, y, w);
-  }
-
-  [[nodiscard]] auto adjoint_workspace(detail::accepted_by_adjoint_of<part> auto const& x) const {
-    return congruence().adjoint_workspace(x);
-  }
-  void apply_adjoint(detail::accepted_by_adjoint_of<part> auto const& x, auto& y, auto& w) const {
-    congruence().apply_adjoint(x, y, w);
-  }
-  template <detail::accepted_by_adjoint_of<part> X, class Y, class W>
-  void apply_adjoint_add(scalar_t<X> α, X const& x, Y& y, W& w) const {
-    congruence().apply_adjoint_add(α, x, y, w);
-  }
-
-  template <class D>
-    requires has_diagonal<part, plain_t<D>>
-  void diagonal(D& d) const {
-    auto full = slant::like(d, r_.cols());
-    a_.get().diagonal(full);
-    r_.apply(full, d);
-  }
-  template <class Y>
-    requires has_columns<part, plain_t<Y>>
-  void columns(index first, Y& y) const {
-    plain_t<Y> full(r_.cols(), 1);
-    for (index j = 0; j < y.cols(); ++j) {
-      a_.get().columns(r_.component(first + j), full);
-      auto column = y.middleCols(j, 1);
-      r_.apply(full, column);
-    }
-  }
-
- private:
-  held<A> a_;
-  restriction r_;
-};
-
-/// R A Rᵀ for the given components. Throws bad_input if A is not square, or as restriction does.
+/// R A Rᵀ for the given components: a congruence. Throws bad_input if A is not square, or as
+/// restriction does.
 template <operand A, class Components>
 [[nodiscard]] auto restricted(A&& a, Components const& components) {
-  held<part_t<A>> part{slant::as_operator(std::forward<A>(a))};
-  detail::require_square("A", part.get());
-  restriction r(part.get().rows(), components);
-  return restricted_operator<part_t<A>>{std::move(part), std::move(r)};
+  restriction r(a.rows(), components);
+  return slant::congruence(std::move(r), std::forward<A>(a));
 }
 template <operand A>
 [[nodiscard]] auto restricted(A&& a, std::initializer_list<index> components) {

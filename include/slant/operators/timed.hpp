@@ -40,7 +40,6 @@ class stopwatch {
   [[nodiscard]] double seconds() const noexcept {
     return 1e-9 * static_cast<double>(nanoseconds_->load(std::memory_order_relaxed));
   }
-  void reset() const noexcept { nanoseconds_->store(0, std::memory_order_relaxed); }
 
  private:
   std::shared_ptr<std::atomic<std::int64_t>> nanoseconds_ =
@@ -58,7 +57,6 @@ class timed_operator : public detail::decorator<A, detail::stopwatch> {
 
   /// Seconds spent in apply, apply_add, their adjoints and columns.
   [[nodiscard]] double seconds() const noexcept { return this->probe().seconds(); }
-  void reset_seconds() const noexcept { this->probe().reset(); }
 };
 
 /// A with the time of its applications measured.

@@ -21,6 +21,7 @@
 
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/free_space.hpp>
@@ -190,7 +191,7 @@ class any_set;
 
 /// The slanting operator of the projection onto an any_set, that of run after run.
 template <scalar S>
-class any_set_slant {
+class any_set_slant : public detail::direct_sum_base<any_set_slant<S>> {
  public:
   using scalar = S;
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
@@ -198,41 +199,9 @@ class any_set_slant {
   [[nodiscard]] index rows() const { return size_; }
   [[nodiscard]] index cols() const { return size_; }
 
-  /// y = G x.
-  template <class X, class Y>
-  void apply(X const& x, Y& y) const {
-    visit([&](auto const& g, index first) {
-      auto const xs = slant::local(x).middleRows(first, g.rows());
-      auto ys = slant::local(y).middleRows(first, g.rows());
-      g.apply(xs, ys);
-    });
-  }
-  /// y ← y + α G x.
-  template <class X, class Y>
-  void apply_add(S const& α, X const& x, Y& y) const {
-    visit([&](auto const& g, index first) {
-      auto const xs = slant::local(x).middleRows(first, g.rows());
-      auto ys = slant::local(y).middleRows(first, g.rows());
-      g.apply_add(α, xs, ys);
-    });
-  }
-  /// d = diag(G).
-  template <class V>
-  void diagonal(V& d) const {
-    visit([&](auto const& g, index first) {
-      auto ds = slant::local(d).middleRows(first, g.rows());
-      g.diagonal(ds);
-    });
-  }
-
- private:
-  template <slant::scalar, class>
-  friend class any_set;
-  any_set_slant() = default;
-
   /// f(slant of a run, its first row).
   template <class F>
-  void visit(F const& f) const {
+  void for_each(F const& f) const {
     index first = 0;
     for (auto const& run : runs_) {
       std::visit(
@@ -243,6 +212,11 @@ class any_set_slant {
           run);
     }
   }
+
+ private:
+  template <slant::scalar, class>
+  friend class any_set;
+  any_set_slant() = default;
 
   std::vector<detail::any_run_slant<S>> runs_{};
   index size_ = 0;

@@ -19,12 +19,8 @@
 
 #include <Eigen/Core>
 
-#include <compare>
-#include <cstddef>
-#include <iterator>
 #include <ranges>
 #include <type_traits>
-#include <utility>
 
 namespace slant {
 
@@ -74,56 +70,30 @@ class block_of_point {
   slant::index first_ = 0, size_ = 0, stride_ = 1;
 };
 
+namespace detail {
+
+/// k ↦ block k of a point.
+template <class C, class X>
+struct block_at {
+  C const* set = nullptr;
+  X const* x = nullptr;
+  [[nodiscard]] block_of_point<C, X> operator()(int k) const { return {*set, *x, k}; }
+};
+/// Numbered by int: distances of an iota of wider numbers have 128 bits, with which clients get
+/// warnings.
+template <class C, class X>
+using blocks_view = std::ranges::transform_view<std::ranges::iota_view<int, int>, block_at<C, X>>;
+
+}  // namespace detail
+
 /// The blocks of a point, a random access view. Made by `blocks`.
 template <class C, class X>
-class block_range : public std::ranges::view_interface<block_range<C, X>> {
+class block_range : public detail::blocks_view<C, X> {
  public:
-  class iterator {
-   public:
-    using iterator_concept = std::random_access_iterator_tag;
-    using iterator_category = std::input_iterator_tag;  // * returns no reference
-    using value_type = block_of_point<C, X>;
-    using difference_type = std::ptrdiff_t;
-    using reference = value_type;
-    using pointer = void;
-
-    iterator() = default;
-    iterator(C const* set, X const* x, difference_type k) : set_(set), x_(x), k_(k) {}
-
-    value_type operator*() const { return {*set_, *x_, k_}; }
-    value_type operator[](difference_type n) const { return *(*this + n); }
-    iterator& operator+=(difference_type n) {
-      k_ += n;
-      return *this;
-    }
-    iterator& operator-=(difference_type n) { return *this += -n; }
-    iterator& operator++() { return *this += 1; }
-    iterator& operator--() { return *this += -1; }
-    iterator operator++(int) { return std::exchange(*this, *this + 1); }
-    iterator operator--(int) { return std::exchange(*this, *this - 1); }
-    friend iterator operator+(iterator i, difference_type n) { return i += n; }
-    friend iterator operator+(difference_type n, iterator i) { return i += n; }
-    friend iterator operator-(iterator i, difference_type n) { return i -= n; }
-    friend difference_type operator-(iterator const& a, iterator const& b) { return a.k_ - b.k_; }
-    friend bool operator==(iterator const& a, iterator const& b) { return a.k_ == b.k_; }
-    friend auto operator<=>(iterator const& a, iterator const& b) { return a.k_ <=> b.k_; }
-
-   private:
-    C const* set_ = nullptr;
-    X const* x_ = nullptr;
-    difference_type k_ = 0;
-  };
-
   block_range() = default;
-  block_range(C const& set, X const& x) : set_(&set), x_(&x), count_(slant::block_count(set)) {}
-
-  [[nodiscard]] iterator begin() const { return {set_, x_, 0}; }
-  [[nodiscard]] iterator end() const { return {set_, x_, count_}; }
-
- private:
-  C const* set_ = nullptr;
-  X const* x_ = nullptr;
-  index count_ = 0;
+  block_range(C const& set, X const& x)
+      : detail::blocks_view<C, X>(std::views::iota(0, static_cast<int>(slant::block_count(set))),
+                                  detail::block_at<C, X>{&set, &x}) {}
 };
 
 /// The blocks of the point x of a set, see the top of this file; x has entries in memory. Refers to

@@ -333,12 +333,57 @@ concept accumulates_rows = requires(P const& part, scalar_t<X> α, rows_of_t<X c
 template <class P, class V>
 concept writes_diagonal_rows = requires(P const& part, rows_of_t<V> d) { part.diagonal(d); };
 
+/// What the direct sum of Parts does; Sum has for_each(f), which calls f(part, its first row).
+template <class Sum, class... Parts>
+class direct_sum_base {
+ public:
+  /// y = G x.
+  template <class X, class Y>
+    requires(applies_to_rows<Parts, X, Y> && ...)
+  void apply(X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    sum().for_each([&](auto const& part, index first) {
+      auto const xs = from.middleRows(first, part.rows());
+      auto ys = to.middleRows(first, part.rows());
+      part.apply(xs, ys);
+    });
+  }
+
+  /// y ← y + α G x.
+  template <class X, class Y>
+    requires(accumulates_rows<Parts, X, Y> && ...)
+  void apply_add(scalar_t<X> const& α, X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    sum().for_each([&](auto const& part, index first) {
+      auto const xs = from.middleRows(first, part.rows());
+      auto ys = to.middleRows(first, part.rows());
+      part.apply_add(α, xs, ys);
+    });
+  }
+
+  /// d = diag(G).
+  template <class V>
+    requires(writes_diagonal_rows<Parts, V> && ...)
+  void diagonal(V& d) const {
+    auto& entries = slant::local(d);
+    sum().for_each([&](auto const& part, index first) {
+      auto ds = entries.middleRows(first, part.rows());
+      part.diagonal(ds);
+    });
+  }
+
+ private:
+  [[nodiscard]] Sum const& sum() const { return static_cast<Sum const&>(*this); }
+};
+
 }  // namespace detail
 
 /// diag(P₁, …, P_k) for operators P_i that apply without a workspace to segments of a vector. Every
 /// law that all parts declare holds for the direct sum, and it can do what all parts can.
 template <class... Parts>
-class direct_sum_slant {
+class direct_sum_slant : public detail::direct_sum_base<direct_sum_slant<Parts...>, Parts...> {
  public:
   static constexpr auto laws = (law_set{~0U} & ... & laws_of<Parts>);
 
@@ -361,44 +406,6 @@ class direct_sum_slant {
     return boost::hana::at_c<I>(parts_);
   }
 
-  /// y = G x.
-  template <class X, class Y>
-    requires(detail::applies_to_rows<Parts, X, Y> && ...)
-  void apply(X const& x, Y& y) const {
-    auto const& from = slant::local(x);
-    auto& to = slant::local(y);
-    for_each([&](auto const& part, index first) {
-      auto const xs = from.middleRows(first, part.rows());
-      auto ys = to.middleRows(first, part.rows());
-      part.apply(xs, ys);
-    });
-  }
-
-  /// y ← y + α G x.
-  template <class X, class Y>
-    requires(detail::accumulates_rows<Parts, X, Y> && ...)
-  void apply_add(scalar_t<X> const& α, X const& x, Y& y) const {
-    auto const& from = slant::local(x);
-    auto& to = slant::local(y);
-    for_each([&](auto const& part, index first) {
-      auto const xs = from.middleRows(first, part.rows());
-      auto ys = to.middleRows(first, part.rows());
-      part.apply_add(α, xs, ys);
-    });
-  }
-
-  /// d = diag(G).
-  template <class V>
-    requires(detail::writes_diagonal_rows<Parts, V> && ...)
-  void diagonal(V& d) const {
-    auto& entries = slant::local(d);
-    for_each([&](auto const& part, index first) {
-      auto ds = entries.middleRows(first, part.rows());
-      part.diagonal(ds);
-    });
-  }
-
- private:
   /// f(part, first row of it).
   template <class F>
   void for_each(F&& f) const {
@@ -408,6 +415,7 @@ class direct_sum_slant {
     }(std::index_sequence_for<Parts...>{});
   }
 
+ private:
   boost::hana::basic_tuple<Parts...> parts_;
 };
 

@@ -56,7 +56,6 @@ class curved_face {
     components_.clear();
     held_.clear();
     matrices_.clear();
-    fixed_ = 0;
     slant::visit_blocks(set, [&](auto const& block, auto const& p) {
       using block_type = std::remove_cvref_t<decltype(block)>;
       if constexpr (!whole_space<block_type>) {
@@ -67,9 +66,8 @@ class curved_face {
     });
   }
 
-  /// Number of blocks with some, but not every motion left, and of those with none.
+  /// Number of blocks with some, but not every motion left.
   [[nodiscard]] index curved_count() const { return static_cast<index>(blocks_.size()); }
-  [[nodiscard]] index fixed_count() const { return fixed_; }
 
   /// f(component) for those of the blocks with some, but not every motion left.
   template <class F>
@@ -153,7 +151,6 @@ class curved_face {
       mask_.coeffRef(p.component(j)) = fixed ? S(0) : S(1);
       if (fixed) held_.push_back(p.component(j));
     }
-    if (fixed) ++fixed_;
     if (inside || fixed) return;
 
     blocks_.push_back({components_.size(), matrices_.size(), N});
@@ -212,7 +209,6 @@ class curved_face {
   std::vector<index> components_;
   std::vector<index> held_;  // components of fixed blocks
   std::vector<S> matrices_;
-  index fixed_ = 0;
 };
 
 }  // namespace slant

@@ -82,9 +82,6 @@ class face {
   [[nodiscard]] index dimension() const { return mask_.size(); }
   /// Number of blocks in a state.
   [[nodiscard]] index count(block_state s) const { return counts_[static_cast<std::size_t>(s)]; }
-  [[nodiscard]] index free_count() const { return count(block_state::free); }
-  [[nodiscard]] index sliding_count() const { return count(block_state::sliding); }
-  [[nodiscard]] index fixed_count() const { return count(block_state::fixed); }
 
   /// State of block i in the order of visit.
   [[nodiscard]] block_state state(index i) const { return states_[static_cast<std::size_t>(i)]; }

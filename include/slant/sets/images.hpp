@@ -122,9 +122,7 @@ template <class S, class C>
 [[nodiscard]] auto scaled(S const& c, C&& set) {
   using scalar = set_scalar_t<C>;
   auto const factor = static_cast<scalar>(c);
-  if (!(factor > scalar(0) && detail::is_finite(factor))) {
-    throw bad_input("c", detail::show(factor), "a finite number > 0");
-  }
+  detail::check_positive("c", factor);
   return detail::image_of(std::forward<C>(set), detail::dilation<scalar>(factor));
 }
 
@@ -192,7 +190,7 @@ template <class S, class C>
 [[nodiscard]] auto block_scaled(Eigen::Matrix<S, Eigen::Dynamic, 1> d, C&& set) {
   using map = detail::block_dilation<S>;
   detail::check_block_factors(d, set);
-  return image_product<kept_t<C>, map>(held<kept_t<C>>(std::forward<C>(set)), map(std::move(d)));
+  return image_set<kept_t<C>, map>(held<kept_t<C>>(std::forward<C>(set)), map(std::move(d)));
 }
 
 // --- rotated -------------------------------------------------------------------------------------

@@ -284,9 +284,7 @@ class second_order_cone {
 
   /// @throws bad_input if mu is NaN, negative or infinite.
   explicit second_order_cone(S const& mu) : mu_(mu) {
-    if (!(mu >= S(0) && detail::is_finite(mu))) {
-      throw bad_input("mu", detail::show(mu), "a finite number >= 0");
-    }
+    detail::check_option("mu", mu, mu >= S(0) && detail::is_finite(mu), "a finite number >= 0");
   }
 
   [[nodiscard]] second_order_cone with(S const& mu) const { return second_order_cone(mu); }

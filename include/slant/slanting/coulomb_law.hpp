@@ -12,6 +12,7 @@
 #include <slant/operators/diagonal.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
+#include <slant/sets/power.hpp>
 #include <slant/sets/slants.hpp>
 #include <slant/slanting/affine.hpp>
 #include <slant/slanting/arithmetic.hpp>
@@ -49,40 +50,26 @@ concept function_block =
 /// F_i of type Block on the entries N i … N i + N − 1. Made by `blockwise`. Only slant(y)
 /// allocates.
 template <function_block Block>
-class blockwise_map : public slanting_base {
-  static constexpr int n = Block::dimension;
+class blockwise_map
+    : public slanting_base,
+      private detail::equal_parts<Block, consecutive, detail::listed_blocks<Block>> {
+  using base = detail::equal_parts<Block, consecutive, detail::listed_blocks<Block>>;
 
  public:
-  using scalar = typename Block::scalar;
-  using block_type = Block;
-  using slant_type = block_diagonal_slant<scalar, n, consecutive, false, law_set{}>;
+  using base::base, base::block_count, base::block, base::update;
+  using typename base::block_type, typename base::scalar;
+  using slant_type = block_diagonal_slant<scalar, Block::dimension, consecutive, false, law_set{}>;
 
-  explicit blockwise_map(detail::listed_blocks<Block> blocks) : blocks_(std::move(blocks)) {}
-
-  [[nodiscard]] index rows() const { return n * blocks_.size(); }
-  [[nodiscard]] index cols() const { return rows(); }
-  [[nodiscard]] index block_count() const { return blocks_.size(); }
-  /// F_i.
-  [[nodiscard]] Block const& block(index i) const { return blocks_[i]; }
-
-  /// New parameters for all blocks (lists of their number, or one value for all); does not
-  /// allocate.
-  /// @throws bad_input naming parameter and block; the function is then unchanged.
-  template <class... Params>
-    requires detail::takes_parameters<Block, Params...>
-  void update(Params const&... params) {
-    blocks_.update(params...);
-  }
+  [[nodiscard]] index rows() const { return this->size(); }
+  [[nodiscard]] index cols() const { return this->size(); }
 
   template <class Y, class V>
     requires std::same_as<scalar_t<Y>, scalar>
   void value(Y const& y, V& v) const {
     auto const& from = slant::local(y);
     auto& to = slant::local(v);
-    for (index i = 0; i < block_count(); ++i) {
-      auto const p = place_of(i);
-      p.put(to, block(i).value(p.value(from)));
-    }
+    this->for_each_factor(
+        [&](Block const& b, auto const& p) { p.put(to, b.value(p.value(from))); });
   }
   template <class Y>
     requires std::same_as<scalar_t<Y>, scalar>
@@ -95,16 +82,9 @@ class blockwise_map : public slanting_base {
     requires std::same_as<scalar_t<Y>, scalar>
   void slant(Y const& y, slant_type& g) const {
     for (index i = 0; i < block_count(); ++i) {
-      g.assign(i, block(i).slant(place_of(i).value(slant::local(y))));
+      g.assign(i, block(i).slant(this->at(i).value(slant::local(y))));
     }
   }
-
- private:
-  [[nodiscard]] auto place_of(index i) const {
-    return block_place<n, consecutive>(i, block_count());
-  }
-
-  detail::listed_blocks<Block> blocks_;
 };
 
 /// One block shape.with(parameters[i]…) per entry of the lists, as for slant::power.
@@ -155,9 +135,7 @@ class alart_curnier_block {
 
   /// @throws bad_input if mu is NaN, negative or infinite.
   explicit alart_curnier_block(S const& mu) : mu_(mu) {
-    if (!(mu >= S(0) && detail::is_finite(mu))) {
-      throw bad_input("mu", detail::show(mu), "a finite number >= 0");
-    }
+    detail::check_option("mu", mu, mu >= S(0) && detail::is_finite(mu), "a finite number >= 0");
   }
 
   [[nodiscard]] alart_curnier_block with(S const& mu) const { return alart_curnier_block(mu); }
@@ -318,9 +296,7 @@ class de_saxce_block {
 
  private:
   [[nodiscard]] static S const& checked(char const* name, S const& mu) {
-    if (!(mu >= S(0) && detail::is_finite(mu))) {
-      throw bad_input(name, detail::show(mu), "a finite number >= 0");
-    }
+    detail::check_option(name, mu, mu >= S(0) && detail::is_finite(mu), "a finite number >= 0");
     return mu;
   }
   /// (μ₁u₁, …).

@@ -72,17 +72,18 @@ class kkt_operator : public Composed {
 
   /// (H, Jᵀ), with jacobian() = J.
   [[nodiscard]] auto const& curvature() const noexcept {
-    return this->template part<0>().template term<1>();
+    return this->template block<0, 0>().template term<1>();
   }
   /// J.
   [[nodiscard]] auto const& jacobian() const noexcept { return curvature().jacobian(); }
   /// 1 for the inequalities in 𝒜, 0 for those in ℐ.
   [[nodiscard]] auto const& active() const noexcept {
-    return this->template part<1>().first_weights();
+    return this->template block<1, 0>().first_weights();
   }
   /// A.
   [[nodiscard]] auto const& hessian() const noexcept {
-    return expr::operator_behind(this->template part<0>().template term<0>().template factor<0>());
+    return expr::operator_behind(
+        this->template block<0, 0>().template term<0>().template factor<0>());
   }
   /// The composition itself.
   [[nodiscard]] Composed& composed() noexcept { return *this; }
@@ -154,9 +155,7 @@ template <operand A, class V, class C>
   index const n = slant::dimension_of(set);
   detail::require_size("A", a, n, n, "the dimension of the set");
   detail::require_offset("b", b, n);
-  if (!(ρ > scalar_t<V>(0) && detail::is_finite(ρ))) {
-    throw bad_input("rho", detail::show(ρ), "a finite number > 0");
-  }
+  detail::check_positive("rho", ρ);
   return kkt_function<part_t<A>, V, kept_t<C>>(
       held<part_t<A>>(slant::as_operator(std::forward<A>(a))), b,
       held<kept_t<C>>(std::forward<C>(set)), ρ);

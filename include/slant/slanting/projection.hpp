@@ -106,9 +106,7 @@ template <operand A, class B, class Set, class S>
   index const n = slant::dimension_of(set);
   detail::require_size("A", a, n, n, "the dimension of the set");
   detail::require_offset("b", b, n);
-  if (!(ρ > S(0) && detail::is_finite(ρ))) {
-    throw bad_input("rho", detail::show(ρ), "a finite number > 0");
-  }
+  detail::check_positive("rho", ρ);
   identity_map const x(n);
   return identity_map(n) -
          slant::projection(slant::at_step(std::forward<Set>(set), ρ)) *

@@ -70,15 +70,9 @@ template <class C>
 /// Throws unless the vector called `name` has n finite entries.
 template <class C>
 void require_offset(std::string_view name, C const& c, index n) {
-  auto const& v = slant::local(c);
-  require_equal_sizes(std::string(name).append(".size()"), v.size(), n,
+  require_equal_sizes(std::string(name).append(".size()"), slant::local(c).size(), n,
                       "the number of rows of the operator");
-  for (index i = 0; i < n; ++i) {
-    scalar_t<C> const entry = v.coeff(i);
-    if (!is_finite(entry)) {
-      throw bad_input(name, show(entry), "a finite number").at(i);
-    }
-  }
+  check_finite(name, c);
 }
 
 // --- derivative ----------------------------------------------------------------------------------

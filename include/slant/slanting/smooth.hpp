@@ -24,11 +24,11 @@ struct no_renewal {};
 }  // namespace detail
 
 /// F given by value(y, f), derivative(y) and perhaps renew(y, G).
-template <law_set L, class Value, class Derivative, class Renew = detail::no_renewal>
+template <law_set L, class Value, class Derivative, class Renew>
 class smooth_map : public slanting_base {
  public:
   /// @throws bad_input if a size is negative.
-  smooth_map(index rows, index cols, Value value, Derivative derivative, Renew renew = {})
+  smooth_map(index rows, index cols, Value value, Derivative derivative, Renew renew)
       : rows_(rows),
         cols_(cols),
         value_(std::move(value)),
@@ -69,17 +69,12 @@ class smooth_map : public slanting_base {
 
 /// F: R^cols → R^rows. value(y, f) overwrites f with F(y); derivative(y) returns F′(y), an operator
 /// or an Eigen matrix; L are the laws that the caller asserts for such a matrix (self_adjoint for
-/// the Hessian of a function). Without `renew` each new derivative may allocate.
+/// the Hessian of a function). renew(y, G) does G = F′(y) into an operator that derivative(y₀) made
+/// earlier; without it each new derivative may allocate.
 /// @throws bad_input if a size is negative.
-template <law... L, class Value, class Derivative>
-[[nodiscard]] auto smooth(index rows, index cols, Value value, Derivative derivative) {
-  return smooth_map<slant::laws<L...>, Value, Derivative>(rows, cols, std::move(value),
-                                                          std::move(derivative));
-}
-
-/// The same with renew(y, G): G = F′(y) into an operator that derivative(y₀) made earlier.
-template <law... L, class Value, class Derivative, class Renew>
-[[nodiscard]] auto smooth(index rows, index cols, Value value, Derivative derivative, Renew renew) {
+template <law... L, class Value, class Derivative, class Renew = detail::no_renewal>
+[[nodiscard]] auto smooth(index rows, index cols, Value value, Derivative derivative,
+                          Renew renew = {}) {
   return smooth_map<slant::laws<L...>, Value, Derivative, Renew>(
       rows, cols, std::move(value), std::move(derivative), std::move(renew));
 }

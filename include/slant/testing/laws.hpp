@@ -74,18 +74,12 @@ void check_face_laws(F const& face, V const& prototype) {
 /// broken law and the numbers that show it.
 template <class F, vector... V>
   requires(slanting_function<F, V> && ...)
-void check_slanting_laws(slanting_options const& options, F const& f, V const&... points) {
+void check_slanting_laws(F const& f, V const&... points) {
   auto const check = [&](auto const& y) {
-    auto const text = listed(slanting_breaches(f, y, options));
+    auto const text = listed(slanting_breaches(f, y));
     CHECK_MESSAGE(text.empty(), "broken at ", slant::local(y).transpose(), ":\n", text);
   };
   (check(points), ...);
-}
-
-template <class F, vector... V>
-  requires(slanting_function<F, V> && ...)
-void check_slanting_laws(F const& f, V const&... points) {
-  slant::testing::check_slanting_laws(slanting_options{}, f, points...);
 }
 
 }  // namespace slant::testing

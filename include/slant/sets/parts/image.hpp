@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Images of a block under x = T z, T a shift, a scaling or a rotation. Such T map nearest points to
-// nearest points, so everything a block can do carries over.
+// Images of a set under x = T z, T a shift, a scaling or a rotation. Such T map nearest points to
+// nearest points, so everything a set can do carries over.
 #pragma once
 
 #include <slant/base/held.hpp>
@@ -66,7 +66,7 @@ template <class C, class Z, class S>
 
 namespace slant {
 
-// --- block ---------------------------------------------------------------------------------------
+// --- image ---------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -82,8 +82,8 @@ template <class E>
 
 }  // namespace detail
 
-template <set_block Part, class Map>
-class image_block;
+template <class Part, class Map>
+class image_set;
 
 namespace detail {
 
@@ -91,170 +91,58 @@ namespace detail {
 template <class Map, class F>
 [[nodiscard]] auto of_image(Map const& map, F& f) {
   return [&](auto const& b, auto const& p) {
-    f(image_block<std::remove_cvref_t<decltype(b)>, decltype(map.at(p))>(b, map.at(p)), p);
+    f(image_set<std::remove_cvref_t<decltype(b)>, decltype(map.at(p))>(b, map.at(p)), p);
   };
 }
 
 }  // namespace detail
 
-/// T(Part). Made by `shifted`, `scaled_set` and `rotated`. T has
-///     pull(x) = T⁻¹x, pull_direction(d), push(z) = T z, push_direction(z),
+/// T(Part) of a block, or of a product or any set whose dimension is known at run time; these under
+/// a T that acts on each component. Made by `shifted`, `scaled_set` and `rotated`. T has
+///     pull(x) = T⁻¹x, pull_direction(d), push(z) = T z,
 ///     offset(y) = yᵀT(0), push_adjoint(y): yᵀ(T z − T 0) = push_adjoint(y)ᵀz,
 ///     push_gradient(g), push_hessian(h), push_slant(g)    derivatives of f ∘ T⁻¹ and of T P T⁻¹
 ///     slop(x, z)    a bound on the rounding error of z = pull(x), sum of moduli
 ///     at(place)     the map of one block, if T acts on each component (separable)
-template <set_block Part, class Map>
-class image_block : public detail::inequality_count<Part> {
-  static constexpr bool smooth = detail::all_smooth<Part>;
-  /// The image of a product is the product of the images.
-  static constexpr bool in_blocks = Map::separable && has_visit<Part>;
-
- public:
-  using scalar = set_scalar_t<Part>;
-  static constexpr int dimension = Part::dimension;
-  static constexpr bool whole_space = slant::whole_space<Part>;
-  static constexpr bool single_point = slant::single_point<Part>;
-  using vector_type = Eigen::Matrix<scalar, dimension, 1>;
-  using matrix_type = Eigen::Matrix<scalar, dimension, dimension>;
-
-  image_block(Part part, Map map) : part_(std::move(part)), map_(std::move(map)) {}
-
-  [[nodiscard]] Part const& part() const { return part_; }
-  [[nodiscard]] Map const& map() const { return map_; }
-  [[nodiscard]] static constexpr index size() { return dimension; }
-
-  /// The image of part().with(params...) under the same map.
-  template <class... Params>
-  [[nodiscard]] image_block with(Params const&... params) const
-    requires requires(Part const& p) { p.with(params...); }
-  {
-    return {part_.with(params...), map_};
-  }
-
-  /// T P(T⁻¹x).
-  template <class X>
-  [[nodiscard]] auto project(X const& x) const {
-    return map_.push(slant::project(part_, map_.pull(x)));
-  }
-
-  /// Membership, up to the rounding of T⁻¹x.
-  template <class X>
-  [[nodiscard]] bool contains(X const& x) const {
-    if constexpr (in_blocks) {
-      return detail::blocks_contain(*this, x);
-    } else {
-      auto const z = map_.pull(x);
-      return detail::contains_within(part_, z, map_.slop(x, z));
-    }
-  }
-
-  /// State of x ∈ T(Part), up to the rounding of T⁻¹x.
-  template <class X>
-  [[nodiscard]] block_state state(X const& x) const
-    requires has_state<Part, vector_type>
-  {
-    auto const z = map_.pull(x);
-    return detail::state_within(part_, z, map_.slop(x, z));
-  }
-
-  template <class X>
-  [[nodiscard]] auto slant(X const& x) const
-    requires has_slant<Part, vector_type>
-  {
-    return map_.push_slant(part_.slant(map_.pull(x)));
-  }
-
-  template <class X, class D>
-  [[nodiscard]] auto step_to_boundary(X const& x, D const& d) const
-    requires has_step_to_boundary<Part, vector_type>
-  {
-    return part_.step_to_boundary(map_.pull(x), map_.pull_direction(d));
-  }
-
-  template <class Y>
-  [[nodiscard]] scalar_t<Y> support(Y const& y) const
-    requires has_support<Part, vector_type>
-  {
-    return map_.offset(y) + part_.support(map_.push_adjoint(y));
-  }
-
-  template <class X>
-  [[nodiscard]] auto inequality(X const& x) const
-    requires smooth
-  {
-    return part_.inequality(map_.pull(x));
-  }
-  template <class X>
-  [[nodiscard]] auto inequality_gradient(X const& x) const
-    requires smooth
-  {
-    return map_.push_gradient(part_.inequality_gradient(map_.pull(x)));
-  }
-  template <class X, class M>
-  [[nodiscard]] auto inequality_hessian(X const& x, M const& multipliers) const
-    requires smooth
-  {
-    return map_.push_hessian(part_.inequality_hessian(map_.pull(x), multipliers));
-  }
-
-  template <class X>
-  [[nodiscard]] auto lorentz_point(X const& x) const
-    requires has_lorentz_form<Part, vector_type>
-  {
-    return part_.lorentz_point(map_.pull(x));
-  }
-  [[nodiscard]] auto lorentz_matrix() const
-    requires has_lorentz_form<Part, vector_type>
-  {
-    return map_.push_gradient(part_.lorentz_matrix().transpose().eval()).transpose().eval();
-  }
-
-  [[nodiscard]] index block_count() const {
-    return Map::separable ? slant::block_count(part_) : index{1};
-  }
-  /// f(block, place) for every innermost block, if T does not mix them.
-  template <class F>
-  void visit(F&& f) const
-    requires in_blocks
-  {
-    part_.visit(detail::of_image(map_, f));
-  }
-  /// f(block, place) for innermost block k.
-  template <class F>
-  void visit_block(index k, F&& f) const
-    requires in_blocks && has_visit_block<Part>
-  {
-    part_.visit_block(k, detail::of_image(map_, f));
-  }
-
- private:
-  Part part_;
-  Map map_;
-};
-
-// --- product -------------------------------------------------------------------------------------
-//
-// Images of a product (or any set whose dimension is known at run time) under a shift or a scaling.
-
-/// T(Part) for a map T that acts on each component; see image_block for its members. A part that is
-/// not a product of blocks allocates in contains(x) for x near its boundary.
+/// A part of dynamic size that is not a product allocates in contains(x) for x near its boundary.
 template <class Part, class Map>
-class image_product {
+class image_set : public detail::static_size<static_dimension_of<Part>>,
+                  public detail::inequality_count<std::remove_cvref_t<Part>> {
   using part_type = std::remove_cvref_t<Part>;
   using point = point_t<part_type>;
+  static constexpr bool is_block = has_static_dimension<part_type>;
+  static constexpr bool smooth = detail::all_smooth<part_type>;
+  /// The image of a product is the product of the images.
+  static constexpr bool in_blocks = Map::separable && has_visit<part_type>;
 
  public:
   using scalar = set_scalar_t<part_type>;
+  static constexpr bool whole_space = slant::whole_space<part_type>;
+  static constexpr bool single_point = slant::single_point<part_type>;
 
-  image_product(held<Part> part, Map map) : part_(std::move(part)), map_(std::move(map)) {}
+  image_set(held<Part> part, Map map) : part_(std::move(part)), map_(std::move(map)) {}
 
   [[nodiscard]] part_type const& part() const { return part_.get(); }
   [[nodiscard]] Map const& map() const { return map_; }
   [[nodiscard]] index size() const { return slant::dimension_of(part()); }
-  [[nodiscard]] index block_count() const { return slant::block_count(part()); }
 
-  /// y = P(x); y may be x.
+  /// The image of part().with(params...) under the same map.
+  template <class... Params>
+  [[nodiscard]] image_set with(Params const&... params) const
+    requires(is_block && requires(part_type const& p) { p.with(params...); })
+  {
+    return {held<Part>(part().with(params...)), map_};
+  }
+
+  /// T P(T⁻¹x) of a block.
+  template <class X>
+    requires is_block
+  [[nodiscard]] auto project(X const& x) const {
+    return map_.push(slant::project(part(), map_.pull(x)));
+  }
+  /// y = T P(T⁻¹x); y may be x.
   template <class X, class Y>
+    requires(!is_block)
   void project(X const& x, Y&& y) const {
     auto to = slant::local(y).head(size());  // a view: y has its size and is not to be resized
     to = map_.pull(slant::local(x));
@@ -267,23 +155,36 @@ class image_product {
   [[nodiscard]] bool contains(X const& x) const {
     auto const& entries = slant::local(x);
     if (entries.size() != size()) return false;
-    if constexpr (has_visit<part_type>) {
+    if constexpr (in_blocks) {
       return detail::blocks_contain(*this, entries);
     } else {
-      typename std::remove_cvref_t<decltype(entries)>::PlainObject const z = map_.pull(entries);
+      auto const z = map_.pull(entries).eval();
       return detail::contains_within(part(), z, map_.slop(entries, z));
     }
+  }
+
+  /// State of x ∈ T(Part), up to the rounding of T⁻¹x.
+  template <class X>
+  [[nodiscard]] block_state state(X const& x) const
+    requires has_state<part_type, point>
+  {
+    auto const z = map_.pull(x);
+    return detail::state_within(part(), z, map_.slop(x, z));
   }
 
   template <class X>
   [[nodiscard]] auto slant(X const& x) const
     requires has_slant<part_type, point>
   {
-    return slant::projection_slant(part(), map_.pull(slant::local(x)));
+    if constexpr (is_block) {
+      return map_.push_slant(part().slant(map_.pull(x)));
+    } else {
+      return slant::projection_slant(part(), map_.pull(slant::local(x)));
+    }
   }
   template <class X, class G>
   void slant(X const& x, G& g) const
-    requires has_slant<part_type, point>
+    requires(!is_block && has_slant<part_type, point>)
   {
     slant::projection_slant(part(), map_.pull(slant::local(x)), g);
   }
@@ -304,17 +205,51 @@ class image_product {
     return map_.offset(slant::local(y)) + part().support(map_.push_adjoint(slant::local(y)));
   }
 
-  /// f(block, place) for every innermost block; a block of the image is the image of a block.
+  template <class X>
+  [[nodiscard]] auto inequality(X const& x) const
+    requires smooth
+  {
+    return part().inequality(map_.pull(x));
+  }
+  template <class X>
+  [[nodiscard]] auto inequality_gradient(X const& x) const
+    requires smooth
+  {
+    return map_.push_gradient(part().inequality_gradient(map_.pull(x)));
+  }
+  template <class X, class M>
+  [[nodiscard]] auto inequality_hessian(X const& x, M const& multipliers) const
+    requires smooth
+  {
+    return map_.push_hessian(part().inequality_hessian(map_.pull(x), multipliers));
+  }
+
+  template <class X>
+  [[nodiscard]] auto lorentz_point(X const& x) const
+    requires has_lorentz_form<part_type, point>
+  {
+    return part().lorentz_point(map_.pull(x));
+  }
+  [[nodiscard]] auto lorentz_matrix() const
+    requires has_lorentz_form<part_type, point>
+  {
+    return map_.push_gradient(part().lorentz_matrix().transpose().eval()).transpose().eval();
+  }
+
+  [[nodiscard]] index block_count() const {
+    return Map::separable ? slant::block_count(part()) : index{1};
+  }
+  /// f(block, place) for every innermost block, if T does not mix them.
   template <class F>
   void visit(F&& f) const
-    requires has_visit<part_type>
+    requires in_blocks
   {
     part().visit(detail::of_image(map_, f));
   }
   /// f(block, place) for innermost block k.
   template <class F>
   void visit_block(index k, F&& f) const
-    requires has_visit_block<part_type>
+    requires in_blocks && has_visit_block<part_type>
   {
     part().visit_block(k, detail::of_image(map_, f));
   }
@@ -326,15 +261,12 @@ class image_product {
 
 namespace detail {
 
-/// T(set): an image_block of a block, an image_product of anything else.
+/// T(set). Blocks are copied.
 template <class C, class Map>
 [[nodiscard]] auto image_of(C&& set, Map map) {
-  using part = std::remove_cvref_t<C>;
-  if constexpr (has_static_dimension<part>) {
-    return image_block<part, Map>(std::forward<C>(set), std::move(map));
-  } else {
-    return image_product<kept_t<C>, Map>(held<kept_t<C>>(std::forward<C>(set)), std::move(map));
-  }
+  using part = std::conditional_t<has_static_dimension<std::remove_cvref_t<C>>,
+                                  std::remove_cvref_t<C>, kept_t<C>>;
+  return image_set<part, Map>(held<part>(std::forward<C>(set)), std::move(map));
 }
 
 }  // namespace detail

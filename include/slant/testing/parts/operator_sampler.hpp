@@ -3,6 +3,7 @@
 // What the checks of operator laws share: random vectors, the tolerance, the list of broken laws.
 #pragma once
 
+#include <slant/base/entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/scalar.hpp>
@@ -225,66 +226,6 @@ class operator_sampler {
   breach_log log_;
 };
 
-// --- jacobi eigenvectors -------------------------------------------------------------------------
-//
-// Eigenvectors of a small symmetric matrix by Jacobi's rotations: for any scalar, and quick to
-// compile (Eigen's solver alone would take longer than all law checks together).
-
-/// A square matrix of finite numbers, by rows.
-template <class S>
-struct small_matrix {
-  index size = 0;
-  std::vector<S> entries;
-
-  explicit small_matrix(index n) : size(n), entries(static_cast<std::size_t>(n * n), S(0)) {}
-  S& operator()(index i, index j) { return entries[static_cast<std::size_t>(i * size + j)]; }
-  S const& operator()(index i, index j) const {
-    return entries[static_cast<std::size_t>(i * size + j)];
-  }
-};
-
-/// Diagonalises the symmetric matrix t in place; the rows of the result are its eigenvectors, in
-/// the order of the diagonal.
-template <class S>
-[[nodiscard]] small_matrix<S> jacobi_eigenvectors(small_matrix<S>& t) {
-  using std::abs;
-  using std::sqrt;
-  index const n = t.size;
-  small_matrix<S> vectors(n);
-  for (index i = 0; i < n; ++i) vectors(i, i) = S(1);
-  S const ε = std::numeric_limits<S>::epsilon();
-  S size(0);
-  for (S const& entry : t.entries) {
-    S const magnitude = abs(entry);
-    if (magnitude > size) size = magnitude;
-  }
-  bool rotated = true;
-  for (int sweep = 0; rotated && sweep < 60; ++sweep) {
-    rotated = false;
-    for (index p = 0; p < n; ++p) {
-      for (index q = p + 1; q < n; ++q) {
-        S const off = t(p, q);
-        if (!(S(abs(off)) > ε * size)) continue;
-        rotated = true;
-        // The rotation by the smaller angle that annihilates t(p, q).
-        S const θ = (t(q, q) - t(p, p)) / (S(2) * off);
-        S const tangent = (θ < S(0) ? S(-1) : S(1)) / (S(abs(θ)) + S(sqrt(S(θ * θ + S(1)))));
-        S const c = S(1) / S(sqrt(S(tangent * tangent + S(1))));
-        S const s = tangent * c;
-        auto const rotate = [&](S& a, S& b) {
-          S const old = a;
-          a = c * old - s * b;
-          b = s * old + c * b;
-        };
-        for (index k = 0; k < n; ++k) rotate(t(k, p), t(k, q));
-        for (index k = 0; k < n; ++k) rotate(t(p, k), t(q, k));
-        for (index k = 0; k < n; ++k) rotate(vectors(p, k), vectors(q, k));
-      }
-    }
-  }
-  return vectors;
-}
-
 // --- extreme directions --------------------------------------------------------------------------
 //
 // Directions in which a quadratic form ⟨Ax, x⟩ is smallest and largest, by Lanczos with full
@@ -323,27 +264,27 @@ template <class V, class Image>
 
   auto const n = static_cast<index>(basis.size());
   auto const at = [](auto& list, index i) -> auto& { return list[static_cast<std::size_t>(i)]; };
-  small_matrix<S> projected(n);
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> projected(n, n);
   for (index i = 0; i < n; ++i) {
     for (index j = 0; j <= i; ++j) {
       S const entry = slant::inner_product(at(basis, j), at(images, i));
       if (!(entry - entry == S(0))) return {};
-      projected(i, j) = projected(j, i) = entry;
+      projected.coeffRef(i, j) = projected.coeffRef(j, i) = entry;
     }
   }
-  auto const weights = jacobi_eigenvectors(projected);
+  slant::detail::symmetric_eigen<S, Eigen::Dynamic> const eigen(std::move(projected));
   index least = 0;
   index most = 0;
   for (index i = 1; i < n; ++i) {
-    if (projected(i, i) < projected(least, least)) least = i;
-    if (projected(i, i) > projected(most, most)) most = i;
+    if (eigen.values[i] < eigen.values[least]) least = i;
+    if (eigen.values[i] > eigen.values[most]) most = i;
   }
   std::vector<V> directions;
   for (index const which : {least, most}) {
     V x = start;
     slant::local(x).setZero();
     for (index j = 0; j < n; ++j) {
-      S const weight = weights(which, j);
+      S const weight = eigen.vectors.coeff(j, which);
       slant::local(x) += weight * slant::local(at(basis, j));
     }
     directions.push_back(x);
