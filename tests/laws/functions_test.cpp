@@ -46,6 +46,26 @@ TEST_CASE("laws: support functions of products, and sums with sets") {
                       support(slant::discs<slant::planar>(radii))));
 }
 
+TEST_CASE("block_scaled: a function in other units of its blocks") {
+  VectorXd const d{{2, 0.5, 8, 4, 4, 0.125, 0.125, 1, 1}};
+  auto const sum = separable_sum(slant::half_lines(3), support(slant::discs(radii)));
+  auto const φ = slant::block_scaled(d, sum);
+  check(φ);
+  // g‖x/c‖ = (g/c)‖x‖.
+  VectorXd const weights{{radii[0] / 4, radii[1] * 8, radii[2]}};
+  auto const same = separable_sum(slant::half_lines(3), support(slant::discs(weights)));
+  VectorXd const z{{-1, 2, -3, 0.5, 2, 2, 2.5, -1, 0}};
+  for (double const ρ : {0.1, 1.0, 30.0}) {
+    VectorXd const x = slant::prox(φ, ρ, z);
+    CHECK((x - slant::prox(same, ρ, z)).norm() <= 1e-15 * z.norm());
+    CHECK(φ.value(x) == doctest::Approx(same.value(x)));
+  }
+  VectorXd wrong = d;
+  wrong[4] = 2;
+  CHECK_THROWS_WITH(static_cast<void>(slant::block_scaled(wrong, sum)),
+                    "d(4): got 2, expected 4 as for the other unknowns of its block");
+}
+
 TEST_CASE("support: the soft threshold, the norm, and a kink that is met exactly") {
   auto const σ = support(slant::symmetric_interval<>{2.0});
   using point = Eigen::Matrix<double, 1, 1>;

@@ -315,4 +315,61 @@ TEST_CASE("singular A: as many zeros as it takes, by Newton's method as by forwa
   }
 }
 
+/// m bounds, some of them infinite, and m weights of norms around a known x: pressed, open, sliding
+/// and sticking, stiffness over six orders of magnitude, in units of each block up to 10^±spread.
+struct known_problem {
+  MatrixXd A;
+  VectorXd b, lower, g, x;
+
+  known_problem(int m, double spread, unsigned seed)
+      : A(test::with_spectrum(test::log_spaced(3 * m, 1e6), seed)), lower(m), g(m), x(3 * m) {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> draw(0, 1);
+    VectorXd force = VectorXd::Zero(3 * m), unit(3 * m);
+    for (int i = 0; i < m; ++i) {
+      bool const bounded = draw(generator) < 0.8, touches = bounded && draw(generator) < 0.5;
+      lower[i] = bounded ? draw(generator) - 0.5 : -std::numeric_limits<double>::infinity();
+      x[i] = touches ? lower[i] : (bounded ? lower[i] : 0) + draw(generator);
+      if (touches) force[i] = draw(generator);
+      double const angle = 6 * draw(generator);
+      Vector2d const direction(std::cos(angle), std::sin(angle));
+      bool const sticks = draw(generator) < 0.5;
+      g[i] = draw(generator) < 0.1 ? 0 : draw(generator);
+      x.segment<2>(m + 2 * i) = sticks ? Vector2d::Zero() : Vector2d(draw(generator) * direction);
+      force.segment<2>(m + 2 * i) = -g[i] * (sticks ? draw(generator) : 1) * direction;
+      unit[i] = std::pow(10, spread * (2 * draw(generator) - 1));
+      unit.segment<2>(m + 2 * i).setConstant(std::pow(10, spread * (2 * draw(generator) - 1)));
+    }
+    b = unit.cwiseProduct(A * x - force);
+    A = (unit.asDiagonal() * A * unit.asDiagonal()).eval();
+    x = x.cwiseQuotient(unit);
+    lower = lower.cwiseQuotient(unit.head(m));
+    for (int i = 0; i < m; ++i) g[i] *= unit[m + 2 * i];
+  }
+};
+
+TEST_CASE("solve(problem, tolerance): right on random problems, in any units") {
+  slant::index plain = 0;
+  for (double const spread : {0.0, 4.0}) {
+    slant::index applications = 0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+      known_problem const p(3 + static_cast<int>(seed % 8), spread, seed);
+      auto const A = test::spd(p.A);
+      auto const pressure = slant::half_lines(p.lower);
+      auto const discs = slant::discs(p.g);
+      auto const φ = slant::separable_sum(pressure, support(discs));
+      auto const run = slant::solve(slant::minimise(slant::quadratic(A, p.b) + φ), 1e-8);
+      CAPTURE(spread);
+      CAPTURE(seed);
+      CAPTURE(run.reason);
+      VectorXd const e = run.x() - p.x;
+      CHECK(run.converged());
+      CHECK(std::sqrt(e.dot(p.A * e)) <= 1e-8 * std::sqrt(p.x.dot(p.A * p.x)));
+      applications += run.work.operator_applications;
+    }
+    if (spread == 0) plain = applications;
+    CHECK(applications <= 2 * plain);
+  }
+}
+
 }  // namespace composite_test

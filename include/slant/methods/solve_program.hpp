@@ -315,6 +315,11 @@ template <class QP>
   }
 }
 
+/// Blocks of QP can be scaled.
+template <class QP>
+concept scales_blocks = may_have_diagonal<typename QP::operator_type, typename QP::vector_type> &&
+                        has_visit<typename QP::set_type>;
+
 /// One factor for each unknown if the stiffness of the blocks spreads by more than 64; else none.
 template <class QP>
 [[nodiscard]] auto block_factors_if_needed(QP const& qp) {
@@ -323,7 +328,7 @@ template <class QP>
   Eigen::Matrix<S, Eigen::Dynamic, 1> d;
   if (V a = like(qp.b(), qp.size()); slant::diagonal_if_known(qp.a(), a)) {
     Eigen::Matrix<S, Eigen::Dynamic, 1> const entries = slant::local(a);
-    auto const factors = block_factors(qp.set(), entries);
+    auto const factors = block_factors(function_of(qp), entries);
     S least = std::numeric_limits<S>::infinity(), most(0);
     for (index i = 0; i < factors.size(); ++i) {
       if (!(entries(i) > S(0))) continue;
@@ -345,10 +350,10 @@ inline void note_scaling(std::string& choice) {
 
 }  // namespace detail
 
-/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x), whose blocks are not scaled; see the top of this
-/// file. From x0: any point, such as the solution of the problem before. Requires what
-/// symmetric_newton does. Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, a
-/// problem that the method refuses, or an x0 of another size or with numbers that are not finite.
+/// Solves min ½xᵀA x − bᵀx over Λ, or + φ(x); see the top of this file. From x0: any point, such as
+/// the solution of the problem before. Requires what symmetric_newton does. Throws bad_input for a
+/// tolerance that is not in [0, 1), a limit < 0, a problem that the method refuses, or an x0 of
+/// another size or with numbers that are not finite.
 template <class QP>
   requires symmetric_newton_problem<QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::vector_type const& x0,
@@ -356,7 +361,7 @@ template <class QP>
   using A = typename QP::operator_type;
   detail::checked_tolerance(tolerance);
   detail::check_start_in_set(x0, qp.b());
-  if constexpr (quadratic_program<QP> && may_have_diagonal<A, typename QP::vector_type>) {
+  if constexpr (detail::scales_blocks<QP>) {
     auto d = detail::block_factors_if_needed(qp);
     if (d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));

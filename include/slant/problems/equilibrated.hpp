@@ -84,7 +84,7 @@ class equilibrated {
   /// min ½ yᵀ(D A D) y − (D b)ᵀy over D⁻¹Λ. References this object.
   [[nodiscard]] auto qp() const& {
     return separable_qp{congruence(diagonal<positive_definite>(d_), original_.get().a()), b_,
-                        block_scaled(factors(d_.cwiseInverse()), original_.get().set())};
+                        block_scaled(factors(d_.cwiseInverse()), function_of(original_.get()))};
   }
   auto qp() const&& = delete;  // it would reference what is about to end
 
@@ -116,11 +116,11 @@ class equilibrated {
       }
       a = slant::local(diagonal_of_a);
     }
-    return block_factors(qp.set(), a);
+    return block_factors(function_of(qp), a);
   }
 
   [[nodiscard]] vector_type scaled_b() const {
-    detail::check_block_factors(d_, original_.get().set());
+    detail::check_block_factors(d_, function_of(original_.get()));
     vector_type b = original_.get().b();
     vectors::multiply(b, d_, b);
     return b;

@@ -5,8 +5,11 @@
 
 #include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/face.hpp>
+#include <slant/concepts/proximable.hpp>
 #include <slant/sets/blocks.hpp>
 #include <slant/sets/parts/image.hpp>
+#include <slant/sets/proximal_step.hpp>
 
 #include <Eigen/Core>
 
@@ -182,15 +185,114 @@ void check_block_factors(Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, C const& 
 
 }  // namespace detail
 
-/// { D z : z ∈ set }, d one factor for each unknown. A set passed as an lvalue is referenced.
+/// x ↦ φ(x/c) for a block φ that is no set. F is `Function const&` (referenced) or a function type
+/// (owned).
+template <class F>
+class scaled_function : public detail::static_size<static_dimension_of<F>> {
+ public:
+  using scalar = set_scalar_t<F>;
+
+  scaled_function(held<F> φ, scalar const& c) : φ_(std::move(φ)), c_(c) {}
+
+  /// c prox_{(ρ/c²)φ}(z/c).
+  template <class S, class Z>
+  [[nodiscard]] auto prox(S const& ρ, Z const& z) const {
+    return (slant::prox(φ_.get(), S(ρ / c_ / c_), (z / c_).eval()) * c_).eval();
+  }
+  template <class X>
+  [[nodiscard]] scalar_t<X> value(X const& x) const {
+    return φ_.get().value((x / c_).eval());
+  }
+  /// φ*(c v).
+  template <class V>
+  [[nodiscard]] scalar_t<V> conjugate(V const& v) const
+    requires has_conjugate<std::remove_cvref_t<F>, point_t<F>>
+  {
+    return φ_.get().conjugate((v * c_).eval());
+  }
+  template <class S, class Z>
+  [[nodiscard]] auto slant(S const& ρ, Z const& z) const
+    requires has_prox_slant<std::remove_cvref_t<F>, point_t<F>>
+  {
+    return φ_.get().slant(S(ρ / c_ / c_), (z / c_).eval());
+  }
+  template <class S, class Z>
+  [[nodiscard]] block_state state(S const& ρ, Z const& z) const
+    requires has_prox_state<std::remove_cvref_t<F>, point_t<F>>
+  {
+    return φ_.get().state(S(ρ / c_ / c_), (z / c_).eval());
+  }
+
+ private:
+  held<F> φ_;
+  scalar c_;
+};
+
+/// x ↦ φ(D⁻¹x) for a separable function; made by block_scaled.
+template <class F, class S>
+class block_scaled_function : public detail::static_size<Eigen::Dynamic> {
+  using function_type = std::remove_cvref_t<F>;
+
+ public:
+  using scalar = S;
+
+  block_scaled_function(held<F> φ, Eigen::Matrix<S, Eigen::Dynamic, 1> d)
+      : φ_(std::move(φ)), map_(std::move(d)) {}
+
+  [[nodiscard]] index size() const { return slant::dimension_of(φ_.get()); }
+  [[nodiscard]] index block_count() const { return slant::block_count(φ_.get()); }
+
+  /// x = prox_{ρφ∘D⁻¹}(z), ρ > 0; x may be z.
+  template <class Z, class X>
+  void prox(S const& ρ, Z const& z, X&& x) const {
+    visit([&](auto const& block, auto const& p) {
+      p.put(x, slant::prox(block, ρ, detail::argument_of(block, p, z)));
+    });
+  }
+  template <class X>
+  [[nodiscard]] S value(X const& x) const {
+    S sum(0);
+    visit([&](auto const& block, auto const& p) {
+      sum += slant::function_value(block, detail::argument_of(block, p, x));
+    });
+    return sum;
+  }
+
+  /// f(block, place) for every block, functions and sets.
+  template <class V>
+  void visit(V&& f) const {
+    φ_.get().visit([&](auto const& block, auto const& p) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      auto const map = map_.at(p);
+      if constexpr (function_part<block_type>) {
+        f(scaled_function<block_type const&>(held<block_type const&>(block), map.factor()), p);
+      } else {
+        f(image_set<block_type, std::remove_const_t<decltype(map)>>(block, map), p);
+      }
+    });
+  }
+
+ private:
+  held<F> φ_;
+  detail::block_dilation<S> map_;
+};
+
+/// { D z : z ∈ set }, d one factor for each unknown; of a function that is no set x ↦ φ(D⁻¹x). What
+/// is passed as an lvalue is referenced.
 /// @throws bad_input unless d has the size of the set, with finite factors > 0 that are the same
 /// all over a block (a block that is the whole space may have different ones).
 template <class S, class C>
-  requires set_part<std::remove_cvref_t<C>> && has_visit<std::remove_cvref_t<C>>
+  requires has_visit<std::remove_cvref_t<C>> &&
+           (set_part<std::remove_cvref_t<C>> || function_part<std::remove_cvref_t<C>>)
 [[nodiscard]] auto block_scaled(Eigen::Matrix<S, Eigen::Dynamic, 1> d, C&& set) {
-  using map = detail::block_dilation<S>;
   detail::check_block_factors(d, set);
-  return image_set<kept_t<C>, map>(held<kept_t<C>>(std::forward<C>(set)), map(std::move(d)));
+  held<kept_t<C>> part(std::forward<C>(set));
+  if constexpr (function_part<std::remove_cvref_t<C>>) {
+    return block_scaled_function<kept_t<C>, S>(std::move(part), std::move(d));
+  } else {
+    using map = detail::block_dilation<S>;
+    return image_set<kept_t<C>, map>(std::move(part), map(std::move(d)));
+  }
 }
 
 // --- rotated -------------------------------------------------------------------------------------
