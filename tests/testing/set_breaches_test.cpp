@@ -122,13 +122,66 @@ TEST_CASE("set_laws: a broken law makes the test fail, with its name" * doctest:
   slant::testing::check_set_laws(without_bound{});
 }
 
+/// The laws that a face breaks, sampled:
+///     keep ∘ keep = keep,   ⟨keep x, y⟩ = ⟨x, keep y⟩,   keep x + keep_complement x = x,
+///     y may be x, may hold NaN on entry; an infinite entry off the face is cut to 0, not to NaN;
+///     block states are those of the enumeration.
+template <class F, class V>
+std::string broken_laws(F const& face, V const& prototype) {
+  static_assert(slant::block_partition<F, V>);
+  slant::index const n = slant::local(prototype).size();
+  std::string broken;
+  auto const expect = [&](bool holds, std::string const& law) {
+    if (!holds) broken += law + "; ";
+  };
+  auto const made = [&](VectorXd const& entries) {
+    V v = slant::like(prototype, n);
+    slant::local(v) = entries;
+    return v;
+  };
+  auto const same = [&](V const& a, V const& b) { return slant::local(a) == slant::local(b); };
+
+  V const x = made(VectorXd::LinSpaced(n, 1.0, 2.1)), y = made(VectorXd::LinSpaced(n, -1.5, 3.1));
+  V const blank = made(VectorXd::Constant(n, std::nan("")));
+  V kept = blank, rest = blank, kept_y = blank, twice = blank;
+  face.keep(x, kept);
+  face.keep(y, kept_y);
+  face.keep_complement(x, rest);
+  face.keep(kept, twice);
+  expect(same(twice, kept), "keep twice is keep");
+  V sum = kept;
+  slant::local(sum) += slant::local(rest);
+  expect(same(sum, x), "keep and keep_complement add up to x");
+  V in_place = x;
+  face.keep(in_place, in_place);
+  expect(same(in_place, kept), "keep in place");
+  in_place = x;
+  face.keep_complement(in_place, in_place);
+  expect(same(in_place, rest), "keep_complement in place");
+  // All products but those of entries that are kept in both vanish, exactly.
+  double const product = slant::inner_product(kept, kept_y);
+  expect(slant::inner_product(kept, y) == product && slant::inner_product(x, kept_y) == product,
+         "keep is self-adjoint");
+
+  V cut = blank;
+  face.keep(made(VectorXd::Constant(n, std::numeric_limits<double>::infinity())), cut);
+  for (slant::index i = 0; i < n; ++i) {
+    expect(slant::local(kept)(i) != 0 || slant::local(cut)(i) == 0,
+           "an infinite entry off the face is cut");
+  }
+  for (slant::index i = 0; i < face.size(); ++i) {
+    expect(static_cast<unsigned>(face.state(i)) < 3, "every block is free, sliding or fixed");
+  }
+  return broken;
+}
+
 TEST_CASE("face_laws: the face of the library and the least face keep their word") {
   auto const set = slant::cartesian(slant::half_lines(3), slant::discs(VectorXd{{1.0, 0.0}}));
   VectorXd const x{{0.0, 1.0, 2.0, 0.6, 0.8, 0.0, 0.0}};
-  slant::testing::check_face_laws(slant::face_of(set, x), x);
+  CHECK(broken_laws(slant::face_of(set, x), x) == "");
   slant::testing::archetype::face least;
   least.assign(set, x);
-  slant::testing::check_face_laws(least, slant::testing::archetype::vector(x));
+  CHECK(broken_laws(least, slant::testing::archetype::vector(x)) == "");
 }
 
 /// Keeps the first entry, in one wrong way.
@@ -152,19 +205,12 @@ struct lying_face {
   }
 };
 
-std::string found(lying_face const& face) {
-  std::string laws;
-  for (auto const& breach : slant::testing::face_breaches(face, VectorXd(4))) {
-    laws += breach.law + "; ";
-  }
-  return laws;
-}
-
 TEST_CASE("face_laws: each lie is found") {
   auto const finds = [](lying_face const& face, std::string const& law) {
-    CHECK_MESSAGE(found(face).find(law) != std::string::npos, law, " not in ", found(face));
+    std::string const found = broken_laws(face, VectorXd(4));
+    CHECK_MESSAGE(found.find(law) != std::string::npos, law, " not in ", found);
   };
-  CHECK(found({}).empty());
+  CHECK(broken_laws(lying_face{}, VectorXd(4)) == "");
   finds({lying_face::leaves_old}, "keep");
   finds({lying_face::adds}, "keep twice is keep");
   finds({lying_face::multiplies}, "an infinite entry off the face is cut");

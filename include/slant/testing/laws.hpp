@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The laws of operators, convex sets and their faces, functions with a proximal map and slanting
-// functions, as checks for doctest suites. What is sampled is described in the headers of breaches,
-// which need no test framework.
+// The laws of operators, convex sets, functions with a proximal map and slanting functions, as
+// checks for doctest suites. What is sampled is described in the headers of breaches, which need no
+// test framework.
 #pragma once
 
 #include <slant/testing/function_breaches.hpp>
@@ -60,12 +60,6 @@ void check_set_laws(C const& set, Rest const&... rest) {
 template <class F>
 void check_function_laws(F const& φ, set_options const& options = {}) {
   detail::expect_none(function_breaches(φ, options));
-}
-
-/// The same for a face that cuts down vectors like `prototype`.
-template <class F, class V>
-void check_face_laws(F const& face, V const& prototype) {
-  detail::expect_none(face_breaches(face, prototype));
 }
 
 /// The laws of a slanting function at each of some points:
