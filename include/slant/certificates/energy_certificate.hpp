@@ -86,8 +86,13 @@ class energy_certificate {
   [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }
 
  private:
+  /// With functions only for an A that may be singular, whose ‖·‖_{A⁻¹} is infinite off its range:
+  /// the other estimate is cheaper.
   static constexpr bool has_faces =
-      quadratic_program<QP> && has_block_slants<typename QP::set_type, local_t<vector_type>>;
+      (quadratic_program<QP> ||
+       !declares_positive_definite<
+           typename QP::operator_type>)&&has_block_slants<typename QP::set_type,
+                                                          local_t<vector_type>>;
 
   energy_certificate(QP const& qp, M const& m, bool dominates)
       : qp_(&qp),

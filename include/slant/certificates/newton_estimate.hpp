@@ -9,8 +9,9 @@
 //     δ ≤ ‖D‖_A + ‖rest‖_{A⁻¹}.
 //
 // D is the Newton step: next to the solution it is x* − x, the rest vanishes, and so does what is
-// estimated too high. It goes to x₁ = P_Λ(x − ρ g) and from there on the face of x₁ by conjugate
-// gradients (face_correction). The inequality holds for every D; estimated are what more of
+// estimated too high. It goes to x₁ = P_Λ(z), z = x − ρ g, of a function φ to prox_{ρφ}(z), and from
+// there on the face of x₁ by conjugate gradients (face_correction) for the gradient there and the
+// subgradient v = (z − x₁)/ρ. The inequality holds for every D; estimated are what more of
 // these iterations would add, and ‖rest‖_{A⁻¹} unless the caller has a bound of it.
 //
 // Cost: one application of A, and one for each iteration, some 10.
@@ -27,8 +28,10 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
+#include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/block_queries.hpp>
 #include <slant/sets/curved_face.hpp>
+#include <slant/sets/proximal_step.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -221,7 +224,7 @@ class newton_estimate {
         rest_(qp.b()),
         trial_(qp.b()),
         weight_(qp.b()) {}
-  newton_estimate(QP const& qp, M const& m) : newton_estimate(qp, m, Face(qp.set())) {}
+  newton_estimate(QP const& qp, M const& m) : newton_estimate(qp, m, Face(function_of(qp))) {}
 
   /// Infinite where nothing is known: A shows no curvature along the gradient on the face, or no
   /// step on it meets the equations.
@@ -230,11 +233,16 @@ class newton_estimate {
   [[nodiscard]] scalar operator()(estimated_point<vector_type> const& at, M const& m, WA& of_a,
                                   Norm const& norm_of) {
     vectors::waxpy(-at.ρ, at.gradient, at.x, trial_);
-    slant::project(qp_->set(), slant::local(trial_), slant::local(projected_));
-    static_cast<void>(face_.assign(qp_->set(), slant::local(trial_), scalar(1)));
+    auto const& step_of_φ = slant::at_step(function_of(*qp_), at.ρ);
+    slant::project(step_of_φ, slant::local(trial_), slant::local(projected_));
+    static_cast<void>(face_.assign(step_of_φ, slant::local(trial_), scalar(1)));
     vectors::difference(projected_, at.x, step_);
     apply(step_, image_, of_a);
     vectors::sum(at.gradient, image_, rest_);
+    if constexpr (!quadratic_program<QP>) {  // of a set v is normal to the face
+      vectors::subtract(projected_, trial_);
+      vectors::axpy(scalar(1) / at.ρ, trial_, rest_);
+    }
     if constexpr (is_cut) {
       vectors::sum(*at.offset, step_, trial_);
       face_.lift(trial_, lift_);
@@ -325,7 +333,7 @@ class newton_estimate {
       vectors::copy(at.stiffness, weight_);
       whole_face(face_).curved_components(
           [&](index i) { slant::local(weight_).coeffRef(i) *= factor; });
-      auto const split = balance(qp_->set(), x, balanced_, weight_, trial_);
+      auto const split = balance(function_of(*qp_), x, balanced_, weight_, trial_);
       vectors::subtract(correction_.remainder, trial_);
       scalar const root = split.root_of_gap > bent ? split.root_of_gap : bent;
       vectors::multiply(at.stiffness, trial_, weight_);

@@ -137,8 +137,9 @@ template <class QP, class M, class Certificate>
     S const error = result.error.relative();
     result.status = end.how;
     bool const is_enough = error <= tolerance && end.how != status::unbounded;
-    bool const can_go_on = end.how == status::converged && error < best / S(1.5) &&
-                           threshold > S(0) && state.reduced_gradient_norm > S(0);
+    bool const is_better = error < best / S(1.5) || !is_finite(error);  // or nothing is known yet
+    bool const can_go_on = end.how == status::converged && is_better && threshold > S(0) &&
+                           state.reduced_gradient_norm > S(0);
     if (is_enough || !can_go_on) {
       if (is_enough) {
         result.status = status::converged;
