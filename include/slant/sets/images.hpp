@@ -194,6 +194,8 @@ class scaled_function : public detail::static_size<static_dimension_of<F>> {
 
   scaled_function(held<F> φ, scalar const& c) : φ_(std::move(φ)), c_(c) {}
 
+  [[nodiscard]] index size() const { return slant::dimension_of(φ_.get()); }
+
   /// c prox_{(ρ/c²)φ}(z/c).
   template <class S, class Z>
   [[nodiscard]] auto prox(S const& ρ, Z const& z) const {
