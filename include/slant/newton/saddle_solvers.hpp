@@ -6,19 +6,292 @@
 
 #include <slant/base/lu.hpp>
 #include <slant/base/vector_algebra.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/laws.hpp>
+#include <slant/factorizations/ldlt.hpp>
 #include <slant/newton/direct_solver.hpp>
+#include <slant/newton/direction.hpp>
 #include <slant/newton/krylov_solvers.hpp>
-#include <slant/newton/parts/schur_reduction.hpp>
 #include <slant/operators/block.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/matrix.hpp>
 #include <slant/operators/product.hpp>
+#include <slant/operators/restriction.hpp>
 #include <slant/operators/sum.hpp>
+#include <slant/slanting/kkt_function.hpp>
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 
+#include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+namespace slant::detail {
+
+// --- hessian factors -----------------------------------------------------------------------------
+//
+// LDLᵀ of K = A + H [T §3.3.3], A a matrix that stays and H = Σ zᵢ ∇²fᵢ(x) of a few diagonal blocks
+// that change. K need not be definite: a negative multiplier makes H so. No pivoting in the sparse
+// case, as in [T]; what that costs in accuracy shows in the residual of the Newton direction.
+//
+// Copies begin without factors, as those of sparse_lu do.
+
+/// What the pivots D tell: they have the signs of the eigenvalues.
+enum class factored : unsigned char { failed, indefinite, definite };
+
+template <class D>
+[[nodiscard]] factored look_at_pivots(D const& pivots) {
+  using S = typename D::Scalar;
+  auto result = factored::definite;
+  for (index i = 0; i < index(pivots.size()); ++i) {
+    S const d = pivots[i];
+    if (d == S(0) || !is_finite(d)) return factored::failed;
+    if (d < S(0)) result = factored::indefinite;
+  }
+  return result;
+}
+
+/// For a sparse A. The pattern is analysed once.
+template <class S>
+class sparse_hessian_factors {
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  sparse_hessian_factors() : factors_(std::make_unique<sparse_ldlt_factors<S>>()) {}
+  sparse_hessian_factors(sparse_hessian_factors const&) : sparse_hessian_factors() {}
+  sparse_hessian_factors(sparse_hessian_factors&&) noexcept = default;
+  sparse_hessian_factors& operator=(sparse_hessian_factors const&) {
+    return *this = sparse_hessian_factors();
+  }
+  sparse_hessian_factors& operator=(sparse_hessian_factors&&) noexcept = default;
+  ~sparse_hessian_factors() = default;
+
+  template <class M, class Curvature>
+  [[nodiscard]] factored factor(M const& a, Curvature const& curvature) {
+    if (a.rows() == 0) return factored::definite;
+    bool const first = k_.rows() == 0;
+    if (first) make_pattern(a, curvature);
+    k_ = a_;
+    curvature.visit_hessian([&](index i, index j, S const& h) {
+      if (h != S(0)) k_.coeffRef(i, j) += h;
+    });
+    if (first) factors_->analyzePattern(k_);
+    factors_->factorize(k_);
+    return factors_->info() == Eigen::Success ? look_at_pivots(factors_->pivots())
+                                              : factored::failed;
+  }
+  /// Room for the permuted unknowns.
+  [[nodiscard]] vector_type workspace() const { return vector_type(k_.rows()); }
+
+  template <class B, class X>
+  void solve(B const& b, X& x, vector_type& w) const {
+    if (k_.rows() == 0) return;
+    w.resize(k_.rows());
+    w.noalias() = factors_->permutation() * slant::local(b);
+    factors_->solve_in_place(w.data());
+    slant::local(x).noalias() = factors_->permutation().transpose() * w;
+  }
+
+ private:
+  /// A with room for H.
+  template <class M, class Curvature>
+  void make_pattern(M const& a, Curvature const& curvature) {
+    std::vector<Eigen::Triplet<S>> places;
+    curvature.visit_hessian_pattern([&](index i, index j, S const&) {
+      places.emplace_back(static_cast<int>(i), static_cast<int>(j), S(0));
+    });
+    Eigen::SparseMatrix<S> room(a.rows(), a.cols());
+    room.setFromTriplets(places.begin(), places.end());
+    a_ = a + room;
+    k_ = a_;
+  }
+
+  Eigen::SparseMatrix<S> a_;
+  Eigen::SparseMatrix<S> k_;
+  std::unique_ptr<sparse_ldlt_factors<S>> factors_;
+};
+
+/// For a dense A.
+template <class S>
+class dense_hessian_factors {
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+
+ public:
+  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+  template <class M, class Curvature>
+  [[nodiscard]] factored factor(M const& a, Curvature const& curvature) {
+    if (a.rows() == 0) return factored::definite;
+    k_ = a;
+    curvature.visit_hessian([&](index i, index j, S const& h) { k_(i, j) += h; });
+    factors_.compute(k_);
+    return factors_.info() == Eigen::Success ? look_at_pivots(factors_.vectorD())
+                                             : factored::failed;
+  }
+  [[nodiscard]] vector_type workspace() const { return {}; }
+
+  template <class B, class X>
+  void solve(B const& b, X& x, vector_type&) const {
+    if (k_.rows() > 0) slant::local(x) = factors_.solve(slant::local(b));
+  }
+
+ private:
+  matrix_type k_;
+  Eigen::LDLT<matrix_type, Eigen::Lower> factors_;
+};
+
+/// The factors for matrices like M.
+template <class M>
+using hessian_factors_t = std::conditional_t<std::is_base_of_v<Eigen::SparseMatrixBase<M>, M>,
+                                             sparse_hessian_factors<typename M::Scalar>,
+                                             dense_hessian_factors<typename M::Scalar>>;
+
+/// K⁻¹ as an operator.
+template <class Factors>
+class factored_inverse {
+ public:
+  factored_inverse(Factors const& factors, index n) : factors_(&factors), n_(n) {}
+
+  static constexpr law_set laws = slant::laws<slant::self_adjoint>;
+  [[nodiscard]] index rows() const noexcept { return n_; }
+  [[nodiscard]] index cols() const noexcept { return n_; }
+  template <class X>
+  [[nodiscard]] auto workspace(X const&) const {
+    return typename Factors::vector_type(n_);
+  }
+  template <class X, class Y, class W>
+  void apply(X const& x, Y& y, W& w) const {
+    factors_->solve(x, y, w);
+  }
+
+ private:
+  Factors const* factors_;
+  index n_;
+};
+
+// --- schur reduction -----------------------------------------------------------------------------
+
+template <class G>
+concept has_hessian_matrix = is_kkt_operator<G> && requires(G const& g) {
+  requires eigen_matrix<decltype(g.hessian().get())>;
+};
+
+/// F°(y) of a kkt_function whose A is a matrix.
+template <class G, class V>
+concept factorable_saddle = has_hessian_matrix<G> && linear_operator<G, V>;
+
+/// Vectors and factors of a Schur complement solver, apart from what its inner iteration keeps.
+template <class V, class Factors, class W>
+struct schur_workspace {
+  Factors factors;                  ///< of K = A + H
+  V force;                          ///< n entries, right-hand side of K x = …
+  V x;                              ///< n entries, K⁻¹ force
+  V reduced;                        ///< p entries, right-hand side of the Schur complement
+  V multipliers;                    ///< p entries, dz
+  V active;                         ///< p entries, 1 in 𝒜 (times ρ in variant A)
+  V inactive;                       ///< p entries, 1 in ℐ
+  V residual;                       ///< F + G dy
+  W g_workspace;                    ///< temporaries of G
+  typename Factors::vector_type w;  ///< temporaries of a solve
+};
+
+template <class G>
+using hessian_matrix_t = std::remove_cvref_t<decltype(std::declval<G const&>().hessian().get())>;
+
+template <class G, class V>
+[[nodiscard]] auto make_schur_workspace(G const& g, V const& f) {
+  index const n = g.jacobian().cols();
+  index const p = g.jacobian().rows();
+  using factors = hessian_factors_t<hessian_matrix_t<G>>;
+  auto g_workspace = slant::workspace(g, f);
+  schur_workspace<V, factors, decltype(g_workspace)> w{{},
+                                                       like(f, n),
+                                                       like(f, n),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       like(f, p),
+                                                       std::move(g_workspace),
+                                                       typename factors::vector_type(n)};
+  w.residual = like(f, n + p);
+  for (V* v : {&w.reduced, &w.multipliers, &w.active, &w.inactive}) vectors::set_zero(*v);
+  return w;
+}
+
+/// With what the inner iteration keeps.
+template <class Common, class Krylov>
+struct schur_krylov_workspace {
+  Common common;
+  Krylov krylov;
+};
+
+/// The inner iteration of a Schur complement solver, on the operator Self::schur(g, workspace).
+template <class Self, class Krylov>
+struct schur_solver {
+  Krylov inner{};
+
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const { inner.validate(); }
+
+  template <class G, class V>
+    requires factorable_saddle<G, V>
+  [[nodiscard]] auto prepare(G const& g, V const& f) const {
+    auto common = make_schur_workspace(g, f);
+    auto krylov = inner.prepare(Self::schur(g, common), common.reduced);
+    return schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
+                                                                      std::move(krylov)};
+  }
+};
+
+/// diag(v), referring to v.
+template <class V>
+[[nodiscard]] auto diagonal_view(V const& v) {
+  return diagonal_operator<V const&>(held<V const&>(v));
+}
+
+/// dy = (−x, dz) for the dz in p, x = K⁻¹(F₁ + Jᵀdz); then its residual, one application of G. The
+/// report is that of the inner iteration, after one solve and one factorisation of K.
+template <class G, class V, class P>
+void finish_direction(G const& g, V const& f, direction_request<scalar_t<V>> const& request, V& dy,
+                      P& p, direction_report<scalar_t<V>>& report) {
+  using S = scalar_t<V>;
+  index const n = g.jacobian().cols();
+  index const m = g.jacobian().rows();
+  slant::local(p.force) = slice(n + m, 0, n).segment(f);
+  g.jacobian().apply_adjoint_add(S(1), p.multipliers, p.force);
+  p.factors.solve(p.force, p.x, p.w);
+  report.operator_applications += 2;
+  report.factorizations = 1;
+  slice(n + m, 0, n).segment(dy) = -slant::local(p.x);
+  slice(n + m, n, m).segment(dy) = slant::local(p.multipliers);
+  slant::apply(g, dy, p.residual, p.g_workspace);
+  vectors::add(f, p.residual);
+  S const true_norm = norm(p.residual);
+  if (!is_finite(true_norm) || !is_finite(S(norm(dy)))) {
+    report.status = status::breakdown;
+    report.residual_norm = request.residual_norm;
+    vectors::set_zero(dy);
+    return;
+  }
+  // The rounding errors of K⁻¹ count as well.
+  bool const enough = true_norm <= S(2) * request.tolerance * request.residual_norm;
+  if (report.status == status::converged && !enough) report.status = status::stalled;
+  report.residual_norm = true_norm;
+}
+
+/// What is reported where K has no factors of the kind wanted: no direction.
+template <class V>
+[[nodiscard]] direction_report<scalar_t<V>> no_factors(
+    direction_request<scalar_t<V>> const& request, V& dy) {
+  vectors::set_zero(dy);
+  return {status::breakdown, request.residual_norm, 0, 0, 1};
+}
+
+}  // namespace slant::detail
 
 namespace slant {
 
