@@ -374,4 +374,16 @@ TEST_CASE("solve(program with equations, tolerance): rows that only units make a
   CHECK((run.multipliers - μ).norm() <= 1e-9);
 }
 
+TEST_CASE("solve(program with equations, tolerance): a set that is one block") {
+  // The point of x₀ + x₁ + x₂ = 1 next to (3, 0, 0) in the unit ball: (1, 0, 0).
+  MatrixXd const K = MatrixXd::Identity(3, 3);
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+  Eigen::SparseMatrix<double> const G = MatrixXd::Ones(1, 3).sparseView();
+  VectorXd const b{{3, 0, 0}}, e{{1}};
+  auto const run = slant::solve(
+      slant::minimise(slant::quadratic(A, b)).over(slant::ball<3>(1.0)).subject_to(G, e), 1e-8);
+  CHECK(run.converged());
+  CHECK((run.x() - VectorXd{{1, 0, 0}}).norm() <= 1e-7);
+}
+
 }  // namespace solve_program_test

@@ -206,7 +206,8 @@ enum class vtu_cell : std::uint8_t {
   // By VTK's number; 0 for shapes that are not here.
   constexpr index counts[] = {0, 1, 0, 2, 0, 3, 0, 0, 0, 4, 4, 0,  8,
                               6, 5, 0, 0, 0, 0, 0, 0, 3, 6, 8, 10, 20};
-  return counts[static_cast<std::size_t>(cell)];
+  auto const number = static_cast<std::size_t>(cell);
+  return number < std::size(counts) ? counts[number] : 0;
 }
 
 /// An unstructured grid with named data on its points. Everything is checked when it is

@@ -28,9 +28,9 @@
 // has the minimum and the minimisers of q + φ if γ ≤ α/σ_max, α < 1, and for w = prox_{γφ}(y − γ r(y))
 // E_γ(w) ≤ E_γ(y) − (1 − α)/(2γ) ‖w − y‖². So the iteration converges from everywhere, and steps are
 // full and superlinear near a solution with an invertible system. σ_max is not known: γ is made
-// smaller where the gradients show more curvature. ρ is another one and may be longer: it says how
-// far off blocks change their states, and with a ρ of 1/σ_max the front of what slides and opens
-// moves a node or two a step.
+// smaller where the gradients show more curvature, and, where ‖F‖ grows without end, on a step to w.
+// ρ is another one and may be longer: it says how far off blocks change their states, and with a ρ
+// of 1/σ_max the front of what slides and opens moves a node or two a step.
 #pragma once
 
 #include <slant/base/diagnosis.hpp>
@@ -96,6 +96,7 @@ struct envelope_newton_state : gradient_point<QP> {
   scalar value{0};                ///< E_γ(y) / unit
   scalar value_noise{0};          ///< how far it may be off, by rounding or rough products
   scalar residual_norm{0};        ///< ‖F(y)‖/ρ, in units of the gradient
+  scalar first_residual{0};       ///< that of the start
   scalar preconditioner_size{1};  ///< s = mean(diag M)
   scalar step_fraction{1};        ///< β of the last Newton step
   scalar energy_estimate{0};  ///< ‖Π(r + v)‖_M at x before the last step, about ‖x − x*‖_A
@@ -250,6 +251,7 @@ class envelope_newton {
 
   void begin(state_type& s, bool solved) const {
     stay(s);
+    s.first_residual = s.residual_norm;
     s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
     s.forcing.first_error = s.gradient_scale;
     judge(s);
@@ -315,15 +317,11 @@ class envelope_newton {
     vectors::difference(s.x, s.y, s.trial);
     vectors::difference(s.r, s.gradient, s.reduced);
     scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
-    scalar const ε = scalar(16) * std::numeric_limits<scalar>::epsilon();
-    scalar const noise =
-        ε * (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit)) +
-        s.gradient_error;
-    // dᵀA²d / dᵀA d, of what A shows along d the most, is σ_max at most.
-    scalar const turn = norm(s.reduced) - noise;
-    scalar const allowed = share * (bend / turn) / (s.γ * s.unit);
-    if (!(turn > allowed) || !(bend > noise * way)) return false;
-    s.γ *= allowed / turn;
+    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
+                         (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit));
+    scalar const allowed = share * way * (way / (s.γ * s.unit));
+    if (!(bend > allowed + noise)) return false;
+    s.γ *= allowed / bend;
     return true;
   }
 
@@ -381,7 +379,7 @@ class envelope_newton {
       s.status = status::converged;
       return;
     }
-    if (!shorten(s)) {
+    if (!shorten(s) || diverges(s)) {
       if (s.residual_norm <= s.rounding() && s.reduced_gradient_norm <= s.rounding()) {
         s.status = status::stalled;
         return;
@@ -391,6 +389,12 @@ class envelope_newton {
     }
     s.forcing.record(s.residual_norm);
     if (s.status == status::running) advance(s);
+  }
+  /// With a γ that is too long E_γ may fall without end, and ‖F‖ grows with every step. Nothing less
+  /// is a reason to shorten γ: where cells differ in size by 1e4, short ones take a hundred times
+  /// the steps.
+  static bool diverges(state_type const& s) {
+    return s.residual_norm > scalar(1e4) * std::max<scalar>(s.first_residual, s.rounding());
   }
 
   /// The longest β = 2⁻ʲ for which E_γ(x + β t) is low enough. Spends no product.

@@ -6,8 +6,9 @@
 //     run.x(), run.multipliers;                          // x ∈ Λ, μ of G x = e
 //
 // as solve_program.hpp does it without: blocks scaled where their stiffness differs, then
-// constrained_newton under the control of constrained_certificate, preconditioned by A⁻¹ where A offers it, and by multigrid where A is a
-// sparse matrix, once conjugate gradients have taken long without. `run.choice` tells.
+// constrained_newton under the control of constrained_certificate, preconditioned by A⁻¹ where A
+// offers it, and by multigrid where A is a sparse matrix, once conjugate gradients have taken long
+// without. `run.choice` tells.
 #pragma once
 
 #include <slant/certificates/constrained_certificate.hpp>
@@ -111,8 +112,7 @@ template <equality_constrained_program P>
   using V = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   QP const& qp = p.qp();
   auto const& c = p.constraints();
-  if constexpr (quadratic_program<QP> && requires { c.unit_values(); } &&
-                may_have_diagonal<typename QP::operator_type, typename QP::vector_type>) {
+  if constexpr (detail::scales_blocks<QP> && requires { c.unit_values(); }) {
     if (auto d = detail::block_factors_if_needed(qp); d.size() > 0) {
       equilibrated<QP const&> const scaled(qp, std::move(d));
       auto const alike = scaled.qp();

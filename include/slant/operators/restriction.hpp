@@ -93,6 +93,7 @@ class restriction {
 /// restriction does.
 template <operand A, class Components>
 [[nodiscard]] auto restricted(A&& a, Components const& components) {
+  detail::require_square("A", a);
   restriction r(a.rows(), components);
   return slant::congruence(std::move(r), std::forward<A>(a));
 }

@@ -97,7 +97,7 @@ class block_range : public detail::blocks_view<C, X> {
 };
 
 /// The blocks of the point x of a set, see the top of this file; x has entries in memory. Refers to
-/// both, which must outlive what is made of it. @throws bad_input unless x has the size of the set.
+/// both, which must outlive it, as it must its iterators. @throws bad_input unless x has the size of the set.
 template <class C, class X>
   requires(has_visit_block<C> || !has_visit<C>) && detail::has_memory<local_t<X>>
 [[nodiscard]] block_range<C, X> blocks(C const& set, X const& x) {

@@ -98,7 +98,7 @@ template <class Map, class F>
 }  // namespace detail
 
 /// T(Part) of a block, or of a product or any set whose dimension is known at run time; these under
-/// a T that acts on each component. Made by `shifted`, `scaled_set` and `rotated`. T has
+/// a T that acts on each component. Made by `shifted`, `scaled` and `rotated`. T has
 ///     pull(x) = T⁻¹x, pull_direction(d), push(z) = T z,
 ///     offset(y) = yᵀT(0), push_adjoint(y): yᵀ(T z − T 0) = push_adjoint(y)ᵀz,
 ///     push_gradient(g), push_hessian(h), push_slant(g)    derivatives of f ∘ T⁻¹ and of T P T⁻¹
@@ -166,7 +166,7 @@ class image_set : public detail::static_size<static_dimension_of<Part>>,
   /// State of x ∈ T(Part), up to the rounding of T⁻¹x.
   template <class X>
   [[nodiscard]] block_state state(X const& x) const
-    requires has_state<part_type, point>
+    requires(is_block && has_state<part_type, point>)
   {
     auto const z = map_.pull(x);
     return detail::state_within(part(), z, map_.slop(x, z));
@@ -207,31 +207,31 @@ class image_set : public detail::static_size<static_dimension_of<Part>>,
 
   template <class X>
   [[nodiscard]] auto inequality(X const& x) const
-    requires smooth
+    requires(is_block && smooth)
   {
     return part().inequality(map_.pull(x));
   }
   template <class X>
   [[nodiscard]] auto inequality_gradient(X const& x) const
-    requires smooth
+    requires(is_block && smooth)
   {
     return map_.push_gradient(part().inequality_gradient(map_.pull(x)));
   }
   template <class X, class M>
   [[nodiscard]] auto inequality_hessian(X const& x, M const& multipliers) const
-    requires smooth
+    requires(is_block && smooth)
   {
     return map_.push_hessian(part().inequality_hessian(map_.pull(x), multipliers));
   }
 
   template <class X>
   [[nodiscard]] auto lorentz_point(X const& x) const
-    requires has_lorentz_form<part_type, point>
+    requires(is_block && has_lorentz_form<part_type, point>)
   {
     return part().lorentz_point(map_.pull(x));
   }
   [[nodiscard]] auto lorentz_matrix() const
-    requires has_lorentz_form<part_type, point>
+    requires(is_block && has_lorentz_form<part_type, point>)
   {
     return map_.push_gradient(part().lorentz_matrix().transpose().eval()).transpose().eval();
   }
