@@ -17,7 +17,7 @@ using blocks = slant::contact::friction_blocks<N, double>;
 template <int N>
 using method = slant::contact::friction_interior_point<N, double>;
 template <int N>
-using algebra = slant::contact::detail::lorentz<N, double>;
+using algebra = slant::detail::lorentz_algebra<N, double>;
 template <int N>
 using scaling = slant::contact::detail::lorentz_scaling<N, double>;
 template <int N>

@@ -190,7 +190,7 @@ TEST_CASE("the Newton step in (u, λ) is the one with u eliminated") {
     auto const slant_F = F.slant(λ);
     auto prepared = solver.prepare(slant_F, f);
     VectorXd dλ(λ.size());
-    static_cast<void>(solver.solve(slant_F, f, {1e-12, f.norm(), 0}, dλ, prepared));
+    static_cast<void>(solver.solve(slant_F, f, {1e-12, f.norm()}, dλ, prepared));
 
     VectorXd y(G.cols()), dy(G.cols());
     y << p.dual.displacement(λ), λ;
