@@ -21,7 +21,6 @@
 
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/cartesian.hpp>
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/free_space.hpp>
@@ -29,6 +28,7 @@
 #include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>
+#include <slant/sets/slants.hpp>
 
 #include <cstddef>
 #include <memory>

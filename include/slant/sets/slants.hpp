@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <utility>
+
 namespace slant {
 
 // --- block diagonal slant ------------------------------------------------------------------------
@@ -179,5 +181,75 @@ struct projection_slant_fn {
 
 /// P_Λ°(x) as an operator: projection_slant(set, x), or projection_slant(set, x, g) in place.
 inline constexpr detail::projection_slant_fn projection_slant{};
+
+// --- direct sum ----------------------------------------------------------------------------------
+//
+// Operators of parts, one after the other, as those of products are.
+
+namespace detail {
+
+template <class X>
+using rows_of_t = decltype(slant::local(std::declval<X&>()).middleRows(index{}, index{}));
+
+/// P applies to its rows of X, into its rows of Y.
+template <class P, class X, class Y>
+concept applies_to_rows =
+    requires(P const& part, rows_of_t<X const> const x, rows_of_t<Y> y) { part.apply(x, y); };
+
+/// P adds to its rows of Y.
+template <class P, class X, class Y>
+concept accumulates_rows = requires(P const& part, scalar_t<X> α, rows_of_t<X const> const x,
+                                    rows_of_t<Y> y) { part.apply_add(α, x, y); };
+
+/// P writes its diagonal into its rows of V.
+template <class P, class V>
+concept writes_diagonal_rows = requires(P const& part, rows_of_t<V> d) { part.diagonal(d); };
+
+/// What the direct sum of Parts does; Sum has for_each(f), which calls f(part, its first row).
+template <class Sum, class... Parts>
+class direct_sum_base {
+ public:
+  /// y = G x.
+  template <class X, class Y>
+    requires(applies_to_rows<Parts, X, Y> && ...)
+  void apply(X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    sum().for_each([&](auto const& part, index first) {
+      auto const xs = from.middleRows(first, part.rows());
+      auto ys = to.middleRows(first, part.rows());
+      part.apply(xs, ys);
+    });
+  }
+
+  /// y ← y + α G x.
+  template <class X, class Y>
+    requires(accumulates_rows<Parts, X, Y> && ...)
+  void apply_add(scalar_t<X> const& α, X const& x, Y& y) const {
+    auto const& from = slant::local(x);
+    auto& to = slant::local(y);
+    sum().for_each([&](auto const& part, index first) {
+      auto const xs = from.middleRows(first, part.rows());
+      auto ys = to.middleRows(first, part.rows());
+      part.apply_add(α, xs, ys);
+    });
+  }
+
+  /// d = diag(G).
+  template <class V>
+    requires(writes_diagonal_rows<Parts, V> && ...)
+  void diagonal(V& d) const {
+    auto& entries = slant::local(d);
+    sum().for_each([&](auto const& part, index first) {
+      auto ds = entries.middleRows(first, part.rows());
+      part.diagonal(ds);
+    });
+  }
+
+ private:
+  [[nodiscard]] Sum const& sum() const { return static_cast<Sum const&>(*this); }
+};
+
+}  // namespace detail
 
 }  // namespace slant
