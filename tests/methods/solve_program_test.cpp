@@ -386,4 +386,22 @@ TEST_CASE("solve(program with equations, tolerance): a set that is one block") {
   CHECK((run.x() - VectorXd{{1, 0, 0}}).norm() <= 1e-7);
 }
 
+TEST_CASE("solve(program with equations, tolerance): an unknown without stiffness, any unit of A") {
+  Vector3d const x(1, 2, 0);
+  Eigen::SparseMatrix<double> const G = MatrixXd{{1, 0, 1}, {0, 1, 1}}.sparseView();
+  VectorXd const e = G * x, lower{{-10, -10, 0}};
+  auto const set = slant::half_lines(lower);
+  for (double const unit : {1.0, 1e100, 1e-100}) {
+    MatrixXd const K = unit * Vector3d(1e4, 1, 0).asDiagonal().toDenseMatrix();
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(K);
+    VectorXd const μ = unit * Vector2d(1, -1),
+                   b = K * x + G.transpose() * μ - unit * Vector3d(0, 0, 1);
+    auto const run =
+        slant::solve(slant::minimise(slant::quadratic(A, b)).over(set).subject_to(G, e), 1e-8);
+    CAPTURE(unit);
+    CHECK(run.converged());
+    CHECK((run.x() - x).norm() <= 1e-8);
+  }
+}
+
 }  // namespace solve_program_test

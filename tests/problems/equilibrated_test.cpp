@@ -93,12 +93,14 @@ TEST_CASE("a problem that is handed over is owned") {
             .converged());
 }
 
-TEST_CASE("factors: one a block, means of the diagonal, 1 where it vanishes") {
+TEST_CASE("factors: one a block, means of the diagonal, one in between where it vanishes") {
   auto const set =
       slant::cartesian(slant::half_lines(VectorXd::Zero(2).eval()),
                        slant::discs(VectorXd::Ones(2).eval()), slant::free_components(2));
   VectorXd const a{{4.0, 0.0, 1.0, 31.0, 0.0, 0.0, 0.25, 16.0}};
-  CHECK(slant::block_factors(set, a) == VectorXd{{0.5, 1.0, 0.25, 0.25, 1.0, 1.0, 2.0, 0.25}});
+  double const t = std::sqrt(0.25) * std::sqrt(2.0);
+  CHECK(slant::block_factors(set, a) == VectorXd{{0.5, t, 0.25, 0.25, t, t, 2.0, 0.25}});
+  CHECK(slant::block_factors(set, VectorXd(0 * a)) == VectorXd::Ones(8));
   for (double const wrong :
        {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     VectorXd bad = a;

@@ -120,9 +120,10 @@ template <equality_constrained_program P>
       try {
         rows.emplace(Eigen::SparseMatrix<S>(c.unit_rows() * scaled.d().asDiagonal()),
                      c.unit_values());
-      } catch (bad_input const&) {  // In these unknowns they nearly depend on each other.
+      } catch (bad_input const&) {
       }
-      if (rows) {
+      // In these unknowns they may depend on each other up to rounding, which they do not in their own.
+      if (rows && rows->redundant().empty()) {
         auto result = detail::solve_constrained(qp, alike, *rows, scaled.d(), tolerance, max_steps);
         result.point = scaled.back(std::move(result.point));
         result.multipliers = c.of_unit_rows(result.multipliers);

@@ -23,6 +23,7 @@
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/images.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -30,7 +31,8 @@
 
 namespace slant {
 
-/// d_j = (mean of a over the block of j)^(−1/2), where a = diag(A); 1 where that mean is 0.
+/// d_j = (mean of a over the block of j)^(−1/2), where a = diag(A); where that mean is 0, the
+/// geometric mean of the least and the greatest of the others, 1 if there are none.
 /// Throws bad_input unless a has the size of the set and finite entries ≥ 0.
 template <class C, class S>
 [[nodiscard]] auto block_factors(C const& set, Eigen::Matrix<S, Eigen::Dynamic, 1> const& a) {
@@ -43,16 +45,23 @@ template <class C, class S>
       throw bad_input("diagonal(" + std::to_string(j) + ")", detail::show(a(j)),
                       "a finite number >= 0");
     }
-    d(j) = a(j) > S(0) ? S(S(1) / sqrt(a(j))) : S(1);
+    d(j) = a(j) > S(0) ? S(S(1) / sqrt(a(j))) : S(0);
   }
   slant::visit_blocks(set, [&](auto const& block, auto const& p) {
     if constexpr (!whole_space<std::remove_cvref_t<decltype(block)>>) {
       S sum(0);
       for (index j = 0; j < p.size(); ++j) sum += a(p.component(j)) / S(p.size());
-      S const factor = sum > S(0) ? S(S(1) / sqrt(sum)) : S(1);
+      S const factor = sum > S(0) ? S(S(1) / sqrt(sum)) : S(0);
       for (index j = 0; j < p.size(); ++j) d(p.component(j)) = factor;
     }
   });
+  S least(0), most(0);
+  for (S const& factor : d) {
+    if (factor > S(0) && !(least > S(0) && least <= factor)) least = factor;
+    most = std::max<S>(most, factor);
+  }
+  S const typical = most > S(0) ? S(sqrt(least) * sqrt(most)) : S(1);
+  for (S& factor : d) factor = factor > S(0) ? factor : typical;
   return d;
 }
 
