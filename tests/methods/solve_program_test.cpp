@@ -374,6 +374,36 @@ TEST_CASE("solve(program with equations, tolerance): rows that only units make a
   CHECK((run.multipliers - μ).norm() <= 1e-9);
 }
 
+TEST_CASE("solve(program with equations, tolerance): rows that are nearly dependent") {
+  auto const set = slant::half_lines(VectorXd::Constant(4, -10));
+  int converged = 0;
+  for (double const δ : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    for (double const s : {0.3, 1.0, 3.7}) {
+      VectorXd const x{{1, 2 * s, 3, -1}};
+      MatrixXd const K = VectorXd{{1, 1000, 2, s}}.asDiagonal();
+      MatrixXd const rows{{1, s, 0.3, 0.1}, {1, s + δ, 0.3, 0.1}};
+      Eigen::SparseMatrix<double> const G = rows.sparseView();
+      VectorXd const e = G * x, b = K * x + G.transpose() * VectorXd{{1, -2}};
+      auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+      if (δ < 1e-5 && s > 3) {  // 7e-8 from the span of the other row
+        CHECK_THROWS_AS(slant::minimise(slant::quadratic(A, b)).over(set).subject_to(G, e),
+                        slant::bad_input);
+        continue;
+      }
+      auto const run =
+          slant::solve(slant::minimise(slant::quadratic(A, b)).over(set).subject_to(G, e), 1e-9);
+      VectorXd const d = run.x() - x;
+      CAPTURE(δ);
+      CAPTURE(s);
+      CAPTURE(run.reason);
+      // δ = 1e-5, s = 3.7: the equations are met to 2e-9 of their terms only.
+      if (run.converged()) CHECK(std::sqrt(d.dot(K * d) / x.dot(K * x)) <= 2e-9);
+      converged += run.converged();
+    }
+  }
+  CHECK(converged >= 6);
+}
+
 TEST_CASE("solve(program with equations, tolerance): a set that is one block") {
   // The point of x₀ + x₁ + x₂ = 1 next to (3, 0, 0) in the unit ball: (1, 0, 0).
   MatrixXd const K = MatrixXd::Identity(3, 3);

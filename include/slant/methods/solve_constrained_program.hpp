@@ -99,11 +99,25 @@ template <class Original, class QP, class C, class S>
   }
 }
 
+/// Where rows of G are nearly dependent, GGᵀ has not the digits that tell them apart, and neither
+/// projectors nor certificate see that such rows are not met.
+template <class C, class R, class S>
+[[nodiscard]] R with_equations_looked_at(C const& c, R run, S tolerance) {
+  if (run.status != status::converged) return run;
+  if (S const distance = c.relative_residual(run.point); !(distance <= tolerance)) {
+    run.status = status::stalled;
+    run.reason = "a row of G x = e is met to " + show(distance) +
+                 " of its terms only: rows of G are nearly dependent";
+  }
+  return run;
+}
+
 }  // namespace detail
 
 /// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e from 0; see the top of this file. `converged` means
-/// that the estimated error is at most the tolerance; x is in Λ. Throws bad_input for a tolerance
-/// that is not in [0, 1), a limit < 0, or a program that constrained_newton refuses.
+/// that the estimated error and |G x − e| / (|G| |x| + |e|) of each row are at most the tolerance;
+/// x is in Λ. Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a program that
+/// constrained_newton refuses.
 template <equality_constrained_program P>
   requires constrained_newton_problem<typename P::program_type, typename P::constraints_type>
 [[nodiscard]] auto solve(P const& p, typename P::scalar tolerance, index max_steps = 1000) {
@@ -128,11 +142,12 @@ template <equality_constrained_program P>
         result.point = scaled.back(std::move(result.point));
         result.multipliers = c.of_unit_rows(result.multipliers);
         detail::note_scaling(result.choice);
-        return result;
+        return detail::with_equations_looked_at(c, std::move(result), tolerance);
       }
     }
   }
-  return detail::solve_constrained(qp, qp, c, V(), tolerance, max_steps);
+  return detail::with_equations_looked_at(
+      c, detail::solve_constrained(qp, qp, c, V(), tolerance, max_steps), tolerance);
 }
 
 /// A program that lacks something ends here and is told so by constrained_newton.

@@ -142,6 +142,17 @@ class equality_constraints {
   [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
   vector_type const& nearest() const&& = delete;
 
+  /// The largest |G x − e| / (|G| |x| + |e|) of a row.
+  [[nodiscard]] S relative_residual(vector_type const& x) const {
+    vector_type const terms = G_.cwiseAbs() * x.cwiseAbs() + unit_values_.cwiseAbs();
+    vector_type const rest = (G_ * x - unit_values_).cwiseAbs();
+    S largest(0);
+    for (index i = 0; i < rest.size(); ++i) {
+      if (terms[i] > S(0)) largest = std::max<S>(largest, rest[i] / terms[i]);
+    }
+    return largest;
+  }
+
   /// μ with Gᵀμ = Q v, as many as G has rows; 0 for redundant ones.
   [[nodiscard]] vector_type multipliers(vector_type const& v) const {
     detail::check_size("v", v.size(), size(), "the columns of G,");
