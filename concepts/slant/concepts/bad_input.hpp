@@ -33,6 +33,15 @@ template <class T>
   }
 }
 
+/// Text of a measured number, such as an error or seconds: three digits of it.
+template <class T>
+[[nodiscard, gnu::cold]] std::string brief(T const& value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
 }  // namespace detail
 
 /// Thrown at construction or at the start of a run when an argument cannot be used.

@@ -301,7 +301,7 @@ struct energy_error {
   }
   /// "energy error at most 3e-10 (proven)".
   [[nodiscard, gnu::cold]] std::string sentence() const {
-    return "relative energy error " + detail::show(relative()) +
+    return "relative energy error " + detail::brief(relative()) +
            (proven ? ", proven" : ", estimated");
   }
 };

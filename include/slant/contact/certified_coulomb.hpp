@@ -191,6 +191,7 @@ template <class V, class Judge, class Run, class Map>
 void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance, index steps,
             Judge const& judged, Run const& run, Map const& to_λ) {
   using S = scalar_t<V>;
+  using slant::detail::brief;
   using slant::detail::show;
   constexpr index rounds = 8;  // the tolerance falls by orders of magnitude in each
   S const allowed = S(100) * S(tolerance);
@@ -210,7 +211,7 @@ void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance
     judged(r);
     if (r.error <= allowed) {  // also where the smaller tolerance of this round was out of reach
       r.status = slant::status::converged;
-      r.reason += "; the check finds " + show(r.error);
+      r.reason += "; the check finds " + brief(r.error);
       return;
     }
     bool const helps = round == 0 || r.error <= S(0.5) * before;
@@ -222,7 +223,7 @@ void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance
         r.law = last.law;
         r.error = last.error;
       }
-      r.reason = "the check finds " + show(r.error) + ", more than " + show(allowed) +
+      r.reason = "the check finds " + brief(r.error) + ", more than " + brief(allowed) +
                  ", largest at contact " + show(r.law.contact) + "; " + r.reason;
       return;
     }
@@ -456,7 +457,7 @@ template <class Friction, class S>
     result.reason += ", at most " + slant::detail::show(o.tolerance);
   } else {
     result.reason += "; asked was " + slant::detail::show(o.tolerance) + " (condition of K about " +
-                     slant::detail::show(result.condition) + "); " + r.reason;
+                     slant::detail::brief(result.condition) + "); " + r.reason;
   }
   return result;
 }

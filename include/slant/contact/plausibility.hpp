@@ -207,8 +207,8 @@ void find_large_displacements(Eigen::SparseMatrix<S> const& K, node_layout<S> co
     if (!(largest > length && length > S(0))) continue;
     s.add(index(b), [&] {
       return "unknown " + slant::detail::show(at) + " of body " + slant::detail::show(index(b)) +
-             " moves by " + slant::detail::show(static_cast<float>(largest)) +
-             ", but the body is " + slant::detail::show(static_cast<float>(length)) + " long";
+             " moves by " + slant::detail::brief(largest) + ", but the body is " +
+             slant::detail::brief(length) + " long";
     });
   }
   s.report(suspicion::large_displacement, "bodies", "bodies",

@@ -94,8 +94,8 @@ template <class S>
   bool const iterate = !fill.complete || c.factor_seconds > c.iterate_seconds;
   c.route = iterate ? solution_route::iterate : solution_route::factor;
   c.reason = std::string(iterate ? "iterated" : "factored") + ": factors are estimated at " +
-             (fill.complete ? "" : "more than ") + slant::detail::show(c.factor_seconds) +
-             " s, multigrid at " + slant::detail::show(c.iterate_seconds) + " s";
+             (fill.complete ? "" : "more than ") + slant::detail::brief(c.factor_seconds) +
+             " s, multigrid at " + slant::detail::brief(c.iterate_seconds) + " s";
   return c;
 }
 

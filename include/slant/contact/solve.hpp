@@ -263,7 +263,7 @@ class certified_run final : public supported_problem<S> {
     result_.status = end.how == status::converged ? status::stalled : end.how;
     if (result_.status == status::stalled) {
       result_.reason = known + ": rounding errors allow no more (condition of K about " +
-                       slant::detail::show(certificate_.condition()) + ")";
+                       slant::detail::brief(certificate_.condition()) + ")";
     } else if (result_.status == status::unbounded) {
       result_.reason =
           "no u satisfies the constraints, so that the contact forces grow without bound";

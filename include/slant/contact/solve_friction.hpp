@@ -330,6 +330,7 @@ class friction_run {
   }
 
   [[nodiscard]] friction_result<S> finished() {
+    using slant::detail::brief;
     using slant::detail::show;
     auto const& n = newton_.work();
     work_.products += n.evaluations;
@@ -348,8 +349,8 @@ class friction_run {
     bool const holds =
         error.at_most(options_.tolerance) && check.unit_free_rounding <= options_.tolerance;
     if (solved()) status_ = lost ? status::breakdown : holds ? status::converged : status::stalled;
-    std::string reason = "unit-free natural map " + show(error.scaled);
-    if (error.penetration > error.scaled) reason += " and penetration " + show(error.penetration);
+    std::string reason = "unit-free natural map " + brief(error.scaled);
+    if (error.penetration > error.scaled) reason += " and penetration " + brief(error.penetration);
     if (status_ == status::converged) {
       reason += " at most " + show(options_.tolerance);
     } else {
@@ -359,14 +360,14 @@ class friction_run {
         reason += ", largest at contact " + show(check.worst.contact);
       }
       if (!(check.unit_free_rounding <= options_.tolerance)) {
-        reason += ", of which rounding may make " + show(check.unit_free_rounding);
+        reason += ", of which rounding may make " + brief(check.unit_free_rounding);
       }
       if (lost) reason += ", forces or velocities leave the range of numbers in these units";
     }
     bool const agree = (error.plain <= options_.tolerance) == (status_ == status::converged);
     if (!agree) {
-      reason += "; with rho = 1 in the units given " + show(error.plain) +
-                ", of which rounding may make " + show(error.floor);
+      reason += "; with rho = 1 in the units given " + brief(error.plain) +
+                ", of which rounding may make " + brief(error.floor);
     }
     return {.r = std::move(force),
             .u = std::move(speed),

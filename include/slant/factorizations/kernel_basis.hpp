@@ -89,7 +89,7 @@ void require_kernel(Eigen::SparseMatrix<S> const& K, R const& kernel) {
   S const residual = (K * kernel).cwiseAbs().maxCoeff();
   S const most = kernel_rounding<S>() * size;
   if (residual <= most) return;
-  throw bad_input("R", "max |K R| = " + show(residual),
+  throw bad_input("R", "max |K R| = " + brief(residual),
                   "columns in the kernel of K: max |K R| at most " + show(most) + " = " +
                       show(kernel_rounding<S>()) + " max |R| times the largest row sum of |K|");
 }

@@ -106,7 +106,7 @@ template <class C, class R, class S>
   if (run.status != status::converged) return run;
   if (S const distance = c.relative_residual(run.point); !(distance <= tolerance)) {
     run.status = status::stalled;
-    run.reason = "a row of G x = e is met to " + show(distance) +
+    run.reason = "a row of G x = e is met to " + brief(distance) +
                  " of its terms only: rows of G are nearly dependent";
   }
   return run;

@@ -234,7 +234,7 @@ class equality_constraints {
   }
   [[noreturn]] static void refuse_row(index i, S const& distance) {
     throw bad_input("G",
-                    "row " + detail::show(i) + " at the distance " + detail::show(distance) +
+                    "row " + detail::show(i) + " at the distance " + detail::brief(distance) +
                         " times its length from the span of others",
                     "rows that are independent, or dependent up to rounding");
   }

@@ -141,7 +141,7 @@ struct coulomb_error {
   [[nodiscard, gnu::cold]] std::string sentence() const {
     std::string where =
         law.contact >= 0 ? ", most at contact " + slant::detail::show(law.contact) : std::string();
-    return "Coulomb's law violated by " + slant::detail::show(law.relative) + where + "; " +
+    return "Coulomb's law violated by " + slant::detail::brief(law.relative) + where + "; " +
            frozen.sentence() + ", for its slip bounds";
   }
 };

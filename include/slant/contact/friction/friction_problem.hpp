@@ -93,8 +93,9 @@ template <class S>
 void require_symmetric(std::string_view name, Eigen::SparseMatrix<S> const& W) {
   S const found = asymmetry(W), allowed = asymmetry_of_rounding(W);
   if (found <= allowed) return;
-  throw bad_input(name, "a matrix of asymmetry " + slant::detail::show(found),
-                  "a symmetric one, max |W - W^T| <= " + slant::detail::show(allowed) + " max |W|");
+  throw bad_input(
+      name, "a matrix of asymmetry " + slant::detail::show(found),
+      "a symmetric one, max |W - W^T| <= " + slant::detail::brief(allowed) + " max |W|");
 }
 
 namespace detail {

@@ -563,7 +563,7 @@ void find_outliers(std::vector<S> const& values, S const& middle, S const& facto
 
 template <class S>
 void find_other_units(contact_rows<S> const& rows, warnings& found) {
-  using slant::detail::show;
+  using slant::detail::brief;
   index const usual = rows.usual_size();
   std::vector<S> ratios, lengths;
   std::vector<index> of_ratio, of_length;
@@ -586,8 +586,8 @@ void find_other_units(contact_rows<S> const& rows, warnings& found) {
     S const middle = median(lengths);
     find_outliers(lengths, middle, S(100), [&](std::size_t j) {
       s.add(of_length[j], [&] {
-        return row_text(of_length[j], "N") + " is " +
-               show(static_cast<float>(lengths[j] / middle)) + " times as long as most others";
+        return row_text(of_length[j], "N") + " is " + brief(lengths[j] / middle) +
+               " times as long as most others";
       });
     });
     s.report(suspicion::other_units, "N", "rows of N", mend, found);
@@ -596,17 +596,15 @@ void find_other_units(contact_rows<S> const& rows, warnings& found) {
   S const middle = median(ratios);
   if (middle > S(2) || S(2) * middle < S(1)) {
     suspects all;
-    all.add(0, [&] {
-      return "the rows of T are " + show(static_cast<float>(middle)) +
-             " times as long as those of N";
-    });
+    all.add(0,
+            [&] { return "the rows of T are " + brief(middle) + " times as long as those of N"; });
     all.report(suspicion::other_units, "T", "", mend, found);
   }
   find_outliers(ratios, middle, S(8), [&](std::size_t j) {
     index const r = of_ratio[j];
     s.add(r, [&] {
-      return row_text(r, "T") + " is " + show(static_cast<float>(ratios[j])) +
-             " times as long as " + row_text(r / rows.tangents, "N");
+      return row_text(r, "T") + " is " + brief(ratios[j]) + " times as long as " +
+             row_text(r / rows.tangents, "N");
     });
   });
   s.report(suspicion::other_units, "T", "rows of T", mend, found);

@@ -365,7 +365,7 @@ class spring_supports {
       if (residual <= allowed) return;
       sum_.status = status::stalled;
       sum_.reason = known + ", but the optimality conditions have the residual " +
-                    slant::detail::show(residual) + ", more than " + slant::detail::show(allowed);
+                    slant::detail::brief(residual) + ", more than " + slant::detail::brief(allowed);
     } else {
       sum_.reason = known + ": rounding errors allow no more";
     }
