@@ -112,8 +112,8 @@ TEST_CASE("a relative step, with and without an offset") {
   CHECK(printed(state{1e-9, 1e-9}) == slant::status::converged);
   CHECK(printed(state{1.9e-3, 1.0}) == slant::status::converged);
   CHECK(printed(state{2.1e-3, 1.0}) == slant::status::running);
-  CHECK(rule.reason(state{0.5, 1024}) == "relative step 0.5 / 1024 is at most 0.001");
-  CHECK(printed.reason(state{0.5, 1024}) == "relative step 0.5 / (1024 + 1) is at most 0.001");
+  CHECK(rule.reason(state{0.5, 1024}) == "relative step 0.5 / 1.02e+03 is at most 0.001");
+  CHECK(printed.reason(state{0.5, 1024}) == "relative step 0.5 / (1.02e+03 + 1) is at most 0.001");
 }
 
 TEST_CASE("before the first step, out of range, NaN: no success") {

@@ -200,16 +200,13 @@ TEST_CASE("forces that are too small at the start are raised") {
   VectorXd const zero = VectorXd::Zero(n);
   auto const solution = slant::solve(slant::interior_point{qp()}, zero, accurate);
   REQUIRE(solution.converged());
-  // Once the forces have their size, both take the same steps, of 100 and more products each.
   auto const on_the_way = slant::reduced_gradient_below(1e-4) || slant::at_most(60);
   auto const raised = slant::solve(slant::interior_point{qp()}, zero, on_the_way);
-  auto const left = slant::solve(slant::interior_point{qp(), {.raises = 0}}, zero, on_the_way);
   REQUIRE(raised.converged());
-  REQUIRE(left.converged());
   CHECK(raised.state.raises == 1);
-  CHECK(left.state.raises == 0);
-  CHECK(raised.iterations() < left.iterations());
-  CHECK(raised.state.work.operator_applications < left.state.work.operator_applications);
+  // 10 steps and 248 products with the forces of the start.
+  CHECK(raised.iterations() <= 8);
+  CHECK(raised.state.work.operator_applications <= 235);
   // All are pushed to the end of their slit.
   for (Eigen::Index i = 0; i < bounded; ++i) CHECK(solution.x()(i) == doctest::Approx(1e-4));
 }

@@ -86,14 +86,7 @@ TEST_CASE("interior points") {
        {{.step_length = -1.0}, "step_length: got -1"},
        {{.start_length = 0.0}, "start_length: got 0"},
        {{.start_force = nan}, "start_force: got nan"},
-       {{.start_depth = 2.0}, "start_depth: got 2"},
-       {{.raise_above = 1.0}, "raise_above: got 1"},
-       {{.raises = -1}, "raises: got -1"},
        {{.centring_least = 0.6}, "centring_least: got 0.6"},
-       {{.closeness = 1.0}, "closeness: got 1"},
-       {{.residual_factor = 0.5}, "residual_factor: got 0.5"},
-       {{.to_boundary = 1.0}, "to_boundary: got 1"},
-       {{.shortenings = 0}, "shortenings: got 0"},
        {{.inner_share = 1}, "inner_share: got 1"},
        {{.inner_steps = 0}, "inner_steps: got 0"}});
 }

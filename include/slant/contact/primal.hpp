@@ -26,6 +26,7 @@
 #include <slant/sets/support.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -149,6 +150,7 @@ struct local_coordinates {
   using sparse_type = Eigen::SparseMatrix<S>;
   using rows_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
   std::vector<local_row<S>> normal;    ///< of each contact
   std::vector<local_row<S>> tangents;  ///< as the rows of T
@@ -254,17 +256,13 @@ struct local_coordinates {
     }
     std::sort(support.begin(), support.end());
     support.erase(std::unique(support.begin(), support.end()), support.end());
-    std::size_t const k = support.size();
-    std::vector<std::vector<S>> a;
+    matrix_type a = matrix_type::Zero(index(own.size()), index(support.size()));
     bool single = true;
     for (std::size_t r = 0; r < own.size(); ++r) {
-      std::vector<S> dense(k, S(0));
       for (auto const& [j, value] : own[r]) {
-        auto const at = std::lower_bound(support.begin(), support.end(), j) - support.begin();
-        dense[static_cast<std::size_t>(at)] = value;
+        a(index(r), std::lower_bound(support.begin(), support.end(), j) - support.begin()) = value;
       }
       single = single && own[r].size() <= 1 && shared[r].empty();
-      a.push_back(std::move(dense));
     }
     if (!complete(own, shared, i) || !orthogonal(a, i) || !weighty(own, shared, i)) return;
     std::vector<local_row<S>> where(own.size());
@@ -319,22 +317,15 @@ struct local_coordinates {
 
   /// Whether rows are orthogonal and those of T of one length, up to rounding of what they are given
   /// with.
-  bool orthogonal(std::vector<std::vector<S>> const& a, index i) {
+  bool orthogonal(matrix_type const& a, index i) {
     using std::abs;
-    using std::sqrt;
     S const tolerance = S(1e5) * std::numeric_limits<S>::epsilon();
-    std::vector<S> length;
-    for (auto const& row : a) {
-      S sum(0);
-      for (S const& entry : row) sum += entry * entry;
-      length.push_back(sqrt(sum));
-    }
-    for (std::size_t r = 0; r < a.size(); ++r) {
-      for (std::size_t s = 0; s < r; ++s) {
-        S product(0);
-        for (std::size_t j = 0; j < a[r].size(); ++j) product += a[r][j] * a[s][j];
+    matrix_type const products = a * a.transpose();
+    vector_type const length = products.diagonal().cwiseSqrt();
+    for (index r = 0; r < a.rows(); ++r) {
+      for (index s = 0; s < r; ++s) {
         bool const differ = s > 0 && abs(S(length[r] - length[s])) > tolerance * length[s];
-        if (abs(product) > tolerance * length[r] * length[s] || differ) {
+        if (abs(products(r, s)) > tolerance * length[r] * length[s] || differ) {
           refusal = "the rows of N and T of contact " + slant::detail::show(i) +
                     (differ ? " have tangents of different lengths" : " are not orthogonal");
           return false;
@@ -344,39 +335,23 @@ struct local_coordinates {
     return true;
   }
 
-  /// H on the support, rows at its first components.
-  static void reflect(std::vector<std::vector<S>> a, std::vector<index> const& support,
+  /// H on the support, rows that are not empty at its first components.
+  static void reflect(matrix_type const& a, std::vector<index> const& support,
                       std::vector<local_row<S>>& where, std::vector<Eigen::Triplet<S>>& entries) {
-    using std::abs;
-    using std::sqrt;
-    std::size_t const k = support.size();
-    std::vector<S> h(k * k, S(0));  // by rows
-    for (std::size_t j = 0; j < k; ++j) h[j * k + j] = S(1);
-    std::size_t next = 0;
-    for (std::size_t r = 0; r < a.size(); ++r) {
-      S square(0);
-      for (std::size_t j = next; j < k; ++j) square += a[r][j] * a[r][j];
-      S const length = sqrt(square);
-      if (!(length > S(0))) continue;  // an empty row
-      // w = a + sign ‖a‖ e: I − 2 w wᵀ/‖w‖² maps a onto −sign ‖a‖ e.
-      std::vector<S> w(k, S(0));
-      for (std::size_t j = next; j < k; ++j) w[j] = a[r][j] / length;
-      S const sign = w[next] < S(0) ? S(-1) : S(1);
-      S const β = S(1) / (S(1) + abs(w[next]));
-      w[next] += sign;
-      auto const apply = [&](S* x, std::size_t stride) {
-        S sum(0);
-        for (std::size_t j = next; j < k; ++j) sum += w[j] * x[j * stride];
-        for (std::size_t j = next; j < k; ++j) x[j * stride] -= β * sum * w[j];
-      };
-      for (std::size_t s = r; s < a.size(); ++s) apply(a[s].data(), 1);
-      for (std::size_t c = 0; c < k; ++c) apply(h.data() + c, k);
-      where[r] = {support[next], S(-sign * length)};
-      ++next;
+    std::vector<index> full;
+    for (index r = 0; r < a.rows(); ++r) {
+      if (a.row(r).squaredNorm() > S(0)) full.push_back(r);
     }
-    for (std::size_t i = 0; i < k; ++i) {
-      for (std::size_t j = 0; j < k; ++j) {
-        entries.emplace_back(int(support[i]), int(support[j]), h[i * k + j]);
+    index const k = a.cols();
+    Eigen::HouseholderQR<matrix_type> const qr(a(full, Eigen::all).transpose());
+    for (std::size_t r = 0; r < full.size(); ++r) {
+      auto const at = static_cast<index>(r);
+      where[static_cast<std::size_t>(full[r])] = {support[r], qr.matrixQR()(at, at)};
+    }
+    matrix_type const Q = qr.householderQ() * matrix_type::Identity(k, k);
+    for (index i = 0; i < k; ++i) {
+      for (index j = 0; j < k; ++j) {
+        entries.emplace_back(int(support[std::size_t(i)]), int(support[std::size_t(j)]), Q(j, i));
       }
     }
   }

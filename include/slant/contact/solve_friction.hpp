@@ -70,34 +70,22 @@ struct friction_options {
   friction_equations equations = friction_equations::natural_map;
   asymmetric_data asymmetry = asymmetric_data::used_as_given;
   index first_sweeps = 100;    ///< before the first Newton step
-  index further_sweeps = 400;  ///< between Newton steps, four times as many each time
   index sweeps = 300000;       ///< of Gauss–Seidel at most, in all
   index newton_steps = 3000;   ///< at most, in all, those of the interior-point method included
   index interior_steps = 300;  ///< of that method at most
   index attempt = 40;          ///< Newton steps in one attempt of `newton`
-  S damping = S(1e-6);         ///< first δ of friction_newton in `newton`
-  index halvings = 8;          ///< of a Newton step at most
   index patience = 3;          ///< turns of `automatic` that hardly lessen the error, till stalled
-  gauss_seidel_options<S> gauss_seidel{};
-  friction_interior_options<S> interior_point{};  ///< `small` at most tolerance/100
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using slant::detail::show;
     slant::detail::check_fraction("tolerance", tolerance);
-    if (!(damping > S(0)) || !slant::detail::is_finite(damping)) {
-      throw bad_input("damping", show(damping), "a finite number > 0");
-    }
     at_least_zero("first_sweeps", first_sweeps);
-    at_least_zero("further_sweeps", further_sweeps);
     at_least_zero("sweeps", sweeps);
     at_least_zero("newton_steps", newton_steps);
     at_least_zero("interior_steps", interior_steps);
-    at_least_zero("halvings", halvings);
     if (attempt < 1) throw bad_input("attempt", show(attempt), "at least 1");
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
-    gauss_seidel.validate();
-    interior_point.validate();
   }
 
  private:
@@ -157,7 +145,7 @@ class friction_run {
         problem_(&problem),
         target_(options.tolerance),
         blocks_(problem),
-        gauss_seidel_(blocks_, options.gauss_seidel),
+        gauss_seidel_(blocks_),
         newton_(blocks_, options.equations),
         best_(vector_type::Zero(blocks_.size())),
         best_u_(blocks_.q()),
@@ -229,7 +217,7 @@ class friction_run {
   }
 
   void take_turns(gauss_seidel_state<S>& sweeping) {
-    index sweeps = options_.further_sweeps, idle = 0;
+    index sweeps = 400, idle = 0;
     bool first = true;  // from wherever it begins, the interior-point method takes the same steps
     while (!out_of_work() && idle < options_.patience) {
       index const before = work_.sweeps + steps_done();
@@ -282,14 +270,14 @@ class friction_run {
 
   /// Newton's method from the best forces, with a damping that follows its success.
   bool attempt_newton(index steps) {
-    constexpr index failures_allowed = 3;
+    constexpr index failures_allowed = 3, halvings = 8;
     S const least = S(16) * std::numeric_limits<S>::epsilon();
     vector_type x = best_;
     newton_.begin(x);
-    S δ = options_.damping;
+    S δ(1e-6);
     index failures = 0;
     for (index k = 0; k < steps && !no_steps_left(); ++k) {
-      if (newton_.advance(x, δ, options_.halvings)) {
+      if (newton_.advance(x, δ, halvings)) {
         if (newton_.length() == S(1)) δ = std::max(least, S(δ * S(0.1)));
         if (newton_.length() < S(0.1)) δ *= S(10);
         if (consider(x, method::newton)) return true;
@@ -303,10 +291,8 @@ class friction_run {
 
   /// The interior-point method until the problem is solved or it gets no further.
   bool attempt_interior_point() {
-    auto o = options_.interior_point;
     S const small = std::max(S(S(0.01) * options_.tolerance), std::numeric_limits<S>::min());
-    o.small = std::min(o.small, small);
-    friction_interior_point<N, S> const interior(blocks_, o);
+    friction_interior_point<N, S> const interior(blocks_, {.small = std::min(S(1e-10), small)});
     auto s = interior.start(best_);
     while (s.status == status::running && s.iteration < options_.interior_steps &&
            !no_steps_left()) {

@@ -48,8 +48,8 @@ status is_below(N const& size, S const& tolerance, N const& scale) {
 template <class N, class S>
 [[nodiscard, gnu::cold]] std::string small_beside(char const* what, N const& size, N const& scale,
                                                   S const& tolerance) {
-  return std::string("relative ") + what + " " + show(size) + " / " + show(scale) + " is at most " +
-         show(tolerance);
+  return std::string("relative ") + what + " " + brief(size) + " / " + brief(scale) +
+         " is at most " + show(tolerance);
 }
 
 }  // namespace detail
@@ -301,9 +301,9 @@ class step_below : public rule {
   }
   template <has_step_norm State>
   [[gnu::cold]] std::string reason(State const& s) const {
-    std::string text = "relative step " + detail::show(s.step_norm) + " / ";
-    text += offset_ == S(0) ? detail::show(s.x_norm)
-                            : "(" + detail::show(s.x_norm) + " + " + detail::show(offset_) + ")";
+    std::string text = "relative step " + detail::brief(s.step_norm) + " / ";
+    text += offset_ == S(0) ? detail::brief(s.x_norm)
+                            : "(" + detail::brief(s.x_norm) + " + " + detail::show(offset_) + ")";
     return text + " is at most " + detail::show(tolerance_);
   }
 

@@ -164,6 +164,25 @@ class interior_point_steps {
  private:
   [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
 
+  // The constants of [K §3.2.4] are γ, ω, ρ and those of c; c_min is an option.
+  static constexpr double closeness = 1e-3;          // γ: ν_i z_i ≥ γ ϑ
+  static constexpr double sufficient = 0.1;          // ω: ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
+  static constexpr double centring_most = 0.5;       // c_max
+  static constexpr double centring_scale = 1.25e-5;  // c_s
+  static constexpr double residual_factor = 1e9;  // β₀: ‖∇L‖ ≤ β ϑ with β₀ times the β of the start
+  static constexpr double to_boundary = 0.999;  // at most so much of the way there
+  static constexpr double shorten = 0.9;  // ρ₁, ρ₂: of α until ν_i z_i ≥ γ ϑ, ϑ falls enough
+  static constexpr double shorten_residual = 0.5;  // ρ₃: of α until ‖∇L‖ ≤ β ϑ
+  static constexpr index shortenings = 200;        // at most so often in one step
+  /// ϑ⁺ ≥ ahead · φ ϑ⁰, φ = Π(1 − α) what the steps leave of the first ∇L: ϑ that falls faster
+  /// brings the iterates to the boundary at the wrong place. It may also grow up to grow · φ ϑ⁰.
+  static constexpr double ahead = 0.1, grow = 10;
+  /// Where, before any long step, a Newton step would leave Λ within 1/raise_above of its length and
+  /// predicts multipliers so many times as large, ν and ϑ are raised to them. Halves the steps of a
+  /// flow past an obstacle (examples/stokes, g = 10) and leaves the bricks as they are.
+  static constexpr double raise_above = 5;
+  static constexpr index most_raises = 10;
+
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
   using column = Eigen::Array<scalar, Eigen::Dynamic, 1>;
 
@@ -252,7 +271,7 @@ class interior_point_steps {
     s.barrier.linearise(blocks(), s.x);
     set_lagrangian(s, s.r, s.multipliers, scalar(0));
     s.residual_bound =
-        options_.residual_factor * std::max<scalar>(s.lagrangian_norm, s.gradient_scale / s.unit);
+        scalar(residual_factor) * std::max<scalar>(s.lagrangian_norm, s.gradient_scale / s.unit);
     if (s.constraints > 0) s.residual_bound /= ϑ;
     s.x_norm = norm(s.x);
     s.forcing = forcing_history<scalar>::starting_at(scalar(1));
@@ -264,15 +283,15 @@ class interior_point_steps {
   /// ν and ϑ of the size that the Newton step Δx, Δν asks for, if those at hand are too small by
   /// far: Δx leaves Λ almost at once, as no force holds it back. Whether they were.
   bool raise(state_type& s) const {
-    if (s.constraints == 0 || s.under_way || s.raises == options_.raises) return false;
+    if (s.constraints == 0 || s.under_way || s.raises == most_raises) return false;
     vectors::sum(s.multipliers, s.multiplier_step, s.trial_multipliers);
     s.pairs.growth(blocks(), [&](index row, scalar const& factor) {
       slant::local(s.trial_multipliers).coeffRef(row) =
           factor * slant::local(s.multipliers).coeff(row);
     });
     scalar const growth = norm(s.trial_multipliers) / norm(s.multipliers);
-    if (!(growth > options_.raise_above) || !is_finite(growth) ||
-        options_.raise_above * way_out(s, s.step) > scalar(1)) {
+    if (!(growth > scalar(raise_above)) || !is_finite(growth) ||
+        scalar(raise_above) * way_out(s, s.step) > scalar(1)) {
       return false;
     }
     vectors::scale(growth, s.multipliers);
@@ -353,23 +372,23 @@ class interior_point_steps {
                                    .cwiseProduct(slant::local(s.trial_slacks));
     scalar least = least_product(s);
     inside = inside && s.pairs.judge(blocks(), s.trial, α, s.products, least);
-    if (!slant::everywhere(s.x, inside)) return options_.shorten_centred;
+    if (!slant::everywhere(s.x, inside)) return scalar(shorten);
     if (s.constraints == 0) return scalar(1);
     scalar const measure = inner_product(s.products, s.counted) / s.degree;
-    if (!(slant::minimum(s.x, least) >= options_.closeness * measure)) {
-      return options_.shorten_centred;
+    if (!(slant::minimum(s.x, least) >= scalar(closeness) * measure)) {
+      return scalar(shorten);
     }
-    scalar const fall = scalar(1) - α * options_.sufficient * (scalar(1) - s.centring);
+    scalar const fall = scalar(1) - α * scalar(sufficient) * (scalar(1) - s.centring);
     scalar const due = (scalar(1) - α) * s.infeasible * s.first_measure;
-    if (!(measure <= std::max<scalar>(fall * s.measure, options_.grow * due)))
-      return options_.shorten_measure;
-    if (!(measure >= options_.ahead * due)) {
-      return options_.shorten_residual;
+    if (!(measure <= std::max<scalar>(fall * s.measure, scalar(grow) * due)))
+      return scalar(shorten);
+    if (!(measure >= scalar(ahead) * due)) {
+      return scalar(shorten_residual);
     }
     s.barrier.linearise(blocks(), s.trial);
     vectors::waxpy(α, s.inner.image, s.r, s.rhs);
     set_lagrangian(s, s.rhs, s.trial_multipliers, α);
-    if (!(s.lagrangian_norm <= s.residual_bound * measure)) return options_.shorten_residual;
+    if (!(s.lagrangian_norm <= s.residual_bound * measure)) return scalar(shorten_residual);
     s.trial_measure = measure;
     s.trial_least = slant::minimum(s.x, least);
     return scalar(1);
@@ -401,8 +420,8 @@ class interior_point_steps {
     scalar const ξ = s.least / s.measure;
     scalar const q = ξ < scalar(1) ? scalar((scalar(1) - ξ) / ξ) : scalar(0);
     s.centring =
-        std::min(options_.centring_most,
-                 std::max(least_centring(s), scalar(options_.centring_scale * (q * q * q))));
+        std::min(scalar(centring_most),
+                 std::max(least_centring(s), scalar(scalar(centring_scale) * (q * q * q))));
   }
 
   [[nodiscard]] scalar correct_below(state_type const& s) const {
@@ -415,8 +434,7 @@ class interior_point_steps {
   /// c where a step had the length α [Mehrotra].
   [[nodiscard]] scalar centring_after(state_type const& s, scalar const& α) const {
     scalar const rest = scalar(1) - α;
-    return std::min(options_.centring_most,
-                    std::max<scalar>(least_centring(s), rest * rest * rest));
+    return std::min(scalar(centring_most), std::max<scalar>(least_centring(s), rest * rest * rest));
   }
 
   /// Δx, A Δx and Δν; false if there is none. `again`: in place of the step at hand; `corrected`:
@@ -448,7 +466,7 @@ class interior_point_steps {
         s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
         std::numeric_limits<scalar>::epsilon() * norm(s.r));
     // A step that was cut short says little about the next one.
-    bool const warm = options_.warm_start && (again || s.step_fraction > scalar(0.1));
+    bool const warm = again || s.step_fraction > scalar(0.1);
     auto const inner =
         s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs, target,
                       options_.inner_share, options_.inner_steps, warm, s.trace);
@@ -518,8 +536,8 @@ class interior_point_steps {
     }
     of_ν = std::min<scalar>(of_ν, s.pairs.way_out(blocks()));
     to_end = std::min(to_end, slant::minimum(s.x, of_ν));
-    scalar α = std::min<scalar>(scalar(1), options_.to_boundary * to_end);
-    for (index j = 0; j < options_.shortenings && α > scalar(0); ++j) {
+    scalar α = std::min<scalar>(scalar(1), scalar(to_boundary) * to_end);
+    for (index j = 0; j < shortenings && α > scalar(0); ++j) {
       scalar const factor = judge(s, α);
       if (factor == scalar(1)) return α;
       α *= factor;
@@ -579,8 +597,9 @@ auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_ty
   scalar const length = options_.start_length * first_way(s) * per_entry;
   if (!solved) choose_start(s, x0);
   s.trial = s.x;
-  enter_interior(blocks(), solved ? scalar(1) : length, options_.start_depth, s.x, s.centre,
-                 s.barrier.per_unit(), [&](auto const& place) { s.barrier.hold(place); });
+  enter_interior(blocks(), solved ? scalar(1) : length, s.x, s.barrier.per_unit(),
+                 [&](auto const& place) { s.barrier.hold(place); });
+  vectors::copy(s.x, s.centre);
   if (solved) {
     s.x = s.trial;
     s.status = status::converged;

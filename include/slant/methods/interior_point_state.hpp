@@ -125,11 +125,10 @@ template <class S>
 
 }  // namespace detail
 
-/// Options of interior_point. Defaults are the constants of [K §3.2.4] but for c_min (1e-30 there),
-/// the inner accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with
-/// the fewest products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples
-/// of those of the data).
-
+/// Options of interior_point. Defaults differ from [K §3.2.4] in c_min (1e-30 there), the inner
+/// accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with the fewest
+/// products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples of those of
+/// the data).
 template <scalar S = double>
 struct interior_point_options {
   /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
@@ -142,39 +141,15 @@ struct interior_point_options {
   S start_length = S(3);
   /// None: 0.6 where the set has discs or cones, else 0.3.
   std::optional<S> start_force{};
-  /// In (0, 1]: so far from P_Λ(x0) to the middle of its block one starts. Less than 1 remembers
-  /// more of x0 and lies nearer to the boundary, which costs more steps than it saves.
-  S start_depth = S(1);
-
-  /// > 1: where, before any long step, a Newton step would leave Λ within 1/raise_above of its
-  /// length and predicts multipliers so many times as large, ν and ϑ are raised to them. Halves the
-  /// steps of a flow past an obstacle (examples/stokes, g = 10) and leaves the bricks as they are.
-  S raise_above = S(5);
-  index raises = 10;  ///< at most so often in all; 0: never
 
   /// In [0, 1]: a step shorter than this is computed again with its own second-order term
   /// [Mehrotra]; the longer of the two is made. 0: never.
   /// None: 0.3 where the set has discs or cones, else 0.
   std::optional<S> correct_below{};
 
-  /// c_min in [0, c_max]; 0: pure Newton steps. None: 0.2 where the set has discs or cones, on
+  /// c_min in [0, ½]; 0: pure Newton steps. None: 0.2 where the set has discs or cones, on
   /// which force and point turn into line at the rate of ϑ, else 0.1.
   std::optional<S> centring_least{};
-  S centring_most = S(0.5);       ///< c_max in (0, 1)
-  S centring_scale = S(1.25e-5);  ///< c_s > 0: c = c_s ((1 − ξ)/ξ)³ between the two
-  S closeness = S(1e-3);          ///< γ in (0, 1): ν_i z_i ≥ γ ϑ
-  S residual_factor = S(1e9);  ///< β₀ ≥ 1: ‖∇L‖ ≤ β ϑ with β₀ times the β of the start
-  /// ϑ⁺ ≥ ahead · φ ϑ⁰, φ = Π(1 − α) what the steps leave of the first ∇L: ϑ that falls faster
-  /// brings the iterates to the boundary at the wrong place. In [0, 1).
-  S ahead = S(0.1);
-  /// ≥ 0: ϑ may also grow up to grow · φ ϑ⁰.
-  S grow = S(10);
-  S sufficient = S(0.1);        ///< ω in (0, 1): ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
-  S to_boundary = S(0.999);     ///< δ in (0, 1): at most so much of the way to the boundary
-  S shorten_centred = S(0.9);   ///< ρ₁ in (0, 1): shortens α until ν_i z_i ≥ γ ϑ
-  S shorten_measure = S(0.9);   ///< ρ₂ in (0, 1): until ϑ falls enough
-  S shorten_residual = S(0.5);  ///< ρ₃ in (0, 1): until ‖∇L‖ ≤ β ϑ
-  index shortenings = 200;      ///< at most so often in one step
 
   adaptive_precision forcing{.r_tol = 0.3,
                              .c_fact = 0.99};  ///< inner accuracy, relative to the right-hand side
@@ -183,7 +158,6 @@ struct interior_point_options {
   /// contact::lumped_preconditioner: on bricks, k = 4 … 10, 93 to 307 products to an error of 5e-9
   /// become 93 to 187. With a poor M terms are small long before the end, and steps lead nowhere.
   S inner_share = S(0);
-  bool warm_start = true;    ///< inner iterations begin at a multiple of the last step
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
   index patience = 30;       ///< steps without progress that mean stalled
 
@@ -192,33 +166,15 @@ struct interior_point_options {
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_positive("start_length", start_length);
     if (start_force) detail::check_positive("start_force", *start_force);
-    detail::check_option("start_depth", start_depth, start_depth > S(0) && start_depth <= S(1),
-                         "a number in (0, 1]");
-    detail::check_option("raise_above", raise_above, raise_above > S(1), "a number > 1");
-    if (raises < 0) throw bad_input("raises", detail::show(raises), "a number >= 0");
-    detail::check_fraction("centring_most", centring_most);
     if (centring_least) {
       detail::check_option("centring_least", *centring_least,
-                           *centring_least >= S(0) && *centring_least <= centring_most,
-                           "a number in [0, centring_most]");
+                           *centring_least >= S(0) && *centring_least <= S(0.5),
+                           "a number in [0, 0.5]");
     }
-    detail::check_positive("centring_scale", centring_scale);
-    detail::check_fraction("closeness", closeness);
-    detail::check_option("residual_factor", residual_factor,
-                         residual_factor >= S(1) && detail::is_finite(residual_factor),
-                         "a number >= 1");
-    detail::check_fraction("sufficient", sufficient);
     if (correct_below) {
       detail::check_option("correct_below", *correct_below,
                            *correct_below >= S(0) && *correct_below <= S(1), "a number in [0, 1]");
     }
-    detail::check_option("ahead", ahead, ahead >= S(0) && ahead < S(1), "a number in [0, 1)");
-    detail::check_option("grow", grow, grow >= S(0) && detail::is_finite(grow), "a number >= 0");
-    detail::check_fraction("to_boundary", to_boundary);
-    detail::check_fraction("shorten_centred", shorten_centred);
-    detail::check_fraction("shorten_measure", shorten_measure);
-    detail::check_fraction("shorten_residual", shorten_residual);
-    if (shortenings < 1) throw bad_input("shortenings", detail::show(shortenings), "at least 1");
     detail::check_option("inner_share", inner_share, inner_share >= S(0) && inner_share < S(1),
                          "a number in [0, 1)");
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
@@ -320,19 +276,16 @@ template <class Block, class X>
 
 }  // namespace detail
 
-/// x ∈ Λ moves the fraction `pull` of the way to the interior; the middle it moves towards goes to
-/// `centre`, and 1/σ of every inequality, 0 for those without a bound, to per_unit (see
-/// barrier.hpp). Blocks that are a single point, a ball of radius 0 or an interval with equal ends,
+/// x ∈ Λ moves to the middle of each block, and 1/σ of every inequality, 0 for those without a
+/// bound, goes to per_unit (see barrier.hpp). Blocks that are a single point, a ball of radius 0 or an interval with equal ends,
 /// keep it, count as without a bound and are told to hold(place).
 /// Throws bad_input, on all processes, naming another block that has no interior: none that a
 /// number can tell, also a ball of a radius whose square leaves the range of the numbers.
 template <class C, class V, class R, class Hold>
-void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull, V& x, V& centre,
-                    R& per_unit, Hold hold) {
+void enter_interior(C const& set, scalar_t<V> const& δ, V& x, R& per_unit, Hold hold) {
   using S = scalar_t<V>;
   index row = 0;
   std::optional<index> empty;
-  vectors::copy(x, centre);
   slant::visit_blocks(set, [&](auto const& block, auto const& place) {
     using block_type = std::remove_cvref_t<decltype(block)>;
     constexpr int k = detail::inequalities_of<block_type>;
@@ -356,9 +309,7 @@ void enter_interior(C const& set, scalar_t<V> const& δ, scalar_t<V> const& pull
             detail::is_finite(depth) ? S(1) / unit_near(S(depth / c.distance)) : S(0);
       }
       row += k;
-      place.put(centre, c.point);
-      place.put(x, (start + pull * (c.point - start)).eval());
-      if (!(block.inequality(place.value(x)).maxCoeff() < S(0))) place.put(x, c.point);
+      place.put(x, c.point);
     }
   });
   if (!slant::everywhere(x, !empty)) detail::refuse_empty_interior(empty);

@@ -4,7 +4,6 @@
 // block Gauss–Seidel reads it:
 //
 //     forwards from 0     x = (D + L)⁻¹b,   r = b − A x = −Lᵀx      one product, residual included
-//     forwards            x ← (D + L)⁻¹(b − Lᵀx)
 //     backwards           x ← (D + Lᵀ)⁻¹(b − L x)
 //
 // L, D and Lᵀ are stored apart, because the sweep from 0 passes through one after the other: with
@@ -129,17 +128,6 @@ class block_matrix {
       put<Stride>(s, y + at<Stride>(i));
     }
   }
-  /// r = b − A x.
-  void residual(T const* b, T const* x, T* r) const {
-    for (int i = 0; i < nodes(); ++i) {
-      columns s = sum<stride>(lower_, i, x);
-      add_block(s, diagonal(i), x + at<stride>(i));
-      s += sum<stride>(upper_, i, x);
-      columns t = columns::load(b + at<stride>(i));
-      t -= s;
-      t.store_padded(r + at<stride>(i));
-    }
-  }
   /// Sweeps with diagonal blocks of which `inverses` holds the inverses, N columns of `stride`
   /// numbers each, 0 beyond the N that count. They need not be those of D: with D + C they are the
   /// sweeps of A + C, with inverses on a subspace those on that subspace.
@@ -153,14 +141,6 @@ class block_matrix {
       columns s = columns::zero();
       s -= sum<stride>(upper_, i, x);
       s.store_padded(r + at<stride>(i));
-    }
-  }
-  void forwards(T const* inverses, T const* b, T* x) const {
-    for (int i = 0; i < nodes(); ++i) {
-      columns s = columns::load(b + at<stride>(i));
-      s -= sum<stride>(upper_, i, x);
-      s -= sum<stride>(lower_, i, x);
-      relax(inverses, i, s, x);
     }
   }
   void backwards(T const* inverses, T const* b, T* x) const {

@@ -74,7 +74,6 @@ struct multigrid_options {
   index block_size = 0;  ///< unknowns of a node, consecutive; 0: from the pattern of K, 1 to 3
   double strength = 0.02;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
   double damping = 4.0 / 3;  ///< ω λ_max(D⁻¹K) in (0, 2): the smoothing of the prolongation
-  index sweeps = 1;          ///< of Gauss–Seidel before and after each coarse correction, >= 1
   /// A level with so few unknowns is factored, >= 1. A last level with more, where there is none
   /// that is smaller, is factored up to twice as many (or 1200), else smoothed.
   index coarsest = 500;
@@ -100,7 +99,6 @@ struct multigrid_options {
     if (!(damping > 0 && damping < 2)) {
       throw bad_input("damping", show(damping), "a number in (0, 2)");
     }
-    if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
     if (coarsest < 1) throw bad_input("coarsest", show(coarsest), "at least 1");
     if (levels < 1) throw bad_input("levels", show(levels), "at least 1");
     if (!(complexity > 1)) throw bad_input("complexity", show(complexity), "a number > 1");
@@ -445,18 +443,10 @@ struct cycle_workspace {
   }
 };
 
-/// Sweeps before the coarse correction: x from 0, and r = b − A x, or less than that at a surface.
-template <int N, class T>
-void smooth_before(block_matrix<N, T> const& A, T const* inverses, level_vectors<T>& v,
-                   index sweeps) {
-  A.forwards_from_zero(inverses, v.b.data(), v.x.data(), v.r.data());
-  for (index k = 1; k < sweeps; ++k) A.forwards(inverses, v.b.data(), v.x.data());
-}
-
 /// x = cycle(b) on the levels below the finest, from l on.
 template <int N, int M, class T>
 void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_face,
-                  std::size_t l, index sweeps) {
+                  std::size_t l) {
   auto const& A = on_face ? w.on_face->A[l] : h.coarse[l].A;
   auto const& inverses = on_face ? w.on_face->inverses[l] : h.coarse[l].inverses;
   auto& v = w.coarse[l];
@@ -465,29 +455,25 @@ void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool
     (on_face ? w.on_face->last : h.last).solve(v.b.data(), v.x.data());
     return;
   }
-  smooth_before(A, inverses.data(), v, sweeps);
+  A.forwards_from_zero(inverses.data(), v.b.data(), v.x.data(), v.r.data());
   if (!last) {
-    if (sweeps > 1) A.residual(v.b.data(), v.x.data(), v.r.data());
     auto const& P = h.coarse[l].P;
     P.restrict_to(v.r.data(), w.coarse[l + 1].b.data());
-    coarse_cycle(h, w, on_face, l + 1, sweeps);
+    coarse_cycle(h, w, on_face, l + 1);
     P.add_to(w.coarse[l + 1].x.data(), v.x.data());
   }
-  for (index k = 0; k < sweeps; ++k) A.backwards(inverses.data(), v.b.data(), v.x.data());
+  A.backwards(inverses.data(), v.b.data(), v.x.data());
 }
 
 /// x = cycle(b) on all levels.
 template <int N, int M, class T>
-void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_face, index sweeps) {
+void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_face) {
   auto& v = w.fine;
   auto* const face = on_face ? &w.on_face->face : nullptr;
   T const* const inverses = face ? face->inverses() : h.fine.inverses.data();
-  smooth_before(h.fine.A, inverses, v, sweeps);
+  // r = b − A x, or at a surface what Π makes of it.
+  h.fine.A.forwards_from_zero(inverses, v.b.data(), v.x.data(), v.r.data());
   if (!h.coarse.empty() || h.factored) {
-    if (sweeps > 1) {
-      h.fine.A.residual(v.b.data(), v.x.data(), v.r.data());
-      if (face) face->subtract_curvature(v.x.data(), v.r.data());
-    }
     if (face) {
       face->project(v.r.data());
       face->remember(v.x.data());
@@ -497,12 +483,12 @@ void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_fac
       for (std::size_t k = 0; k < v.x.size(); ++k) v.x[k] += v.r[k];
     } else {
       h.fine.P.restrict_to(v.r.data(), w.coarse.front().b.data());
-      coarse_cycle(h, w, on_face, 0, sweeps);
+      coarse_cycle(h, w, on_face, 0);
       h.fine.P.add_to(w.coarse.front().x.data(), v.x.data());
     }
     if (face) face->project_change(v.x.data());
   }
-  for (index k = 0; k < sweeps; ++k) h.fine.A.backwards(inverses, v.b.data(), v.x.data());
+  h.fine.A.backwards(inverses, v.b.data(), v.x.data());
 }
 
 /// The coarse levels follow a face of which w.on_face->moved are the nodes that have changed. Returns
@@ -863,7 +849,6 @@ class multigrid {
 
   std::shared_ptr<all_levels const> levels_;
   index rows_ = 0;
-  index sweeps_;
   S factor_{1};  // a power of two; the levels are those of factor · K
   std::string description_;
 };
@@ -872,8 +857,7 @@ class multigrid {
 
 template <class S, class T>
 multigrid<S, T>::multigrid(sparse_view const& K, mixed_unknowns<S> const* mixed,
-                           matrix_type candidates, multigrid_options const& o)
-    : sweeps_(o.sweeps) {
+                           matrix_type candidates, multigrid_options const& o) {
   o.validate();
   prepare(K);
   if (mixed) {
@@ -982,7 +966,7 @@ void multigrid<S, T>::run(S const* x, S* y, workspace_type& w, bool on_face) con
   with_workspace(w, [&]<int N, int M>(levels<N, M> const& h, detail::cycle_workspace<N, M, T>& v) {
     S const unit = shorten<N>(x, rows_, v.fine.b);
     bool const faced = on_face && v.on_face.has_value();
-    detail::cycle(h, v, faced, sweeps_);
+    detail::cycle(h, v, faced);
     lengthen<N>(v.fine.x, unit * factor_, y, rows_);
     if (faced) v.on_face->face.complete(x, y, factor_);
   });

@@ -85,29 +85,12 @@ struct by_laws {
 
 // --- options -------------------------------------------------------------------------------------
 
-/// What the error is by which forcing terms are chosen.
-enum class newton_error : unsigned char {
-  residual,  ///< err⁽ᵏ⁾ = ‖F(y⁽ᵏ⁾)‖, relative to that at the start
-  step  ///< err⁽ᵏ⁾ = ‖dy⁽ᵏ⁻¹⁾‖ / (‖y⁽ᵏ⁾‖ + step_offset), 1 at the start [T §3.4]
-};
-
-/// Where ‖F‖ is taken that residuals are judged by.
-enum class newton_scale : unsigned char {
-  origin,  ///< ‖F(0)‖, as ‖b‖ for linear systems; ‖F(y₀)‖ if that is 0 or not finite
-  start    ///< ‖F(y₀)‖: where F must not be evaluated at 0. Depends on the start
-};
-
 /// Options of semismooth_newton.
 struct newton_options {
-  newton_error error = newton_error::residual;  ///< what forcing terms see
-  double step_offset = 0;                       ///< ≥ 0, in units of y; [T] has 1
-  newton_scale scale = newton_scale::origin;    ///< what residual_below is relative to
   index patience = 100;  ///< steps without a new smallest ‖F‖ that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    detail::check_option("step_offset", step_offset,
-                         step_offset >= 0 && detail::is_finite(step_offset), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
   }
 };
@@ -141,8 +124,10 @@ struct newton_state {
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
 
-  scalar residual_norm{0};   ///< ‖F(y)‖
-  scalar residual_scale{0};  ///< what ‖F(y)‖ is small against; see newton_scale
+  scalar residual_norm{0};  ///< ‖F(y)‖
+  /// What ‖F(y)‖ is small against: ‖F(0)‖, as ‖b‖ for linear systems; ‖F(y₀)‖ if that is 0 or not
+  /// finite.
+  scalar residual_scale{0};
   scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖dy‖, or ‖α dy‖ if α > 1: a step
                                                                ///< that was shortened says nothing
                                                                ///< about the distance to go
@@ -334,8 +319,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     s.residual_norm = norm(s.residual);
     s.x_norm = norm(s.x);
     set_scale(s);
-    s.forcing = forcing_history<S>::starting_at(
-        options_.error == newton_error::residual ? s.residual_norm : S(1));
+    s.forcing = forcing_history<S>::starting_at(s.residual_norm);
     if (s.residual_norm == S(0)) s.status = status::converged;
     return s;
   }
@@ -440,9 +424,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     using S = typename State::scalar;
     S const infinity = std::numeric_limits<S>::infinity();
     S const before = norm(s.trial_residual);
-    s.forcing.record(options_.error == newton_error::residual
-                         ? s.residual_norm
-                         : S(s.step_norm / (s.x_norm + S(options_.step_offset))));
+    s.forcing.record(s.residual_norm);
     if (s.status != status::running) return;
     bool const last_digits = s.step_norm <= S(4) * std::numeric_limits<S>::epsilon() * s.x_norm;
     if (last_digits && !(s.residual_norm < before)) {
@@ -457,7 +439,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
   void set_scale(State& s) const {
     using S = typename State::scalar;
     s.residual_scale = s.residual_norm;
-    if (options_.scale == newton_scale::start || s.x_norm == S(0)) return;
+    if (s.x_norm == S(0)) return;
     vectors::set_zero(s.trial);
     auto w = s.f_workspace;  // that of the state holds what belongs to x0
     slant::evaluate(f(), s.trial, s.trial_residual, w);

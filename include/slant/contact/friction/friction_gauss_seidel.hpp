@@ -247,14 +247,12 @@ class friction_sweeps {
 template <class S>
 struct gauss_seidel_options {
   index sweeps = 10;      ///< of one step, before and after the extrapolation
-  S shrink = S(0.25);     ///< of the extrapolation when it is not accepted; else it is doubled
   index patience = 3000;  ///< steps without a new smallest error that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using slant::detail::show;
     if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
-    slant::detail::check_fraction("shrink", shrink);
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
   }
 };
@@ -335,7 +333,7 @@ class friction_gauss_seidel {
       s.error = extrapolated;
       s.length = std::min(S(S(2) * s.length), S(1) / std::numeric_limits<S>::epsilon());
     } else {
-      s.length = std::max(S(1), S(s.length * options_.shrink));
+      s.length = std::max(S(1), S(s.length * S(0.25)));
     }
   }
   void judge(state_type& s) const {

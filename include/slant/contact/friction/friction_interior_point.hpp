@@ -264,28 +264,15 @@ namespace slant::contact {
 /// the units of friction_blocks.
 template <class S>
 struct friction_interior_options {
-  S small = S(1e-10);     ///< ‖p‖/‖q‖ that needs no aim
-  S fraction = S(0.99);   ///< of the way to the boundary
-  S balance = S(0.2);     ///< of the work of x on p, at least, is aimed at
-  S largest_aim = S(10);  ///< σ at most
-  S proximal = S(1e-3);   ///< first α; then × 3 after a short step, × ½ after a long one
-  index patience = 100;   ///< steps without a clearly smaller error that mean stalled
+  S small = S(1e-10);    ///< ‖p‖/‖q‖ that needs no aim
+  index patience = 100;  ///< steps without a clearly smaller error that mean stalled
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using slant::detail::show;
-    within("small", small, S(1));
-    within("fraction", fraction, S(1));
-    within("balance", balance, std::numeric_limits<S>::infinity());
-    within("largest_aim", largest_aim, std::numeric_limits<S>::infinity());
-    within("proximal", proximal, S(1));
+    if (!(small > S(0) && small < S(1))) {
+      throw bad_input("small", show(small), "a number in (0, 1)");
+    }
     if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
-  }
-
- private:
-  static void within(char const* name, S const& value, S const& end) {
-    using slant::detail::show;
-    if (value > S(0) && value < end) return;
-    throw bad_input(name, show(value), "a number in (0, " + show(end) + ")");
   }
 };
 
@@ -347,7 +334,7 @@ class friction_interior_point {
     ++s.iteration;
     s.length = S(0);
     if (!factor(s)) {
-      s.α = std::max(S(S(10) * s.α), options_.proximal);
+      s.α = std::max(S(S(10) * s.α), S(proximal));
       if (!(s.α < S(1))) s.status = slant::status::breakdown;
     } else if (!advance(s)) {
       s.status = slant::status::breakdown;
@@ -358,6 +345,12 @@ class friction_interior_point {
   }
 
  private:
+  static constexpr double fraction = 0.99;   // of the way to the boundary
+  static constexpr double balance = 0.2;     // of the work of x on p, at least, is aimed at
+  static constexpr double largest_aim = 10;  // σ at most
+  static constexpr double proximal =
+      1e-3;  // first α; then × 3 after a short step, × ½ after a long one
+
   using pair = detail::friction_cone_pair<N, S>;
   using part = typename pair::part;
   using block = typename pair::block;
@@ -423,14 +416,14 @@ class friction_interior_point {
     S σ = std::clamp(S(mean(after) / s.γ), S(0), S(1));
     σ *= σ;
     if (sqrt(p) > options_.small * blocks_->q_norm()) {
-      σ = std::max(σ, std::min(options_.largest_aim, S(options_.balance * mean(work) / s.γ)));
+      σ = std::max(σ, std::min(S(largest_aim), S(S(balance) * mean(work) / s.γ)));
     }
     each(s, [&](pair& c, index) { c.aim_at(σ * s.γ, a); });
-    S const t = std::min(S(1), S(options_.fraction * find_direction(s)));
+    S const t = std::min(S(1), S(S(fraction) * find_direction(s)));
     if (!(t > std::numeric_limits<S>::epsilon())) return false;
     each(s, [&](pair& c, index) { c.at.move(multiple_of(t, c.dx), multiple_of(t, c.ds)); });
     s.length = t;
-    if (t < S(0.1)) s.α = std::max(S(S(3) * s.α), options_.proximal);
+    if (t < S(0.1)) s.α = std::max(S(S(3) * s.α), S(proximal));
     if (t > S(0.5)) s.α = s.α > S(1e-14) ? S(s.α / S(2)) : S(0);
     return true;
   }

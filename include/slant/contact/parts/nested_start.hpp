@@ -28,6 +28,7 @@
 #include <slant/problems/separable_qp.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -227,36 +228,21 @@ class nested_start {
 
   /// E = [T⁺, Z]; nothing if the rows of T are nearly dependent.
   static std::optional<frame> frame_of(matrix_type const& T) {
+    using std::abs;
     index const m = T.rows(), w = T.cols();
-    matrix_type Q = matrix_type::Zero(w, w), L = matrix_type::Zero(m, m);  // T = L Qᵀ
-    index next = 0;
-    auto const add = [&](vector_type v, S const& size, index row) {
-      for (int pass = 0; pass < 2; ++pass) {
-        for (index k = 0; k < next; ++k) {
-          S const part = Q.col(k).dot(v);
-          if (row >= 0) L(row, k) += part;
-          v -= part * Q.col(k);
-        }
-      }
-      S const length = v.norm();
-      if (!(length > S(1e-3) * size)) return false;
-      if (row >= 0) L(row, next) = length;
-      Q.col(next++) = v / length;
-      return true;
-    };
+    Eigen::HouseholderQR<matrix_type> const qr(T.transpose());  // Tᵀ = Q₁ R
+    matrix_type const R = qr.matrixQR().topRows(std::min(m, w));
     S const size = T.cwiseAbs().maxCoeff();
     for (index r = 0; r < m; ++r) {
-      if (!(size > S(0)) || !add(T.row(r).transpose(), size, r)) return std::nullopt;
+      if (r >= w || !(abs(R(r, r)) > S(1e-3) * size)) return std::nullopt;
     }
-    for (index j = 0; j < w && next < w; ++j) add(vector_type::Unit(w, j), S(1), -1);
-    if (next < w) return std::nullopt;
+    matrix_type const Q = qr.householderQ() * matrix_type::Identity(w, w);
     frame f{Q, Q.transpose(), {}};
     f.inverse.topRows(m) = T;
-    // T⁺ = Q₁ L⁻¹
-    for (index c = m - 1; c >= 0; --c) {
-      f.E.col(c) /= L(c, c);
-      for (index k = 0; k < c; ++k) f.E.col(k) -= L(c, k) * f.E.col(c);
-    }
+    // T⁺ = Q₁ R⁻ᵀ
+    f.E.leftCols(m) = R.template triangularView<Eigen::Upper>()
+                          .solve(matrix_type(Q.leftCols(m).transpose()))
+                          .transpose();
     return f;
   }
 

@@ -131,17 +131,6 @@ class node_face {
   void project(T* r) const {
     for (node const& here : surface_) project_at(here, r + offset(here.i));
   }
-  /// r ← r − C x, for r that is projected afterwards.
-  void subtract_curvature(T const* x, T* r) const {
-    for (node const& here : surface_) {
-      for (int c = 0; c < N; ++c) {
-        for (int q = 0; q < N; ++q) {
-          r[offset(here.i) + static_cast<std::size_t>(q)] -=
-              T(here.level_curvature(q, c)) * x[offset(here.i) + static_cast<std::size_t>(c)];
-        }
-      }
-    }
-  }
   /// y ← Π'y + factor Σ v vᵀx/λ, vectors of N numbers a node.
   template <class S>
   void complete(S const* x, S* y, S const& factor) const {
