@@ -26,7 +26,6 @@ TEST_CASE("agreement with Newton's method on dense data, whatever the options") 
          {slant::kprgp_options<double>{}, slant::kprgp_options<double>{.proportioning = 0.01},
           slant::kprgp_options<double>{.proportioning = 100},
           slant::kprgp_options<double>{.step_factor = 0.5},
-          slant::kprgp_options<double>{.half_step = false},
           slant::kprgp_options<double>{.refresh = 1}, slant::kprgp_options<double>{.refresh = 0}}) {
       auto const r = test::minimise(slant::kprgp{qp, o}, test::zeros(20), 1e-13, 100000);
       REQUIRE(r.converged());

@@ -67,7 +67,6 @@ struct qpc_options {
   std::optional<S> step_length{};  ///< as for kprgp, and so the rest
   S step_factor = S(1.9);
   active_set_rule active_sets = active_set_rule::boundary;
-  bool half_step = true;
   index refresh = 50;
   index patience = 1000;
   spectral_bound_options spectrum{};

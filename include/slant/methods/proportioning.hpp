@@ -46,7 +46,6 @@ struct kprgp_options {
   std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectral_bound.hpp
   S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
   active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
-  bool half_step = true;  ///< a CG step that leaves Λ is first followed up to the boundary
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
@@ -157,15 +156,13 @@ class proportioning_steps {
   static constexpr index most_confirming_steps = 500;
   static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
 
-  /// [K (31), (32)]. False if the step leaves Λ (then x may have moved up to the boundary).
+  /// [K (31), (32)]. False if the step leaves Λ: then x has moved up to the boundary.
   bool conjugate_gradient_step(state_type& s) const {
     s.face.keep(s.r, s.φ);
     auto const step = step_along(s);
     if (step.end == feasible_step_end::boundary) {
-      if (options_.half_step || step.flat) {
-        half_step(s, step);  // what follows projects x
-        split(s);
-      }
+      half_step(s, step);  // what follows projects x
+      split(s);
       return false;
     }
     if (step.end == feasible_step_end::minimum) {
