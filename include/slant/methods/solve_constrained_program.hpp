@@ -36,7 +36,7 @@ namespace detail {
 template <class QP, class C, class M>
 [[nodiscard]] auto constrained_and_certified(QP const& qp, C const& c, M const& m,
                                              typename QP::vector_type const& x0,
-                                             typename QP::scalar tolerance, newton_limits most)
+                                             typename QP::scalar tolerance, run_limits most)
     -> certified_point<typename QP::vector_type> {
   using V = typename QP::vector_type;
   using S = typename QP::scalar;
@@ -71,7 +71,7 @@ template <class Original, class QP, class C, class S>
 [[nodiscard]] auto solve_constrained(Original const& original, QP const& qp, C const& c,
                                      Eigen::Matrix<S, Eigen::Dynamic, 1> const& d, S tolerance,
                                      index max_steps) {
-  auto const by = [&](auto const& m, auto const& x0, newton_limits most) {
+  auto const by = [&](auto const& m, auto const& x0, run_limits most) {
     return constrained_and_certified(qp, c, m, x0, tolerance, most);
   };
   auto const zero = zero_of(qp);

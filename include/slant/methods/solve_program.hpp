@@ -13,7 +13,8 @@
 //     solve         symmetric_newton to a reduced gradient of a tenth of the tolerance; with a
 //                   longer ρ where A is a sparse matrix: what is active changes its neighbours first
 //     certify       the energy error by energy_certificate; while that is too large, a smaller one
-//     otherwise     where 300 steps do not do, interior_point goes first, and Newton's method again
+//     otherwise     where 300 steps do not do, interior_point goes first, and Newton's method again;
+//                   for a function forward_backward goes on
 //
 // What A is, its type says, so that what is not chosen is not compiled. `run.choice` tells.
 //
@@ -24,6 +25,7 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/energy_certificate.hpp>
 #include <slant/iteration/solve.hpp>
+#include <slant/methods/forward_backward.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/multilevel/multigrid.hpp>
@@ -34,6 +36,7 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -93,8 +96,8 @@ concept levels_precondition =
     matrix_behind<typename QP::operator_type>::sparse &&
     std::same_as<typename QP::vector_type, Eigen::Matrix<typename QP::scalar, Eigen::Dynamic, 1>>;
 
-/// How far newton_certified goes.
-struct newton_limits {
+/// How far a method goes.
+struct run_limits {
   index steps;
   index applications = std::numeric_limits<index>::max();  ///< of A, those of certificates apart
   /// A front moves as many nodes a step as ρ A reaches, which matters where A is sparse; a longer ρ
@@ -102,33 +105,19 @@ struct newton_limits {
   bool sparse = false;
 };
 
-/// Newton's method from x0 under the control of certificates.
-template <class QP, class M, class Certificate>
-[[nodiscard]] auto newton_certified(QP const& qp, M const& m, typename QP::vector_type const& x0,
-                                    Certificate& certificate, typename QP::scalar tolerance,
-                                    newton_limits most)
-    -> certified_point<typename QP::vector_type> {
-  using V = typename QP::vector_type;
-  using S = typename QP::scalar;
+/// The method make(threshold) from x0 under the control of certificates.
+template <class V, class S, class Make, class Certificate>
+[[nodiscard]] certified_point<V> run_certified(Make const& make, V const& x0,
+                                               Certificate& certificate, S const& tolerance,
+                                               run_limits most) {
   S threshold = tolerance / S(10), best = std::numeric_limits<S>::infinity();
-  auto const method = [&] {
-    symmetric_newton_options<S> o;
-    o.forcing.goal = static_cast<double>(threshold);
-    o.inner_steps = std::min<index>(o.inner_steps, most.applications);
-    if (most.sparse) o.step_factor = S(4);
-    if constexpr (std::same_as<M, identity_operator>) {
-      return symmetric_newton{qp, o};
-    } else {
-      return symmetric_newton{qp, m, o};
-    }
-  };
-  auto state = method().start(x0);
+  auto state = make(threshold).start(x0);
   certified_point<V> result{.point = x0, .status = status::running, .reason = {}, .choice = {}};
   while (true) {
-    auto newton = method();
+    auto method = make(threshold);
     auto stop = reduced_gradient_below(threshold) || slant::at_most(most.steps) ||
                 slant::at_most_applications(most.applications);
-    auto end = run_to_end(newton, state, stop);
+    auto end = run_to_end(method, state, stop);
     if (state.work.operator_applications >= most.applications && end.how != status::converged) {
       result.status = status::iteration_limit;
       break;
@@ -156,7 +145,7 @@ template <class QP, class M, class Certificate>
     S const missing = tolerance / error;
     threshold = std::min<S>(threshold, state.reduced_gradient_norm / state.gradient_scale) *
                 std::clamp<S>(missing / S(3), S(1e-3), S(0.3));
-    newton.resume(state);
+    if constexpr (requires { method.resume(state); }) method.resume(state);
   }
   vectors::copy(state.x, result.point);
   if constexpr (requires { state.descent.state()->directions.p; }) {
@@ -168,6 +157,26 @@ template <class QP, class M, class Certificate>
   result.steps = state.iteration;
   result.work = state.work;
   return result;
+}
+
+/// Newton's method.
+template <class QP, class M, class Certificate>
+[[nodiscard]] auto newton_certified(QP const& qp, M const& m, typename QP::vector_type const& x0,
+                                    Certificate& certificate, typename QP::scalar tolerance,
+                                    run_limits most) {
+  using S = typename QP::scalar;
+  auto const make = [&](S const& threshold) {
+    symmetric_newton_options<S> o;
+    o.forcing.goal = static_cast<double>(threshold);
+    o.inner_steps = std::min<index>(o.inner_steps, most.applications);
+    if (most.sparse) o.step_factor = S(4);
+    if constexpr (std::same_as<M, identity_operator>) {
+      return symmetric_newton{qp, o};
+    } else {
+      return symmetric_newton{qp, m, o};
+    }
+  };
+  return run_certified(make, x0, certificate, tolerance, most);
 }
 
 /// A point from within the set for Newton's method to start from; whether there is one. Sets
@@ -194,33 +203,48 @@ template <class QP>
   return false;
 }
 
-/// Newton's method from x; where 300 of its steps do not do, an interior-point method and Newton's
-/// again.
+/// After Newton's method from x0, which has ended at `result` without a solution: an interior-point
+/// method and Newton's again, or forward_backward for a function. Nothing if there is no other way.
+template <class QP, class M, class Certificate>
+[[nodiscard]] auto another_way(QP const& qp, M const& m, typename QP::vector_type x0,
+                               certified_point<typename QP::vector_type> const& result,
+                               Certificate& certificate, typename QP::scalar tolerance,
+                               run_limits most) {
+  std::optional<certified_point<typename QP::vector_type>> found;
+  if constexpr (quadratic_program<QP>) {
+    work spent{};
+    bool const has_start = start_inside(qp, x0, tolerance, spent);
+    if (has_start || result.status == status::iteration_limit) {
+      found = newton_certified(qp, m, has_start ? x0 : result.point, certificate, tolerance, most);
+      found->work += spent;
+    }
+  } else {
+    auto const make = [&](auto const&) { return forward_backward{qp}; };
+    found = run_certified(make, result.point, certificate, tolerance, most);
+    found->method = "symmetric_newton, then forward_backward";
+  }
+  return found;
+}
+
+/// Newton's method from x0; where 300 of its steps do not do, another way.
 template <class QP, class M>
-[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::vector_type x,
+[[nodiscard]] auto solve_certified(QP const& qp, M const& m, typename QP::vector_type const& x0,
                                    typename QP::scalar tolerance, index most, bool sparse)
     -> certified_point<typename QP::vector_type> {
   energy_certificate certificate(qp, m);
   index const first = std::min<index>(most, 300);
   auto result =
-      newton_certified(qp, m, x, certificate, tolerance, {.steps = first, .sparse = sparse});
+      newton_certified(qp, m, x0, certificate, tolerance, {.steps = first, .sparse = sparse});
   bool const is_open = result.status == status::stalled || result.status == status::breakdown ||
                        result.status == status::iteration_limit;
   if (is_open && result.steps < most && result.error.relative() > tolerance) {
-    work spent{};
-    bool const has_start = start_inside(qp, x, tolerance, spent);
-    if (!has_start) vectors::copy(result.point, x);
-    if (has_start || result.status == status::iteration_limit) {
-      auto again = newton_certified(qp, m, x, certificate, tolerance,
-                                    {.steps = most - result.steps, .sparse = sparse});
-      again.steps += result.steps;
-      spent += again.work;
-      spent += result.work;
-      if (again.error.relative() < result.error.relative()) {
-        result = std::move(again);
-      } else {
-        result.steps = again.steps;
-      }
+    run_limits const rest{.steps = most - result.steps, .sparse = sparse};
+    if (auto other = another_way(qp, m, x0, result, certificate, tolerance, rest)) {
+      index const steps = result.steps + other->steps;
+      work spent = result.work;
+      spent += other->work;
+      if (other->error.relative() <= result.error.relative()) result = std::move(*other);
+      result.steps = steps;
       result.work = spent;
     }
   }
