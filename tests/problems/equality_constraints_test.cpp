@@ -92,6 +92,17 @@ TEST_CASE("no rows at all") {
   slant::equality_constraints const constraints(sparse(0, 4), VectorXd(0));
   CHECK(test::dense_of(constraints.kernel_projector()) == MatrixXd::Identity(4, 4));
   CHECK(constraints.nearest() == VectorXd::Zero(4));
+  CHECK(constraints.meets(VectorXd::Ones(4), 0.0));
+}
+
+TEST_CASE("rows are met relative to their terms, up to the rounding of x") {
+  MatrixXd const G{{1.0, 0.0, 0.0}, {0.0, 1.0, 1e-9}, {0.0, 1.0, 1.0}};
+  slant::equality_constraints const c(sparse(G.sparseView()), VectorXd{{0.0, 1e-9, 1.0}});
+  CHECK(c.meets(VectorXd{{1e-17, 0.0, 1.0}}, 0.0));  // a row whose terms vanish
+  CHECK(!c.meets(VectorXd{{1e-8, 0.0, 1.0}}, 1e-7));
+  CHECK(c.meets(VectorXd{{0.0, 1e-12, 1.0}}, 1e-3));
+  CHECK(!c.meets(VectorXd{{0.0, 1e-12, 1.0}}, 1e-4));  // small beside ‖x‖, not beside its row
+  CHECK(!c.meets(VectorXd{{0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}}, 1e-3));
 }
 
 }  // namespace equality_constraints_test

@@ -36,10 +36,16 @@ template <class T>
 /// Text of a measured number, such as an error or seconds: three digits of it.
 template <class T>
 [[nodiscard, gnu::cold]] std::string brief(T const& value) {
-  std::ostringstream out;
-  out.precision(3);
-  out << value;
-  return out.str();
+  if constexpr (std::is_floating_point_v<T>) {
+    char text[64];
+    return {text,
+            std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr};
+  } else {
+    std::ostringstream out;
+    out.precision(3);
+    out << value;
+    return out.str();
+  }
 }
 
 }  // namespace detail

@@ -277,8 +277,8 @@ template <class Block, class X>
 }  // namespace detail
 
 /// x ∈ Λ moves to the middle of each block, and 1/σ of every inequality, 0 for those without a
-/// bound, goes to per_unit (see barrier.hpp). Blocks that are a single point, a ball of radius 0 or an interval with equal ends,
-/// keep it, count as without a bound and are told to hold(place).
+/// bound, goes to per_unit (see barrier.hpp). Blocks that are a single point, a ball of radius 0 or
+/// an interval with equal ends, keep it, count as without a bound and are told to hold(place).
 /// Throws bad_input, on all processes, naming another block that has no interior: none that a
 /// number can tell, also a ball of a radius whose square leaves the range of the numbers.
 template <class C, class V, class R, class Hold>

@@ -11,12 +11,15 @@
 // without. `run.choice` tells.
 #pragma once
 
+#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/constrained_certificate.hpp>
+#include <slant/concepts/linear_operator.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/solve_program.hpp>
 
 #include <algorithm>
 #include <concepts>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,6 +35,13 @@ concept equality_constrained_program = requires(P const& p) {
 
 namespace detail {
 
+/// Whether x meets the equations, if they are known.
+template <class C, class V, class S>
+[[nodiscard]] bool meets(C const& c, V const& x, S const& tolerance) {
+  if constexpr (requires { c.meets(x, tolerance); }) return c.meets(x, tolerance);
+  return true;
+}
+
 /// constrained_newton from x0 until the certificate says that it is enough.
 template <class QP, class C, class M>
 [[nodiscard]] auto constrained_and_certified(QP const& qp, C const& c, M const& m,
@@ -44,7 +54,13 @@ template <class QP, class C, class M>
   o.inner_steps = std::min<index>(o.inner_steps, most.applications);
   auto const run = [&](auto const& method, auto&& certificate) {
     certified_point<V> result{.method = "constrained_newton"};
-    auto const certify = [&](V const& x, V const& ν) { return result.error = certificate(x, ν); };
+    auto const certify = [&](V const& x, V const& ν) {
+      result.error = certificate(x, ν);
+      // Where rows are nearly dependent on the face, the digits are missing that would tell.
+      bool const is_enough = result.error.relative() <= tolerance;
+      if (is_enough && !meets(c, x, tolerance)) result.error.bound = infinity<S>();
+      return result.error;
+    };
     auto state = method.start(x0);
     auto stop = energy_error_below(tolerance, certify) || slant::at_most(most.steps) ||
                 slant::at_most_applications(most.applications);
@@ -99,23 +115,10 @@ template <class Original, class QP, class C, class S>
   }
 }
 
-/// Where rows of G are nearly dependent, GGᵀ has not the digits that tell them apart, and neither
-/// projectors nor certificate see that such rows are not met.
-template <class C, class R, class S>
-[[nodiscard]] R with_equations_looked_at(C const& c, R run, S tolerance) {
-  if (run.status != status::converged) return run;
-  if (S const distance = c.relative_residual(run.point); !(distance <= tolerance)) {
-    run.status = status::stalled;
-    run.reason = "a row of G x = e is met to " + brief(distance) +
-                 " of its terms only: rows of G are nearly dependent";
-  }
-  return run;
-}
-
 }  // namespace detail
 
 /// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e from 0; see the top of this file. `converged` means
-/// that the estimated error and |G x − e| / (|G| |x| + |e|) of each row are at most the tolerance;
+/// that the estimated error is at most the tolerance, and |G x − e| beside |G| |x| + |e| in each row;
 /// x is in Λ. Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a program that
 /// constrained_newton refuses.
 template <equality_constrained_program P>
@@ -136,18 +139,17 @@ template <equality_constrained_program P>
                      c.unit_values());
       } catch (bad_input const&) {
       }
-      // In these unknowns they may depend on each other up to rounding, which they do not in their own.
+      // In these unknowns they may depend on each other up to rounding, and not in their own.
       if (rows && rows->redundant().empty()) {
         auto result = detail::solve_constrained(qp, alike, *rows, scaled.d(), tolerance, max_steps);
         result.point = scaled.back(std::move(result.point));
         result.multipliers = c.of_unit_rows(result.multipliers);
         detail::note_scaling(result.choice);
-        return detail::with_equations_looked_at(c, std::move(result), tolerance);
+        return result;
       }
     }
   }
-  return detail::with_equations_looked_at(
-      c, detail::solve_constrained(qp, qp, c, V(), tolerance, max_steps), tolerance);
+  return detail::solve_constrained(qp, qp, c, V(), tolerance, max_steps);
 }
 
 /// A program that lacks something ends here and is told so by constrained_newton.

@@ -142,15 +142,13 @@ class equality_constraints {
   [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
   vector_type const& nearest() const&& = delete;
 
-  /// The largest |G x − e| / (|G| |x| + |e|) of a row.
-  [[nodiscard]] S relative_residual(vector_type const& x) const {
+  /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of x.
+  [[nodiscard]] bool meets(vector_type const& x, S const& tolerance) const {
+    S const rounding = S(64) * std::numeric_limits<S>::epsilon();
     vector_type const terms = G_.cwiseAbs() * x.cwiseAbs() + unit_values_.cwiseAbs();
     vector_type const rest = (G_ * x - unit_values_).cwiseAbs();
-    S largest(0);
-    for (index i = 0; i < rest.size(); ++i) {
-      if (terms[i] > S(0)) largest = std::max<S>(largest, rest[i] / terms[i]);
-    }
-    return largest;
+    S const floor = rounding * x.norm();
+    return (rest.array() <= (tolerance + rounding) * terms.array() + floor).all();
   }
 
   /// μ with Gᵀμ = Q v, as many as G has rows; 0 for redundant ones.

@@ -235,6 +235,8 @@ class nested_start {
     S const size = T.cwiseAbs().maxCoeff();
     for (index r = 0; r < m; ++r) {
       if (r >= w || !(abs(R(r, r)) > S(1e-3) * size)) return std::nullopt;
+      // A mode that the aggregate does not have stays apart from the others.
+      if (T.col(r).isZero(S(0))) return std::nullopt;
     }
     matrix_type const Q = qr.householderQ() * matrix_type::Identity(w, w);
     frame f{Q, Q.transpose(), {}};
