@@ -219,9 +219,12 @@ template <class QP, class M, class Certificate>
       found->work += spent;
     }
   } else {
-    auto const make = [&](auto const&) { return forward_backward{qp}; };
-    found = run_certified(make, result.point, certificate, tolerance, most);
-    found->method = "symmetric_newton, then forward_backward";
+    try {
+      auto const make = [&](auto const&) { return forward_backward{qp}; };
+      found = run_certified(make, result.point, certificate, tolerance, most);
+      found->method = "symmetric_newton, then forward_backward";
+    } catch (bad_input const&) {  // a point or a step length that is not finite
+    }
   }
   return found;
 }
@@ -429,7 +432,10 @@ template <class QP, class M>
 
 /// A program that lacks something ends here and is told so by symmetric_newton.
 template <class QP>
-  requires(!symmetric_newton_problem<QP>) && requires(QP const& qp) { qp.a(), qp.b(), qp.set(); }
+  requires(!symmetric_newton_problem<QP>) && requires(QP const& qp) {
+    typename QP::set_type;
+    qp.a(), qp.b();
+  }
 auto solve(QP const&, typename QP::scalar, index = 0) -> certified_point<typename QP::vector_type> {
   static_assert(sizeof(symmetric_newton<QP const&>) > 0);
   return {};

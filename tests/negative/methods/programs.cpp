@@ -14,6 +14,8 @@
 // case USE=by_solve WITHOUT_SEMIDEFINITENESS, max-lines-clang: 34
 // case USE=by_solve_over WITHOUT_SEMIDEFINITENESS: A must declare.*'declares_positive_semidefinite['<]
 // case USE=by_solve_over WITHOUT_SEMIDEFINITENESS, clang: A must declare
+// case USE=by_solve_with WITHOUT_SEMIDEFINITENESS: A must declare.*'declares_positive_semidefinite['<]
+// case USE=by_solve_with WITHOUT_SEMIDEFINITENESS, clang: A must declare
 // case USE=forgotten OTHER_BLOCKS: erased: expected a program on Eigen vectors, with a set of blocks of the kinds that
 // case USE=forgotten OTHER_BLOCKS, max-lines-gcc: 12
 // case USE=forgotten OTHER_BLOCKS, max-lines-clang: 22
@@ -91,6 +93,10 @@ auto by_solve(auto const& A, Eigen::VectorXd const& b, Eigen::SparseMatrix<doubl
 auto by_solve_over(auto const& A, Eigen::VectorXd const& b, Eigen::SparseMatrix<double> const&) {
   auto const program = slant::minimise(slant::quadratic(A, b)).over(slant::half_lines(b.size()));
   return slant::solve(program, 1e-8).converged();
+}
+auto by_solve_with(auto const& A, Eigen::VectorXd const& b, Eigen::SparseMatrix<double> const&) {
+  auto const f = slant::support(slant::half_lines(b.size()));
+  return slant::solve(slant::minimise(slant::quadratic(A, b) + f), 1e-8).converged();
 }
 
 #ifdef OTHER_BLOCKS
