@@ -317,8 +317,10 @@ class envelope_newton {
     vectors::difference(s.x, s.y, s.trial);
     vectors::difference(s.r, s.gradient, s.reduced);
     scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
-    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
-                         (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit));
+    scalar const noise =
+        scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
+            (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit)) +
+        way * s.gradient_error;
     scalar const allowed = share * way * (way / (s.γ * s.unit));
     if (!(bend > allowed + noise)) return false;
     s.γ *= allowed / bend;

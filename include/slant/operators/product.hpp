@@ -372,17 +372,27 @@ template <class... F, class... G>
   }
 }
 
+/// An operand as a refusal shows it.
+struct shown_operand {
+  std::string text;
+  index rows;
+  index cols;
+};
+[[noreturn, gnu::cold]] inline void refuse_sizes(shown_operand const& a, shown_operand const& b,
+                                                 bool term) {
+  using slant::detail::size_text;
+  throw bad_input(b.text, size_text(b.rows, b.cols),
+                  term ? size_text(a.rows, a.cols) + " (the size of " + a.text + ")"
+                       : std::to_string(a.cols) + " rows (the columns of " + a.text + ")");
+}
 /// Of two expressions whose sizes do not fit.
 template <class A, class B>
 [[noreturn, gnu::cold]] void refuse_sizes(A const& a, B const& b, bool term) {
-  std::string left;
-  std::string right;
-  a.print(left);
-  b.print(right);
-  using slant::detail::size_text;
-  throw bad_input(right, size_text(b.rows(), b.cols()),
-                  term ? size_text(a.rows(), a.cols()) + " (the size of " + left + ")"
-                       : std::to_string(a.cols()) + " rows (the columns of " + left + ")");
+  shown_operand left{{}, a.rows(), a.cols()};
+  shown_operand right{{}, b.rows(), b.cols()};
+  a.print(left.text);
+  b.print(right.text);
+  expr::refuse_sizes(left, right, term);
 }
 
 /// A B C ….

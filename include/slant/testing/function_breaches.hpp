@@ -26,22 +26,12 @@ namespace slant::testing {
 
 namespace detail {
 
-/// The proximal map for one ρ, `step`, as if it were a projection; refers to both.
-template <class F, class S, class Step>
-[[nodiscard]] set_probe<S> probe_of_step(F const& φ, S const& ρ, Step const& step,
-                                         set_options const& options) {
-  using point = point_t<F>;
-  point const origin = point::Zero(slant::dimension_of(φ));
-  auto probe = probe_of(step, origin, options);
-  if constexpr (has_prox_state<F, point>) {
-    probe.state = [&φ, ρ, origin](typename set_probe<S>::dense const& z) {
-      point p = origin;
-      copy_entries(z, p);
-      return φ.state(ρ, p);
-    };
-  }
-  return probe;
-}
+/// A function and the ρ of its proximal map.
+template <class F, class S>
+struct seen_function {
+  F const& φ;
+  S const& ρ;
+};
 
 template <class F, class S>
 void check_subgradients(F const& φ, S const& ρ, set_probe<S> const& probe,
@@ -150,10 +140,21 @@ template <class F>
   requires function_part<F>
 [[nodiscard]] std::vector<breach> function_breaches(F const& φ, set_options const& options = {}) {
   using S = set_scalar_t<F>;
+  using point = point_t<F>;
   breach_log log;
   for (S const& ρ : {S(1), S(1) / S(8), S(12)}) {
+    // The proximal map for one ρ, as if it were a projection.
     auto const step = slant::at_step(φ, ρ);
-    auto const probe = detail::probe_of_step(φ, ρ, step, options);
+    detail::seen_set const seen{step, point(point::Zero(slant::dimension_of(φ)))};
+    auto probe = detail::probe_of(seen, options);
+    detail::seen_function<F, S> const function{φ, ρ};
+    if constexpr (has_prox_state<F, point>) {
+      probe.state = {function, [](auto const& f, typename detail::set_probe<S>::dense const& z) {
+                       point p = point::Zero(z.size());
+                       detail::copy_entries(z, p);
+                       return f.φ.state(f.ρ, p);
+                     }};
+    }
     auto const points = detail::set_sampler(probe).points();
     detail::check_subgradients(φ, ρ, probe, points, log);
     if (probe.slant) {

@@ -37,9 +37,9 @@ class applied_beside {
  public:
   applied_beside(operator_probe<V> const& a, V const& other, V result)
       : thread_([this, &a, &other, y = std::move(result)]() mutable {
-          auto const apply_beside = a.with_one_workspace(other);
+          auto w = a.workspace(other);
           while (!stop_.load(std::memory_order_relaxed)) {
-            apply_beside(other, y);
+            a.apply_with(other, y, w);
             finished_.fetch_add(1, std::memory_order_relaxed);
           }
         }) {}
@@ -283,7 +283,7 @@ struct operator_laws {
     V const other = sampler.random(a.cols);
     V const expected = sampler.image(x);
     S const image_size = size * slant::norm(x);
-    auto const apply = a.with_one_workspace(x);
+    auto w = a.workspace(x);
     V y = sampler.garbage(a.rows);
 
     applied_beside<V> const beside(a, other, y);
@@ -291,7 +291,7 @@ struct operator_laws {
     auto const end = std::chrono::steady_clock::now() + patience;
     for (int met = 0; met < meetings && std::chrono::steady_clock::now() < end;) {
       long const before = beside.finished();
-      apply(x, y);
+      a.apply_with(x, y, w);
       met += beside.finished() != before;
       sampler.expect_close(law, y, expected, image_size);
       if (sampler.has_found(law)) return;
@@ -350,16 +350,16 @@ struct operator_laws {
     V const other = sampler.random(a.cols);
     V const expected = sampler.image(x);
     S const length = slant::norm(x);
-    auto const apply = a.with_one_workspace(x);
+    auto w = a.workspace(x);
     V y = sampler.garbage(a.rows);
-    apply(other, y);
-    apply(x, y);
+    a.apply_with(other, y, w);
+    a.apply_with(x, y, w);
     sampler.expect_close("repeatability, with a used workspace", y, expected, S(size * length));
-    auto const apply_copied = apply;
-    apply(other, y);
-    apply_copied(x, y);
+    auto copied = w;
+    a.apply_with(other, y, w);
+    a.apply_with(x, y, copied);
     sampler.expect_close("repeatability, with a copied workspace", y, expected, S(size * length));
-    apply(x, y);
+    a.apply_with(x, y, w);
     sampler.expect_close("repeatability, with a workspace whose copy was used", y, expected,
                          S(size * length));
   }

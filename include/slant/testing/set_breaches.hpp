@@ -61,60 +61,62 @@ template <class C, class S>
 [[nodiscard]] set_probe<S> blockwise_probe(C const& set, set_probe<S> const& whole) {
   using dense = typename set_probe<S>::dense;
   set_probe<S> probe = whole;
-  probe.project = [&set](dense const& x) {
-    dense y = x;
-    set.visit([&](auto const& block, auto const& place) {
-      auto const part = slant::project(block, place.value(x));
-      place.put(y, part);
-    });
-    return y;
-  };
-  probe.contains = [&set](dense const& x) {
-    bool inside = true;
-    set.visit([&](auto const& block, auto const& place) {
-      inside = inside && block.contains(place.value(x));
-    });
-    return inside;
-  };
+  probe.project = {set, [](C const& s, dense const& x) {
+                     dense y = x;
+                     s.visit([&](auto const& block, auto const& place) {
+                       auto const part = slant::project(block, place.value(x));
+                       place.put(y, part);
+                     });
+                     return y;
+                   }};
+  probe.contains = {set, [](C const& s, dense const& x) {
+                      bool inside = true;
+                      s.visit([&](auto const& block, auto const& place) {
+                        inside = inside && block.contains(place.value(x));
+                      });
+                      return inside;
+                    }};
   if (whole.slant) {
-    probe.slant = [&set](dense const& x) {
-      typename set_probe<S>::matrix g(x.size(), x.size());
-      g.setZero();
-      set.visit([&](auto const& block, auto const& place) {
-        if constexpr (requires { block.slant(place.value(x)); }) {
-          auto const b = matrix_of(block.slant(place.value(x)), place.value(x), place.size());
-          for (index i = 0; i < place.size(); ++i) {
-            for (index j = 0; j < place.size(); ++j) {
-              g(place.component(i), place.component(j)) = b(i, j);
-            }
-          }
-        }
-      });
-      return g;
-    };
+    probe.slant = {set, [](C const& s, dense const& x) {
+                     typename set_probe<S>::matrix g(x.size(), x.size());
+                     g.setZero();
+                     s.visit([&](auto const& block, auto const& place) {
+                       if constexpr (requires { block.slant(place.value(x)); }) {
+                         auto const b =
+                             matrix_of(block.slant(place.value(x)), place.value(x), place.size());
+                         for (index i = 0; i < place.size(); ++i) {
+                           for (index j = 0; j < place.size(); ++j) {
+                             g(place.component(i), place.component(j)) = b(i, j);
+                           }
+                         }
+                       }
+                     });
+                     return g;
+                   }};
   }
   if (whole.step) {
-    probe.step = [&set](dense const& x, dense const& d) {
-      S step = std::numeric_limits<S>::infinity();
-      set.visit([&](auto const& block, auto const& place) {
-        if constexpr (requires { block.step_to_boundary(place.value(x), place.value(d)); }) {
-          S const s = block.step_to_boundary(place.value(x), place.value(d));
-          if (s < step) step = s;
-        }
-      });
-      return step;
-    };
+    probe.step = {
+        set, [](C const& s, dense const& x, dense const& d) {
+          S step = std::numeric_limits<S>::infinity();
+          s.visit([&](auto const& block, auto const& place) {
+            if constexpr (requires { block.step_to_boundary(place.value(x), place.value(d)); }) {
+              S const one = block.step_to_boundary(place.value(x), place.value(d));
+              if (one < step) step = one;
+            }
+          });
+          return step;
+        }};
   }
   if (whole.support) {
-    probe.support = [&set](dense const& y) {
-      S sum(0);
-      set.visit([&](auto const& block, auto const& place) {
-        if constexpr (requires { block.support(place.value(y)); }) {
-          sum += block.support(place.value(y));
-        }
-      });
-      return sum;
-    };
+    probe.support = {set, [](C const& s, dense const& y) {
+                       S sum(0);
+                       s.visit([&](auto const& block, auto const& place) {
+                         if constexpr (requires { block.support(place.value(y)); }) {
+                           sum += block.support(place.value(y));
+                         }
+                       });
+                       return sum;
+                     }};
   }
   return probe;
 }
@@ -258,7 +260,8 @@ struct block_laws : set_laws<S> {
       for (int k = 0; k < 3; ++k) check_blockwise(blocks, x, sample.direction(k));
     }
     set.visit([&](auto const& block, auto const& place) {
-      auto const part = probe_of(block, place.value(points[0]), probe.options);
+      seen_set const seen{block, place.value(points[0])};
+      auto const part = probe_of(seen, probe.options);
       std::vector<dense> parts;
       for (auto const& x : points) parts.push_back(place.value(x));
       block_laws{{part, log}}.check_block(parts);
@@ -278,7 +281,8 @@ template <class C, vector V>
   requires convex_set<C, V>
 [[nodiscard]] std::vector<breach> set_breaches(C const& set, V const& prototype,
                                                set_options const& options = {}) {
-  auto const probe = detail::probe_of(set, prototype, options);
+  detail::seen_set const seen{set, prototype};
+  auto const probe = detail::probe_of(seen, options);
   auto const points = detail::set_sampler(probe).points();
   breach_log log;
   detail::block_laws<scalar_t<V>> const laws{{probe, log}};

@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -68,29 +67,74 @@ template <class G, class V>
   slant::apply(g, x, y);
 }
 
-/// G x as a new vector with `rows` entries.
-template <class G, class V>
-[[nodiscard]] V apply_to(G const& g, V const& x, index rows) {
-  auto y = slant::like(x, rows);
-  apply_into(g, x, y);
-  return y;
-}
-
 /// A slanting function as seen through its results only. So that the sampling is compiled once per
 /// vector type, not once per function; the speed of an application is no concern here.
 template <class V>
 struct observed_function {
   index rows = 0;
   index cols = 0;
-  std::function<V(V const& y)> value;              ///< F(y)
-  std::function<V(V const& y, V const& x)> slope;  ///< F°(y) x
+  ability<std::array<index, 2>(V const& y)> slope_size;    ///< of F°(y)
+  ability<void(V const& y, V& to)> evaluate;               ///< F(y)
+  ability<void(V const& y, V const& x, V& to)> apply;      ///< F°(y) x
+  ability<V(V const& z, V const& y, V const& x)> renewed;  ///< F°(y) x, by an F°(z) renewed at y
+  ability<V(V const& z, V const& y, V const& x)> along;  ///< the same after F(y) has been computed
+  ability<V(V const& z, V const& y)> evaluate_again;     ///< F(y) in the workspace of F(z)
+
+  [[nodiscard]] V value(V const& y) const {
+    V to = slant::like(y, rows);
+    evaluate(y, to);
+    return to;
+  }
+  [[nodiscard]] V slope(V const& y, V const& x) const {
+    V to = slant::like(x, rows);
+    apply(y, x, to);
+    return to;
+  }
 };
 
 /// Refers to f.
 template <class V, class F>
-[[nodiscard]] observed_function<V> observe(F const& f) {
-  return {f.rows(), f.cols(), [&f](V const& y) { return slant::evaluate(f, y); },
-          [&f](V const& y, V const& x) { return apply_to(f.slant(y), x, f.rows()); }};
+[[nodiscard]] observed_function<V> observe(F const& function) {
+  observed_function<V> seen;
+  seen.rows = function.rows();
+  seen.cols = function.cols();
+  seen.slope_size = {function, [](F const& f, V const& y) {
+                       auto const g = f.slant(y);
+                       return std::array<index, 2>{g.rows(), g.cols()};
+                     }};
+  seen.evaluate = {function, [](F const& f, V const& y, V& to) {
+                     auto w = slant::workspace(f, y);
+                     slant::evaluate(f, y, to, w);
+                   }};
+  seen.apply = {function,
+                [](F const& f, V const& y, V const& x, V& to) { apply_into(f.slant(y), x, to); }};
+  seen.renewed = {function, [](F const& f, V const& z, V const& y, V const& x) {
+                    auto w = slant::workspace(f, y);
+                    V v = slant::like(y, f.rows());
+                    auto g = f.slant(z);
+                    slant::evaluate(f, z, v,
+                                    w);  // what this leaves in w must not be taken for F(y)
+                    slant::update_slant(f, y, g, w);
+                    apply_into(g, x, v);
+                    return v;
+                  }};
+  seen.along = {function, [](F const& f, V const& z, V const& y, V const& x) {
+                  auto w = slant::workspace(f, y);
+                  V v = slant::like(y, f.rows());
+                  auto g = f.slant(z);
+                  slant::evaluate(f, y, v, w);
+                  slant::update_slant_after_value(f, y, g, w);
+                  apply_into(g, x, v);
+                  return v;
+                }};
+  seen.evaluate_again = {function, [](F const& f, V const& z, V const& y) {
+                           auto w = slant::workspace(f, y);
+                           V v = slant::like(y, f.rows());
+                           slant::evaluate(f, z, v, w);
+                           slant::evaluate(f, y, v, w);
+                           return v;
+                         }};
+  return seen;
 }
 
 /// Directions of the given length at y: `random` random ones, ±e_i for up to eight i, ±y, ±F(y).
@@ -212,13 +256,13 @@ class kink_search {
 // linearity of F°(y), and renewal of F°(y) in place.
 
 /// Looks at F at y; `elsewhere` is another point, `rounding` a number of ε.
-template <class F, class V>
+template <class V>
 class slanting_protocol {
   using S = scalar_t<V>;
 
  public:
-  slanting_protocol(F const& f, V const& y, V const& elsewhere, S const& rounding, sampler& sample,
-                    breach_log& report)
+  slanting_protocol(observed_function<V> const& f, V const& y, V const& elsewhere,
+                    S const& rounding, sampler& sample, breach_log& report)
       : f_(f),
         y_(y),
         elsewhere_(elsewhere),
@@ -228,63 +272,57 @@ class slanting_protocol {
 
   /// Without the right sizes nothing else can be asked.
   [[nodiscard]] bool sizes() const {
-    auto const g = f_.slant(y_);
+    auto const [rows, cols] = f_.slope_size(y_);
     index const n = slant::local(y_).size();
-    bool const fit = g.rows() == f_.rows() && g.cols() == f_.cols() && f_.cols() == n;
+    bool const fit = rows == f_.rows && cols == f_.cols && f_.cols == n;
     if (!fit) {
-      report_("sizes", std::to_string(g.rows()) + " x " + std::to_string(g.cols()) + " for F of " +
-                           std::to_string(f_.rows()) + " values, " + std::to_string(f_.cols()) +
+      report_("sizes", std::to_string(rows) + " x " + std::to_string(cols) + " for F of " +
+                           std::to_string(f_.rows) + " values, " + std::to_string(f_.cols) +
                            " arguments, at y with " + std::to_string(n));
     }
     return fit;
   }
 
   void overwriting() const {
-    S const nan = std::numeric_limits<S>::quiet_NaN();
-    auto w = slant::workspace(f_, y_);
-    auto into_zero = slant::like(y_, f_.rows());
-    auto into_nan = into_zero;
-    slant::local(into_zero).setZero();
-    slant::local(into_nan).setConstant(nan);
-    slant::evaluate(f_, y_, into_zero, w);
-    slant::evaluate(f_, y_, into_nan, w);
+    V const x = sample_(y_, f_.cols);
+    V into_zero = slant::like(y_, f_.rows);
+    V into_nan = into_zero;
+    auto const fill = [&] {
+      slant::local(into_zero).setZero();
+      slant::local(into_nan).setConstant(std::numeric_limits<S>::quiet_NaN());
+    };
+    fill();
+    f_.evaluate(y_, into_zero);
+    f_.evaluate(y_, into_nan);
     expect("value overwrites", into_zero, into_nan, S(0));
-    auto const g = f_.slant(y_);
-    auto const x = sample_(y_, f_.cols());
-    slant::local(into_zero).setZero();
-    slant::local(into_nan).setConstant(nan);
-    apply_into(g, x, into_zero);
-    apply_into(g, x, into_nan);
+    fill();
+    f_.apply(y_, x, into_zero);
+    f_.apply(y_, x, into_nan);
     expect("slant overwrites", into_zero, into_nan, S(0));
   }
 
   void linear() const {
-    auto const g = f_.slant(y_);
-    auto const x = sample_(y_, f_.cols());
-    auto const z = sample_(y_, f_.cols());
-    V const gx = apply_to(g, x, f_.rows());
-    V const gz = apply_to(g, z, f_.rows());
+    V const x = sample_(y_, f_.cols);
+    V const z = sample_(y_, f_.cols);
+    V const gx = f_.slope(y_, x);
+    V const gz = f_.slope(y_, z);
     V mixed = x;
     slant::local(mixed) = S(3) / S(4) * slant::local(x) - S(5) / S(4) * slant::local(z);
     V mixed_g = gx;
     slant::local(mixed_g) = S(3) / S(4) * slant::local(gx) - S(5) / S(4) * slant::local(gz);
-    expect("slant is linear", apply_to(g, mixed, f_.rows()), mixed_g,
+    expect("slant is linear", f_.slope(y_, mixed), mixed_g,
            tolerance() * (slant::norm(gx) + slant::norm(gz)));
   }
 
   void renewal() const {
-    auto w = slant::workspace(f_, y_);
-    auto v = slant::like(y_, f_.rows());
-    auto const fresh = f_.slant(y_);
-    auto renewed = f_.slant(elsewhere_);
-    slant::evaluate(f_, elsewhere_, v, w);  // what this leaves in w must not be taken for F(y)
-    slant::update_slant(f_, y_, renewed, w);
-    same("renewed slant = new slant", fresh, renewed);
-    slant::update_slant(f_, elsewhere_, renewed, w);
-    slant::evaluate(f_, y_, v, w);
-    slant::update_slant_after_value(f_, y_, renewed, w);
-    same("slant after value = new slant", fresh, renewed);
-    expect("value with a used workspace", v, slant::evaluate(f_, y_), S(0));
+    for (int k = 0; k < 4; ++k) {
+      V const x = sample_(y_, f_.cols);
+      V const expected = f_.slope(y_, x);
+      S const bound = tolerance() * slant::norm(expected);
+      expect("renewed slant = new slant", expected, f_.renewed(elsewhere_, y_, x), bound);
+      expect("slant after value = new slant", expected, f_.along(elsewhere_, y_, x), bound);
+    }
+    expect("value with a used workspace", f_.evaluate_again(elsewhere_, y_), f_.value(y_), S(0));
   }
 
  private:
@@ -298,16 +336,8 @@ class slanting_protocol {
       report_(law, "difference " + slant::detail::show(static_cast<double>(size)));
     }
   }
-  template <class G>
-  void same(std::string const& law, G const& fresh, G const& renewed) const {
-    for (int k = 0; k < 4; ++k) {
-      auto const x = sample_(y_, f_.cols());
-      V const expected = apply_to(fresh, x, f_.rows());
-      expect(law, expected, apply_to(renewed, x, f_.rows()), tolerance() * slant::norm(expected));
-    }
-  }
 
-  F const& f_;
+  observed_function<V> const& f_;
   V const& y_;
   V const& elsewhere_;
   S rounding_;
@@ -466,13 +496,13 @@ template <class F, vector V>
   S const length = options.length > 0 ? S(options.length) : size > S(0) ? size : S(1);
   V elsewhere = sample(y, slant::local(y).size());
   slant::local(elsewhere) = slant::local(y) + length * slant::local(elsewhere);
-  detail::slanting_protocol<F, V> const protocol(f, y, elsewhere, S(options.rounding), sample,
-                                                 report);
+  auto const observed = detail::observe<V>(f);
+  detail::slanting_protocol<V> const protocol(observed, y, elsewhere, S(options.rounding), sample,
+                                              report);
   if (!protocol.sizes()) return report.found();
   protocol.overwriting();
   protocol.linear();
   protocol.renewal();
-  auto const observed = detail::observe<V>(f);
   detail::slanting_limits<V>(observed, y, length, options, sample, report).run();
   return report.found();
 }

@@ -13,10 +13,9 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <any>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -43,8 +42,9 @@ template <class V>
 struct operator_probe {
   using scalar = scalar_t<V>;
   using matrix = Eigen::Matrix<scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  using map = std::function<void(V const&, V&)>;
-  using scaled_map = std::function<void(scalar, V const&, V&)>;
+  using map = ability<void(V const&, V&)>;
+  using scaled_map = ability<void(scalar, V const&, V&)>;
+  using map_of_many = ability<void(matrix const&, matrix&)>;
 
   index rows = 0;
   index cols = 0;
@@ -52,15 +52,15 @@ struct operator_probe {
   operator_law_options options;
 
   map apply;  ///< with a new workspace each time
-  /// apply with one workspace for many calls; a copy of this map has a copy of the workspace
-  std::function<map(V const&)> with_one_workspace;
+  ability<std::any(V const&)> workspace;
+  ability<void(V const&, V&, std::any&)> apply_with;  ///< a workspace
   map apply_adjoint;
   scaled_map apply_add;
   scaled_map apply_adjoint_add;
-  std::function<void(V&)> diagonal;
-  std::function<void(index, matrix&)> columns;
-  std::function<void(matrix const&, matrix&)> apply_to_many;
-  std::function<void(matrix const&, matrix&)> apply_to_many_by_rows;  ///< on row-major copies
+  ability<void(V&)> diagonal;
+  ability<void(index, matrix&)> columns;
+  map_of_many apply_to_many;
+  map_of_many apply_to_many_by_rows;  ///< on row-major copies
   map inverse;
 };
 
@@ -68,54 +68,57 @@ struct operator_probe {
 template <class V, class A>
 [[nodiscard]] operator_probe<V> probe_operator(A const& a, operator_law_options const& options) {
   using S = scalar_t<V>;
-  using matrix = typename operator_probe<V>::matrix;
-  operator_probe<V> probe;
+  using probe_type = operator_probe<V>;
+  using matrix = typename probe_type::matrix;
+  using workspace_type = decltype(slant::workspace(a, std::declval<V const&>()));
+  probe_type probe;
   probe.rows = a.rows();
   probe.cols = a.cols();
   probe.laws = laws_of<A>;
   probe.options = options;
-  probe.apply = [&a](V const& x, V& y) { slant::apply(a, x, y); };
-  probe.with_one_workspace = [&a](V const& like) -> typename operator_probe<V>::map {
-    return
-        [&a, w = slant::workspace(a, like)](V const& x, V& y) mutable { slant::apply(a, x, y, w); };
-  };
+  probe.apply = {a, [](A const& op, V const& x, V& y) { slant::apply(op, x, y); }};
+  probe.workspace = {
+      a, [](A const& op, V const& like) { return std::any(slant::workspace(op, like)); }};
+  probe.apply_with = {a, [](A const& op, V const& x, V& y, std::any& w) {
+                        slant::apply(op, x, y, *std::any_cast<workspace_type>(&w));
+                      }};
   if constexpr (has_adjoint<A, V>) {
-    probe.apply_adjoint = [&a](V const& x, V& y) { slant::apply_adjoint(a, x, y); };
+    probe.apply_adjoint = {a,
+                           [](A const& op, V const& x, V& y) { slant::apply_adjoint(op, x, y); }};
   }
   if constexpr (has_accumulate<A, V>) {
-    probe.apply_add = [&a](S α, V const& x, V& y) {
-      auto w = slant::workspace(a, x);
-      slant::apply_add(a, α, x, y, w);
-    };
+    probe.apply_add = {a, [](A const& op, S α, V const& x, V& y) {
+                         auto w = slant::workspace(op, x);
+                         slant::apply_add(op, α, x, y, w);
+                       }};
   }
   if constexpr (has_adjoint_accumulate<A, V>) {
-    probe.apply_adjoint_add = [&a](S α, V const& x, V& y) {
-      auto w = slant::adjoint_workspace(a, x);
-      slant::apply_adjoint_add(a, α, x, y, w);
-    };
+    probe.apply_adjoint_add = {a, [](A const& op, S α, V const& x, V& y) {
+                                 auto w = slant::adjoint_workspace(op, x);
+                                 slant::apply_adjoint_add(op, α, x, y, w);
+                               }};
   }
   if constexpr (has_diagonal<A, V>) {
-    if (a.rows() == a.cols()) probe.diagonal = [&a](V& d) { a.diagonal(d); };
+    if (a.rows() == a.cols()) probe.diagonal = {a, [](A const& op, V& d) { op.diagonal(d); }};
   }
   if constexpr (has_columns<A, matrix>) {
-    probe.columns = [&a](index first, matrix& y) { a.columns(first, y); };
+    probe.columns = {a, [](A const& op, index first, matrix& y) { op.columns(first, y); }};
   }
   if constexpr (applies_to_many<A, matrix>) {
-    probe.apply_to_many = [&a](matrix const& x, matrix& y) { slant::apply(a, x, y); };
+    probe.apply_to_many = {a,
+                           [](A const& op, matrix const& x, matrix& y) { slant::apply(op, x, y); }};
   }
   using matrix_by_rows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   if constexpr (applies_to_many<A, matrix_by_rows>) {
-    probe.apply_to_many_by_rows = [&a](matrix const& x, matrix& y) {
-      matrix_by_rows const from = x;
-      matrix_by_rows to = y;
-      slant::apply(a, from, to);
-      y = to;
-    };
+    probe.apply_to_many_by_rows = {a, [](A const& op, matrix const& x, matrix& y) {
+                                     matrix_by_rows const from = x;
+                                     matrix_by_rows to = y;
+                                     slant::apply(op, from, to);
+                                     y = to;
+                                   }};
   }
   if constexpr (has_inverse<A, V>) {
-    using inverse_type = std::remove_cvref_t<decltype(a.inverse())>;
-    auto inverse = std::make_shared<inverse_type>(a.inverse());
-    probe.inverse = [inverse](V const& x, V& y) { slant::apply(*inverse, x, y); };
+    probe.inverse = {a, [](A const& op, V const& x, V& y) { slant::apply(op.inverse(), x, y); }};
   }
   return probe;
 }

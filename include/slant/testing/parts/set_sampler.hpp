@@ -13,7 +13,6 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -51,21 +50,21 @@ struct set_probe {
   S origin{0};                 ///< ‖P(0)‖: how far off the set is
   bool unconstrained = false;  ///< says that it is the whole space
 
-  std::function<dense(dense const&)> project;
-  std::function<dense(dense const&)> project_in_place;  ///< project(x, x)
-  std::function<dense(dense const&)> project_over_nan;  ///< project(x, y), y full of NaN
-  std::function<bool(dense const&)> contains;
-  std::function<matrix(dense const&)> slant;
-  std::function<matrix(dense const&)> renewed_slant;  ///< into the operator of another point
-  std::function<S(dense const&, dense const&)> step;
-  std::function<S(dense const&, dense const&, S const&)> early_step;
-  std::function<S(dense const&)> support;
-  std::function<block_state(dense const&)> state;
+  ability<dense(dense const&)> project;
+  ability<dense(dense const&)> project_in_place;  ///< project(x, x)
+  ability<dense(dense const&)> project_over_nan;  ///< project(x, y), y full of NaN
+  ability<bool(dense const&)> contains;
+  ability<matrix(dense const&)> slant;
+  ability<matrix(dense const&)> renewed_slant;  ///< into the operator of another point
+  ability<S(dense const&, dense const&)> step;
+  ability<S(dense const&, dense const&, S const&)> early_step;
+  ability<S(dense const&)> support;
+  ability<block_state(dense const&)> state;
 
   int inequalities = 0;
-  std::function<dense(dense const&)> inequality;
-  std::function<matrix(dense const&)> inequality_gradient;
-  std::function<matrix(dense const&, dense const&)> inequality_hessian;
+  ability<dense(dense const&)> inequality;
+  ability<matrix(dense const&)> inequality_gradient;
+  ability<matrix(dense const&, dense const&)> inequality_hessian;
 
   [[nodiscard]] S distance(dense const& p) const { return slant::norm(dense(p - project(p))); }
   /// Distances that are short or long seen from x.
@@ -124,81 +123,100 @@ template <class G, class V>
   }
 }
 
-/// The probe of a set that takes vectors like `prototype`. References the set.
+/// A set, and how a dense vector becomes one of the kind that it takes.
 template <class C, class V>
-[[nodiscard]] auto probe_of(C const& set, V const& prototype, set_options const& options) {
-  using S = scalar_t<V>;
-  using dense = typename set_probe<S>::dense;
-  set_probe<S> probe;
-  index const n = slant::dimension_of(set);
-  probe.size = n;
-  probe.options = options;
-  probe.unconstrained = whole_space<C>;
-  auto const in = [prototype, n](dense const& p) {
-    V v = slant::like(prototype, n);
+struct seen_set {
+  C const& set;
+  V prototype;
+
+  [[nodiscard]] V in(Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, 1> const& p) const {
+    V v = slant::like(prototype, p.size());
     copy_entries(p, slant::local(v));
     return v;
-  };
-  probe.project = [&set, in](dense const& p) {
-    auto const y = slant::project(set, in(p));
-    return dense_of(y);
-  };
-  probe.project_in_place = [&set, in](dense const& p) {
-    auto v = in(p);
-    slant::project(set, v, v);
-    return dense_of(v);
-  };
-  probe.project_over_nan = [&set, in](dense const& p) {
-    auto const x = in(p);
-    auto y = in(dense::Constant(p.size(), std::numeric_limits<S>::quiet_NaN()));
-    slant::project(set, x, y);
-    return dense_of(y);
-  };
+  }
+};
+template <class C, class V>
+seen_set(C const&, V) -> seen_set<C, V>;
+
+/// Refers to what is seen.
+template <class C, class V>
+[[nodiscard]] auto probe_of(seen_set<C, V> const& seen, set_options const& options) {
+  using S = scalar_t<V>;
+  using dense = typename set_probe<S>::dense;
+  using seen_type = seen_set<C, V>;
+  C const& set = seen.set;
+  V const& prototype = seen.prototype;
+  set_probe<S> probe;
+  probe.size = slant::dimension_of(set);
+  probe.options = options;
+  probe.unconstrained = whole_space<C>;
+  probe.project = {seen, [](seen_type const& s, dense const& p) {
+                     auto const y = slant::project(s.set, s.in(p));
+                     return dense_of(y);
+                   }};
+  probe.project_in_place = {seen, [](seen_type const& s, dense const& p) {
+                              auto v = s.in(p);
+                              slant::project(s.set, v, v);
+                              return dense_of(v);
+                            }};
+  probe.project_over_nan = {
+      seen, [](seen_type const& s, dense const& p) {
+        auto const x = s.in(p);
+        auto y = s.in(dense::Constant(p.size(), std::numeric_limits<S>::quiet_NaN()));
+        slant::project(s.set, x, y);
+        return dense_of(y);
+      }};
   if constexpr (has_contains<C, V>) {
-    probe.contains = [&set, in](dense const& p) { return bool(set.contains(in(p))); };
+    probe.contains = {
+        seen, [](seen_type const& s, dense const& p) { return bool(s.set.contains(s.in(p))); }};
   }
   if constexpr (has_slant<C, V>) {
-    probe.slant = [&set, in, prototype, n](dense const& p) {
-      return matrix_of(set.slant(in(p)), prototype, n);
-    };
+    probe.slant = {seen, [](seen_type const& s, dense const& p) {
+                     return matrix_of(s.set.slant(s.in(p)), s.prototype, p.size());
+                   }};
     using G = decltype(set.slant(prototype));
     if constexpr (requires(G& g) { set.slant(prototype, g); }) {
-      probe.renewed_slant = [&set, in, prototype, n](dense const& p) {
-        auto g = set.slant(in(dense::Zero(n)));
-        set.slant(in(p), g);
-        return matrix_of(g, prototype, n);
-      };
+      probe.renewed_slant = {seen, [](seen_type const& s, dense const& p) {
+                               auto g = s.set.slant(s.in(dense::Zero(p.size())));
+                               s.set.slant(s.in(p), g);
+                               return matrix_of(g, s.prototype, p.size());
+                             }};
     }
   }
   if constexpr (has_step_to_boundary<C, V>) {
-    probe.step = [&set, in](dense const& x, dense const& d) {
-      return S(set.step_to_boundary(in(x), in(d)));
-    };
-    if constexpr (requires(S const& s) { set.step_to_boundary(prototype, prototype, s); }) {
-      probe.early_step = [&set, in](dense const& x, dense const& d, S const& enough) {
-        return S(set.step_to_boundary(in(x), in(d), enough));
-      };
+    probe.step = {seen, [](seen_type const& s, dense const& x, dense const& d) {
+                    return S(s.set.step_to_boundary(s.in(x), s.in(d)));
+                  }};
+    if constexpr (requires(S const& t) { set.step_to_boundary(prototype, prototype, t); }) {
+      probe.early_step = {seen,
+                          [](seen_type const& s, dense const& x, dense const& d, S const& enough) {
+                            return S(s.set.step_to_boundary(s.in(x), s.in(d), enough));
+                          }};
     }
   }
   if constexpr (has_support<C, V>) {
-    probe.support = [&set, in](dense const& y) { return S(set.support(in(y))); };
+    probe.support = {seen,
+                     [](seen_type const& s, dense const& y) { return S(s.set.support(s.in(y))); }};
   }
   if constexpr (has_state<C, V>) {
-    probe.state = [&set, in](dense const& x) { return set.state(in(x)); };
+    probe.state = {seen, [](seen_type const& s, dense const& x) { return s.set.state(s.in(x)); }};
   }
   if constexpr (has_inequality_form<C, V>) {
     probe.inequalities = C::inequalities;
-    probe.inequality = [&set, in](dense const& x) { return dense_of(set.inequality(in(x))); };
-    probe.inequality_gradient = [&set, in](dense const& x) {
-      return dense_matrix_of(set.inequality_gradient(in(x)));
-    };
-    probe.inequality_hessian = [&set, in](dense const& x, dense const& multipliers) {
-      Eigen::Matrix<S, C::inequalities, 1> ν;
-      copy_entries(multipliers, ν);
-      return dense_matrix_of(set.inequality_hessian(in(x), ν));
-    };
+    probe.inequality = {seen, [](seen_type const& s, dense const& x) {
+                          return dense_of(s.set.inequality(s.in(x)));
+                        }};
+    probe.inequality_gradient = {seen, [](seen_type const& s, dense const& x) {
+                                   return dense_matrix_of(s.set.inequality_gradient(s.in(x)));
+                                 }};
+    probe.inequality_hessian = {seen,
+                                [](seen_type const& s, dense const& x, dense const& multipliers) {
+                                  Eigen::Matrix<S, C::inequalities, 1> ν;
+                                  copy_entries(multipliers, ν);
+                                  return dense_matrix_of(s.set.inequality_hessian(s.in(x), ν));
+                                }};
   }
-  probe.origin = slant::norm(probe.project(dense::Zero(n)));
+  probe.origin = slant::norm(probe.project(dense::Zero(probe.size)));
   return probe;
 }
 
