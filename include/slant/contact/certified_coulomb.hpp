@@ -223,7 +223,9 @@ void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance
         r.law = last.law;
         r.error = last.error;
       }
-      r.reason = "the check finds " + brief(r.error) + ", more than " + brief(allowed) +
+      std::string found = brief(r.error);
+      if (found == brief(allowed)) found = show(r.error);
+      r.reason = "the check finds " + found + ", more than " + brief(allowed) +
                  ", largest at contact " + show(r.law.contact) + "; " + r.reason;
       return;
     }

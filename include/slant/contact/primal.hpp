@@ -206,14 +206,13 @@ struct local_coordinates {
     }
   }
 
-  /// Scales components of contacts in K = G⁻ᵀK G⁻¹ for diagonal entries near their mean; whether
-  /// there are any to scale.
-  bool scale(sparse_type& K) {
+  /// Factors of the components of contacts for diagonal entries of K = G⁻ᵀK G⁻¹ near their mean, put
+  /// into G; empty if all are 1.
+  [[nodiscard]] vector_type scale(vector_type const& diagonal) {
     using std::sqrt;
     constexpr S far = S(64);
-    vector_type const diagonal = K.diagonal();
     S const mean = diagonal.mean();
-    vector_type scales = vector_type::Ones(K.rows());
+    vector_type scales = vector_type::Ones(diagonal.size());
     auto const fit = [&](local_row<S>* row, std::size_t count) {
       if (count == 0 || row->component < 0) return;
       S const k = diagonal[row->component];
@@ -230,16 +229,15 @@ struct local_coordinates {
       fit(&normal[i], 1);
       fit(tangents.data() + i * per, per);
     }
-    if ((scales.array() == S(1)).all()) return false;
+    if ((scales.array() == S(1)).all()) return {};
     if (G.rows() == 0) {
-      G.resize(K.rows(), K.rows());
+      G.resize(scales.size(), scales.size());
       G.setIdentity();
       inverse = G;
     }
     G = scales.cwiseInverse().asDiagonal() * G;
     inverse = inverse * scales.asDiagonal();
-    K = scales.asDiagonal() * K * scales.asDiagonal();
-    return true;
+    return scales;
   }
 
  private:
@@ -523,12 +521,10 @@ class primal {
   }
   /// Of K in local coordinates, or nothing if that is K.
   [[nodiscard]] sparse_type scaled(sparse_type own) {
-    if (own.rows() > 0) {
-      local_.scale(own);
-      return own;
-    }
-    sparse_type copy = *K_;
-    return local_.scale(copy) ? copy : sparse_type();
+    sparse_type const& K = own.rows() == 0 ? *K_ : own;
+    vector_type const scales = local_.scale(K.diagonal());
+    if (scales.size() == 0) return own;
+    return scales.asDiagonal() * K * scales.asDiagonal();
   }
   [[nodiscard]] vector_type turned(vector_type const& f) const {
     if (!turns()) return f;
