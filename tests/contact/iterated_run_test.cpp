@@ -4,6 +4,7 @@
 // method, another certificate.
 #include <slant/contact/solve.hpp>
 
+#include <slant/contact/certified_coulomb.hpp>
 #include <slant/contact/optimality.hpp>
 #include <slant/contact/primal.hpp>
 #include <slant/testing/function_breaches.hpp>
@@ -511,6 +512,62 @@ TEST_CASE("what does not converge is factored, or says so where it may not be") 
   o.progress = [&](auto const& step) { steps = step.iteration; };
   auto const r = contact::solve(s.K, s.data, o);
   CHECK(steps == r.iterations);
+}
+
+TEST_CASE("what factors do not bring to an end is iterated after all") {
+  scene const s = scene_of<3>(
+      fem::make_steel_brick({.k = 3, .load = fem::brick_load::pull, .size = {3, 1, 0.1}}));
+  options o{.max_steps = 10, .layout = s.layout};
+  o.costs.cycle = 1;  // multigrid seems dear
+  auto const r = contact::solve(s.K, s.data, o);
+  CAPTURE(r.reason);
+  CHECK(r.converged());
+  CHECK(r.choice.route == solution_route::iterate);
+  CHECK(r.choice.reason.find("iterated after all: reached the limit of 10") != std::string::npos);
+  o.route = solution_route::factor;
+  CHECK(contact::solve(s.K, s.data, o).status == slant::status::iteration_limit);
+}
+
+TEST_CASE("thin bodies over a foundation with uneven gaps") {
+  // Newton's steps are cut to 1e-4 and less where a part that is set free is far from stiff.
+  for (Eigen::Vector3d const& size : {Eigen::Vector3d(5, 0.4, 0.08), {6, 10, 0.06}}) {
+    for (auto const load : fem::brick_loads) {
+      scene s = scene_of<3>(fem::make_steel_brick({.k = 3, .load = load, .size = size}));
+      VectorXd& d = s.data.d;
+      d.setConstant(infinity);
+      scene free = s;
+      free.data.g.setZero();
+      double const way = (s.data.N * contact::solve(free.K, free.data).u).lpNorm<Eigen::Infinity>();
+      for (Index i = 0; i < d.size(); ++i) {
+        if (i % 3 != 0) d[i] = way * double(i * 11 % 64) / 128;
+      }
+      CHECK(agree(s, 1e-8).iterations <= 200);
+    }
+  }
+}
+
+TEST_CASE("thin bodies, any tolerance: what is certified is never just short of it") {
+  for (double const thickness : {0.1, 0.02, 0.003}) {
+    for (auto const load : fem::brick_loads) {
+      scene const s =
+          scene_of<3>(fem::make_steel_brick({.k = 2, .load = load, .size = {3, 1, thickness}}));
+      for (double const tolerance : {1e-3, 1e-4, 1e-5, 1e-7, 1e-10}) {
+        options o{.tolerance = tolerance, .layout = s.layout, .route = solution_route::iterate};
+        auto const r = contact::solve(s.K, s.data, o);
+        CAPTURE(thickness);
+        CAPTURE(tolerance);
+        CAPTURE(r.reason);
+        CHECK(r.converged());
+        if (load != fem::brick_load::lift) continue;
+        auto const coulomb = contact::certified_coulomb(
+            contact::friction_disc{}, s.K, s.data,
+            VectorXd(VectorXd::Constant(s.data.nodes(), 0.3)),
+            {.tolerance = tolerance, .layout = s.layout, .route = solution_route::iterate});
+        CAPTURE(coulomb.reason);
+        CHECK(coulomb.converged());
+      }
+    }
+  }
 }
 
 TEST_CASE("the surface is a function with a proximal map; a step on an old face sets nothing up") {

@@ -13,11 +13,14 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/iterative_method.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/fill_estimate.hpp>
 
 #include <Eigen/SparseCore>
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -118,6 +121,24 @@ template <class Run>
   }
   choice.route = solution_route::factor;
   return std::nullopt;
+}
+/// The result of factors, or that of run() where they have got nowhere and it has.
+template <class Found, class Run>
+[[nodiscard]] Found iterated_after_all(route_choice& choice, Found found, Run&& run) {
+  using std::sqrt;
+  auto const error = found.error.relative();
+  bool const is_near = error <= sqrt(std::numeric_limits<decltype(error + 0)>::epsilon());
+  if (found.converged() || found.status == status::unbounded || is_near) return found;
+  try {
+    auto other = run();
+    if (!other.converged()) return found;
+    choice.route = solution_route::iterate;
+    choice.reason += "; iterated after all: " + found.reason;
+    other.work += found.work;
+    return other;
+  } catch (bad_input const&) {  // it was a second attempt
+    return found;
+  }
 }
 
 }  // namespace detail

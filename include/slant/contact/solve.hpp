@@ -305,11 +305,14 @@ template <class Friction, class S>
                            ? detail::iteration_outlook<S>{"forces to start from are given"}
                            : detail::outlook_of_iteration(K, c, o);
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
+  bool const may_iterate = choice.route == solution_route::factor && !outlook.refusal &&
+                           o.route == solution_route::automatic;
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
   if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   free_motions<S> motions;
   try {
     auto found = run(friction, K, c, o).solve();
+    if (may_iterate) found = detail::iterated_after_all(choice, std::move(found), iterate);
     found.choice = std::move(choice);
     return found;
   } catch (bad_input const& refusal) {

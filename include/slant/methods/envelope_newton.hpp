@@ -124,7 +124,7 @@ struct envelope_newton_state : gradient_point<QP> {
       case slant::status::converged:
         return this->reduced_gradient_norm == scalar(0)
                    ? "the reduced gradient is zero: x is the solution"
-                   : "the energy error is estimated at " + detail::show(energy_estimate);
+                   : "the energy error is estimated at " + detail::brief(energy_estimate);
       case slant::status::stalled:
         return "no step lowers the residual any further at this precision: " + this->accuracy();
       case slant::status::breakdown:
@@ -401,7 +401,6 @@ class envelope_newton {
 
   /// The longest β = 2⁻ʲ for which E_γ(x + β t) is low enough. Spends no product.
   bool shorten(state_type& s) const {
-    constexpr scalar least = scalar(1) / scalar(1024);  // w is as good then
     scalar const value = s.value, residual = s.residual_norm;
     s.gradient_error = error_of_image(s);
     scalar const noise = s.value_noise + s.gradient_error * norm(s.x);
@@ -409,7 +408,7 @@ class envelope_newton {
     std::swap(s.y, s.base);
     std::swap(s.gradient, s.base_gradient);
     scalar β(1);
-    for (index j = 0; j <= options_.halvings && β >= least; ++j, β /= scalar(2)) {
+    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
       vectors::waxpy(β * s.unit, s.inner.t, s.x, s.y);
       vectors::waxpy(β, s.inner.image, s.r, s.gradient);
       project(s);

@@ -113,9 +113,8 @@ template <class Friction, class S, class Certificate>
   S share = tolerance / S(2), best = std::numeric_limits<S>::infinity(), nearest = best;
   index since = 0, round = 0, idle = 0;
   // As in run_floating_to_certified.
-  auto const goal = [&] {
-    return S(share * (springs.size() > S(0) ? springs.size() : run.size()));
-  };
+  auto const size = [&] { return springs.size() > S(0) ? springs.size() : run.size(); };
+  auto const goal = [&] { return S(share * size()); };
   auto const use_bounds_of_x = [&] {
     run.pressures(λ);
     run.set_slip_bounds(F.cwiseProduct(λ));
@@ -178,10 +177,9 @@ template <class Friction, class S, class Certificate>
       result.status = status::converged;
       break;
     }
+    // The bound of a problem may be loose where that of the next is not, and none at all far away.
     bool const is_known = slant::detail::is_finite(error);
-    // The bound of a problem may be loose where that of the next is not.
-    bool const is_better = error < best / S(2) || (!springs.empty() && !is_known);
-    idle = is_better ? 0 : idle + 1;
+    idle = error < best / S(2) || !is_known ? 0 : idle + 1;
     bool const goes_on = state.status == status::converged && idle < 2 &&
                          state.reduced_gradient_norm > S(0) && ++round < rounds;
     if (!goes_on) {
@@ -190,7 +188,10 @@ template <class Friction, class S, class Certificate>
       break;
     }
     best = std::min<S>(best, error);
-    if (is_known) share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
+    if (!is_known && !springs.empty()) continue;
+    // Below the estimate at x, or the next step would stay there.
+    share = std::min<S>(share, state.energy_estimate / size()) *
+            std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
   }
   if (newton) result.newton_steps = newton->steps() - newton_before;
   result.work = state.work;

@@ -307,8 +307,8 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
     if (run.problem().offset().size() > 0) result.error.size = run.size();
     S const error = result.error.relative();
     bool const is_enough = error <= o.tolerance;
-    // The bound of a step may be loose where that of the next is not.
-    idle = error < best / S(2) ? 0 : idle + 1;
+    // The bound of a step may be loose where that of the next is not, and none at all far away.
+    idle = error < best / S(2) || !slant::detail::is_finite(error) ? 0 : idle + 1;
     bool const goes_on = state.status == status::converged && idle < 2 &&
                          state.reduced_gradient_norm > S(0) && round < rounds;
     if (is_enough || !goes_on) {
@@ -321,7 +321,9 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
       break;
     }
     best = std::min<S>(best, error);
-    share *= std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
+    // Below the estimate at x, or the next step would stay there.
+    share = std::min<S>(share, state.energy_estimate / run.size()) *
+            std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
     run.go_on();
   }
   result.u = run.displacement();
