@@ -131,14 +131,20 @@ template <class Found, class Run>
   if (found.converged() || found.status == status::unbounded || is_near) return found;
   try {
     auto other = run();
-    if (!other.converged()) return found;
-    choice.route = solution_route::iterate;
-    choice.reason += "; iterated after all: " + found.reason;
     other.work += found.work;
-    return other;
-  } catch (bad_input const&) {  // it was a second attempt
-    return found;
+    if (other.converged()) {
+      choice.route = solution_route::iterate;
+      choice.reason += "; iterated after all: " + found.reason;
+      other.solves += found.solves;
+      other.condition = found.condition;
+      return other;
+    }
+    found.work = other.work;
+    choice.reason += "; iterated in vain: " + other.reason;
+  } catch (bad_input const& refusal) {
+    choice.reason += "; iterated in vain: " + std::string(refusal.what());
   }
+  return found;
 }
 
 }  // namespace detail

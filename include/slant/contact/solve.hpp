@@ -18,8 +18,8 @@
 //
 // Where the layout of the unknowns is known and K is large, K is not factored: the displacements
 // are solved for with multigrid (contact/parts/iterated_run.hpp). Which is faster is estimated
-// (contact/route.hpp), and what has not converged that way is factored after all. Bodies that
-// supports do not hold get springs that end where they began.
+// (contact/route.hpp); what gets nowhere one way is tried the other way. Bodies that supports
+// do not hold get springs that end where they began.
 //
 // With factors, for bodies that supports do not hold, so that K is singular: their free motions are
 // computed and named (contact/free_motions), and where contact or friction holds them the same
@@ -306,7 +306,8 @@ template <class Friction, class S>
                            : detail::outlook_of_iteration(K, c, o);
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   bool const may_iterate = choice.route == solution_route::factor && !outlook.refusal &&
-                           o.route == solution_route::automatic;
+                           o.route == solution_route::automatic && o.tolerance > S(0) &&
+                           o.max_steps > 0;
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
   if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
   free_motions<S> motions;

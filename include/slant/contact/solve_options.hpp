@@ -35,7 +35,7 @@ template <class S = double>
 struct solve_options {
   S tolerance = S(1e-8);   ///< relative error in the energy norm, in [0, 1); 0: as far as possible
   bool prove = false;      ///< prove the bound: one more factorisation of the size of K
-  index max_steps = 5000;  ///< of Newton's method, and of its fallback, in all
+  index max_steps = 5000;  ///< of each method that is tried
   bool scale = true;       ///< whether rows of B may be scaled
   condensation_options condensation{};
   /// λ to start from; none: conjugate gradients without the constraints.

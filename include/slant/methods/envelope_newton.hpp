@@ -439,6 +439,7 @@ class envelope_newton {
     std::swap(s.y, s.base);
     std::swap(s.gradient, s.base_gradient);
     s.step_fraction = scalar(0);
+    s.gradient_error = scalar(0);  // that of the step not taken
     ++s.descents;
     for (index k = 0; k < most; ++k) {
       evaluate(s);

@@ -55,6 +55,8 @@ class ability<R(A...)> {
   ability(T const& thing, F)
       : thing_(&thing),
         call_([](void const* t, A... a) -> R { return F{}(*static_cast<T const*>(t), a...); }) {}
+  template <class T, class F>
+  ability(T const&&, F) = delete;
   explicit operator bool() const { return call_ != nullptr; }
   R operator()(A... a) const { return call_(thing_, a...); }
 

@@ -73,12 +73,13 @@ template <class V>
 struct observed_function {
   index rows = 0;
   index cols = 0;
-  ability<std::array<index, 2>(V const& y)> slope_size;    ///< of F°(y)
-  ability<void(V const& y, V& to)> evaluate;               ///< F(y)
-  ability<void(V const& y, V const& x, V& to)> apply;      ///< F°(y) x
-  ability<V(V const& z, V const& y, V const& x)> renewed;  ///< F°(y) x, by an F°(z) renewed at y
-  ability<V(V const& z, V const& y, V const& x)> along;  ///< the same after F(y) has been computed
-  ability<V(V const& z, V const& y)> evaluate_again;     ///< F(y) in the workspace of F(z)
+  ability<std::array<index, 2>(V const& y)> slope_size;        ///< of F°(y)
+  ability<void(V const& y, V& to)> evaluate;                   ///< F(y)
+  ability<void(V const& y, V const& x, V& to)> apply;          ///< F°(y) x
+  ability<V(V const& y, V const& z, V const& x)> apply_again;  ///< F°(y) x, after F°(y) z
+  /// F°(y) x by an F°(z) renewed at y; by the same one, renewed at z and after F(y); this F(y). All in
+  /// one workspace.
+  ability<std::array<V, 3>(V const& z, V const& y, V const& x)> renew;
 
   [[nodiscard]] V value(V const& y) const {
     V to = slant::like(y, rows);
@@ -100,7 +101,7 @@ template <class V, class F>
   seen.cols = function.cols();
   seen.slope_size = {function, [](F const& f, V const& y) {
                        auto const g = f.slant(y);
-                       return std::array<index, 2>{g.rows(), g.cols()};
+                       return std::array<index, 2>{index(g.rows()), index(g.cols())};
                      }};
   seen.evaluate = {function, [](F const& f, V const& y, V& to) {
                      auto w = slant::workspace(f, y);
@@ -108,32 +109,28 @@ template <class V, class F>
                    }};
   seen.apply = {function,
                 [](F const& f, V const& y, V const& x, V& to) { apply_into(f.slant(y), x, to); }};
-  seen.renewed = {function, [](F const& f, V const& z, V const& y, V const& x) {
-                    auto w = slant::workspace(f, y);
-                    V v = slant::like(y, f.rows());
-                    auto g = f.slant(z);
-                    slant::evaluate(f, z, v,
-                                    w);  // what this leaves in w must not be taken for F(y)
-                    slant::update_slant(f, y, g, w);
-                    apply_into(g, x, v);
-                    return v;
-                  }};
-  seen.along = {function, [](F const& f, V const& z, V const& y, V const& x) {
+  seen.apply_again = {function, [](F const& f, V const& y, V const& z, V const& x) {
+                        V v = slant::like(y, f.rows());
+                        auto const g = f.slant(y);
+                        apply_into(g, z, v);
+                        apply_into(g, x, v);
+                        return v;
+                      }};
+  seen.renew = {function, [](F const& f, V const& z, V const& y, V const& x) {
                   auto w = slant::workspace(f, y);
                   V v = slant::like(y, f.rows());
+                  std::array<V, 3> seen_there{v, v, v};
+                  auto& [renewed, after_value, value] = seen_there;
                   auto g = f.slant(z);
-                  slant::evaluate(f, y, v, w);
+                  slant::evaluate(f, z, v, w);  // what this leaves in w must not be taken for F(y)
+                  slant::update_slant(f, y, g, w);
+                  apply_into(g, x, renewed);
+                  slant::update_slant(f, z, g, w);
+                  slant::evaluate(f, y, value, w);
                   slant::update_slant_after_value(f, y, g, w);
-                  apply_into(g, x, v);
-                  return v;
+                  apply_into(g, x, after_value);
+                  return seen_there;
                 }};
-  seen.evaluate_again = {function, [](F const& f, V const& z, V const& y) {
-                           auto w = slant::workspace(f, y);
-                           V v = slant::like(y, f.rows());
-                           slant::evaluate(f, z, v, w);
-                           slant::evaluate(f, y, v, w);
-                           return v;
-                         }};
   return seen;
 }
 
@@ -299,6 +296,7 @@ class slanting_protocol {
     f_.apply(y_, x, into_zero);
     f_.apply(y_, x, into_nan);
     expect("slant overwrites", into_zero, into_nan, S(0));
+    expect("slant applied again", into_zero, f_.apply_again(y_, sample_(y_, f_.cols), x), S(0));
   }
 
   void linear() const {
@@ -319,10 +317,11 @@ class slanting_protocol {
       V const x = sample_(y_, f_.cols);
       V const expected = f_.slope(y_, x);
       S const bound = tolerance() * slant::norm(expected);
-      expect("renewed slant = new slant", expected, f_.renewed(elsewhere_, y_, x), bound);
-      expect("slant after value = new slant", expected, f_.along(elsewhere_, y_, x), bound);
+      auto const [renewed, after_value, value] = f_.renew(elsewhere_, y_, x);
+      expect("renewed slant = new slant", expected, renewed, bound);
+      expect("slant after value = new slant", expected, after_value, bound);
+      expect("value with a used workspace", value, f_.value(y_), S(0));
     }
-    expect("value with a used workspace", f_.evaluate_again(elsewhere_, y_), f_.value(y_), S(0));
   }
 
  private:

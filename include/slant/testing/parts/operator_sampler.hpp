@@ -118,7 +118,10 @@ template <class V, class A>
                                    }};
   }
   if constexpr (has_inverse<A, V>) {
-    probe.inverse = {a, [](A const& op, V const& x, V& y) { slant::apply(op.inverse(), x, y); }};
+    probe.inverse = {a, [](A const& op, V const& x, V& y) {
+                       auto const inverse = op.inverse();
+                       for (int k = 0; k < 2; ++k) slant::apply(inverse, x, y);
+                     }};
   }
   return probe;
 }
