@@ -134,7 +134,9 @@ TEST_CASE("no friction: all loads, sizes of a single level, no coordinates") {
     for (int k = 1; k <= test::effort(6, 2); ++k) {
       CAPTURE(k);
       scene s = frictionless(brick(k, load));
-      CHECK(agree(s).work.inner_iterations <= 160);
+      auto const r = agree(s);
+      CHECK(r.work.inner_iterations <= 160);
+      if (k == 6) CHECK(r.iterations <= 8);  // from the level below
       s.layout = {};
       CHECK(agree(s).work.inner_iterations <= 200);
     }

@@ -402,8 +402,8 @@ class envelope_newton {
   /// The longest β = 2⁻ʲ for which E_γ(x + β t) is low enough. Spends no product.
   bool shorten(state_type& s) const {
     scalar const value = s.value, residual = s.residual_norm;
-    s.gradient_error = error_of_image(s);
-    scalar const noise = s.value_noise + s.gradient_error * norm(s.x);
+    scalar const rough = error_of_image(s);
+    scalar const noise = s.value_noise + rough * norm(s.x);
     scalar const enough = decrease * s.way * (s.way / (s.γ * s.unit));
     std::swap(s.y, s.base);
     std::swap(s.gradient, s.base_gradient);
@@ -411,6 +411,7 @@ class envelope_newton {
     for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
       vectors::waxpy(β * s.unit, s.inner.t, s.x, s.y);
       vectors::waxpy(β, s.inner.image, s.r, s.gradient);
+      s.gradient_error = β * rough;
       project(s);
       evaluate(s);
       // Where the values differ by rounding only, ‖F‖ decides.

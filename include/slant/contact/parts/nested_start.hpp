@@ -36,6 +36,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -230,15 +231,20 @@ class nested_start {
   static std::optional<frame> frame_of(matrix_type const& T) {
     using std::abs;
     index const m = T.rows(), w = T.cols();
-    Eigen::HouseholderQR<matrix_type> const qr(T.transpose());  // Tᵀ = Q₁ R
+    // What T does not see comes last, where no reflection moves it: an aggregate may not have it.
+    std::vector<index> order(static_cast<std::size_t>(w));
+    std::iota(order.begin(), order.end(), index(0));
+    std::stable_partition(order.begin(), order.end(),
+                          [&](index j) { return !T.col(j).isZero(S(0)); });
+    matrix_type const seen = T(Eigen::all, order);
+    Eigen::HouseholderQR<matrix_type> const qr(seen.transpose());  // Tᵀ = Q₁ R
     matrix_type const R = qr.matrixQR().topRows(std::min(m, w));
     S const size = T.cwiseAbs().maxCoeff();
     for (index r = 0; r < m; ++r) {
       if (r >= w || !(abs(R(r, r)) > S(1e-3) * size)) return std::nullopt;
-      // A mode that the aggregate does not have stays apart from the others.
-      if (T.col(r).isZero(S(0))) return std::nullopt;
     }
-    matrix_type const Q = qr.householderQ() * matrix_type::Identity(w, w);
+    matrix_type Q(w, w);
+    Q(order, Eigen::all) = qr.householderQ() * matrix_type::Identity(w, w);
     frame f{Q, Q.transpose(), {}};
     f.inverse.topRows(m) = T;
     // T⁺ = Q₁ R⁻ᵀ
