@@ -8,6 +8,8 @@
 
 #include <fem/steel_brick.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <set>
 #include <support/testing.hpp>
 
@@ -124,6 +126,8 @@ void check_face(bool weights) {
   auto C = slant::detail::galerkin_pattern(A, P, longest);
   slant::detail::galerkin_scratch<3, M, double> w(P, longest);
   slant::detail::galerkin(A, P, C, w);
+  auto const untouched = C;
+  auto D = C;
 
   auto const n = K.rows();
   std::vector<double> diagonal;
@@ -141,13 +145,19 @@ void check_face(bool weights) {
     MatrixXd const before = test::dense(C);
     face.assign(s, 0.5, diagonal, moved);
     CHECK(std::set<int>(moved.begin(), moved.end()) == expected);
-    slant::detail::galerkin_anew(A, P, C, moved, parents, w, face.formed_blocks());
+    slant::detail::galerkin_change(A, P, C, D, moved, parents, w, face.change_of_blocks());
     MatrixXd const H = s.Π * MatrixXd(K) * s.Π + 0.5 * s.C;
     MatrixXd const exact = p.transpose() * H * p, now = test::dense(C);
     CHECK((now - exact).norm() <= 1e-13 * exact.norm());
-    // Only rows of parents, and their mirror images, were touched.
+    CHECK(now == now.transpose());
+    // Only rows of parents, and their mirror images, were touched, and the change is told.
     std::set<int> const formed(parents.begin(), parents.end());
+    MatrixXd const change = test::dense(D);
     for (int I = 0; I < C.nodes(); ++I) {
+      auto const rows = [&](MatrixXd const& m) { return m.middleRows(M * I, M); };
+      if (formed.count(I) > 0) {
+        CHECK((rows(now) - rows(before) - rows(change)).norm() <= 1e-13 * exact.norm());
+      }
       for (int J = 0; J < C.nodes(); ++J) {
         if (formed.count(I) + formed.count(J) > 0) continue;
         CHECK(now.template block<M, M>(M * I, M * J) == before.template block<M, M>(M * I, M * J));
@@ -183,21 +193,57 @@ void check_face(bool weights) {
   CHECK(moved.empty());
   s.hold(30);
   follow({30});
+  // From the beginning.
+  MatrixXd const followed = test::dense(C);
+  C = untouched;
+  face.forget_levels(moved);
+  CHECK(std::set<int>(moved.begin(), moved.end()) == std::set<int>{0, 7, 9, 30});
+  slant::detail::galerkin_change(A, P, C, D, moved, parents, w, face.change_of_blocks());
+  CHECK((test::dense(C) - followed).norm() <= 1e-13 * followed.norm());
   for (int i = 0; i < A.nodes(); ++i) s.free(i);
   follow({0, 7, 9, 30});
   slant::testing::allocation_guard guard;
   s.hold(0);
   s.hold(30);
   face.assign(s, 0.5, diagonal, moved);
-  slant::detail::galerkin_anew(A, P, C, moved, parents, w, face.formed_blocks());
+  slant::detail::galerkin_change(A, P, C, D, moved, parents, w, face.change_of_blocks());
   auto const allocations = guard.count();
   CHECK(allocations == 0);
 }
 
-TEST_CASE("rows anew are those of the projected operator, and no others are touched") {
+TEST_CASE("changed rows are those of the projected operator, and no others are touched") {
   check_face<6>(false);
   check_face<3>(false);
   check_face<3>(true);
+}
+
+TEST_CASE("what has changed on a level is what the next one adds") {
+  sparse const K = fem::make_steel_brick({.k = 2}).K / 2e5;
+  block_matrix<6, double> A(K);
+  auto const P = sample<6, 6>(A.nodes(), false);
+  MatrixXd const p = dense(P);
+  std::size_t longest = 0;
+  auto C = slant::detail::galerkin_pattern(A, P, longest);
+  slant::detail::galerkin_scratch<6, 6, double> w(P, longest);
+  slant::detail::galerkin(A, P, C, w);
+  auto D = C;
+  // δ = A in rows and columns of some nodes; its other rows are told by nothing.
+  std::vector<int> const moved{3, 4, 11};
+  std::vector<int> parents;
+  MatrixXd δ = MatrixXd::Zero(K.rows(), K.rows());
+  for (int const i : moved) {
+    δ.middleRows<6>(6 * i) = MatrixXd(K).middleRows<6>(6 * i);
+    δ.middleCols<6>(6 * i) = MatrixXd(K).middleCols<6>(6 * i);
+  }
+  for (int i = 0; i < A.nodes(); ++i) {
+    if (std::count(moved.begin(), moved.end(), i) > 0) continue;
+    A.for_each_in_row(i, [](int, double* entries) {
+      std::fill(entries, entries + 36, std::numeric_limits<double>::quiet_NaN());
+    });
+  }
+  MatrixXd const expected = test::dense(C) + p.transpose() * δ * p;
+  slant::detail::galerkin_change(A, P, C, D, moved, parents, w, slant::detail::whole_blocks{});
+  CHECK((test::dense(C) - expected).norm() <= 1e-13 * expected.norm());
 }
 
 TEST_CASE("great curvature is left to the sweeps: coarse levels hold its direction") {
@@ -217,8 +263,8 @@ TEST_CASE("great curvature is left to the sweeps: coarse levels hold its directi
     s.C.block<3, 3>(6, 6) = bend * v * v.transpose();
     face.assign(s, 1, diagonal, moved);
     auto const& node = face.surface()[2];
-    CHECK((node.level_projector - (Matrix3d::Identity() - v * v.transpose())).norm() <= 1e-12);
-    CHECK(node.level_curvature.norm() <= 1e-6 * bend);
+    CHECK((node.level.projector - (Matrix3d::Identity() - v * v.transpose())).norm() <= 1e-12);
+    CHECK(node.level.curvature.norm() <= 1e-6 * bend);
     Matrix3d const inverse = Eigen::Map<Eigen::Matrix<float, 4, 3> const>(face.inverses() + 24)
                                  .topRows<3>()
                                  .cast<double>();

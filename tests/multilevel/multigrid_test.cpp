@@ -427,6 +427,42 @@ TEST_CASE("a workspace forgets a face, whatever kind the next one is of") {
   CHECK((of(curved) - second).norm() <= lag * second.norm());
 }
 
+TEST_CASE("after 256 changes a workspace begins again; a face that is refused leaves the last") {
+  auto const s = fem::make_steel_brick({.k = 3});
+  multigrid const m(s.K, {.coordinates = test::moving_nodes(s), .coarsest = 60});
+  auto const bent = mixed(s, 1000 * s.K.diagonal().mean());
+  auto const half = touching(s, 0.5);
+  auto w = m.workspace(s.f), other = m.workspace(s.f);
+  VectorXd y(s.f.size()), fresh(s.f.size());
+  auto const difference = [&] {
+    m.apply_on_face(s.f, y, w);
+    m.apply_on_face(s.f, fresh, other);
+    return (y - fresh).norm() / fresh.norm();
+  };
+  for (int k = 0; k < 128; ++k) {
+    m.enter(bent, 1, w);
+    m.enter(half, w);
+  }
+  m.enter(half, other);
+  CHECK(difference() > 0);
+  CHECK(difference() <= 2e-3);
+  other = m.workspace(s.f);
+  m.enter(bent, 1, w);  // the 257th
+  m.enter(bent, 1, other);
+  CHECK(difference() == 0);
+  m.enter(half, w);
+  m.enter(half, other);
+  CHECK(difference() == 0);
+  // Bad on its last node.
+  auto bad = mixed(s, 1);
+  bad.set(static_cast<int>(s.f.size()) / 3 - 1, 2 * Matrix3d::Identity());
+  for (int k = 0; k < 2; ++k) CHECK_THROWS_AS(m.enter(bad, 1, w), slant::bad_input);
+  CHECK(difference() == 0);
+  m.enter(bent, 1, w);
+  m.enter(bent, 1, other);
+  CHECK(difference() == 0);
+}
+
 TEST_CASE("everything held, nodes held, all but one node held") {
   auto const s = fem::make_steel_brick({.k = 2});
   auto const n = s.f.size();

@@ -182,13 +182,22 @@ class block_matrix {
   /// f(j, block) for the blocks of row i from left to right.
   template <class F>
   void for_each_in_row(int i, F f) const {
-    for (int e = lower_.begin(i); e < lower_.end(i); ++e) f(lower_.at(e), lower_.block(e));
-    f(i, diagonal(i));
-    for (int e = upper_.begin(i); e < upper_.end(i); ++e) f(upper_.at(e), upper_.block(e));
+    visit_row(*this, i, f);
+  }
+  template <class F>
+  void for_each_in_row(int i, F f) {
+    visit_row(*this, i, f);
   }
 
  private:
   static constexpr std::size_t beyond = static_cast<std::size_t>(stride - N);
+
+  template <class Self, class F>
+  static void visit_row(Self& a, int i, F& f) {
+    for (int e = a.lower_.begin(i); e < a.lower_.end(i); ++e) f(a.lower_.at(e), a.lower_.block(e));
+    f(i, a.diagonal(i));
+    for (int e = a.upper_.begin(i); e < a.upper_.end(i); ++e) f(a.upper_.at(e), a.upper_.block(e));
+  }
 
   template <int Stride>
   [[nodiscard]] static std::size_t at(int i) {

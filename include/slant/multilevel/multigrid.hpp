@@ -21,9 +21,11 @@
 // needed that would have to be right. On a singular K, of bodies that float, M is definite as well.
 //
 // Faces. On a face H = Π K Π + C takes the place of K (parts/node_face.hpp): the inverses of the
-// diagonal blocks at the surface are all that the sweeps know of it, and P is truncated by Π. The
-// rows of the coarse levels that come from nodes where the face has changed, and no others, are
-// formed anew [truncated multigrid: Gräser, Kornhuber 2009]. Levels hold no face: a workspace does.
+// diagonal blocks at the surface are all that the sweeps know of it, and P is truncated by Π. In the
+// rows of the coarse levels that come from nodes where the face has changed, and no others, the
+// change is added [truncated multigrid: Gräser, Kornhuber 2009]. Levels hold no face: a workspace
+// does. Every 256 changes it begins again from the levels without a face, before what rounding
+// leaves of them adds up.
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
@@ -399,13 +401,15 @@ struct level_vectors {
   explicit level_vectors(std::size_t n) : x(n, T(0)), b(n, T(0)), r(n, T(0)) {}
 };
 
-/// What belongs to a face: copies of the coarse levels whose rows follow it.
+/// What belongs to a face: copies of the coarse levels whose rows follow it, and as much again for
+/// the changes.
 template <int N, int M, class T>
 struct levels_on_face {
   node_face<N, T> face;
   std::vector<block_matrix<M, T>> A;  // of coarse levels
+  std::vector<block_matrix<M, T>> D;  // what the last face has changed of them
   std::vector<std::vector<T>> inverses;
-  std::vector<std::vector<T>> formed;  // diagonal blocks of which the next level has been formed
+  int changes = 0;  // of A since it was that of no face: each leaves some rounding
   dense_factor<N, T> only;
   dense_factor<M, T> last;
   galerkin_scratch<N, M, T> first_scratch;
@@ -415,16 +419,13 @@ struct levels_on_face {
   explicit levels_on_face(hierarchy<N, M, T> const& h)
       : face(h.fine.A.nodes(), h.fine.inverses), only(h.only), last(h.last) {
     if (!h.coarse.empty()) first_scratch = {h.fine.P, h.fine.longest};
-    std::size_t most = static_cast<std::size_t>(h.fine.A.nodes());
+    std::size_t const most = static_cast<std::size_t>(h.fine.A.nodes());
     moved.reserve(most);
     parents.reserve(most);
     for (std::size_t l = 0; l < h.coarse.size(); ++l) {
       A.push_back(h.coarse[l].A);
+      D.push_back(h.coarse[l].A);
       inverses.push_back(h.coarse[l].inverses);
-      formed.emplace_back();
-      for (int i = 0; i < A[l].nodes(); ++i) {
-        formed[l].insert(formed[l].end(), A[l].diagonal(i), A[l].diagonal(i) + M * M);
-      }
       scratch.emplace_back();
       if (l + 1 < h.coarse.size()) scratch.back() = {h.coarse[l].P, h.coarse[l].longest};
     }
@@ -492,48 +493,41 @@ void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_fac
 }
 
 /// The coarse levels follow a face of which w.on_face->moved are the nodes that have changed. Returns
-/// how many of their rows were formed anew.
+/// how many of their rows that were.
 template <int N, int M, class T>
 index follow_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w) {
   auto& f = *w.on_face;
   if (f.moved.empty()) return 0;
-  auto const blocks = f.face.formed_blocks();
   if (h.coarse.empty()) {
-    if (h.factored) f.only.factor(h.fine.A, h.fine.A, blocks);
+    if (h.factored) f.only.factor(h.fine.A, h.fine.A, f.face.formed_blocks());
     return 0;
   }
+  constexpr int most = 256;
+  bool const begins_again = ++f.changes > most;
+  if (begins_again) {
+    f.changes = 1;
+    for (std::size_t l = 0; l < f.A.size(); ++l) {
+      f.A[l] = h.coarse[l].A;
+      f.inverses[l] = h.coarse[l].inverses;
+    }
+    f.face.forget_levels(f.moved);
+  }
   index rows = 0;
-  auto const invert = [&](std::size_t l) {
-    rows += static_cast<index>(f.parents.size());
-    f.moved.clear();
+  for (std::size_t l = 0; l < f.A.size(); ++l) {
+    if (l == 0) {
+      galerkin_change(h.fine.A, h.fine.P, f.A[0], f.D[0], f.moved, f.parents, f.first_scratch,
+                      f.face.change_of_blocks());
+    } else {
+      galerkin_change(f.D[l - 1], h.coarse[l - 1].P, f.A[l], f.D[l], f.moved, f.parents,
+                      f.scratch[l - 1], whole_blocks{});
+    }
     for (int const i : f.parents) {
       invert_diagonal(f.A[l], h.coarse[l].A, i, f.inverses[l].data());
-      // The next level lags behind as this one does.
-      T const* const now = f.A[l].diagonal(i);
-      T* const before = f.formed[l].data() + static_cast<std::size_t>(i) * (M * M);
-      // Beside √(a_qq a_cc): unknowns may have units of their own.
-      bool moved = false;
-      for (int k = 0; k < M * M; ++k) {
-        double const change = static_cast<double>(now[k]) - static_cast<double>(before[k]);
-        double const size = static_cast<double>(before[(M + 1) * (k / M)]) *
-                            static_cast<double>(before[(M + 1) * (k % M)]);
-        constexpr double lag = node_face<N, T>::lag;
-        moved = moved || change * change > lag * lag * size;
-      }
-      if (!moved) continue;
-      std::copy_n(now, M * M, before);
-      f.moved.push_back(i);
     }
-  };
-  galerkin_anew(h.fine.A, h.fine.P, f.A.front(), f.moved, f.parents, f.first_scratch, blocks);
-  invert(0);
-  std::size_t l = 0;
-  for (; l + 1 < f.A.size() && !f.moved.empty(); ++l) {
-    galerkin_anew(f.A[l], h.coarse[l].P, f.A[l + 1], f.moved, f.parents, f.scratch[l],
-                  whole_blocks{});
-    invert(l + 1);
+    rows += static_cast<index>(f.parents.size());
+    std::swap(f.moved, f.parents);
   }
-  if (h.factored && l + 1 == f.A.size()) {
+  if (h.factored && (begins_again || !f.moved.empty())) {
     f.last.factor(f.A.back(), h.coarse.back().A, whole_blocks{});
   }
   return rows;
@@ -628,7 +622,7 @@ class multigrid {
                  detail::cycle_workspace<2, 3, T>, detail::cycle_workspace<2, 2, T>,
                  detail::cycle_workspace<1, 1, T>>
         levels;
-    index rows_formed = 0;  ///< rows of blocks of coarse levels formed anew for faces, so far
+    index rows_formed = 0;  ///< rows of blocks of coarse levels changed for faces so far
   };
   template <class X>
     requires column<X>
@@ -653,7 +647,7 @@ class multigrid {
 
   /// From now on apply_on_face is for H = Π K Π + weight · C with Π and C of a face that knows their
   /// entries (sets/curved_face.hpp); its blocks lie within nodes.
-  /// Rows of coarse levels are formed where the face has changed. The first face of a workspace
+  /// Rows of coarse levels change where the face has changed. The first face of a workspace
   /// allocates, later ones where they have nodes that no face had before. Throws bad_input if Π is
   /// no projector on every node.
   template <detail::face_of_entries Face>

@@ -84,7 +84,7 @@ class dense_factor {
   /// of an unknown what is but a rounding error of that. Returns the least pivot relative to its
   /// diagonal entry, which is 0 up to rounding for a semidefinite matrix.
   template <class Block>
-  double factor(block_matrix<N, T> const& A, block_matrix<N, T> const& free, Block const& block) {
+  double factor(block_matrix<N, T> const& A, block_matrix<N, T> const& free, Block block) {
     std::fill(blocks_.begin(), blocks_.end(), T(0));
     for (int i = 0; i < nodes_; ++i) {
       A.for_each_in_row(i, [&](int j, T const* entries) {

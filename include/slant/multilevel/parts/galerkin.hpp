@@ -7,12 +7,14 @@
 // row after row of the fine level, so that A P is never stored. Only blocks with J ≤ I are formed,
 // the others are their mirror images.
 //
-// Rows anew. Where A has changed in rows and columns H, A_c changes in blocks (I, J) of which I or
-// J is a parent of H by P. So the rows of the parents are formed anew from the rows of their
-// children, nothing is subtracted, and the mirror images of their blocks follow in the other rows.
+// Changes. Where A becomes A + δ, and δ is 0 but for rows and columns H, A_c becomes A_c + Pᵀδ P.
+// Only rows H of δ and the rows of their parents by P need to be visited:
+//
+//     (Pᵀδ P)_IJ = D_IJ + D_JIᵀ,     D_IJ = Σ_{i∈H} P_iIᵀ Σ_j w_j δ_ij P_jJ,
+//
+// w_j = ½ for j ∈ H, whose row has δ_ji, else 1.
 #pragma once
 
-#include <slant/concepts/scalar.hpp>
 #include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 #include <slant/multilevel/parts/prolongation.hpp>
@@ -20,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace slant::detail {
@@ -38,14 +41,14 @@ struct galerkin_scratch {
   std::vector<int> place;        // of a coarse node in the list of a row of A P, or −1
   std::vector<int> list;         // coarse nodes of that row
   std::vector<lanes<T, M>> row;  // their blocks, N lanes each
-  std::vector<unsigned char> wanted, needed;  // coarse rows to form; fine rows that takes
+  std::vector<unsigned char> changed, parent;  // fine nodes in H; coarse ones that are parents
 
   galerkin_scratch() = default;
   galerkin_scratch(prolongation<N, M, T> const& P, std::size_t longest)
       : place(static_cast<std::size_t>(P.coarse_nodes), -1),
         row(longest * N, lanes<T, M>::zero()),
-        wanted(place.size(), 0),
-        needed(static_cast<std::size_t>(P.nodes()), 0) {
+        changed(static_cast<std::size_t>(P.nodes()), 0),
+        parent(place.size(), 0) {
     list.reserve(longest);
   }
 };
@@ -105,160 +108,179 @@ template <int N, int M, class T>
   return block_matrix<M, T>(std::move(first), std::move(column));
 }
 
-/// The entries of rows of C = PᵀA P: those with wanted[I], or all. block(i, j, entries) → what
-/// stands for the block (i, j) of A.
+/// Whether blocks are formed by columns, those of weights, or by rows.
+template <int N, int M, class T>
+[[nodiscard]] bool forms_columns(prolongation<N, M, T> const& P) {
+  return N == M && P.weights;
+}
+
+/// Row i of A P in w, without the coarse nodes that it does not reach. block(i, j, entries) → what stands for the
+/// block (i, j) of A.
 template <int N, int M, class T, class Block>
-void galerkin_rows(block_matrix<N, T> const& A, prolongation<N, M, T> const& P,
-                   block_matrix<M, T>& C, bool all, galerkin_scratch<N, M, T>& w,
-                   Block const& block) {
+void multiply_row(block_matrix<N, T> const& A, prolongation<N, M, T> const& P, int i,
+                  galerkin_scratch<N, M, T>& w, Block const& block) {
   using wide = lanes<T, M>;
-  auto const want = [&](int I) { return all || w.wanted[static_cast<std::size_t>(I)] != 0; };
-  // Row I has block (I, J) if it is left of the diagonal or if row J is not formed.
-  auto const for_each_formed = [&](int I, auto f) {
-    for (int e = C.lower().begin(I); e < C.lower().end(I); ++e) {
-      f(C.lower().at(e), C.lower().block(e));
-    }
-    f(I, C.diagonal(I));
-    if (all) return;
-    for (int e = C.upper().begin(I); e < C.upper().end(I); ++e) {
-      if (!want(C.upper().at(e))) f(C.upper().at(e), C.upper().block(e));
-    }
-  };
-  for (int I = 0; I < C.nodes(); ++I) {
-    if (!want(I)) continue;
-    for_each_formed(I, [](int, T* to) { std::fill(to, to + M * M, T(0)); });
-  }
-  for (int i = 0; i < A.nodes(); ++i) {
-    if (!all && w.needed[static_cast<std::size_t>(i)] == 0) continue;
-    if (P.begin(i) == P.end(i)) continue;
-    // Stage one. Of weights the blocks are kept by columns, of blocks by rows.
-    w.list.clear();
-    A.for_each_in_row(i, [&](int j, T const* entries) {
-      if (P.begin(j) == P.end(j)) return;
-      T const* const a = block(i, j, entries);
-      for (int e = P.begin(j); e < P.end(j); ++e) {
-        int& place = w.place[static_cast<std::size_t>(P.at(e))];
-        if (place < 0) {
-          place = static_cast<int>(w.list.size()) * N;
-          w.list.push_back(P.at(e));
-          for (int q = 0; q < N; ++q) w.row[static_cast<std::size_t>(place + q)] = wide::zero();
-        }
-        wide* const to = w.row.data() + place;
-        if (N == M && P.weights) {
-          unrolled<N>([&](auto c)
-                          __attribute__((always_inline)) { to[c].add(a + N * c, P.weight(e)); });
-        } else {
-          T const* const p = P.block(e);
-          unrolled<N>([&](auto k) __attribute__((always_inline)) {
-            wide const row = wide::load(p + M * k);
-            unrolled<N>([&](auto q)
-                            __attribute__((always_inline)) { to[q].add(row, a[N * k + q]); });
-          });
-        }
+  w.list.clear();
+  A.for_each_in_row(i, [&](int j, T const* entries) {
+    if (P.begin(j) == P.end(j)) return;
+    T const* const a = block(i, j, entries);
+    for (int e = P.begin(j); e < P.end(j); ++e) {
+      int& place = w.place[static_cast<std::size_t>(P.at(e))];
+      if (place < 0) {
+        place = static_cast<int>(w.list.size()) * N;
+        w.list.push_back(P.at(e));
+        for (int q = 0; q < N; ++q) w.row[static_cast<std::size_t>(place + q)] = wide::zero();
       }
+      wide* const to = w.row.data() + place;
+      if (forms_columns(P)) {
+        unrolled<N>([&](auto c)
+                        __attribute__((always_inline)) { to[c].add(a + N * c, P.weight(e)); });
+      } else {
+        T const* const p = P.block(e);
+        unrolled<N>([&](auto k) __attribute__((always_inline)) {
+          wide const row = wide::load(p + M * k);
+          unrolled<N>([&](auto q) __attribute__((always_inline)) { to[q].add(row, a[N * k + q]); });
+        });
+      }
+    }
+  });
+}
+
+/// to += P_eᵀ times block J of the row in w, if it has one.
+template <int N, int M, class T>
+[[gnu::always_inline]] inline void add_to_block(prolongation<N, M, T> const& P, int e, int J, T* to,
+                                                galerkin_scratch<N, M, T> const& w) {
+  using wide = lanes<T, M>;
+  int const place = w.place[static_cast<std::size_t>(J)];
+  if (place < 0) return;
+  wide const* const from = w.row.data() + place;
+  if (forms_columns(P)) {
+    unrolled<M>([&](auto c) __attribute__((always_inline)) {
+      wide s = wide::load(to + M * c);
+      s.add(from[c], P.weight(e));
+      s.store(to + M * c);
     });
-    // Stage two.
-    for (int t = P.begin(i); t < P.end(i); ++t) {
-      int const I = P.at(t);
-      if (!want(I)) continue;
-      for_each_formed(
-          I, [&](int J, T* to) __attribute__((always_inline)) {
-            int const place = w.place[static_cast<std::size_t>(J)];
-            if (place < 0) return;
-            wide const* const from = w.row.data() + place;
-            if (N == M && P.weights) {
-              unrolled<M>([&](auto c) __attribute__((always_inline)) {
-                wide s = wide::load(to + M * c);
-                s.add(from[c], P.weight(t));
-                s.store(to + M * c);
-              });
-            } else {
-              T const* const p = P.block(t);
-              unrolled<M>([&](auto c) __attribute__((always_inline)) {
-                wide s = wide::load(to + M * c);
-                unrolled<N>([&](auto q)
-                                __attribute__((always_inline)) { s.add(from[q], p[M * q + c]); });
-                s.store(to + M * c);
-              });
-            }
-          });
-    }
-    for (int const J : w.list) w.place[static_cast<std::size_t>(J)] = -1;
+  } else {
+    T const* const p = P.block(e);
+    unrolled<M>([&](auto c) __attribute__((always_inline)) {
+      wide s = wide::load(to + M * c);
+      unrolled<N>([&](auto q) __attribute__((always_inline)) { s.add(from[q], p[M * q + c]); });
+      s.store(to + M * c);
+    });
   }
-  // Mirror images; what was formed by rows is one already.
-  bool const by_rows = !(N == M && P.weights);
-  auto const transposed = [](T const* from, T* to) {
-    for (int c = 0; c < M; ++c) {
-      for (int q = 0; q < M; ++q) to[M * c + q] = from[M * q + c];
-    }
-  };
-  auto const finish = [&](T* here, T* there) {
-    if (by_rows) {
-      std::copy(here, here + M * M, there);
-      transposed(there, here);
-    } else {
-      transposed(here, there);
-    }
-  };
-  for (int I = 0; I < C.nodes(); ++I) {
-    if (!want(I)) continue;
-    T* const d = C.diagonal(I);
-    for (int c = 0; c < M; ++c) {
-      for (int q = 0; q < c; ++q) d[M * c + q] = d[M * q + c];
-    }
-  }
-  if (all) {
-    std::vector<int> next(C.upper().first.begin(), C.upper().first.end() - 1);
-    for (int I = 0; I < C.nodes(); ++I) {
-      for (int e = C.lower().begin(I); e < C.lower().end(I); ++e) {
-        int& to = next[static_cast<std::size_t>(C.lower().at(e))];
-        finish(C.lower().block(e), C.upper().block(to++));
-      }
-    }
-    return;
-  }
-  for (int I = 0; I < C.nodes(); ++I) {
-    if (!want(I)) continue;
-    for (int e = C.lower().begin(I); e < C.lower().end(I); ++e) {
-      finish(C.lower().block(e), C.upper().block(C.upper().find(C.lower().at(e), I)));
-    }
-    for (int e = C.upper().begin(I); e < C.upper().end(I); ++e) {
-      int const J = C.upper().at(e);
-      if (!want(J)) finish(C.upper().block(e), C.lower().block(C.lower().find(J, I)));
-    }
-  }
+}
+
+template <int N, int M, class T>
+void forget_row(galerkin_scratch<N, M, T>& w) {
+  for (int const J : w.list) w.place[static_cast<std::size_t>(J)] = -1;
 }
 
 /// PᵀA P.
 template <int N, int M, class T>
 void galerkin(block_matrix<N, T> const& A, prolongation<N, M, T> const& P, block_matrix<M, T>& C,
               galerkin_scratch<N, M, T>& w) {
-  galerkin_rows(A, P, C, true, w, whole_blocks{});
+  std::fill(C.lower().entries.begin(), C.lower().entries.end(), T(0));
+  for (int I = 0; I < C.nodes(); ++I) std::fill(C.diagonal(I), C.diagonal(I) + M * M, T(0));
+  for (int i = 0; i < A.nodes(); ++i) {
+    if (P.begin(i) == P.end(i)) continue;
+    multiply_row(A, P, i, w, whole_blocks{});
+    for (int t = P.begin(i); t < P.end(i); ++t) {
+      int const I = P.at(t);
+      for (int e = C.lower().begin(I); e < C.lower().end(I); ++e) {
+        add_to_block(P, t, C.lower().at(e), C.lower().block(e), w);
+      }
+      add_to_block(P, t, I, C.diagonal(I), w);
+    }
+    forget_row(w);
+  }
+  // Mirror images; what was formed by rows is one already.
+  std::vector<int> next(C.upper().first.begin(), C.upper().first.end() - 1);
+  for (int I = 0; I < C.nodes(); ++I) {
+    T* const d = C.diagonal(I);
+    for (int c = 0; c < M; ++c) {
+      for (int q = 0; q < c; ++q) d[M * c + q] = d[M * q + c];
+    }
+    for (int e = C.lower().begin(I); e < C.lower().end(I); ++e) {
+      int& to = next[static_cast<std::size_t>(C.lower().at(e))];
+      T *here = C.lower().block(e), *there = C.upper().block(to++);
+      if (!forms_columns(P)) {
+        std::copy(here, here + M * M, there);
+        std::swap(here, there);
+      }
+      for (int c = 0; c < M; ++c) {
+        for (int q = 0; q < M; ++q) there[M * c + q] = here[M * q + c];
+      }
+    }
+  }
 }
 
-/// `fine` nodes of which A has changed become the list of their parents, whose rows of PᵀA P are
-/// formed anew.
+/// C += Pᵀδ P, where A has the pattern of δ and block(i, j, entries) → δ_ij for i in `fine`. D, of
+/// the pattern of C, has the rows of Pᵀδ P of their parents afterwards, and other rows mean nothing.
 template <int N, int M, class T, class Block>
-void galerkin_anew(block_matrix<N, T> const& A, prolongation<N, M, T> const& P,
-                   block_matrix<M, T>& C, std::vector<int> const& fine, std::vector<int>& parents,
-                   galerkin_scratch<N, M, T>& w, Block const& block) {
+void galerkin_change(block_matrix<N, T> const& A, prolongation<N, M, T> const& P,
+                     block_matrix<M, T>& C, block_matrix<M, T>& D, std::vector<int> const& fine,
+                     std::vector<int>& parents, galerkin_scratch<N, M, T>& w, Block block) {
   parents.clear();
   for (int const i : fine) {
+    w.changed[static_cast<std::size_t>(i)] = 1;
     for (int e = P.begin(i); e < P.end(i); ++e) {
-      auto& wanted = w.wanted[static_cast<std::size_t>(P.at(e))];
-      if (wanted == 0) parents.push_back(P.at(e));
-      wanted = 1;
+      auto& parent = w.parent[static_cast<std::size_t>(P.at(e))];
+      if (parent == 0) parents.push_back(P.at(e));
+      parent = 1;
     }
   }
-  for (int i = 0; i < P.nodes(); ++i) {
-    bool needed = false;
-    for (int e = P.begin(i); e < P.end(i); ++e) {
-      needed = needed || w.wanted[static_cast<std::size_t>(P.at(e))] != 0;
-    }
-    w.needed[static_cast<std::size_t>(i)] = needed ? 1 : 0;
+  for (int const I : parents) {
+    D.for_each_in_row(I, [](int, T* to) { std::fill(to, to + M * M, T(0)); });
   }
-  galerkin_rows(A, P, C, false, w, block);
-  for (int const I : parents) w.wanted[static_cast<std::size_t>(I)] = 0;
+  std::array<T, static_cast<std::size_t>(N) * N> half;
+  for (int const i : fine) {
+    if (P.begin(i) == P.end(i)) continue;
+    multiply_row(A, P, i, w, [&](int, int j, T const* entries) {
+      T const* const δ = block(i, j, entries);
+      if (w.changed[static_cast<std::size_t>(j)] == 0) return δ;
+      for (std::size_t k = 0; k < half.size(); ++k) half[k] = δ[k] / 2;
+      return static_cast<T const*>(half.data());
+    });
+    for (int t = P.begin(i); t < P.end(i); ++t) {
+      D.for_each_in_row(P.at(t), [&](int J, T* to) { add_to_block(P, t, J, to, w); });
+    }
+    forget_row(w);
+  }
+  int const across = forms_columns(P) ? M : 1, along = forms_columns(P) ? 1 : M;
+  for (int const I : parents) {
+    auto const finish = [&](int J, T* here, T* there, T* of_c, T* mirrored) {
+      bool const both = w.parent[static_cast<std::size_t>(J)] != 0;
+      T v[M * M];
+      for (int c = 0; c < M; ++c) {
+        for (int q = 0; q < M; ++q) {
+          v[M * c + q] = here[across * c + along * q];
+          if (both) v[M * c + q] += there[across * q + along * c];
+        }
+      }
+      for (int c = 0; c < M; ++c) {
+        for (int q = 0; q < M; ++q) {
+          here[M * c + q] = v[M * c + q];
+          of_c[M * c + q] += v[M * c + q];
+          if (here == there) continue;
+          mirrored[M * q + c] += v[M * c + q];
+          if (both) there[M * q + c] = v[M * c + q];
+        }
+      }
+    };
+    finish(I, D.diagonal(I), D.diagonal(I), C.diagonal(I), C.diagonal(I));
+    for (int e = C.lower().begin(I); e < C.lower().end(I); ++e) {
+      int const J = C.lower().at(e), f = C.upper().find(J, I);
+      finish(J, D.lower().block(e), D.upper().block(f), C.lower().block(e), C.upper().block(f));
+    }
+    for (int e = C.upper().begin(I); e < C.upper().end(I); ++e) {
+      int const J = C.upper().at(e);
+      if (w.parent[static_cast<std::size_t>(J)] != 0) continue;  // from there
+      int const f = C.lower().find(J, I);
+      finish(J, D.upper().block(e), D.lower().block(f), C.upper().block(e), C.lower().block(f));
+    }
+  }
+  for (int const I : parents) w.parent[static_cast<std::size_t>(I)] = 0;
+  for (int const i : fine) w.changed[static_cast<std::size_t>(i)] = 0;
 }
 
 }  // namespace slant::detail

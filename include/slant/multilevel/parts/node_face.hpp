@@ -45,17 +45,20 @@ class node_face {
   using small = Eigen::Matrix<double, N, N>;
   static constexpr int stride = lanes<T, N>::size;
 
-  /// What is known of a node of the surface.
+  /// Π_i and C_i.
+  struct hold {
+    small projector = small::Identity();
+    small curvature = small::Zero();
+  };
+  /// What is known of a node of the surface; curvatures in units of the levels.
   struct node {
-    int i;                   ///< which
-    small projector;         ///< Π_i
-    small curvature;         ///< C_i, in units of the levels
-    small level_projector;   ///< Π'_i
-    small level_curvature;   ///< C'_i
-    small stiff_inverse;     ///< Σ v vᵀ/λ
-    small formed_projector;  ///< Π'_i and C'_i of which the coarse levels have been formed
-    small formed_curvature;
-    std::array<T, static_cast<std::size_t>(N) * stride> mask;  ///< Π'_i, columns of `stride`
+    int i = 0;                            ///< which
+    hold own;                             ///< Π and C
+    hold level;                           ///< Π' and C'
+    hold formed;                          ///< those that the coarse levels know
+    hold last;                            ///< those that they knew before the last assign
+    small stiff_inverse = small::Zero();  ///< Σ v vᵀ/λ
+    std::array<T, static_cast<std::size_t>(N) * stride> mask{};  ///< Π', columns of `stride`
   };
 
   node_face() = default;
@@ -76,56 +79,45 @@ class node_face {
     moved.clear();
     if (!read(face, weight)) return false;
     for (std::size_t k = 0; k < surface_.size(); ++k) {
-      if (changed_[k] == 0) continue;
       node& here = surface_[k];
+      here.last = here.formed;
+      if (changed_[k] == 0) continue;
       double const* const a = diagonal.data() + static_cast<std::size_t>(here.i) * (N * N);
       prepare(here, a);
       if (!follows(here, a)) continue;
-      here.formed_projector = here.level_projector;
-      here.formed_curvature = here.level_curvature;
+      here.formed = here.level;
       moved.push_back(here.i);
     }
     return true;
   }
-
-  /// Π' A_ij Π' + δ_ij C' as the coarse levels have to know it.
-  struct blocks {
-    node_face const* face;
-    mutable std::array<T, static_cast<std::size_t>(N) * N> buffer;
-
-    [[nodiscard]] T const* operator()(int i, int j, T const* entries) const {
-      int const k = face->place_[static_cast<std::size_t>(i)];
-      int const l = face->place_[static_cast<std::size_t>(j)];
-      if (k < 0 && l < 0) return entries;
-      std::array<T, static_cast<std::size_t>(N) * N> half;
-      if (k >= 0) {
-        multiply(face->surface_[static_cast<std::size_t>(k)].formed_projector, entries,
-                 half.data());
-      } else {
-        std::copy(entries, entries + N * N, half.begin());
+  /// As if the coarse levels had been formed with nothing held before the last assign.
+  void forget_levels(std::vector<int>& moved) {
+    moved.clear();
+    for (node& here : surface_) {
+      here.last = {};
+      if (!here.formed.projector.isIdentity(0) || !here.formed.curvature.isZero(0)) {
+        moved.push_back(here.i);
       }
-      if (l >= 0) {  // from the right, by the symmetric projector
-        small const& p = face->surface_[static_cast<std::size_t>(l)].formed_projector;
-        for (int c = 0; c < N; ++c) {
-          for (int q = 0; q < N; ++q) {
-            T s(0);
-            for (int m = 0; m < N; ++m) {
-              s += half[static_cast<std::size_t>(N * m + q)] * T(p(m, c));
-            }
-            buffer[static_cast<std::size_t>(N * c + q)] = s;
-          }
-        }
-      } else {
-        buffer = half;
-      }
-      if (i == j) {
-        small const& c = face->surface_[static_cast<std::size_t>(k)].formed_curvature;
-        for (std::size_t m = 0; m < N * N; ++m) buffer[m] += T(c.data()[m]);
-      }
-      return buffer.data();
     }
-  };
-  [[nodiscard]] blocks formed_blocks() const { return {this, {}}; }
+  }
+
+  /// f(i, j, A_ij) → Π' A_ij Π' + δ_ij C' as the coarse levels have to know it.
+  [[nodiscard]] auto formed_blocks() const {
+    return [this, to = numbers()](int i, int j, T const* a) mutable {
+      if (!find(i) && !find(j)) return a;
+      small const b = block(&node::formed, i, j, a);
+      for (std::size_t m = 0; m < N * N; ++m) to[m] = T(b.data()[m]);
+      return static_cast<T const*>(to.data());
+    };
+  }
+  /// The same less what it was before the last assign, for nodes that have moved.
+  [[nodiscard]] auto change_of_blocks() const {
+    return [this, to = numbers()](int i, int j, T const* a) mutable {
+      small const b = block(&node::formed, i, j, a) - block(&node::last, i, j, a);
+      for (std::size_t m = 0; m < N * N; ++m) to[m] = T(b.data()[m]);
+      return static_cast<T const*>(to.data());
+    };
+  }
 
   /// r ← Π'r.
   void project(T* r) const {
@@ -141,7 +133,7 @@ class node_face {
       for (int q = 0; q < N; ++q) {
         sums[q] = S(0);
         for (int c = 0; c < N; ++c) {
-          sums[q] += S(here.level_projector(q, c)) * to[c] +
+          sums[q] += S(here.level.projector(q, c)) * to[c] +
                      S(here.stiff_inverse(q, c)) * (factor * from[c]);
         }
       }
@@ -164,13 +156,11 @@ class node_face {
     }
   }
 
-  /// By how much of what it was a diagonal block has to change until the next level follows.
+  /// By how much of what it was, or of A_ii, C' has to change, or Π' at all, until levels follow.
   static constexpr double lag = 0.05;
 
  private:
-  struct read_node {
-    small projector, curvature;
-  };
+  using numbers = std::array<T, static_cast<std::size_t>(N) * N>;
 
   [[nodiscard]] static std::size_t offset(int i) { return static_cast<std::size_t>(i) * stride; }
   [[gnu::always_inline]] static void project_at(node const& here, T* x) {
@@ -178,16 +168,22 @@ class node_face {
     for (int c = 0; c < N; ++c) s.add(here.mask.data() + stride * c, x[c]);
     s.store_padded(x);
   }
-  static void multiply(small const& p, T const* entries, T* to) {
-    for (int c = 0; c < N; ++c) {
-      for (int q = 0; q < N; ++q) {
-        T s(0);
-        for (int m = 0; m < N; ++m) s += T(p(q, m)) * entries[N * c + m];
-        to[N * c + q] = s;
-      }
+  [[nodiscard]] small block(hold node::*which, int i, int j, T const* entries) const {
+    small b;
+    for (int m = 0; m < N * N; ++m) b.data()[m] = static_cast<double>(entries[m]);
+    if (node const* const here = find(i)) b = product_of((here->*which).projector, b);
+    if (node const* const there = find(j)) {
+      b = product_of(b, (there->*which).projector);
+      if (i == j) b += (there->*which).curvature;
     }
+    return b;
   }
 
+  /// Node i, or null where it has always been free.
+  [[nodiscard]] node const* find(int i) const {
+    int const k = place_[static_cast<std::size_t>(i)];
+    return k < 0 ? nullptr : &surface_[static_cast<std::size_t>(k)];
+  }
   /// The place of node i, a new one if it has none.
   std::size_t at(int i) {
     int& place = place_[static_cast<std::size_t>(i)];
@@ -195,14 +191,6 @@ class node_face {
       place = static_cast<int>(surface_.size());
       node fresh;
       fresh.i = i;
-      for (small* m : {&fresh.projector, &fresh.level_projector, &fresh.formed_projector}) {
-        m->setIdentity();
-      }
-      for (small* m : {&fresh.curvature, &fresh.level_curvature, &fresh.formed_curvature}) {
-        m->setZero();
-      }
-      fresh.stiff_inverse.setZero();
-      fresh.mask.fill(T(0));
       for (std::size_t c = 0; c < N; ++c) fresh.mask[(stride + 1) * c] = T(1);
       surface_.push_back(fresh);
       changed_.push_back(0);
@@ -213,7 +201,7 @@ class node_face {
   /// Π and C. Returns whether anything has changed.
   template <class Face>
   bool read(Face const& face, double weight) {
-    now_.assign(surface_.size(), {small::Identity(), small::Zero()});
+    now_.assign(surface_.size(), {});
     face.block_entries([&](index row, index column, auto const& π, auto const& c) {
       index const i = row / N;
       if (column / N != i) {
@@ -221,18 +209,22 @@ class node_face {
         refuse(static_cast<std::size_t>(i));
       }
       std::size_t const k = at(static_cast<int>(i));
-      if (k == now_.size()) now_.push_back({small::Identity(), small::Zero()});
+      if (k == now_.size()) now_.emplace_back();
       now_[k].projector(row % N, column % N) = static_cast<double>(π);
       now_[k].curvature(row % N, column % N) = weight * static_cast<double>(c);
     });
+    // Before anything is taken over: a face that is refused leaves the last one.
+    for (std::size_t k = 0; k < surface_.size(); ++k) {
+      require_projector(surface_[k].i, now_[k].projector);
+    }
     bool changed = false;
     for (std::size_t k = 0; k < surface_.size(); ++k) {
-      bool const same =
-          now_[k].projector == surface_[k].projector && now_[k].curvature == surface_[k].curvature;
+      bool const same = now_[k].projector == surface_[k].own.projector &&
+                        now_[k].curvature == surface_[k].own.curvature;
       changed_[k] = same ? 0 : 1;
       changed = changed || !same;
-      surface_[k].projector = now_[k].projector;
-      surface_[k].curvature = now_[k].curvature;
+      surface_[k].own.projector = now_[k].projector;
+      surface_[k].own.curvature = now_[k].curvature;
     }
     return changed;
   }
@@ -246,16 +238,14 @@ class node_face {
 
   /// Everything of a node that follows from Π and C; a is its diagonal block.
   void prepare(node& here, double const* a) {
-    require_projector(here);
     double trace = 0;
     for (int c = 0; c < N; ++c) trace += a[(N + 1) * c];
-    double const largest = largest_of(here.curvature);
-    here.level_projector = here.projector;
-    here.level_curvature = here.curvature;
+    double const largest = largest_of(here.own.curvature);
+    here.level = here.own;
     here.stiff_inverse.setZero();
     if (largest > 0) hold_stiff_directions(here, a, trace / N);
     T* const inverse = inverses_.data() + offset(here.i) * N;
-    if (largest == 0 && here.projector.isIdentity(0)) {
+    if (largest == 0 && here.own.projector.isIdentity(0)) {
       std::copy_n(free_.data() + offset(here.i) * N, N * stride, inverse);
     } else {
       invert(here, a, trace / N, inverse);
@@ -263,15 +253,15 @@ class node_face {
     for (int c = 0; c < N; ++c) {
       for (int q = 0; q < stride; ++q) {
         here.mask[static_cast<std::size_t>(stride * c + q)] =
-            q < N ? T(here.level_projector(q, c)) : T(0);
+            q < N ? T(here.level.projector(q, c)) : T(0);
       }
     }
   }
   /// The inverse of Π'(A_ii + C')Π' on range(Π'), 0 off it, to `to`.
   void invert(node const& here, double const* a, double unit, T* to) const {
-    small const& p = here.level_projector;
+    small const& p = here.level.projector;
     small h;
-    for (int k = 0; k < N * N; ++k) h.data()[k] = a[k] + here.level_curvature.data()[k];
+    for (int k = 0; k < N * N; ++k) h.data()[k] = a[k] + here.level.curvature.data()[k];
     h = product_of(p, product_of(h, p));
     double least[N], scale[N];
     for (int c = 0; c < N; ++c) {
@@ -287,9 +277,9 @@ class node_face {
   }
   static void hold_stiff_directions(node& here, double const* a, double unit) {
     double const most = unit / tolerance();
-    symmetric_eigen<double, N> const e(here.curvature);
+    symmetric_eigen<double, N> const e(here.own.curvature);
     if (!(largest_of(e.values) > most)) return;
-    here.level_curvature.setZero();
+    here.level.curvature.setZero();
     for (int k = 0; k < N; ++k) {
       double const λ = e.values[k];
       small vv;
@@ -301,10 +291,10 @@ class node_face {
         }
       }
       if (λ > most) {
-        here.level_projector -= vv;
+        here.level.projector -= vv;
         here.stiff_inverse += vv / (λ + bent);
       } else if (std::abs(λ) > std::numeric_limits<double>::epsilon() * largest_of(e.values)) {
-        here.level_curvature += λ * vv;
+        here.level.curvature += λ * vv;
       }
     }
   }
@@ -314,15 +304,14 @@ class node_face {
     for (int c = 0; c < N; ++c) trace += a[(N + 1) * c];
     for (int k = 0; k < N * N; ++k) {
       turned = std::max(turned,
-                        std::abs(here.level_projector.data()[k] - here.formed_projector.data()[k]));
+                        std::abs(here.level.projector.data()[k] - here.formed.projector.data()[k]));
       bent = std::max(bent,
-                      std::abs(here.level_curvature.data()[k] - here.formed_curvature.data()[k]));
-      size = std::max(size, std::abs(here.formed_curvature.data()[k]));
+                      std::abs(here.level.curvature.data()[k] - here.formed.curvature.data()[k]));
+      size = std::max(size, std::abs(here.formed.curvature.data()[k]));
     }
     return turned > lag || bent > lag * (size + trace / N);
   }
-  static void require_projector(node const& here) {
-    small const& p = here.projector;
+  static void require_projector(int i, small const& p) {
     small const square = product_of(p, p);
     bool good = true;
     for (int k = 0; k < N * N; ++k) {
@@ -331,7 +320,7 @@ class node_face {
              std::abs(mirrored - p.data()[k]) <= tolerance();
     }
     if (!good) {
-      throw bad_input("face", "no projector on node " + show(index(here.i)),
+      throw bad_input("face", "no projector on node " + show(index(i)),
                       "a face that projects onto the motions that are left");
     }
   }
@@ -342,7 +331,7 @@ class node_face {
   std::vector<node> surface_;
   std::vector<unsigned char> changed_;
   std::vector<T> kept_;
-  std::vector<read_node> now_;  // what read finds
+  std::vector<hold> now_;  // what read finds
 };
 
 }  // namespace slant::detail
