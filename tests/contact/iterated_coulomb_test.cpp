@@ -213,6 +213,31 @@ TEST_CASE("the choice, and what ends without a solution") {
   CHECK(after.choice.route == solution_route::factor);
   CHECK(after.choice.reason.find("factored after all") != std::string::npos);
   CHECK(after.work.factorizations == 1);
+  CHECK(after.work.inner_iterations > few.work.inner_iterations);  // that of both
+  // Both ways are open whichever came first, and whatever seemed to float.
+  auto const slender = [](int k, double thickness, fem::brick_load load, double F) {
+    return scene_of(fem::make_steel_brick({.k = k, .load = load, .size = {30, thickness, 0.9}}), F);
+  };
+  options short_of{.tolerance = 1e-6, .newton_steps = 1, .costs = {.cycle = 1}};
+  scene const thin = slender(3, 0.04, fem::brick_load::pull, 0.3);
+  short_of.outer_steps = 30;
+  auto const iterated = solve(thin, short_of);
+  CAPTURE(iterated.choice.reason);
+  CHECK(iterated.converged());
+  CHECK(iterated.choice.route == solution_route::iterate);
+  CHECK(iterated.choice.reason.find("iterated after all: ") != std::string::npos);
+  scene const thinner = slender(2, 0.01, fem::brick_load::pull, 0.01);
+  auto const factored = solve(thinner, {.tolerance = 1e-4, .outer_steps = 1});
+  CAPTURE(factored.choice.reason);
+  CHECK(factored.converged());
+  CHECK(factored.choice.reason.find("iterated: factors need supports of every body; factored "
+                                    "after all: ") == 0);
+  CHECK(factored.work.factorizations == 1);
+  // Of two that have not converged the nearer.
+  auto const nearer = solve(thinner, {.tolerance = 1e-12, .outer_steps = 1});
+  CHECK(!nearer.converged());
+  CHECK(nearer.error.relative() <= 1e-5);
+  CHECK(nearer.choice.route == solution_route::factor);
   auto const exact = solve(s, {.tolerance = 0, .route = solution_route::iterate});
   CHECK(exact.status == slant::status::stalled);
   CHECK(exact.error.relative() <= 1e-11);

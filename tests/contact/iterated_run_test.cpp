@@ -526,6 +526,11 @@ TEST_CASE("what factors do not bring to an end is iterated after all") {
   CHECK(r.converged());
   CHECK(r.choice.route == solution_route::iterate);
   CHECK(r.choice.reason.find("iterated after all: reached the limit of 10") != std::string::npos);
+  o.layout = {};
+  auto const blind = contact::solve(s.K, s.data, o);
+  CHECK(blind.converged());
+  CHECK(blind.choice.reason.find("factored: no coordinates of nodes are given; iterated after") ==
+        0);
   o.route = solution_route::factor;
   CHECK(contact::solve(s.K, s.data, o).status == slant::status::iteration_limit);
 }

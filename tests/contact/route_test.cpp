@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <slant/base/report.hpp>
 #include <slant/contact/route.hpp>
 
 #include <fem/steel_brick.hpp>
+
+#include <initializer_list>
+#include <limits>
 #include <support/testing.hpp>
 
 namespace route_test {
@@ -47,6 +51,76 @@ TEST_CASE("the choice can be forced, but not to what is impossible") {
   CHECK(test::complaint([&] {
           static_cast<void>(choose_route(s.K, refusal, solution_route::iterate));
         }) == "route: got iterate, expected factor or automatic, because the nodes are shy");
+}
+
+/// A result with that error, converged below 1e-8.
+struct found {
+  struct {
+    double value;
+    [[nodiscard]] double relative() const { return value; }
+  } error;
+  std::string reason;
+  slant::status status = slant::status::stalled;
+  slant::work work{.operator_applications = 10};
+  double condition = 0;
+  [[nodiscard]] bool converged() const { return error.value <= 1e-8; }
+};
+
+TEST_CASE("the other route follows where one gets nowhere, and the nearer result is told") {
+  auto const nan = std::numeric_limits<double>::quiet_NaN();
+  struct run {
+    solution_route begin;
+    double first, second;  // errors; −1: refused
+    double expected;
+    char const* reason;
+  };
+  auto const factor = solution_route::factor, iterate = solution_route::iterate;
+  for (run const& r : std::initializer_list<run>{
+           {factor, 1e-9, 0, 1e-9, "why"},
+           {factor, 1e-8 * 1.1, 0, 1e-8 * 1.1, "why"},  // near
+           {factor, 1, 1e-9, 1e-9, "why; iterated after all: first"},
+           {factor, 1, 0.5, 0.5, "why; iterated after all: first"},
+           {factor, 1, 2, 1, "why; iterated in vain: second"},
+           {factor, 1, nan, 1, "why; iterated in vain: second"},
+           {factor, 1, -1, 1, "why; iterated in vain"},
+           {iterate, 1e-9, 0, 1e-9, "why"},
+           {iterate, 1e-8 * 1.1, 0, 0, "why; factored after all: first"},
+           {iterate, 1, 2, 1, "why; factored in vain: second"},
+           {iterate, -1, 2, 2, "why; factored after all: K: got first, expected another"}}) {
+    slant::contact::route_choice choice{.route = r.begin, .reason = "why"};
+    auto const attempt = [](double error, std::string name) {
+      if (error == -1) throw slant::bad_input("K", name, "another");
+      return found{{error}, name};
+    };
+    int calls = 0;
+    auto const result = slant::contact::detail::by_routes(
+        choice, true, [&] { return attempt(r.first, "first"); },
+        [&] {
+          ++calls;
+          return slant::contact::detail::unless_refused(
+              [&] { return attempt(r.second, "second"); });
+        });
+    CAPTURE(choice.reason);
+    CHECK(result.error.value == r.expected);
+    CHECK(choice.reason == r.reason);
+    CHECK((choice.route == r.begin) == (r.expected == r.first));
+    CHECK(result.work.operator_applications ==
+          (calls == 1 && r.first >= 0 && !(r.second == -1) ? 20 : 10));
+  }
+  // Not asked for, or refused everywhere.
+  slant::contact::route_choice choice{.route = iterate, .reason = {}};
+  auto const refused = [](char const* name) {
+    return [name]() -> found { throw slant::bad_input(name, "a", "b"); };
+  };
+  auto const complaint = [&](bool may_change) {
+    return test::complaint([&] {
+      static_cast<void>(slant::contact::detail::by_routes(
+          choice, may_change, refused("first"),
+          [&] { return slant::contact::detail::unless_refused(refused("second")); }));
+    });
+  };
+  CHECK(complaint(false).starts_with("first"));
+  CHECK(complaint(true).starts_with("first"));
 }
 
 }  // namespace route_test

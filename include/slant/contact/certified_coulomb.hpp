@@ -4,7 +4,8 @@
 // itself:
 //
 //     choose      by the cost model of contact/route.hpp: without factors, where the layout is known
-//                 and the body is large                      contact/parts/iterated_coulomb; else
+//                 and the body is large, or where factors get nowhere
+//                                                            contact/parts/iterated_coulomb; else
 //     factor      K                                                     factorizations/factorize
 //     scale       contacts so that each is about equally stiff: one power of two for the rows of N
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
@@ -66,8 +67,8 @@ struct certified_coulomb_options {
   index newton_steps = 60;  ///< of Newton's method at most
   index outer_steps = 300;  ///< of successive approximations at most
   bool scale = true;        ///< whether rows of B may be scaled
-  /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored, unless
-  /// `route` says otherwise: bodies without supports are not known as such then.
+  /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored first,
+  /// unless `route` says otherwise: bodies without supports are not known as such then.
   node_layout<S> layout{};
   /// Factors of K, or multigrid and no factors, which the method has to be `automatic` for.
   solution_route route = solution_route::automatic;
@@ -366,43 +367,20 @@ template <class S>
   return result;
 }
 
-}  // namespace detail
+// --- with factors --------------------------------------------------------------------------------
 
-/// Solves the problem at the top of this file; the slip bounds of the data have no meaning here. F
-/// has a coefficient for every contact node. Throws bad_input if K is not symmetric positive
-/// definite or data do not fit, if a coefficient is negative or not finite, or for options out of
-/// range.
+/// From valid data without slip bounds.
 template <class Friction, class S>
-[[nodiscard]] auto certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c,
-                                     Eigen::VectorX<S> const& F,
-                                     certified_coulomb_options<S> const& o = {})
-    -> certified_coulomb_result<Eigen::VectorX<S>> {
+[[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> factored_coulomb(
+    Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c, Eigen::VectorX<S> const& F,
+    certified_coulomb_options<S> const& o) {
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
-  o.validate();
-  detail::clear_slip_bounds(c);
-  detail::validated(friction, c, K.rows());
-  detail::check_coefficients("F", detail::one_per_contact(vector_type(F), c.nodes()));
-  auto const outlook = o.method == coulomb_method::automatic
-                           ? detail::outlook_of_iteration(K, c, o)
-                           : detail::iteration_outlook<S>{"the method works on forces"};
-  // The methods with factors need supports.
-  bool const needs_none = !outlook.floating.free.empty() && o.route == solution_route::automatic;
-  auto const route = needs_none ? solution_route::iterate : o.route;
-  route_choice choice = choose_route(K, outlook.refusal, route, o.costs);
-  if (needs_none) choice.reason = "iterated: factors need supports of every body";
-  auto const iterate = [&] {
-    return detail::reported(detail::iterated_coulomb(friction, K, c, F, o.layout, outlook.floating,
-                                                     o.multigrid, S(o.tolerance), o.outer_steps),
-                            o);
-  };
-  if (auto found = detail::iterated_first(choice, route, iterate)) return *std::move(found);
   auto const factor = factorize_stiffness(K, o.layout);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);
   coulomb_certificate certificate(given, factor, K, c, F, S(o.tolerance));
   certified_coulomb_result<vector_type> result{given.zero()};
-  result.choice = std::move(choice);
   result.factorization = std::string(factor.name());
 
   vector_type const factors =
@@ -462,6 +440,49 @@ template <class Friction, class S>
                      slant::detail::brief(result.condition) + "); " + r.reason;
   }
   return result;
+}
+
+}  // namespace detail
+
+/// Solves the problem at the top of this file; the slip bounds of the data have no meaning here. F
+/// has a coefficient for every contact node. Throws bad_input if K is not symmetric positive
+/// definite or data do not fit, if a coefficient is negative or not finite, or for options out of
+/// range.
+template <class Friction, class S>
+[[nodiscard]] auto certified_coulomb(Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c,
+                                     Eigen::VectorX<S> const& F,
+                                     certified_coulomb_options<S> const& o = {})
+    -> certified_coulomb_result<Eigen::VectorX<S>> {
+  o.validate();
+  detail::clear_slip_bounds(c);
+  detail::validated(friction, c, K.rows());
+  detail::check_coefficients("F", detail::one_per_contact(Eigen::VectorX<S>(F), c.nodes()));
+  auto const outlook = o.method == coulomb_method::automatic
+                           ? detail::outlook_of_iteration(K, c, o)
+                           : detail::iteration_outlook<S>{"the method works on forces"};
+  // The methods with factors need supports.
+  bool const automatic = o.route == solution_route::automatic;
+  bool const needs_none = automatic && !outlook.floating.free.empty();
+  route_choice choice =
+      choose_route(K, outlook.refusal, needs_none ? solution_route::iterate : o.route, o.costs);
+  if (needs_none) choice.reason = "iterated: factors need supports of every body";
+  auto const iterate = [&] {
+    return detail::reported(detail::iterated_coulomb(friction, K, c, F, o.layout, outlook.floating,
+                                                     o.multigrid, S(o.tolerance), o.outer_steps),
+                            o);
+  };
+  auto const factor = [&] { return detail::factored_coulomb(friction, K, c, F, o); };
+  bool const may_iterate = automatic && outlook.is_possible && o.tolerance > 0;
+  auto found = choice.route == solution_route::factor
+                   ? detail::by_routes(choice, may_iterate, factor,
+                                       [&] { return detail::unless_refused(iterate); })
+               // What seems to float may be only slender.
+               : needs_none ? detail::by_routes(choice, automatic, iterate,
+                                                [&] { return detail::unless_refused(factor); })
+                            : detail::by_routes(choice, automatic, iterate,
+                                                [&] { return std::optional(factor()); });
+  found.choice = std::move(choice);
+  return found;
 }
 
 #if SLANT_USES_COMPILED

@@ -19,8 +19,11 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -68,8 +71,8 @@ template <class S>
 }
 
 /// Which route to take for K (n × n, both triangles). Counts the fill no further than is needed to
-/// decide. A refusal, why iterating is impossible, leaves only `factor`: throws bad_input if
-/// `iterate` is asked for then.
+/// decide. A refusal, why not to iterate, leaves only `factor`: throws bad_input if `iterate` is
+/// asked for then.
 template <class S>
 [[nodiscard]] route_choice choose_route(Eigen::SparseMatrix<S> const& K,
                                         std::optional<std::string> const& refusal,
@@ -104,47 +107,62 @@ template <class S>
 
 namespace detail {
 
-/// What run() finds without factors, if that is the route and leads to the solution or was asked
-/// for; none: factors are to be taken, and the choice says why.
-template <class Run>
-[[nodiscard]] auto iterated_first(route_choice& choice, solution_route asked, Run&& run)
-    -> std::optional<decltype(run())> {
-  if (choice.route != solution_route::iterate) return std::nullopt;
-  try {
-    auto found = run();
-    found.choice = choice;
-    if (found.converged() || asked == solution_route::iterate) return found;
-    choice.reason += "; factored after all: " + found.reason;
-  } catch (bad_input const& refusal) {
-    if (asked == solution_route::iterate) throw;
-    choice.reason += "; factored after all: " + std::string(refusal.what());
-  }
-  choice.route = solution_route::factor;
-  return std::nullopt;
-}
-/// The result of factors, or that of run() where they have got nowhere and it has.
-template <class Found, class Run>
-[[nodiscard]] Found iterated_after_all(route_choice& choice, Found found, Run&& run) {
+/// What first() finds on the route of the choice, or, if that gets nowhere and `may_change`, what
+/// second() → std::optional finds on the other one, nothing if it is refused there: of two results
+/// the nearer, with the work of both. What first() throws without factors counts as nowhere.
+template <class First, class Second>
+[[nodiscard]] auto by_routes(route_choice& choice, bool may_change, First&& first, Second&& second)
+    -> decltype(first()) {
   using std::sqrt;
-  auto const error = found.error.relative();
-  bool const is_near = error <= sqrt(std::numeric_limits<decltype(error + 0)>::epsilon());
-  if (found.converged() || found.status == status::unbounded || is_near) return found;
+  bool const iterates = choice.route == solution_route::iterate;
+  std::optional<decltype(first())> found;
+  std::exception_ptr thrown;
+  std::string why;
   try {
-    auto other = run();
-    other.work += found.work;
-    if (other.converged()) {
-      choice.route = solution_route::iterate;
-      choice.reason += "; iterated after all: " + found.reason;
-      other.solves += found.solves;
-      other.condition = found.condition;
-      return other;
-    }
-    found.work = other.work;
-    choice.reason += "; iterated in vain: " + other.reason;
+    found = first();
+    auto const error = found->error.relative();
+    // Factors that come near end for reasons that multigrid has as well.
+    bool const is_near =
+        !iterates && (found->status == status::unbounded ||
+                      error <= sqrt(std::numeric_limits<decltype(error + 0)>::epsilon()));
+    if (!may_change || found->converged() || is_near) return *std::move(found);
+    why = found->reason;
   } catch (bad_input const& refusal) {
-    choice.reason += "; iterated in vain: " + std::string(refusal.what());
+    if (!may_change || !iterates) throw;
+    thrown = std::current_exception();
+    why = refusal.what();
   }
-  return found;
+  std::string const way = iterates ? "; factored " : "; iterated ";
+  std::string const before = choice.reason;
+  choice.reason += way + "after all: " + why;
+  auto other = second();
+  if (!found && !other) std::rethrow_exception(thrown);
+  if (found && other) {
+    other->work += found->work;
+    if constexpr (requires { found->solves; }) other->solves += found->solves;
+    other->condition = std::max(other->condition, found->condition);
+  }
+  if (!other ||
+      (found && !other->converged() && !(other->error.relative() < found->error.relative()))) {
+    choice.reason = before + way + "in vain";
+    if (other) {
+      choice.reason += ": " + other->reason;
+      found->work = other->work;
+    }
+    return *std::move(found);
+  }
+  choice.route = iterates ? solution_route::factor : solution_route::iterate;
+  return *std::move(other);
+}
+/// run(), nothing where that refuses its data or has no memory.
+template <class Run>
+[[nodiscard]] auto unless_refused(Run&& run) -> std::optional<decltype(run())> {
+  try {
+    return run();
+  } catch (bad_input const&) {
+  } catch (std::bad_alloc const&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace detail

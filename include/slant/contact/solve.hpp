@@ -305,25 +305,31 @@ template <class Friction, class S>
                            ? detail::iteration_outlook<S>{"forces to start from are given"}
                            : detail::outlook_of_iteration(K, c, o);
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
-  bool const may_iterate = choice.route == solution_route::factor && !outlook.refusal &&
-                           o.route == solution_route::automatic && o.tolerance > S(0) &&
-                           o.max_steps > 0;
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
-  if (auto found = detail::iterated_first(choice, o.route, iterate)) return *std::move(found);
+  auto const factor = [&] { return run(friction, K, c, o).solve(); };
+  bool const automatic = o.route == solution_route::automatic;
   free_motions<S> motions;
   try {
-    auto found = run(friction, K, c, o).solve();
-    if (may_iterate) found = detail::iterated_after_all(choice, std::move(found), iterate);
+    auto found =
+        choice.route == solution_route::iterate
+            ? detail::by_routes(choice, automatic, iterate, [&] { return std::optional(factor()); })
+            : detail::by_routes(
+                  choice, automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0,
+                  factor, [&] { return detail::unless_refused(iterate); });
     found.choice = std::move(choice);
     return found;
   } catch (bad_input const& refusal) {
+    if (asked) throw;
     motions = motions_behind(refusal, K, o.layout);
     if (motions.free.empty()) throw;
+    choice.route = solution_route::factor;
   }
   auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
     return std::make_unique<run>(friction, held, scene, options);
   };
-  return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
+  auto found = detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
+  found.choice = std::move(choice);
+  return found;
 }
 
 /// The same with the law that T stands for, one instance for all laws.

@@ -26,7 +26,7 @@ namespace slant::contact {
 /// Where a run of contact::solve is.
 template <class S = double>
 struct solve_step {
-  index iteration;     ///< of Newton's method, from 0; anew for each problem with springs
+  index iteration;     ///< of Newton's method, from 0; anew for each route and problem with springs
   S reduced_gradient;  ///< relative to that at P_Λ(0); 0 if that is
 };
 
@@ -41,8 +41,8 @@ struct solve_options {
   /// λ to start from; none: conjugate gradients without the constraints.
   std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
   /// Where the unknowns are. Gives motions of bodies without supports their names, and multigrid the
-  /// rigid-body modes. Without it K is factored, unless `route` says otherwise: bodies without supports
-  /// are not known as such then.
+  /// rigid-body modes. Without it K is factored first, unless `route` says otherwise: bodies without
+  /// supports are not known as such then.
   node_layout<S> layout{};
   /// Factors of K, or multigrid and no factors.
   solution_route route = solution_route::automatic;

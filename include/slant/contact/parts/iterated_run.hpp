@@ -114,12 +114,13 @@ template <class S>
   return floating;
 }
 
-/// Whether a scene can be iterated: why not, or nothing; and the bodies that contact or friction
-/// holds, or hardly anything else.
+/// Whether a scene can be iterated.
 template <class S>
 struct iteration_outlook {
-  std::optional<std::string> refusal{};
-  free_motions<S> floating{};
+  std::optional<std::string> refusal{};  ///< why not to begin with that, or nothing
+  bool is_possible = false;              ///< whether it may follow where factors do not do
+  free_motions<S> floating{};            ///< of bodies that contact or friction holds, or hardly
+                                         ///< anything else
 };
 
 /// Of options with layout and route. Coordinates tell whether a body floats. Throws bad_input for
@@ -128,14 +129,15 @@ template <class S, class Options>
 [[nodiscard]] iteration_outlook<S> outlook_of_iteration(Eigen::SparseMatrix<S> const& K,
                                                         data<S> const& c, Options const& o) {
   node_layout<S> const& layout = o.layout;
+  auto why = primal_refusal(c);
+  bool const is_possible = !why;
   if (!layout.is_known() && o.route != solution_route::iterate) {
-    return {"no coordinates of nodes are given"};
+    return {"no coordinates of nodes are given", is_possible};
   }
-  if (auto why = primal_refusal(c)) return {std::move(why)};
-  if (!layout.is_known()) return {};
+  if (why || !layout.is_known()) return {std::move(why), is_possible};
   slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
   layout.validate(K.rows());
-  return {std::nullopt, floating_bodies<S>(K, layout, S(1e-9))};
+  return {std::nullopt, true, floating_bodies<S>(K, layout, S(1e-9))};
 }
 
 /// The problem, its levels and Newton's method, begun on the coarser ones. Not movable: parts refer
