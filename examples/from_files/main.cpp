@@ -160,7 +160,8 @@ int main(int argc, char** argv) {
              "automatic, zero, or qpc or interior_point: where that method has reduced the "
              "reduced gradient to a tenth",
              examples::expects_one_of({"automatic", "zero", "qpc", "interior_point"}));
-  app.option("--max-iterations", a.max_iterations, "steps at most", examples::expects_at_least(0));
+  app.option("--max-iterations", a.max_iterations, "steps at most, of each method that is tried",
+             examples::expects_at_least(0));
   app.option("--coulomb", a.coefficients,
              "file with a friction coefficient F_i >= 0 for each contact node of a body: "
              "Coulomb friction,\n|lambda_t,i| <= F_i lambda_n,i; g.txt is not read",

@@ -67,9 +67,13 @@ TEST_CASE("from_files: Coulomb friction in the plane, by every method, to few an
     CHECK(result["tangents_per_node"] == 1);
     check_fixed_point(files, scene, F);
     auto const early = files.solve(option + method + " --max-iterations 1");
-    CHECK(early.status == 1);
-    CHECK(json::parse(early.out)["status"] == "iteration_limit");
-    CHECK(json::parse(early.out)["iterations"] == 1);
+    if (method == "coulomb") {  // what chooses for itself goes on without factors
+      CHECK(early.status == 0);
+    } else {
+      CHECK(early.status == 1);
+      CHECK(json::parse(early.out)["status"] == "iteration_limit");
+      CHECK(json::parse(early.out)["iterations"] == 1);
+    }
     (void)files.solve(option + method + " --tolerance 0");
     check_fixed_point(files, scene, F);
   }
