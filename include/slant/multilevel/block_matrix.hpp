@@ -68,6 +68,8 @@ class block_matrix {
   using triangle = block_triangle<N, T>;
   static constexpr law_set laws = slant::laws<slant::self_adjoint>;
   static constexpr int stride = columns::size;  ///< of block vectors
+  /// Numbers of a block that stands alone, what loads read beyond it included.
+  static constexpr std::size_t padded_block = static_cast<std::size_t>(N * N + stride - N);
 
   /// No rows.
   block_matrix() = default;

@@ -232,13 +232,13 @@ void galerkin_change(block_matrix<N, T> const& A, prolongation<N, M, T> const& P
   for (int const I : parents) {
     D.for_each_in_row(I, [](int, T* to) { std::fill(to, to + M * M, T(0)); });
   }
-  std::array<T, static_cast<std::size_t>(N) * N> half;
+  std::array<T, block_matrix<N, T>::padded_block> half{};
   for (int const i : fine) {
     if (P.begin(i) == P.end(i)) continue;
     multiply_row(A, P, i, w, [&](int, int j, T const* entries) {
       T const* const δ = block(i, j, entries);
       if (w.changed[static_cast<std::size_t>(j)] == 0) return δ;
-      for (std::size_t k = 0; k < half.size(); ++k) half[k] = δ[k] / 2;
+      for (std::size_t k = 0; k < N * N; ++k) half[k] = δ[k] / 2;
       return static_cast<T const*>(half.data());
     });
     for (int t = P.begin(i); t < P.end(i); ++t) {

@@ -160,7 +160,8 @@ class node_face {
   static constexpr double lag = 0.05;
 
  private:
-  using numbers = std::array<T, static_cast<std::size_t>(N) * N>;
+  /// A block, and what loads read beyond it.
+  using numbers = std::array<T, static_cast<std::size_t>(N* N + stride - N)>;
 
   [[nodiscard]] static std::size_t offset(int i) { return static_cast<std::size_t>(i) * stride; }
   [[gnu::always_inline]] static void project_at(node const& here, T* x) {
