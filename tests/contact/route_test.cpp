@@ -68,6 +68,7 @@ struct found {
 
 TEST_CASE("the other route follows where one gets nowhere, and the nearer result is told") {
   auto const nan = std::numeric_limits<double>::quiet_NaN();
+  auto const infinity = std::numeric_limits<double>::infinity();
   struct run {
     solution_route begin;
     double first, second;  // errors; −1: refused
@@ -83,14 +84,17 @@ TEST_CASE("the other route follows where one gets nowhere, and the nearer result
            {factor, 1, 2, 1, "why; iterated in vain: second"},
            {factor, 1, nan, 1, "why; iterated in vain: second"},
            {factor, 1, -1, 1, "why; iterated in vain"},
+           {factor, infinity, 0, infinity, "why"},  // unbounded
+           {iterate, 1, infinity, infinity, "why; factored after all: first"},
            {iterate, 1e-9, 0, 1e-9, "why"},
            {iterate, 1e-8 * 1.1, 0, 0, "why; factored after all: first"},
            {iterate, 1, 2, 1, "why; factored in vain: second"},
            {iterate, -1, 2, 2, "why; factored after all: K: got first, expected another"}}) {
     slant::contact::route_choice choice{.route = r.begin, .reason = "why"};
-    auto const attempt = [](double error, std::string name) {
+    auto const attempt = [&](double error, std::string name) {
       if (error == -1) throw slant::bad_input("K", name, "another");
-      return found{{error}, name};
+      return found{
+          {error}, name, error == infinity ? slant::status::unbounded : slant::status::stalled};
     };
     int calls = 0;
     auto const result = slant::contact::detail::by_routes(

@@ -118,14 +118,16 @@ template <class First, class Second>
   std::optional<decltype(first())> found;
   std::exception_ptr thrown;
   std::string why;
+  auto const is_verdict = [](auto const& of) {
+    return of.converged() || of.status == status::unbounded;
+  };
   try {
     found = first();
     auto const error = found->error.relative();
     // Factors that come near end for reasons that multigrid has as well.
     bool const is_near =
-        !iterates && (found->status == status::unbounded ||
-                      error <= sqrt(std::numeric_limits<decltype(error + 0)>::epsilon()));
-    if (!may_change || found->converged() || is_near) return *std::move(found);
+        !iterates && error <= sqrt(std::numeric_limits<decltype(error + 0)>::epsilon());
+    if (!may_change || is_verdict(*found) || is_near) return *std::move(found);
     why = found->reason;
   } catch (bad_input const& refusal) {
     if (!may_change || !iterates) throw;
@@ -143,7 +145,7 @@ template <class First, class Second>
     other->condition = std::max(other->condition, found->condition);
   }
   if (!other ||
-      (found && !other->converged() && !(other->error.relative() < found->error.relative()))) {
+      (found && !is_verdict(*other) && !(other->error.relative() < found->error.relative()))) {
     choice.reason = before + way + "in vain";
     if (other) {
       choice.reason += ": " + other->reason;

@@ -19,6 +19,7 @@
 #include <slant/base/entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
+#include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/parts/dense_factor.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 
@@ -49,6 +50,10 @@ class node_face {
   struct hold {
     small projector = small::Identity();
     small curvature = small::Zero();
+
+    bool operator==(hold const& other) const {
+      return projector == other.projector && curvature == other.curvature;
+    }
   };
   /// What is known of a node of the surface; curvatures in units of the levels.
   struct node {
@@ -160,8 +165,7 @@ class node_face {
   static constexpr double lag = 0.05;
 
  private:
-  /// A block, and what loads read beyond it.
-  using numbers = std::array<T, static_cast<std::size_t>(N* N + stride - N)>;
+  using numbers = std::array<T, block_matrix<N, T>::padded_block>;
 
   [[nodiscard]] static std::size_t offset(int i) { return static_cast<std::size_t>(i) * stride; }
   [[gnu::always_inline]] static void project_at(node const& here, T* x) {
@@ -215,18 +219,14 @@ class node_face {
       now_[k].curvature(row % N, column % N) = weight * static_cast<double>(c);
     });
     // Before anything is taken over: a face that is refused leaves the last one.
-    for (std::size_t k = 0; k < surface_.size(); ++k) {
-      require_projector(surface_[k].i, now_[k].projector);
-    }
     bool changed = false;
     for (std::size_t k = 0; k < surface_.size(); ++k) {
-      bool const same = now_[k].projector == surface_[k].own.projector &&
-                        now_[k].curvature == surface_[k].own.curvature;
-      changed_[k] = same ? 0 : 1;
-      changed = changed || !same;
-      surface_[k].own.projector = now_[k].projector;
-      surface_[k].own.curvature = now_[k].curvature;
+      changed_[k] = now_[k] == surface_[k].own ? 0 : 1;
+      if (changed_[k] == 0) continue;
+      require_projector(surface_[k].i, now_[k].projector);
+      changed = true;
     }
+    for (std::size_t k = 0; k < surface_.size(); ++k) surface_[k].own = now_[k];
     return changed;
   }
   [[noreturn, gnu::cold]] static void refuse(std::size_t i) {
