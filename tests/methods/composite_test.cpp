@@ -177,6 +177,10 @@ struct rough_inverse {
   void multiply_roughly(X const& x, Y& y, workspace_type&) const {
     y = rough * x;
   }
+  template <class X, class Y>
+  void multiply_last_roughly(X const& x, Y& y, workspace_type&) const {
+    y = rough * x;
+  }
 };
 
 TEST_CASE("products that M knows roughly: used where they are good enough, and only there") {

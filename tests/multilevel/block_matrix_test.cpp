@@ -63,8 +63,12 @@ void check_against_eigen(sparse const& K) {
   close(x, once);
   close(r, b - dense * once);
   x = packed<N, T>(start);
-  A.backwards(inverses.data(), pb.data(), x.data());
-  close(x, test::solution_of(D + L.transpose(), b - L * start));
+  A.backwards(inverses.data(), pb.data(), x.data(), r.data());
+  VectorXd const back = test::solution_of(D + L.transpose(), b - L * start);
+  close(x, back);
+  close(r, L.transpose() * back);
+  A.complete_product(x.data(), r.data());
+  close(r, dense * back);
 }
 
 TEST_CASE("products, residuals and sweeps against dense algebra") {
@@ -111,7 +115,8 @@ TEST_CASE("nothing allocates") {
   slant::testing::allocation_guard guard;
   A.multiply(b.data(), r.data());
   A.forwards_from_zero(inverses.data(), b.data(), x.data(), r.data());
-  A.backwards(inverses.data(), b.data(), x.data());
+  A.backwards(inverses.data(), b.data(), x.data(), r.data());
+  A.complete_product(x.data(), r.data());
   auto const allocations = guard.count();
   CHECK(allocations == 0);
 }

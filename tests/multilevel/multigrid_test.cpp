@@ -305,6 +305,25 @@ TEST_CASE("levels of floats under an iteration in double") {
     CHECK(error <= m.roughness * largest * (x / size).norm());
     CHECK(error > 0);
   }
+
+  // And for what they have found last: with nothing held, on a face, also with curvature that the
+  // levels do not know, and once more.
+  for (double const bend : {0.0, 1e5, 1e9}) {
+    VectorXd const x = VectorXd::Random(zero.size());
+    VectorXd z(x.size()), y(x.size());
+    CAPTURE(bend);
+    if (bend > 0) {
+      m.enter(mixed(s, bend), 0.5, w);
+      m.apply_on_face(x, z, w);
+    } else {
+      m.apply(x, z, w);
+    }
+    for (int k = 0; k < 2; ++k) {
+      m.multiply_last_roughly(z, y, w);
+      CHECK((y - s.K * z).norm() <= 1e-5 * (s.K * z).norm());
+      y.setZero();
+    }
+  }
 }
 
 TEST_CASE("the bits of a cycle do not depend on units") {

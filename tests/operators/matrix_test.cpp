@@ -62,6 +62,31 @@ TEST_CASE("an uncompressed sparse matrix") {
   slant::testing::check_operator_laws(a);
 }
 
+TEST_CASE("rows of every length, by rows and by columns") {
+  // Row i has i entries; integers, so that no order of a sum matters.
+  constexpr int n = 37;
+  MatrixXd dense = MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < i; ++k) dense(i, (7 * i + 11 * k) % n) = 1 + (i + 3 * k) % 5;
+  }
+  MatrixXd const symmetric = dense + dense.transpose();
+  Eigen::SparseMatrix<double> columns = symmetric.sparseView();
+  row_major_sparse const rows = dense.sparseView();
+  VectorXd const x = VectorXd::LinSpaced(n, 1, n);
+  VectorXd y(n);
+  auto const image = [&](auto const& a) {
+    y.setConstant(0.5);
+    slant::apply(a, x, y);
+    return y;
+  };
+  CHECK(image(slant::matrix(rows)) == dense * x);
+  CHECK(image(slant::adjoint(slant::matrix(rows))) == dense.transpose() * x);
+  CHECK(image(slant::matrix<slant::self_adjoint>(columns)) == symmetric * x);
+  columns.insert(0, 0) = 0;
+  columns.uncompress();
+  CHECK(image(slant::matrix<slant::self_adjoint>(columns)) == symmetric * x);
+}
+
 TEST_CASE("laws are asserted") {
   using namespace slant;
   MatrixXd const k = test::random_spd(4, 5);

@@ -378,8 +378,6 @@ class primal {
   using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
   using sparse_type = Eigen::SparseMatrix<S>;
-  /// A symmetric matrix by columns read by rows, which needs no second pass for a product.
-  using rows_type = Eigen::Map<Eigen::SparseMatrix<S, Eigen::RowMajor> const>;
 
   /// K: n × n, both triangles, definite (which is asserted, not checked). Throws bad_input naming
   /// what does not fit: sizes, numbers that are not finite, and what primal_refusal says.
@@ -392,7 +390,7 @@ class primal {
   sparse_type const& matrix() const&& = delete;
   /// The problem; refers to this object.
   [[nodiscard]] auto qp() const& {
-    return separable_qp{slant::matrix<self_adjoint, positive_definite>(rows_), f_, φ_};
+    return separable_qp{slant::matrix<self_adjoint, positive_definite>(matrix()), f_, φ_};
   }
   auto qp() const&& = delete;
   /// φ.
@@ -415,7 +413,7 @@ class primal {
       auto const& row = local_.tangents[static_cast<std::size_t>(i)];
       if (row.component >= 0) offset_[row.component] = w[i] / row.size;
     }
-    K_offset_ = rows_ * offset_;
+    K_offset_ = matrix().transpose() * offset_;  // by columns, which are rows
     f_ -= K_offset_;
   }
   /// s, or nothing if that is 0; and the image of it.
@@ -472,7 +470,7 @@ class primal {
   /// The forces (λ_ν, λ_t) of the contacts, f − K u = Nᵀλ_ν + Tᵀλ_t at a solution v. One product.
   [[nodiscard]] vector_type multipliers(vector_type const& v) const {
     slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
-    vector_type const r = f_ - rows_ * v;
+    vector_type const r = f_ - matrix().transpose() * v;
     auto const m = static_cast<index>(local_.normal.size());
     vector_type λ = vector_type::Zero(m + static_cast<index>(local_.tangents.size()));
     auto const force = [&](detail::local_row<S> const& row) {
@@ -506,8 +504,6 @@ class primal {
       : local_(std::move(local)),
         K_(&K),
         own_(scaled(turned(K))),
-        rows_(matrix().rows(), matrix().cols(), matrix().nonZeros(), matrix().outerIndexPtr(),
-              matrix().innerIndexPtr(), matrix().valuePtr()),
         f_(turned(c.f)),
         d_(c.d),
         φ_(c.f.size(), c.tangents(), contacts(c)) {}
@@ -576,7 +572,6 @@ class primal {
   detail::local_coordinates<S> local_;
   sparse_type const* K_;
   sparse_type own_;  // G⁻ᵀK G⁻¹, or a compressed copy, or nothing
-  rows_type rows_;
   vector_type f_, d_;
   vector_type offset_{}, K_offset_{};  // s and its image, empty: 0
   surface_function<S> φ_;

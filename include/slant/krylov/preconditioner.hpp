@@ -34,12 +34,14 @@ concept preconditions_curved_faces =
                                                 workspace_t<M, V>& w) { m.enter(face, κ, w); };
 
 /// One that knows A itself as well, in short numbers: y ≈ A x by multiply_roughly(x, y, w), with
-/// an error of about roughness · ‖A‖ ‖x‖. Such as multigrid, whose finest level that is; where
-/// products wait for memory they cost a quarter.
+/// an error of about roughness · ‖A‖ ‖x‖, and by multiply_last_roughly for the x that it has found
+/// last. Such as multigrid, whose finest level that is; where products wait for memory they cost a
+/// quarter, and an eighth.
 template <class M, class V>
 concept multiplies_roughly =
     linear_operator<M, V> && requires(M const& m, V const& x, V& y, workspace_t<M, V>& w) {
       m.multiply_roughly(x, y, w);
+      m.multiply_last_roughly(x, y, w);
       { M::roughness } -> std::convertible_to<scalar_t<V>>;
     };
 

@@ -17,6 +17,7 @@
 // between them is overwritten and means nothing.
 #pragma once
 
+#include <slant/base/long_arrays.hpp>
 #include <slant/base/matrix_entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
@@ -31,6 +32,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -40,9 +42,10 @@ namespace slant {
 /// The rows of one triangle in compressed form.
 template <int N, class T>
 struct block_triangle {
-  std::vector<int> first{0};  ///< of each row: where its blocks begin; and the end of the last
-  std::vector<int> column;    ///< of each block, ascending in a row
-  std::vector<T> entries;  ///< N² of each block, by columns, and what loads read beyond the last
+  std::vector<int> first{0};       ///< of each row: where its blocks begin; and the end of the last
+  detail::long_array<int> column;  ///< of each block, ascending in a row
+  /// N² of each block, by columns, and what loads read beyond the last.
+  detail::long_array<T> entries;
 
   [[nodiscard]] int begin(int i) const { return first[static_cast<std::size_t>(i)]; }
   [[nodiscard]] int end(int i) const { return first[static_cast<std::size_t>(i) + 1]; }
@@ -145,19 +148,31 @@ class block_matrix {
       s.store_padded(r + at<stride>(i));
     }
   }
-  void backwards(T const* inverses, T const* b, T* x) const {
+  /// r ← Lᵀx, of the new x.
+  void backwards(T const* inverses, T const* b, T* x, T* r) const {
     for (int i = nodes() - 1; i >= 0; --i) {
       columns s = columns::load(b + at<stride>(i));
-      s -= sum<stride>(lower_, i, x);
-      s -= sum_from_the_end(upper_, i, x);
+      columns const above = sum_from_the_end(upper_, i, x);
+      s -= sum<stride, -ahead>(lower_, i, x);
+      s -= above;
       relax(inverses, i, s, x);
+      above.store_padded(r + at<stride>(i));
+    }
+  }
+  /// r = A x from r = Lᵀx, by half of the matrix.
+  void complete_product(T const* x, T* r) const {
+    for (int i = 0; i < nodes(); ++i) {
+      columns s = sum<stride>(lower_, i, x);
+      add_block(s, diagonal(i), x + at<stride>(i));
+      s += columns::load(r + at<stride>(i));
+      s.store_padded(r + at<stride>(i));
     }
   }
 
   // --- assembly ----------------------------------------------------------------------------------
 
-  /// Zeros with the pattern of L, its columns ascending in each row, and of Lᵀ.
-  block_matrix(std::vector<int> first, std::vector<int> column) {
+  /// The pattern of L, columns ascending in each row, and of Lᵀ; entries without values.
+  block_matrix(std::vector<int> first, detail::long_array<int> column) {
     lower_.first = std::move(first);
     lower_.column = std::move(column);
     auto const n = static_cast<std::size_t>(nodes());
@@ -172,9 +187,17 @@ class block_matrix {
         upper_.column[static_cast<std::size_t>(to++)] = i;
       }
     }
-    lower_.entries.assign(lower_.column.size() * N * N + beyond, T(0));
-    upper_.entries = lower_.entries;
-    diagonal_.assign(n * N * N + beyond, T(0));
+    allocate();
+  }
+  /// One with the same pattern; entries without values.
+  [[nodiscard]] block_matrix of_same_pattern() const {
+    block_matrix other;
+    for (auto const part : {&block_matrix::lower_, &block_matrix::upper_}) {
+      (other.*part).first = (this->*part).first;
+      (other.*part).column = (this->*part).column;
+    }
+    other.allocate();
+    return other;
   }
   [[nodiscard]] triangle& lower() { return lower_; }
   [[nodiscard]] triangle& upper() { return upper_; }
@@ -193,6 +216,12 @@ class block_matrix {
 
  private:
   static constexpr std::size_t beyond = static_cast<std::size_t>(stride - N);
+
+  void allocate() {
+    lower_.entries.resize(lower_.column.size() * N * N + beyond);
+    upper_.entries.resize(lower_.entries.size());
+    diagonal_.resize(static_cast<std::size_t>(nodes()) * N * N + beyond);
+  }
 
   template <class Self, class F>
   static void visit_row(Self& a, int i, F& f) {
@@ -217,14 +246,19 @@ class block_matrix {
   [[gnu::always_inline]] static void add_block(columns& s, T const* block, T const* x) {
     detail::unrolled<N>([&](auto c) __attribute__((always_inline)) { s.add(block + N * c, x[c]); });
   }
+  /// How far ahead sums read, in bytes; negative where rows are visited from the last one on.
+  static constexpr std::intptr_t ahead = 4096;
+  static constexpr std::size_t two_blocks = 2 * N * N * sizeof(T);
+
   /// Σ of the blocks of row i times those of x; two sums that do not wait for each other.
-  template <int Stride>
+  template <int Stride, std::intptr_t Ahead = ahead>
   [[nodiscard, gnu::always_inline]] static columns sum(triangle const& t, int i, T const* x) {
     columns a = columns::zero(), b = columns::zero();
     int const end = t.end(i);
     int e = t.begin(i);
     int const* const column = t.column.data();
     for (; e + 1 < end; e += 2) {
+      detail::read_ahead<two_blocks>(t.block(e), Ahead);
       add_block(a, t.block(e), x + at<Stride>(column[e]));
       add_block(b, t.block(e + 1), x + at<Stride>(column[e + 1]));
     }
@@ -240,6 +274,7 @@ class block_matrix {
     int e = t.end(i);
     int const* const column = t.column.data();
     for (; e - 1 > begin; e -= 2) {
+      detail::read_ahead<two_blocks>(t.block(e - 2), -ahead);
       add_block(a, t.block(e - 1), x + at<stride>(column[e - 1]));
       add_block(b, t.block(e - 2), x + at<stride>(column[e - 2]));
     }

@@ -424,7 +424,7 @@ struct levels_on_face {
     parents.reserve(most);
     for (std::size_t l = 0; l < h.coarse.size(); ++l) {
       A.push_back(h.coarse[l].A);
-      D.push_back(h.coarse[l].A);
+      D.push_back(h.coarse[l].A.of_same_pattern());
       inverses.push_back(h.coarse[l].inverses);
       scratch.emplace_back();
       if (l + 1 < h.coarse.size()) scratch.back() = {h.coarse[l].P, h.coarse[l].longest};
@@ -463,7 +463,7 @@ void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool
     coarse_cycle(h, w, on_face, l + 1);
     P.add_to(w.coarse[l + 1].x.data(), v.x.data());
   }
-  A.backwards(inverses.data(), v.b.data(), v.x.data());
+  A.backwards(inverses.data(), v.b.data(), v.x.data(), v.r.data());
 }
 
 /// x = cycle(b) on all levels.
@@ -489,7 +489,7 @@ void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_fac
     }
     if (face) face->project_change(v.x.data());
   }
-  h.fine.A.backwards(inverses, v.b.data(), v.x.data());
+  h.fine.A.backwards(inverses, v.b.data(), v.x.data(), v.r.data());
 }
 
 /// The coarse levels follow a face of which w.on_face->moved are the nodes that have changed. Returns
@@ -623,6 +623,8 @@ class multigrid {
                  detail::cycle_workspace<1, 1, T>>
         levels;
     index rows_formed = 0;  ///< rows of blocks of coarse levels changed for faces so far
+    S unit{1};              ///< of the x that was found last
+    bool is_short = false;  ///< whether that is what the finest level holds, in units and short
   };
   template <class X>
     requires column<X>
@@ -643,6 +645,12 @@ class multigrid {
     requires column<X>
   void multiply_roughly(X const& x, Y& y, workspace_type& w) const {
     rough(slant::local(x).data(), slant::local(y).data(), w);
+  }
+  /// The same for the x that apply or apply_on_face has found last, by half of the level.
+  template <class X, class Y>
+    requires column<X>
+  void multiply_last_roughly(X const& x, Y& y, workspace_type& w) const {
+    rough_last(slant::local(x).data(), slant::local(y).data(), w);
   }
 
   /// From now on apply_on_face is for H = Π K Π + weight · C with Π and C of a face that knows their
@@ -680,6 +688,7 @@ class multigrid {
   /// y = M x, or on the face.
   void run(S const* x, S* y, workspace_type& w, bool on_face) const;
   void rough(S const* x, S* y, workspace_type& w) const;
+  void rough_last(S const* x, S* y, workspace_type& w) const;
   /// Memory for a face, once.
   void prepare_face(workspace_type& w) const;
   void follow_face(workspace_type& w) const;
@@ -949,7 +958,7 @@ template <class S, class T>
 auto multigrid<S, T>::make_workspace() const -> workspace_type {
   return std::visit(
       []<int N, int M>(levels<N, M> const& h) {
-        return workspace_type{detail::cycle_workspace<N, M, T>(h), 0};
+        return workspace_type{.levels = detail::cycle_workspace<N, M, T>(h)};
       },
       *levels_);
 }
@@ -958,11 +967,11 @@ template <class S, class T>
 void multigrid<S, T>::run(S const* x, S* y, workspace_type& w, bool on_face) const {
   if (rows_ == 0) return;
   with_workspace(w, [&]<int N, int M>(levels<N, M> const& h, detail::cycle_workspace<N, M, T>& v) {
-    S const unit = shorten<N>(x, rows_, v.fine.b);
+    w.unit = shorten<N>(x, rows_, v.fine.b);
     bool const faced = on_face && v.on_face.has_value();
     detail::cycle(h, v, faced);
-    lengthen<N>(v.fine.x, unit * factor_, y, rows_);
-    if (faced) v.on_face->face.complete(x, y, factor_);
+    lengthen<N>(v.fine.x, w.unit * factor_, y, rows_);
+    w.is_short = !faced || !v.on_face->face.complete(x, y, factor_);
   });
 }
 
@@ -974,6 +983,16 @@ void multigrid<S, T>::rough(S const* x, S* y, workspace_type& w) const {
     h.fine.A.multiply(v.fine.b.data(), v.fine.r.data());
     lengthen<N>(v.fine.r, unit / factor_, y, rows_);
   });
+}
+
+template <class S, class T>
+void multigrid<S, T>::rough_last(S const* x, S* y, workspace_type& w) const {
+  if (!w.is_short) return rough(x, y, w);
+  with_workspace(w, [&]<int N, int M>(levels<N, M> const& h, detail::cycle_workspace<N, M, T>& v) {
+    h.fine.A.complete_product(v.fine.x.data(), v.fine.r.data());
+    lengthen<N>(v.fine.r, w.unit, y, rows_);
+  });
+  w.is_short = false;  // it holds the product now
 }
 
 template <class S, class T>

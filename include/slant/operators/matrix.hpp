@@ -11,6 +11,7 @@
 #pragma once
 
 #include <slant/base/held.hpp>
+#include <slant/base/long_arrays.hpp>
 #include <slant/base/matrix_entries.hpp>
 #include <slant/base/sizes.hpp>
 #include <slant/concepts/capabilities.hpp>
@@ -19,6 +20,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -39,6 +41,57 @@ concept eigen_matrix = requires(std::remove_cvref_t<M> const& m) {
   detail::eigen_object(m);
 };
 
+namespace detail {
+
+/// Whether m x is a sum for each row of a sparse matrix, over a stream of entries. With OpenMP the
+/// loop of Eigen takes several threads.
+template <class M, class X, class Y>
+concept streamed_by_rows =
+#if defined(EIGEN_HAS_OPENMP)
+    false &&
+#endif
+    std::is_base_of_v<Eigen::SparseCompressedBase<M>, M> && M::IsRowMajor != 0 &&
+    std::is_floating_point_v<typename M::Scalar> &&
+    std::is_base_of_v<Eigen::PlainObjectBase<X>, X> &&
+    std::is_base_of_v<Eigen::PlainObjectBase<Y>, Y> && X::ColsAtCompileTime == 1 &&
+    Y::ColsAtCompileTime == 1;
+
+/// y = m x.
+template <class M, class X, class Y>
+void multiply(M const& m, X const& x, Y&& y) {
+  if constexpr (!streamed_by_rows<M, X, std::remove_cvref_t<Y>>) {
+    y.noalias() = m * x;
+  } else {
+    using S = typename M::Scalar;
+    constexpr std::intptr_t distance = 2048;  // bytes of entries
+    auto const* const first = m.outerIndexPtr();
+    auto const* const sizes = m.innerNonZeroPtr();
+    auto const* const column = m.innerIndexPtr();
+    S const* const entry = m.valuePtr();
+    for (index i = 0; i < m.rows(); ++i) {
+      index e = first[i];
+      index const end = sizes ? e + sizes[i] : index(first[i + 1]);
+      S a(0), b(0);
+      for (; e + 8 <= end; e += 8) {
+        read_ahead<8 * sizeof(S)>(entry + e, distance);
+        read_ahead<8 * sizeof(*column)>(column + e, distance / 2);
+        for (index k = e; k < e + 8; k += 2) {
+          a += entry[k] * x[column[k]];
+          b += entry[k + 1] * x[column[k + 1]];
+        }
+      }
+      for (; e + 2 <= end; e += 2) {
+        a += entry[e] * x[column[e]];
+        b += entry[e + 1] * x[column[e + 1]];
+      }
+      if (e < end) a += entry[e] * x[column[e]];
+      y[i] = a + b;
+    }
+  }
+}
+
+}  // namespace detail
+
 /// y = M x. M is `Matrix const&` (referenced) or a matrix type (owned); L are the asserted laws.
 template <class M, law_set L = law_set{}>
 class matrix_operator {
@@ -56,13 +109,17 @@ class matrix_operator {
   [[nodiscard]] matrix_type const& get() const noexcept { return m_.get(); }
 
   void apply(has_scalar<scalar> auto const& x, auto& y) const {
-    slant::local(y).noalias() = m_.get() * slant::local(x);
+    if constexpr (reads_rows) {
+      apply_adjoint(x, y);
+    } else {
+      detail::multiply(m_.get(), slant::local(x), slant::local(y));
+    }
   }
   void apply_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
     multiply_add(m_.get(), α, slant::local(x), slant::local(y));
   }
   void apply_adjoint(has_scalar<scalar> auto const& x, auto& y) const {
-    slant::local(y).noalias() = m_.get().transpose() * slant::local(x);
+    detail::multiply(m_.get().transpose(), slant::local(x), slant::local(y));
   }
   void apply_adjoint_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
     multiply_add(m_.get().transpose(), α, slant::local(x), slant::local(y));
@@ -81,6 +138,14 @@ class matrix_operator {
   }
 
  private:
+  /// A symmetric matrix by columns, whose columns are its rows: sums in place of scattered terms.
+  static constexpr bool reads_rows = [] {
+    if constexpr (std::is_base_of_v<Eigen::SparseCompressedBase<matrix_type>, matrix_type>) {
+      return L.contains(law::self_adjoint) && !matrix_type::IsRowMajor;
+    }
+    return false;
+  }();
+
   template <class T, class X, class Y>
   static void multiply_add(T const& m, scalar α, X const& x, Y&& y) {
     if constexpr (std::is_base_of_v<Eigen::SparseMatrixBase<T>, T>) {

@@ -386,10 +386,7 @@ class nested_start {
     auto const M = has_pairs()
                        ? slant::multigrid<S>(A, mixed_unknowns<S>{K, to_mixed_}, candidates, o)
                        : slant::multigrid<S>(A, candidates, o);
-    // As contact::primal reads its matrix, and of the same type.
-    Eigen::Map<Eigen::SparseMatrix<S, Eigen::RowMajor> const> const rows(
-        A.rows(), A.cols(), A.nonZeros(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr());
-    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(rows), f, surface};
+    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(A), f, surface};
     symmetric_newton_options<S> newton;
     newton.energy_goal = std::numeric_limits<S>::min();
     nested_start const coarser(f, surface, tangents_, M, candidates, to_mixed_, o);

@@ -102,13 +102,11 @@ class curved_minimum {
       if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
       if (k == 0) first_energy = sqrt(next);
       if (energy > scalar(0) && sqrt(next) <= (k == 0 ? energy : energy / scalar(8))) break;
-      if (k == 0) {
-        vectors::negate(z_, p_);
-      } else {
-        vectors::waxpby(next / gz, p_, scalar(-1), z_, p_);
+      if (!multiply_roughly(m, k == 0 ? scalar(0) : next / gz, roughly)) {
+        turn(k == 0 ? scalar(0) : next / gz, z_, p_);
+        slant::apply(a, p_, Ap_, a_workspace);
       }
       gz = next;
-      multiply(a, a_workspace, m, roughly);
       ++k;
       face.keep(Ap_, z_);
       face.add_curvature(scalar(1) / ρ, p_, z_);
@@ -140,15 +138,25 @@ class curved_minimum {
  private:
   static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
 
-  template <class A, class WA>
-  void multiply(A const& a, WA& a_workspace, M const& m, bool roughly) {
+  /// p ← β p − z.
+  static void turn(scalar const& β, V const& z, V& p) {
+    if (β == scalar(0)) {
+      vectors::negate(z, p);
+    } else {
+      vectors::waxpby(β, p, scalar(-1), z, p);
+    }
+  }
+  /// The same with A p by A as M knows it, if it does and if that is wanted: A z is cheaper than A p.
+  bool multiply_roughly(M const& m, scalar const& β, bool roughly) {
     if constexpr (multiplies_roughly<M, V>) {
       if (roughly) {
-        m.multiply_roughly(p_, Ap_, m_workspace_);
-        return;
+        m.multiply_last_roughly(z_, weighed_, m_workspace_);
+        turn(β, z_, p_);
+        turn(β, weighed_, Ap_);
+        return true;
       }
     }
-    slant::apply(a, p_, Ap_, a_workspace);
+    return false;
   }
 
   V g_;        // Π r + H t

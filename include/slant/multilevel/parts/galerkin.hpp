@@ -15,6 +15,7 @@
 // w_j = ½ for j ∈ H, whose row has δ_ji, else 1.
 #pragma once
 
+#include <slant/base/long_arrays.hpp>
 #include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 #include <slant/multilevel/parts/prolongation.hpp>
@@ -89,7 +90,8 @@ template <int N, int M, class T>
     }
   }
   std::fill(seen.begin(), seen.end(), -1);
-  std::vector<int> first{0}, column;
+  std::vector<int> first{0};
+  long_array<int> column;
   for (int I = 0; I < P.coarse_nodes; ++I) {
     auto const start = static_cast<std::ptrdiff_t>(column.size());
     for (int c = child_begin[static_cast<std::size_t>(I)];

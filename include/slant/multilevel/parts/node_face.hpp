@@ -128,10 +128,12 @@ class node_face {
   void project(T* r) const {
     for (node const& here : surface_) project_at(here, r + offset(here.i));
   }
-  /// y ← Π'y + factor Σ v vᵀx/λ, vectors of N numbers a node.
+  /// y ← Π'y + factor Σ v vᵀx/λ, vectors of N numbers a node. Whether any v is held.
   template <class S>
-  void complete(S const* x, S* y, S const& factor) const {
+  bool complete(S const* x, S* y, S const& factor) const {
+    bool any = false;
     for (node const& here : surface_) {
+      any = any || !here.stiff_inverse.isZero(0);
       S* const to = y + static_cast<index>(here.i) * N;
       S const* const from = x + static_cast<index>(here.i) * N;
       S sums[N];
@@ -144,6 +146,7 @@ class node_face {
       }
       std::copy(sums, sums + N, to);
     }
+    return any;
   }
   /// Keeps x on the surface, and gives it back with the projection of what was added to it.
   void remember(T const* x) {

@@ -5,6 +5,7 @@
 // multiples of the identity, as those of interpolation on a mesh.
 #pragma once
 
+#include <slant/base/long_arrays.hpp>
 #include <slant/base/matrix_entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,10 +27,12 @@ struct prolongation {
   static constexpr int fine_stride = lanes<T, N>::size;
   static constexpr int coarse_stride = lanes<T, M>::size;
   static constexpr std::size_t beyond = static_cast<std::size_t>(coarse_stride - M);
+  static constexpr std::size_t block_bytes = N * M * sizeof(T);
+  static constexpr std::intptr_t ahead = 1024;  // in bytes, how far loops over the entries read
 
   std::vector<int> first{0};  // of each fine node
-  std::vector<int> column;    // coarse nodes, ascending in a row
-  std::vector<T> entries;     // and what loads read beyond the last block
+  long_array<int> column;     // coarse nodes, ascending in a row
+  long_array<T> entries;      // and what loads read beyond the last block
   int coarse_nodes = 0;
   bool weights = false;
 
@@ -54,6 +58,7 @@ struct prolongation {
           s.add(from, weight(e));
         } else {
           T const* const p = block(e);
+          read_ahead<block_bytes>(p, ahead);
           unrolled<N>([&](auto q) __attribute__((always_inline)) { s.add(p + M * q, from[q]); });
         }
         s.store_padded(to);
@@ -77,6 +82,7 @@ struct prolongation {
         for (int e = begin(i); e < end(i); ++e) {
           coarse const from = coarse::load(z + static_cast<std::size_t>(at(e)) * coarse_stride);
           T const* const p = block(e);
+          read_ahead<block_bytes>(p, ahead);
           unrolled<N>([&](auto q) __attribute__((always_inline)) {
             s[q].add_product(coarse::load(p + M * q), from);
           });
@@ -96,7 +102,7 @@ template <int N, int M, class T, class S>
   prolongation<N, M, T> mixed;
   mixed.coarse_nodes = P.coarse_nodes;
   mixed.column.reserve(P.column.size());
-  std::vector<T> entries;
+  long_array<T> entries;
   entries.reserve(P.entries.size());
   std::vector<int> columns;
   for (int i = 0; i < P.nodes(); ++i) {
@@ -171,7 +177,7 @@ template <int N, class T, class S, int Order>
     return p;
   }
   std::vector<int> place(static_cast<std::size_t>(p.coarse_nodes), -1);
-  std::vector<T> blocks;  // N × N by rows
+  long_array<T> blocks;  // N × N by rows
   for (int i = 0; i < nodes; ++i) {
     auto const start = p.column.size();
     for (int a = 0; a < N; ++a) {
