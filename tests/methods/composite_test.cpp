@@ -164,22 +164,25 @@ struct rough_inverse {
   void apply(X const& x, Y& y) const {
     y = inverse * x;
   }
-  struct workspace_type {};
+  struct workspace_type {
+    VectorXd last;
+  };
   template <class X>
   [[nodiscard]] workspace_type workspace(X const&) const {
-    return {};
+    return {VectorXd::Zero(rows())};
   }
   template <class X, class Y>
-  void apply(X const& x, Y& y, workspace_type&) const {
+  void apply(X const& x, Y& y, workspace_type& w) const {
     y = inverse * x;
+    w.last = y;
   }
   template <class X, class Y>
   void multiply_roughly(X const& x, Y& y, workspace_type&) const {
     y = rough * x;
   }
   template <class X, class Y>
-  void multiply_last_roughly(X const& x, Y& y, workspace_type&) const {
-    y = rough * x;
+  void multiply_last_roughly(X const&, Y& y, workspace_type& w) const {
+    y = rough * w.last;
   }
 };
 

@@ -238,6 +238,24 @@ TEST_CASE(
   CHECK(out.str().find("\n  chosen                 blocks scaled, because") != std::string::npos);
 }
 
+TEST_CASE("where further steps lead away from the best point, that is returned") {
+  membrane const m(12);
+  auto const qp = m.program();
+  std::vector<VectorXd> seen;
+  auto certificate = [&](VectorXd const& x) {
+    seen.push_back(x);
+    return slant::energy_error<double>{.bound = seen.size() == 1 ? 1e-5 : 1e-4, .size = 1};
+  };
+  auto const make = [&](double const&) { return slant::symmetric_newton{qp}; };
+  VectorXd const zero = VectorXd::Zero(m.b.size());
+  auto const run = slant::detail::run_certified(make, zero, certificate, 1e-8, {.steps = 100});
+  REQUIRE(seen.size() == 2);
+  CHECK(seen[0] != seen[1]);
+  CHECK(run.point == seen[0]);
+  CHECK(run.status == slant::status::stalled);
+  CHECK(run.reason.find("1e-05") != std::string::npos);
+}
+
 /// An operator that knows its inverse, as those of a client may.
 struct invertible {
   static constexpr auto laws = slant::laws<slant::self_adjoint, slant::positive_definite>;

@@ -73,15 +73,16 @@ TEST_CASE("rows of every length, by rows and by columns") {
   Eigen::SparseMatrix<double> columns = symmetric.sparseView();
   row_major_sparse const rows = dense.sparseView();
   VectorXd const x = VectorXd::LinSpaced(n, 1, n);
-  VectorXd y(n);
   auto const image = [&](auto const& a) {
-    y.setConstant(0.5);
+    VectorXd y = VectorXd::Constant(a.rows(), 0.5);
     slant::apply(a, x, y);
     return y;
   };
   CHECK(image(slant::matrix(rows)) == dense * x);
   CHECK(image(slant::adjoint(slant::matrix(rows))) == dense.transpose() * x);
   CHECK(image(slant::matrix<slant::self_adjoint>(columns)) == symmetric * x);
+  Eigen::SparseVector<double> const row = columns.col(5);
+  CHECK(image(slant::adjoint(slant::matrix(row))) == symmetric.col(5).transpose() * x);
   columns.insert(0, 0) = 0;
   columns.uncompress();
   CHECK(image(slant::matrix<slant::self_adjoint>(columns)) == symmetric * x);

@@ -11,6 +11,7 @@
 
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
 
+#include <slant/base/long_arrays.hpp>
 #include <slant/base/matrix_entries.hpp>
 #include <slant/concepts/factorization.hpp>
 #include <slant/concepts/scalar.hpp>

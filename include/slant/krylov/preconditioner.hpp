@@ -9,6 +9,7 @@
 
 #include <concepts>
 #include <type_traits>
+#include <utility>
 
 namespace slant {
 
@@ -78,6 +79,12 @@ void enter_face(auto const& m, auto const& face, auto const& κ, auto& of_m) {
     if (whole.curved_count() == 0) m.enter(whole, of_m);
   }
 }
+
+/// Whether precondition_on_face takes z from M as it is.
+template <class M, class V, class Face>
+concept finds_preconditioned =
+    std::same_as<std::remove_cvref_t<decltype(whole_face(std::declval<Face const&>()))>, Face> &&
+    preconditions_curved_faces<M, V, Face>;
 
 /// z for g ∈ range(G); `weighed` is scratch, of no size without an M.
 template <class M, class Face, class V, class WM>

@@ -54,14 +54,23 @@ template <class QP, class C, class M>
   o.inner_steps = std::min<index>(o.inner_steps, most.applications);
   auto const run = [&](auto const& method, auto&& certificate) {
     certified_point<V> result{.method = "constrained_newton"};
+    auto state = method.start(x0);
+    index for_multipliers = 0;
     auto const certify = [&](V const& x, V const& ν) {
-      result.error = certificate(x, ν);
+      auto now = certificate(x, ν);
       // Where rows are nearly dependent on the face, the digits are missing that would tell.
-      bool const is_enough = result.error.relative() <= tolerance;
-      if (is_enough && !meets(c, x, tolerance)) result.error.bound = infinity<S>();
+      bool const is_enough = now.relative() <= tolerance;
+      if (is_enough && !meets(c, x, tolerance)) now.bound = infinity<S>();
+      // Further steps may have led away from the best point.
+      S const best = result.error.relative();
+      if (now.relative() < best || !is_finite(best)) {
+        result.error = now;
+        result.point = x;
+        result.multipliers = method.multipliers(state);
+        ++for_multipliers;
+      }
       return result.error;
     };
-    auto state = method.start(x0);
     auto stop = energy_error_below(tolerance, certify) || slant::at_most(most.steps) ||
                 slant::at_most_applications(most.applications);
     auto end = run_to_end(method, state, stop);
@@ -69,10 +78,8 @@ template <class QP, class C, class M>
     result.status = end.how;
     result.reason = state.infeasible ? state.reason() : std::move(end.why);
     result.steps = state.iteration;
-    result.multipliers = method.multipliers(state);
     result.work = state.work;
-    result.work.operator_applications += certificate.applications() + 1;
-    result.point = std::move(state.x);
+    result.work.operator_applications += certificate.applications() + for_multipliers;
     return result;
   };
   if constexpr (std::same_as<M, identity_operator>) {

@@ -120,10 +120,16 @@ template <class V, class S, class Make, class Certificate>
     auto end = run_to_end(method, state, stop);
     if (state.work.operator_applications >= most.applications && end.how != status::converged) {
       result.status = status::iteration_limit;
+      vectors::copy(state.x, result.point);
       break;
     }
-    result.error = certificate(state.x);
-    S const error = result.error.relative();
+    auto const now = certificate(state.x);
+    S const error = now.relative();
+    // Further steps may have led away from the best point.
+    if (error < best || !is_finite(best)) {
+      result.error = now;
+      vectors::copy(state.x, result.point);
+    }
     result.status = end.how;
     bool const is_enough = error <= tolerance && end.how != status::unbounded;
     bool const is_better = error < best / S(1.5) || !is_finite(error);  // or nothing is known yet
@@ -141,13 +147,12 @@ template <class V, class S, class Make, class Certificate>
       }
       break;
     }
-    best = error;
+    best = std::min<S>(best, error);
     S const missing = tolerance / error;
     threshold = std::min<S>(threshold, state.reduced_gradient_norm / state.gradient_scale) *
                 std::clamp<S>(missing / S(3), S(1e-3), S(0.3));
     if constexpr (requires { method.resume(state); }) method.resume(state);
   }
-  vectors::copy(state.x, result.point);
   if constexpr (requires { state.descent.state()->directions.p; }) {
     if (result.status == status::unbounded && state.descent.state()) {
       result.descent = state.descent.state()->directions.p;

@@ -218,8 +218,10 @@ class block_matrix {
   static constexpr std::size_t beyond = static_cast<std::size_t>(stride - N);
 
   void allocate() {
-    lower_.entries.resize(lower_.column.size() * N * N + beyond);
-    upper_.entries.resize(lower_.entries.size());
+    for (triangle* t : {&lower_, &upper_}) {
+      t->entries.resize(t->column.size() * N * N);
+      t->entries.resize(t->entries.size() + beyond, T(0));
+    }
     diagonal_.resize(static_cast<std::size_t>(nodes()) * N * N + beyond);
   }
 

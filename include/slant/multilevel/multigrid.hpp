@@ -983,6 +983,7 @@ void multigrid<S, T>::rough(S const* x, S* y, workspace_type& w) const {
     h.fine.A.multiply(v.fine.b.data(), v.fine.r.data());
     lengthen<N>(v.fine.r, unit / factor_, y, rows_);
   });
+  w.is_short = false;  // what was known of its image is gone
 }
 
 template <class S, class T>
@@ -992,7 +993,7 @@ void multigrid<S, T>::rough_last(S const* x, S* y, workspace_type& w) const {
     h.fine.A.complete_product(v.fine.x.data(), v.fine.r.data());
     lengthen<N>(v.fine.r, w.unit, y, rows_);
   });
-  w.is_short = false;  // it holds the product now
+  w.is_short = false;  // what was half of the image is all of it
 }
 
 template <class S, class T>

@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <concepts>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -43,50 +44,52 @@ concept eigen_matrix = requires(std::remove_cvref_t<M> const& m) {
 
 namespace detail {
 
-/// Whether m x is a sum for each row of a sparse matrix, over a stream of entries. With OpenMP the
-/// loop of Eigen takes several threads.
+/// Whether m x is a sum for each row of a sparse matrix, over a stream of entries.
 template <class M, class X, class Y>
 concept streamed_by_rows =
-#if defined(EIGEN_HAS_OPENMP)
-    false &&
-#endif
     std::is_base_of_v<Eigen::SparseCompressedBase<M>, M> && M::IsRowMajor != 0 &&
-    std::is_floating_point_v<typename M::Scalar> &&
+    M::IsVectorAtCompileTime == 0 && std::is_floating_point_v<typename M::Scalar> &&
     std::is_base_of_v<Eigen::PlainObjectBase<X>, X> &&
     std::is_base_of_v<Eigen::PlainObjectBase<Y>, Y> && X::ColsAtCompileTime == 1 &&
-    Y::ColsAtCompileTime == 1;
+    Y::ColsAtCompileTime == 1 && std::same_as<typename Y::Scalar, typename M::Scalar>;
 
-/// y = m x.
+/// Row i of m times x.
+template <class M, class X>
+[[nodiscard]] typename M::Scalar times_row(M const& m, index i, X const& x) {
+  using S = typename M::Scalar;
+  constexpr std::intptr_t distance = 2048;  // bytes of entries
+  auto const* const sizes = m.innerNonZeroPtr();
+  auto const* const column = m.innerIndexPtr();
+  S const* const entry = m.valuePtr();
+  index e = m.outerIndexPtr()[i];
+  index const end = sizes ? e + sizes[i] : index(m.outerIndexPtr()[i + 1]);
+  S a(0), b(0);
+  for (; e + 8 <= end; e += 8) {
+    read_ahead<8 * sizeof(S)>(entry + e, distance);
+    read_ahead<8 * sizeof(*column)>(column + e, distance / 2);
+    for (index k = e; k < e + 8; k += 2) {
+      a += entry[k] * x[column[k]];
+      b += entry[k + 1] * x[column[k + 1]];
+    }
+  }
+  for (; e + 2 <= end; e += 2) {
+    a += entry[e] * x[column[e]];
+    b += entry[e + 1] * x[column[e + 1]];
+  }
+  if (e < end) a += entry[e] * x[column[e]];
+  return a + b;
+}
+
+/// y = m x, with OpenMP by as many threads as Eigen takes.
 template <class M, class X, class Y>
 void multiply(M const& m, X const& x, Y&& y) {
   if constexpr (!streamed_by_rows<M, X, std::remove_cvref_t<Y>>) {
     y.noalias() = m * x;
   } else {
-    using S = typename M::Scalar;
-    constexpr std::intptr_t distance = 2048;  // bytes of entries
-    auto const* const first = m.outerIndexPtr();
-    auto const* const sizes = m.innerNonZeroPtr();
-    auto const* const column = m.innerIndexPtr();
-    S const* const entry = m.valuePtr();
-    for (index i = 0; i < m.rows(); ++i) {
-      index e = first[i];
-      index const end = sizes ? e + sizes[i] : index(first[i + 1]);
-      S a(0), b(0);
-      for (; e + 8 <= end; e += 8) {
-        read_ahead<8 * sizeof(S)>(entry + e, distance);
-        read_ahead<8 * sizeof(*column)>(column + e, distance / 2);
-        for (index k = e; k < e + 8; k += 2) {
-          a += entry[k] * x[column[k]];
-          b += entry[k + 1] * x[column[k + 1]];
-        }
-      }
-      for (; e + 2 <= end; e += 2) {
-        a += entry[e] * x[column[e]];
-        b += entry[e + 1] * x[column[e + 1]];
-      }
-      if (e < end) a += entry[e] * x[column[e]];
-      y[i] = a + b;
-    }
+#if defined(EIGEN_HAS_OPENMP)
+#pragma omp parallel for num_threads(Eigen::nbThreads()) if (m.nonZeros() > 20000)
+#endif
+    for (index i = 0; i < m.rows(); ++i) y[i] = times_row(m, i, x);
   }
 }
 
@@ -116,7 +119,11 @@ class matrix_operator {
     }
   }
   void apply_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
-    multiply_add(m_.get(), α, slant::local(x), slant::local(y));
+    if constexpr (reads_rows) {
+      apply_adjoint_add(α, x, y);
+    } else {
+      multiply_add(m_.get(), α, slant::local(x), slant::local(y));
+    }
   }
   void apply_adjoint(has_scalar<scalar> auto const& x, auto& y) const {
     detail::multiply(m_.get().transpose(), slant::local(x), slant::local(y));

@@ -13,6 +13,7 @@
 // the short ones only, and a factor that lies in the cache would be read at half the speed.
 #pragma once
 
+#include <slant/base/long_arrays.hpp>
 #include <slant/concepts/scalar.hpp>
 
 #include <Eigen/Core>
@@ -25,12 +26,6 @@
 #include <mutex>
 #include <utility>
 #include <vector>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-
-#include <cstdint>
-#endif
 
 namespace slant::detail {
 
@@ -292,20 +287,6 @@ template <class T, class U>
   U const most = U(std::numeric_limits<T>::max());
   U const v = std::clamp(value, -most, most);
   return v < least && -v < least ? T(0) : static_cast<T>(v);
-}
-
-/// Asks the system to use large pages for the array of n numbers at `place`, before it is written
-/// to. A sweep over a factor of a hundred megabytes in pages of 4 kB spends a third of its time on
-/// looking up where they are. Where there are none, nothing happens.
-template <class T>
-void prefer_large_pages([[maybe_unused]] T* place, [[maybe_unused]] index n) {
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-  constexpr std::uintptr_t page = std::uintptr_t(1) << 21;
-  auto const begin = reinterpret_cast<std::uintptr_t>(place);
-  auto const first = (begin + page - 1) / page * page;
-  auto const last = (begin + static_cast<std::uintptr_t>(n) * sizeof(T)) / page * page;
-  if (last > first) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-#endif
 }
 
 // --- packed symmetric ----------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 // tail_panels packed and rounded; sweeps with either: tail_sweeps.
 #pragma once
 
+#include <slant/base/long_arrays.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/factorizations/parts/panel_kernels.hpp>
 

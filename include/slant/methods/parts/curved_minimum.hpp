@@ -102,10 +102,9 @@ class curved_minimum {
       if (!(next > scalar(0))) break;  // M vanishes along g: it says nothing about this direction
       if (k == 0) first_energy = sqrt(next);
       if (energy > scalar(0) && sqrt(next) <= (k == 0 ? energy : energy / scalar(8))) break;
-      if (!multiply_roughly(m, k == 0 ? scalar(0) : next / gz, roughly)) {
-        turn(k == 0 ? scalar(0) : next / gz, z_, p_);
-        slant::apply(a, p_, Ap_, a_workspace);
-      }
+      scalar const β = k == 0 ? scalar(0) : next / gz;
+      turn(β, z_, p_);
+      if (!multiply_roughly(m, face, β, roughly)) slant::apply(a, p_, Ap_, a_workspace);
       gz = next;
       ++k;
       face.keep(Ap_, z_);
@@ -146,15 +145,18 @@ class curved_minimum {
       vectors::waxpby(β, p, scalar(-1), z, p);
     }
   }
-  /// The same with A p by A as M knows it, if it does and if that is wanted: A z is cheaper than A p.
-  bool multiply_roughly(M const& m, scalar const& β, bool roughly) {
+  /// A p by A as M knows it, if it does and if that is wanted. Where z is what M found last the image
+  /// of that is cheaper, and that of p follows.
+  template <class Face>
+  bool multiply_roughly(M const& m, Face const&, scalar const& β, bool roughly) {
     if constexpr (multiplies_roughly<M, V>) {
-      if (roughly) {
+      if (roughly && finds_preconditioned<M, V, Face>) {
         m.multiply_last_roughly(z_, weighed_, m_workspace_);
-        turn(β, z_, p_);
         turn(β, weighed_, Ap_);
-        return true;
+      } else if (roughly) {
+        m.multiply_roughly(p_, Ap_, m_workspace_);
       }
+      return roughly;
     }
     return false;
   }
@@ -163,7 +165,7 @@ class curved_minimum {
   V p_;        // direction
   V Ap_;       // its image
   V z_;        // preconditioned g, then H p
-  V weighed_;  // M W g
+  V weighed_;  // M W g, or A z
   workspace_t<M, V> m_workspace_;
 };
 
