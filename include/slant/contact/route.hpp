@@ -46,7 +46,7 @@ struct route_costs {
   double sweep = 1.3e-9;       ///< γ, per entry of L and application of K⁻¹
   double products = 60;        ///< applications of K⁻¹ of the dual method
   double hierarchy = 2e-8;     ///< δ, per entry of K
-  double cycle = 2.3e-9;       ///< ε, per entry of K and cycle, a product by K included
+  double cycle = 3.3e-9;       ///< ε, per entry of K and cycle, a product by K included
   double cycles = 50;          ///< of the primal method
 
   /// For factors by Eigen, without supernodes.
