@@ -657,6 +657,59 @@ TEST_CASE("unknowns that mix those of several nodes: the levels are those of K")
                        doctest::Contains("rows of K: got 6"), slant::bad_input);
 }
 
+TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, given") {
+  auto const s = fem::make_steel_brick({.k = 8});
+  using rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  rows const none;
+  auto const check = [&](exact_multigrid const& M, int width) {
+    REQUIRE(M.sizes().size() == 3);
+    auto const n = M.sizes()[1];
+    sparse const K1 = M.coarse_matrix();
+    // Unknowns of a node mixed; those of the first and the last one, which are far apart.
+    rows within(n, n), across(n, n);
+    within.setIdentity();
+    for (int a = 0; a < width; ++a) within.coeffRef(a, (a + 1) % width) = 0.5;
+    across.setIdentity();
+    for (int a = 0; a < width; ++a) across.coeffRef(a, n - width + a) = -1;
+    MatrixXd P1;
+    for (rows const* G : {&none, &std::as_const(within), &std::as_const(across)}) {
+      MatrixXd const dense = G->rows() == 0 ? MatrixXd::Identity(n, n) : MatrixXd(*G);
+      MatrixXd const back = dense.inverse();
+      sparse const k = MatrixXd(back.transpose() * K1 * back).sparseView();
+      auto const coarser = M.coarser(k, *G, {.coarsest = 100});
+      REQUIRE(coarser.sizes() == std::vector{M.sizes()[1], M.sizes()[2]});
+      MatrixXd P(n, coarser.sizes()[1]);
+      for (Eigen::Index j = 0; j < P.cols(); ++j) {
+        P.col(j) = coarser.prolonged(VectorXd::Unit(P.cols(), j));
+      }
+      if (G == &none) P1 = P;
+      CHECK((P - dense * P1).norm() <= 1e-14 * P.norm());
+      MatrixXd const galerkin = P.transpose() * k * P;
+      CHECK((MatrixXd(coarser.coarse_matrix()) - galerkin).norm() <= 1e-13 * galerkin.norm());
+      CHECK(coarser.aggregates().count * width == P.cols());
+      exact_multigrid const given(k, {.prolongations = {P.sparseView()}, .block_size = 3});
+      REQUIRE(given.sizes() == coarser.sizes());
+      auto const same = [&](auto const& face) {
+        MatrixXd const one = dense_on_face(coarser, face, 0, n);
+        CHECK((one - dense_on_face(given, face, 0, n)).norm() <= 1e-10 * one.norm());
+      };
+      same(all_free(n));
+      mask held = all_free(n);
+      for (Eigen::Index const i : {0, 1, 6, 20}) held.kept[i] = held.kept[n - 1 - i] = 0;
+      same(held);
+    }
+  };
+  MatrixXd const modes = slant::contact::rigid_body_modes(test::moving_nodes(s));
+  check(exact_multigrid(s.K, modes, {.coarsest = 100}), 6);
+  auto two = interpolation(8);
+  two.resize(2);
+  check(exact_multigrid(s.K, {.prolongations = two, .coarsest = 100}), 3);
+  CHECK_THROWS_WITH_AS(exact_multigrid(s.K, {.coarsest = 100}).coarser(s.K, none),
+                       doctest::Contains("rows of k: got "), slant::bad_input);
+  CHECK_THROWS_WITH_AS(exact_multigrid(laplacian(3, 3)).coarser(laplacian(3, 3), none),
+                       "levels: got 1, expected a level 1 to begin with", slant::bad_input);
+}
+
 TEST_CASE("options out of range are named") {
   using options = slant::multigrid_options;
   double const nan = std::numeric_limits<double>::quiet_NaN();

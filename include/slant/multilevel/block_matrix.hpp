@@ -219,8 +219,8 @@ class block_matrix {
 
   void allocate() {
     for (triangle* t : {&lower_, &upper_}) {
-      t->entries.resize(t->column.size() * N * N);
-      t->entries.resize(t->entries.size() + beyond, T(0));
+      t->entries.resize(t->column.size() * N * N + beyond);
+      std::fill(t->entries.end() - std::ptrdiff_t(beyond), t->entries.end(), T(0));
     }
     diagonal_.resize(static_cast<std::size_t>(nodes()) * N * N + beyond);
   }

@@ -147,7 +147,9 @@ struct multigrid_level {
   block_matrix<N, T> A;
   std::vector<T> inverses;  // of the diagonal blocks
   prolongation<N, M, T> P;
-  std::size_t longest = 0;  // of the rows of A P
+  std::size_t longest = 0;     // of the rows of A P
+  aggregation aggregates{};    // of its nodes, if nodes of the next level stand for them
+  near_kernel<M, M> kernel{};  // of the next level, in that case
 };
 
 /// Constants, one for each unknown of a node.
@@ -176,8 +178,6 @@ class hierarchy {
   dense_factor<M, T> last;           // of the last level
   bool factored = false;             // whether there is such a factor
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
-  aggregation aggregates{};          // of the nodes of level 0, if nodes of level 1 stand for them
-  near_kernel<M, M> kernel{};        // of level 1, in that case
 
   [[nodiscard]] std::vector<index> sizes() const {
     std::vector<index> list{fine.A.rows()};
@@ -197,85 +197,78 @@ class hierarchy {
     fine = level_of(k, factor, diagonal);
   }
 
-  /// The level below the last one by P, which becomes its prolongation.
-  template <int F>
-  void append(multigrid_level<F, M, T>& above, prolongation<F, M, T> P, block_matrix<M, T> C) {
-    constexpr int stride = block_matrix<M, T>::stride;
-    above.P = std::move(P);
-    galerkin_scratch<F, M, T> scratch(above.P, above.longest);
-    galerkin(above.A, above.P, C, scratch);
-    std::vector<T> inverses(static_cast<std::size_t>(C.nodes()) * M * stride, T(0));
-    for (int i = 0; i < C.nodes(); ++i) invert_diagonal(C, C, i, inverses.data());
-    coarse.push_back({std::move(C), std::move(inverses), {}, 0});
-  }
-
-  /// Levels by aggregation until one is small enough. B: near kernel of level 0, or, if there are
-  /// others already, of the last.
+  /// Levels by aggregation until one is small enough. B: near kernel of level 0.
   void aggregate_all(near_kernel<N, M> const& B, multigrid_options const& o) {
-    near_kernel<M, M> next;
     if (done(fine.A, o)) return;
-    auto below = aggregate_below(fine, B, next, o);
+    auto below = aggregate_below(fine, B, o);
     if (!below) return;
-    append(fine, std::move(below->P), std::move(below->C));
-    aggregates = std::move(below->nodes);
-    kernel = next;
-    aggregate_rest(std::move(next), o);
+    append(fine, std::move(*below));
+    aggregate_rest(o);
   }
   /// The same where level 0 is G⁻ᵀK G⁻¹, of unknowns v = G u: P = G P_K, with P_K and near kernel
   /// those of factor · K.
   template <class K, class G>
   void aggregate_mixed(K const& k, typename K::Scalar const& factor, G const& g,
                        near_kernel<N, M> const& B, multigrid_options const& o) {
-    near_kernel<M, M> next;
     if (done(fine.A, o)) return;
     std::vector<double> unused;
     fine_level apart = level_of(k, factor, unused);
-    auto below = aggregate_below(apart, B, next, o);
+    auto below = aggregate_below(apart, B, o);
     if (!below) return;
     apart = {};
-    auto P = mixed_prolongation(below->P, g);
-    auto C = galerkin_pattern(fine.A, P, fine.longest);
-    append(fine, std::move(P), std::move(C));
-    aggregates = std::move(below->nodes);
-    kernel = next;
-    aggregate_rest(std::move(next), o);
+    below->P = mixed_prolongation(below->P, g);
+    below->C = galerkin_pattern(fine.A, below->P, fine.longest);
+    append(fine, std::move(*below));
+    aggregate_rest(o);
   }
   /// Levels by prolongations of the user, of unknowns v = G u where G is given, then by aggregation
   /// until one is small enough.
   template <class G>
   void interpolate_all(multigrid_options const& o, G const* g) {
     static_assert(N == M);
-    coarse.reserve(o.prolongations.size());
     for (std::size_t l = 0; l < o.prolongations.size(); ++l) {
       fine_level& above = l == 0 ? fine : coarse.back();
       auto P = prolongation_from<N, T>(o.prolongations[l], above.A.nodes(),
                                        "prolongation " + show(static_cast<index>(l)));
-      if (l == 0) {
-        aggregates = heaviest_parents(P);
-        if (g) P = mixed_prolongation(P, *g);
-        kernel = constants<M, M>(P.coarse_nodes);
-      }
-      auto C = galerkin_pattern(above.A, P, above.longest);
-      append(above, std::move(P), std::move(C));
+      auto nodes = heaviest_parents(P);
+      if (l == 0 && g) P = mixed_prolongation(P, *g);
+      auto kernel = constants<M, M>(P.coarse_nodes);
+      append_by(above, std::move(P), std::move(nodes), std::move(kernel));
     }
-    if (coarse.back().A.rows() > 2 * o.coarsest) {
-      aggregate_rest(constants<M, M>(coarse.back().A.nodes()), o);
-    }
+    if (coarse.back().A.rows() > 2 * o.coarsest) aggregate_rest(o);
   }
-  void aggregate_rest(near_kernel<M, M> B, multigrid_options const& o) {
-    near_kernel<M, M> next;
-    while (!done(coarse.back().A, o)) {
-      // append() makes a new last level, after it has used this one.
-      coarse.reserve(coarse.size() + 1);
-      auto below = aggregate_below(coarse.back(), B, next, o);
-      if (!below) return;
-      append(coarse.back(), std::move(below->P), std::move(below->C));
-      std::swap(B.blocks, next.blocks);
+  /// Level 0 for factor · k = G⁻ᵀA G⁻¹, where A is level 1 of `finer` and G of unknowns or without
+  /// rows for the identity; its other levels, formed anew if G couples what A does not.
+  template <int F, class K, class G>
+  void take_below(hierarchy<F, M, T> const& finer, K const& k, typename K::Scalar const& factor,
+                  G const& g) {
+    begin(k, factor);
+    if (finer.coarse.size() < 2) return;
+    auto const& from = finer.coarse;
+    auto P = rows_apart<N>(from[0].P);
+    if (g.rows() > 0) P = mixed_prolongation(P, g);
+    level_below<N> below{std::move(P), {}, {}, from[0].kernel};
+    below.C = galerkin_pattern(fine.A, below.P, fine.longest);
+    below.aggregates.count = from[0].aggregates.count;
+    for (int const node : from[0].aggregates.of) {
+      for (int part = 0; part < M / N; ++part) below.aggregates.of.push_back(node);
     }
+    if (below.C.blocks() != from[1].A.blocks()) {
+      append(fine, std::move(below));
+      for (std::size_t l = 1; l + 1 < from.size(); ++l) {
+        append_by(coarse.back(), from[l].P, from[l].aggregates, from[l].kernel);
+      }
+      return;
+    }
+    adopt(fine, below);
+    coarse.assign(from.begin() + 1, from.end());
+    last = finer.last;
+    factored = finer.factored;
   }
 
-  /// Factors the last level. Throws bad_input if K is found not to be semidefinite.
+  /// Factors the last level, once. Throws bad_input if K is found not to be semidefinite.
   void finish(multigrid_options const& o) {
+    if (factored) return;
     auto const factor = [&](auto& to, auto const& A) {
       // A level that would not become smaller has few couplings, and sweeps solve it well enough.
       if (A.rows() > std::max<index>(2 * o.coarsest, 1200)) return;
@@ -303,18 +296,53 @@ class hierarchy {
 
   [[nodiscard]] static double weaker(double θ) { return θ > 0.01 ? θ / 2 : 0; }
 
-  /// What a level below is made of: P, the pattern of PᵀA P, and the aggregates.
+  /// What a level below is made of: P, the pattern of PᵀA P, the aggregates and their near kernel.
   template <int F>
   struct level_below {
     prolongation<F, M, T> P;
     block_matrix<M, T> C;
-    aggregation nodes;
+    aggregation aggregates;
+    near_kernel<M, M> kernel;
   };
 
-  /// The level below with its near kernel; nothing if there is none that is smaller.
+  template <int F>
+  static void adopt(multigrid_level<F, M, T>& above, level_below<F>& below) {
+    above.P = std::move(below.P);
+    above.aggregates = std::move(below.aggregates);
+    above.kernel = std::move(below.kernel);
+  }
+  /// A new last level, below the one that has been that.
+  template <int F>
+  void append(multigrid_level<F, M, T>& above, level_below<F> below) {
+    constexpr int stride = block_matrix<M, T>::stride;
+    adopt(above, below);
+    auto& C = below.C;
+    galerkin_scratch<F, M, T> scratch(above.P, above.longest);
+    galerkin(above.A, above.P, C, scratch);
+    std::vector<T> inverses(static_cast<std::size_t>(C.nodes()) * M * stride, T(0));
+    for (int i = 0; i < C.nodes(); ++i) invert_diagonal(C, C, i, inverses.data());
+    coarse.push_back({std::move(C), std::move(inverses), {}, 0});
+  }
+  template <int F>
+  void append_by(multigrid_level<F, M, T>& above, prolongation<F, M, T> P, aggregation aggregates,
+                 near_kernel<M, M> kernel) {
+    auto C = galerkin_pattern(above.A, P, above.longest);
+    append(above, {std::move(P), std::move(C), std::move(aggregates), std::move(kernel)});
+  }
+  void aggregate_rest(multigrid_options const& o) {
+    near_kernel<M, M> B = coarse.size() > 1 ? coarse[coarse.size() - 2].kernel : fine.kernel;
+    while (!done(coarse.back().A, o)) {
+      auto below = aggregate_below(coarse.back(), B, o);
+      if (!below) return;
+      B = below->kernel;
+      append(coarse.back(), std::move(*below));
+    }
+  }
+
+  /// The level below; nothing if there is none that is smaller.
   template <int F>
   std::optional<level_below<F>> aggregate_below(multigrid_level<F, M, T>& above,
-                                                near_kernel<F, M> const& B, near_kernel<M, M>& next,
+                                                near_kernel<F, M> const& B,
                                                 multigrid_options const& o) {
     // A level may have so many of the numbers of the one above that all have what the limit allows.
     double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
@@ -328,6 +356,7 @@ class hierarchy {
         θ = weaker(θ);
         continue;
       }
+      near_kernel<M, M> next;
       auto const Q = orthonormal_candidates<F, M, T>(a, B, next);
       T const ω = smooth ? T(o.damping) / λ : T(0);
       auto P = smoothed_prolongation<F, M, T>(above.A, above.inverses.data(), a, Q, ω);
@@ -338,7 +367,7 @@ class hierarchy {
         continue;
       }
       smoothed = smoothed && smooth;
-      return level_below<F>{std::move(P), std::move(C), std::move(a)};
+      return level_below<F>{std::move(P), std::move(C), std::move(a), std::move(next)};
     }
   }
 
@@ -599,7 +628,8 @@ class multigrid {
   /// Which node of level 1 each node of K belongs to, with prolongations of the user the one of the
   /// greatest weight; empty if there is no such level.
   [[nodiscard]] aggregation const& aggregates() const {
-    return std::visit([](auto const& h) -> aggregation const& { return h.aggregates; }, *levels_);
+    return std::visit([](auto const& h) -> aggregation const& { return h.fine.aggregates; },
+                      *levels_);
   }
   /// Unknowns of a node of K.
   [[nodiscard]] index node_size() const {
@@ -615,6 +645,13 @@ class multigrid {
   [[nodiscard]] vector_type restricted(vector_type const& x) const;
   /// P x.
   [[nodiscard]] vector_type prolonged(vector_type const& x) const;
+  /// The multigrid of level 1 in unknowns G w, for k = G⁻ᵀ(PᵀK P)G⁻¹; G without rows: the identity.
+  /// Its other levels are those of this one, formed anew only where G couples what PᵀK P does not.
+  /// There has to be such a level. Throws bad_input for sizes that do not fit, and if k is found not
+  /// to be finite, symmetric and semidefinite.
+  [[nodiscard]] multigrid coarser(sparse_view const& k,
+                                  Eigen::SparseMatrix<S, Eigen::RowMajor> const& G,
+                                  multigrid_options const& o = {}) const;
 
   /// Vectors of all levels, and the face entered last with the coarse levels that follow it.
   struct workspace_type {
@@ -682,6 +719,7 @@ class multigrid {
   }
 
  private:
+  multigrid() = default;
   multigrid(sparse_view const& K, mixed_unknowns<S> const* mixed, matrix_type candidates,
             multigrid_options const& o);
   [[nodiscard]] workspace_type make_workspace() const;
@@ -887,11 +925,12 @@ template <class S, class T>
 auto multigrid<S, T>::coarse_kernel() const -> matrix_type {
   return std::visit(
       []<int N, int M>(levels<N, M> const& h) {
-        auto const n = static_cast<index>(h.kernel.blocks.size()) / M;
+        auto const& blocks = h.fine.kernel.blocks;
+        auto const n = static_cast<index>(blocks.size()) / M;
         matrix_type R(n, M);
         for (index i = 0; i < n; ++i) {
           for (index c = 0; c < M; ++c) {
-            R(i, c) = S(h.kernel.blocks[static_cast<std::size_t>(i * M + c)]);
+            R(i, c) = S(blocks[static_cast<std::size_t>(i * M + c)]);
           }
         }
         return R;
@@ -950,6 +989,35 @@ auto multigrid<S, T>::prolonged(vector_type const& x) const -> vector_type {
         h.fine.P.add_to(from.data(), to.data());
         lengthen<N>(to, unit, y.data(), y.size());
         return y;
+      },
+      *levels_);
+}
+
+template <class S, class T>
+multigrid<S, T> multigrid<S, T>::coarser(sparse_view const& k,
+                                         Eigen::SparseMatrix<S, Eigen::RowMajor> const& G,
+                                         multigrid_options const& o) const {
+  return std::visit(
+      [&]<int N, int M>(levels<N, M> const& h) {
+        constexpr int node = M == 6 ? 3 : M;
+        if (h.coarse.empty()) throw bad_input("levels", "1", "a level 1 to begin with");
+        index const n = h.coarse.front().A.rows();
+        detail::check_size("rows of k", k.rows(), n, "the unknowns of level 1,");
+        detail::check_size("columns of k", k.cols(), n, "the unknowns of level 1,");
+        if (G.rows() > 0) {
+          detail::check_size("rows of G", G.rows(), n, "the unknowns of level 1,");
+          detail::check_size("columns of G", G.cols(), n, "the unknowns of level 1,");
+        }
+        multigrid c;
+        c.rows_ = n;
+        c.factor_ = factor_;
+        auto all = std::make_shared<all_levels>(std::in_place_type<levels<node, M>>);
+        auto& own = std::get<levels<node, M>>(*all);
+        own.take_below(h, k, factor_, G);
+        own.finish(o);
+        c.levels_ = std::move(all);
+        c.description_ = "from level 1 on: " + c.levels_text();
+        return c;
       },
       *levels_);
 }

@@ -71,22 +71,20 @@ class nested_start {
     if (list_.empty() || are_entangled()) return;
     sparse_type K = M.coarse_matrix();
     vector_type g = M.restricted(f);
-    if (has_pairs()) {
+    if (!frames_.empty()) {
       mix(K.rows());
-      g = vector_type(from_mixed_.transpose() * g);
+      g = vector_type(E_.transpose() * g);
+    }
+    if (has_pairs()) {
+      K = sparse_type(E_.transpose() * sparse_type(K * E_));
     } else {
       turn(K);
-      for (auto const& [node, own] : frames_) {
-        auto part = g.segment(node * width_, width_);
-        part = vector_type(own.E.transpose() * part);
-        auto rows = R.middleRows(node * width_, width_);
-        rows = matrix_type(own.inverse * rows);
-      }
     }
     surface_function<S> const surface(K.rows(), tangents, list_);
     try {
-      solve(K, g, surface, R, o);
-      displacement_ = M.prolonged(back(coarse_));
+      solve(K, g, surface, M, R, o);
+      if (!frames_.empty()) coarse_ = vector_type(E_ * coarse_);
+      displacement_ = M.prolonged(coarse_);
       found_ = displacement_.allFinite();
     } catch (bad_input const&) {
       found_ = false;  // a start is a help, no condition
@@ -269,7 +267,7 @@ class nested_start {
     });
   }
 
-  /// w = E w' and w' = E⁻¹w as matrices of n unknowns, where contacts are of two aggregates.
+  /// w = E w' and w' = E⁻¹w as matrices of n unknowns.
   void mix(index n) {
     index const m = 1 + tangents_;
     std::vector<Eigen::Triplet<S>> from, to;
@@ -298,10 +296,10 @@ class nested_start {
       put(from, J, J, one);
       put(to, J, J, one);
     }
-    from_mixed_.resize(n, n);
-    to_mixed_.resize(n, n);
-    from_mixed_.setFromTriplets(from.begin(), from.end());
-    to_mixed_.setFromTriplets(to.begin(), to.end());
+    E_.resize(n, n);
+    inverse_.resize(n, n);
+    E_.setFromTriplets(from.begin(), from.end());
+    inverse_.setFromTriplets(to.begin(), to.end());
   }
 
   /// K ← EᵀK E, and 1 where an unknown stands for nothing.
@@ -339,57 +337,14 @@ class nested_start {
     }
   }
 
-  /// P ← E⁻¹P, of unknowns then; as it is where all E are the identity.
-  void turn_rows(Eigen::SparseMatrix<double>& P, index unknowns) const {
-    if (frames_.empty()) return;
-    index const size = P.rows() == unknowns ? 1 : width_;  // what an entry of P stands for
-    std::vector<Eigen::Triplet<double>> all, turns;
-    for (index j = 0; j < P.outerSize(); ++j) {
-      for (Eigen::SparseMatrix<double>::InnerIterator e(P, j); e; ++e) {
-        for (index c = 0; c < size; ++c) {
-          all.emplace_back(int(e.row() * size + c), int(e.col() * size + c), e.value());
-        }
-      }
-    }
-    std::vector<bool> is_turned(static_cast<std::size_t>(unknowns), false);
-    for (auto const& [node, f] : frames_) {
-      for (index q = 0; q < width_; ++q) {
-        is_turned[static_cast<std::size_t>(node * width_ + q)] = true;
-        for (index c = 0; c < width_; ++c) {
-          turns.emplace_back(int(node * width_ + q), int(node * width_ + c),
-                             static_cast<double>(f.inverse(q, c)));
-        }
-      }
-    }
-    for (index j = 0; j < unknowns; ++j) {
-      if (!is_turned[static_cast<std::size_t>(j)]) turns.emplace_back(int(j), int(j), 1.0);
-    }
-    Eigen::SparseMatrix<double> whole(unknowns, P.cols() * size), E(unknowns, unknowns);
-    whole.setFromTriplets(all.begin(), all.end());
-    E.setFromTriplets(turns.begin(), turns.end());
-    P = E * whole;
-  }
-
   void solve(sparse_type const& K, vector_type const& f, surface_function<S> const& surface,
-             matrix_type const& candidates, multigrid_options const& given) {
-    multigrid_options o = given;
-    o.coordinates.resize(0, 0);
-    o.block_size = width_ == 6 ? 3 : width_ == 3 ? 3 : index(width_);
-    if (!o.prolongations.empty()) {
-      o.prolongations.erase(o.prolongations.begin());
-      if (!o.prolongations.empty() && !has_pairs()) turn_rows(o.prolongations.front(), K.rows());
-    }
-    sparse_type const mixed =
-        has_pairs() ? sparse_type(from_mixed_.transpose() * sparse_type(K * from_mixed_))
-                    : sparse_type();
-    sparse_type const& A = has_pairs() ? mixed : K;
-    auto const M = has_pairs()
-                       ? slant::multigrid<S>(A, mixed_unknowns<S>{K, to_mixed_}, candidates, o)
-                       : slant::multigrid<S>(A, candidates, o);
-    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(A), f, surface};
+             slant::multigrid<S> const& finer, matrix_type const& candidates,
+             multigrid_options const& o) {
+    auto const M = finer.coarser(K, inverse_, o);
+    separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(K), f, surface};
     symmetric_newton_options<S> newton;
     newton.energy_goal = std::numeric_limits<S>::min();
-    nested_start const coarser(f, surface, tangents_, M, candidates, to_mixed_, o);
+    nested_start const coarser(f, surface, tangents_, M, candidates, inverse_, o);
     auto const method = [&] { return envelope_newton{qp, M, newton}; };
     auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
                                  : method().start(vector_type::Zero(f.size()));
@@ -412,24 +367,14 @@ class nested_start {
     }
   }
 
-  /// w from w'.
-  [[nodiscard]] vector_type back(vector_type w) const {
-    if (has_pairs()) return vector_type(from_mixed_ * w);
-    for (auto const& [node, f] : frames_) {
-      auto part = w.segment(node * width_, width_);
-      part = vector_type(f.E * part);
-    }
-    return w;
-  }
-
   surface_function<S> const* φ_;
   index tangents_;
   index width_ = 0, node_size_ = 1, steps_ = 0;
   std::vector<int> of_, number_;  // the aggregate of a node, and the contact of an aggregate
   std::vector<contact> list_;     // of level 1
   std::vector<std::pair<index, frame>> frames_;
-  sparse_type from_mixed_;  // E between two bodies, else without rows
-  rows_type to_mixed_;      // E⁻¹
+  sparse_type E_;      // E, without rows where that is the identity
+  rows_type inverse_;  // E⁻¹
   std::vector<bool> touches_, sticks_;
   vector_type coarse_, displacement_;
   bool found_ = false;

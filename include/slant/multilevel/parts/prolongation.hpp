@@ -140,6 +140,34 @@ template <int N, int M, class T, class S>
   return mixed;
 }
 
+/// P for fine nodes of N unknowns each in place of F, a multiple.
+template <int N, int F, int M, class T>
+[[nodiscard]] prolongation<N, M, T> rows_apart(prolongation<F, M, T> const& P) {
+  if constexpr (N == F) {
+    return P;
+  } else {
+    constexpr int parts = F / N;
+    constexpr std::ptrdiff_t block = N * M;
+    prolongation<N, M, T> apart;
+    apart.coarse_nodes = P.coarse_nodes;
+    apart.first.reserve(static_cast<std::size_t>(P.nodes()) * parts + 1);
+    apart.column.reserve(P.column.size() * parts);
+    apart.entries.reserve(P.entries.size());
+    for (int i = 0; i < P.nodes(); ++i) {
+      for (int part = 0; part < parts; ++part) {
+        for (int e = P.begin(i); e < P.end(i); ++e) {
+          T const* const from = P.block(e) + part * block;
+          apart.column.push_back(P.at(e));
+          apart.entries.insert(apart.entries.end(), from, from + block);
+        }
+        apart.first.push_back(static_cast<int>(apart.column.size()));
+      }
+    }
+    apart.entries.resize(apart.entries.size() + apart.beyond, T(0));
+    return apart;
+  }
+}
+
 /// P of the user as blocks of N unknowns: rows are the nodes of the fine level and columns those of
 /// the coarse one, entries the weights; or rows and columns are unknowns. `nodes` fine nodes.
 /// Throws bad_input naming what does not fit.
