@@ -8,7 +8,7 @@
 #include <slant/operators/matrix.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/cartesian.hpp>
-#include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/slanting/projection.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/sets/half_line.hpp>
+#include <slant/sets/interval.hpp>
 
 #include <support/testing.hpp>
 #include "oracle/precise.hpp"

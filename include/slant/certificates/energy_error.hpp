@@ -37,7 +37,6 @@
 #include <slant/iteration/stopping.hpp>
 #include <slant/sets/ball.hpp>
 #include <slant/sets/blocks.hpp>
-#include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/proximal_step.hpp>
 #include <slant/sets/support.hpp>

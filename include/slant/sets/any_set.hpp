@@ -24,7 +24,6 @@
 #include <slant/sets/contact_sets.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/power.hpp>
 #include <slant/sets/second_order_cone.hpp>

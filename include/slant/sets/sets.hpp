@@ -8,7 +8,6 @@
 #include <slant/sets/ball.hpp>
 #include <slant/sets/ellipse.hpp>
 #include <slant/sets/free_space.hpp>
-#include <slant/sets/half_line.hpp>
 #include <slant/sets/interval.hpp>
 #include <slant/sets/point.hpp>
 #include <slant/sets/second_order_cone.hpp>
