@@ -232,6 +232,14 @@ TEST_CASE(
     auto const spelled = slant::solve(qp, slant::multigrid{m->A}, 1e-8);
     CHECK(chosen.work.operator_applications <= 2 * 579 + spelled.work.operator_applications);
     CHECK(chosen.iterations() <= 60);
+    // Where steps end when applications do, what is said is of the point that is returned.
+    for (slant::index const most : {1, 2, 4, 8, 16}) {
+      auto const early = slant::solve(qp, 1e-8, most);
+      VectorXd const e = early.x() - chosen.x();
+      double const error = std::sqrt(e.dot(m->A * e) / chosen.x().dot(m->A * chosen.x()));
+      CHECK(early.reason.find("relative energy error") != std::string::npos);
+      CHECK(error <= 10 * early.error.relative());
+    }
   }
   std::ostringstream out;
   out << slant::solve(stripes.program(), 1e-6);

@@ -661,8 +661,9 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
   auto const s = fem::make_steel_brick({.k = 8});
   using rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   rows const none;
-  auto const check = [&](exact_multigrid const& M, int width) {
-    REQUIRE(M.sizes().size() == 3);
+  // `rest` leads from level 2 on.
+  auto const check = [&](exact_multigrid const& M, int width, std::vector<sparse> const& rest) {
+    REQUIRE(M.sizes().size() == 3 + rest.size());
     auto const n = M.sizes()[1];
     sparse const K1 = M.coarse_matrix();
     // Unknowns of a node mixed; those of the first and the last one, which are far apart.
@@ -676,8 +677,8 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
       MatrixXd const dense = G->rows() == 0 ? MatrixXd::Identity(n, n) : MatrixXd(*G);
       MatrixXd const back = dense.inverse();
       sparse const k = MatrixXd(back.transpose() * K1 * back).sparseView();
-      auto const coarser = M.coarser(k, *G, {.coarsest = 100});
-      REQUIRE(coarser.sizes() == std::vector{M.sizes()[1], M.sizes()[2]});
+      auto const coarser = M.coarser(k, *G);
+      REQUIRE(coarser.sizes().size() == M.sizes().size() - 1);
       MatrixXd P(n, coarser.sizes()[1]);
       for (Eigen::Index j = 0; j < P.cols(); ++j) {
         P.col(j) = coarser.prolonged(VectorXd::Unit(P.cols(), j));
@@ -686,8 +687,24 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
       CHECK((P - dense * P1).norm() <= 1e-14 * P.norm());
       MatrixXd const galerkin = P.transpose() * k * P;
       CHECK((MatrixXd(coarser.coarse_matrix()) - galerkin).norm() <= 1e-13 * galerkin.norm());
-      CHECK(coarser.aggregates().count * width == P.cols());
-      exact_multigrid const given(k, {.prolongations = {P.sparseView()}, .block_size = 3});
+      // Candidates B and what is left of them, Q R: BᵀB = RᵀR on an aggregate.
+      MatrixXd const B = M.coarse_kernel(), R = coarser.coarse_kernel();
+      MatrixXd squares = MatrixXd::Zero(R.rows(), width);
+      auto const& of = coarser.aggregates().of;
+      REQUIRE(Eigen::Index(of.size()) * 3 == n);
+      for (int i = 0; i < int(of.size()); ++i) {
+        auto const own = B.middleRows(3 * i, 3);
+        squares.middleRows(width * of[std::size_t(i)], width) += own.transpose() * own;
+      }
+      for (Eigen::Index J = 0; width == 6 && J < R.rows(); J += width) {
+        auto const block = R.middleRows(J, width);
+        CHECK((squares.middleRows(J, width) - block.transpose() * block).norm() <=
+              1e-12 * squares.norm());
+      }
+      std::vector<sparse> prolongations{P.sparseView()};
+      prolongations.insert(prolongations.end(), rest.begin(), rest.end());
+      exact_multigrid const given(
+          k, {.prolongations = prolongations, .block_size = 3, .coarsest = 100});
       REQUIRE(given.sizes() == coarser.sizes());
       auto const same = [&](auto const& face) {
         MatrixXd const one = dense_on_face(coarser, face, 0, n);
@@ -700,10 +717,9 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
     }
   };
   MatrixXd const modes = slant::contact::rigid_body_modes(test::moving_nodes(s));
-  check(exact_multigrid(s.K, modes, {.coarsest = 100}), 6);
-  auto two = interpolation(8);
-  two.resize(2);
-  check(exact_multigrid(s.K, {.prolongations = two, .coarsest = 100}), 3);
+  check(exact_multigrid(s.K, modes, {.coarsest = 100}), 6, {});
+  auto const three = interpolation(8);
+  check(exact_multigrid(s.K, {.prolongations = three, .coarsest = 100}), 3, {three[2]});
   CHECK_THROWS_WITH_AS(exact_multigrid(s.K, {.coarsest = 100}).coarser(s.K, none),
                        doctest::Contains("rows of k: got "), slant::bad_input);
   CHECK_THROWS_WITH_AS(exact_multigrid(laplacian(3, 3)).coarser(laplacian(3, 3), none),

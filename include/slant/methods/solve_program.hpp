@@ -118,8 +118,10 @@ template <class V, class S, class Make, class Certificate>
     auto stop = reduced_gradient_below(threshold) || slant::at_most(most.steps) ||
                 slant::at_most_applications(most.applications);
     auto end = run_to_end(method, state, stop);
-    if (state.work.operator_applications >= most.applications && end.how != status::converged) {
+    bool const may_go_on = state.iteration < most.steps && end.how != status::converged;
+    if (state.work.operator_applications >= most.applications && may_go_on) {
       result.status = status::iteration_limit;
+      result.error = {};  // of another point
       vectors::copy(state.x, result.point);
       break;
     }

@@ -199,6 +199,9 @@ class block_matrix {
     other.allocate();
     return other;
   }
+  [[nodiscard]] bool has_pattern_of(block_matrix const& other) const {
+    return lower_.first == other.lower_.first && lower_.column == other.lower_.column;
+  }
   [[nodiscard]] triangle& lower() { return lower_; }
   [[nodiscard]] triangle& upper() { return upper_; }
   [[nodiscard]] T* diagonal(int i) {

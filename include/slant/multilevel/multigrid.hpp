@@ -85,6 +85,8 @@ struct multigrid_options {
   /// is not smoothed, which costs up to twice the cycles.
   double complexity = 2;
 
+  /// A last level with so many unknowns is factored.
+  [[nodiscard]] index most_factored() const { return std::max<index>(2 * coarsest, 1200); }
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using detail::show;
@@ -177,6 +179,7 @@ class hierarchy {
   dense_factor<N, T> only;           // of level 0 if there is no other
   dense_factor<M, T> last;           // of the last level
   bool factored = false;             // whether there is such a factor
+  index most_factored = 0;           // a last level with more unknowns is not
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
 
   [[nodiscard]] std::vector<index> sizes() const {
@@ -253,7 +256,7 @@ class hierarchy {
     for (int const node : from[0].aggregates.of) {
       for (int part = 0; part < M / N; ++part) below.aggregates.of.push_back(node);
     }
-    if (below.C.blocks() != from[1].A.blocks()) {
+    if (!below.C.has_pattern_of(from[1].A)) {
       append(fine, std::move(below));
       for (std::size_t l = 1; l + 1 < from.size(); ++l) {
         append_by(coarse.back(), from[l].P, from[l].aggregates, from[l].kernel);
@@ -263,15 +266,16 @@ class hierarchy {
     adopt(fine, below);
     coarse.assign(from.begin() + 1, from.end());
     last = finer.last;
-    factored = finer.factored;
+    factored = finer.factored;  // where it is not, finish() finds the same
   }
 
   /// Factors the last level, once. Throws bad_input if K is found not to be semidefinite.
-  void finish(multigrid_options const& o) {
+  void finish(index most) {
+    most_factored = most;
     if (factored) return;
     auto const factor = [&](auto& to, auto const& A) {
       // A level that would not become smaller has few couplings, and sweeps solve it well enough.
-      if (A.rows() > std::max<index>(2 * o.coarsest, 1200)) return;
+      if (A.rows() > most_factored) return;
       to = std::remove_reference_t<decltype(to)>(A.nodes());
       double const lowest = to.factor(A, A, whole_blocks{});
       // Less is what rounding leaves of pivots of slender bodies, level after level.
@@ -646,12 +650,12 @@ class multigrid {
   /// P x.
   [[nodiscard]] vector_type prolonged(vector_type const& x) const;
   /// The multigrid of level 1 in unknowns G w, for k = G⁻ᵀ(PᵀK P)G⁻¹; G without rows: the identity.
-  /// Its other levels are those of this one, formed anew only where G couples what PᵀK P does not.
-  /// There has to be such a level. Throws bad_input for sizes that do not fit, and if k is found not
-  /// to be finite, symmetric and semidefinite.
+  /// Its other levels are those of this one, formed anew only where G couples what PᵀK P does not,
+  /// and so are their units: numbers of G and G⁻¹ are of size 1. Nodes of six unknowns are two of
+  /// three; candidates and kernels stay those of w. There has to be a level 1. Throws bad_input for
+  /// sizes that do not fit, and if k is found not to be finite, symmetric and semidefinite.
   [[nodiscard]] multigrid coarser(sparse_view const& k,
-                                  Eigen::SparseMatrix<S, Eigen::RowMajor> const& G,
-                                  multigrid_options const& o = {}) const;
+                                  Eigen::SparseMatrix<S, Eigen::RowMajor> const& G) const;
 
   /// Vectors of all levels, and the face entered last with the coarse levels that follow it.
   struct workspace_type {
@@ -786,7 +790,7 @@ class multigrid {
   void build(index b, index candidates, multigrid_options const& o, F fill) {
     with_levels(b, candidates > b && o.prolongations.empty(), [&](auto& h) {
       fill(h);
-      h.finish(o);
+      h.finish(o.most_factored());
     });
     note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), candidates, o);
   }
@@ -995,8 +999,7 @@ auto multigrid<S, T>::prolonged(vector_type const& x) const -> vector_type {
 
 template <class S, class T>
 multigrid<S, T> multigrid<S, T>::coarser(sparse_view const& k,
-                                         Eigen::SparseMatrix<S, Eigen::RowMajor> const& G,
-                                         multigrid_options const& o) const {
+                                         Eigen::SparseMatrix<S, Eigen::RowMajor> const& G) const {
   return std::visit(
       [&]<int N, int M>(levels<N, M> const& h) {
         constexpr int node = M == 6 ? 3 : M;
@@ -1014,7 +1017,7 @@ multigrid<S, T> multigrid<S, T>::coarser(sparse_view const& k,
         auto all = std::make_shared<all_levels>(std::in_place_type<levels<node, M>>);
         auto& own = std::get<levels<node, M>>(*all);
         own.take_below(h, k, factor_, G);
-        own.finish(o);
+        own.finish(h.most_factored);
         c.levels_ = std::move(all);
         c.description_ = "from level 1 on: " + c.levels_text();
         return c;

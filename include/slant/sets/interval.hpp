@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Intervals: the half line { x : l <= x }, of a contact pressure that cannot pull; { x : l <= x <= u };
-// and { x : |x| <= g }, the friction set of a node of a plane problem.
+// Intervals: the half line { x : l <= x }, as of a contact pressure that cannot pull;
+// { x : l <= x <= u }; and { x : |x| <= g }, the friction set of a node of a plane problem.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>

@@ -11,7 +11,7 @@
 //
 //     minimise  ½ w'ᵀ(EᵀPᵀK P E)w' − (EᵀPᵀf)ᵀw' + φ'(w'),      gaps the least ones, slip bounds added up,
 //
-// and that problem starts from its own next level. What has come of it is prolonged; a node is held
+// and that problem, on the levels that follow, starts from its own next one. What has come of it is prolonged; a node is held
 // as its aggregate is, and the first step does not ask whether that is right.
 //
 // Between two bodies the motion is that of the one less that of the other: ū = T w_I + Σ T_J w_J with
@@ -62,6 +62,8 @@ class nested_start {
       : φ_(&φ), tangents_(tangents) {
     aggregation const& a = M.aggregates();
     if (a.count == 0 || f.size() < smallest || candidates.cols() == 0) return;
+    auto const sizes = M.sizes();
+    if (sizes.size() == 2 && sizes[1] > o.most_factored()) return;  // there is no level below
     matrix_type R = M.coarse_kernel();
     width_ = R.cols();
     if (R.rows() != a.count * width_ || width_ < 1 + tangents) return;
@@ -71,19 +73,21 @@ class nested_start {
     if (list_.empty() || are_entangled()) return;
     sparse_type K = M.coarse_matrix();
     vector_type g = M.restricted(f);
+    sparse_type E;      // without rows where it is the identity
+    rows_type inverse;  // E⁻¹
     if (!frames_.empty()) {
-      mix(K.rows());
-      g = vector_type(E_.transpose() * g);
+      mix(K.rows(), E, inverse);
+      g = vector_type(E.transpose() * g);
     }
     if (has_pairs()) {
-      K = sparse_type(E_.transpose() * sparse_type(K * E_));
+      K = sparse_type(E.transpose() * sparse_type(K * E));
     } else {
       turn(K);
     }
     surface_function<S> const surface(K.rows(), tangents, list_);
     try {
-      solve(K, g, surface, M, R, o);
-      if (!frames_.empty()) coarse_ = vector_type(E_ * coarse_);
+      solve(K, g, surface, M, R, inverse, o);
+      if (!frames_.empty()) coarse_ = vector_type(E * coarse_);
       displacement_ = M.prolonged(coarse_);
       found_ = displacement_.allFinite();
     } catch (bad_input const&) {
@@ -268,7 +272,7 @@ class nested_start {
   }
 
   /// w = E w' and w' = E⁻¹w as matrices of n unknowns.
-  void mix(index n) {
+  void mix(index n, sparse_type& E, rows_type& inverse) const {
     index const m = 1 + tangents_;
     std::vector<Eigen::Triplet<S>> from, to;
     std::vector<bool> is_own(static_cast<std::size_t>(n / width_), false);
@@ -290,16 +294,15 @@ class nested_start {
         put(to, I, J, T);
       }
     }
-    matrix_type const one = matrix_type::Identity(width_, width_);
-    for (index J = 0; J < n / width_; ++J) {
-      if (is_own[static_cast<std::size_t>(J)]) continue;
-      put(from, J, J, one);
-      put(to, J, J, one);
+    for (index j = 0; j < n; ++j) {
+      if (is_own[static_cast<std::size_t>(j / width_)]) continue;
+      from.emplace_back(int(j), int(j), S(1));
+      to.emplace_back(int(j), int(j), S(1));
     }
-    E_.resize(n, n);
-    inverse_.resize(n, n);
-    E_.setFromTriplets(from.begin(), from.end());
-    inverse_.setFromTriplets(to.begin(), to.end());
+    E.resize(n, n);
+    inverse.resize(n, n);
+    E.setFromTriplets(from.begin(), from.end());
+    inverse.setFromTriplets(to.begin(), to.end());
   }
 
   /// K ← EᵀK E, and 1 where an unknown stands for nothing.
@@ -339,12 +342,12 @@ class nested_start {
 
   void solve(sparse_type const& K, vector_type const& f, surface_function<S> const& surface,
              slant::multigrid<S> const& finer, matrix_type const& candidates,
-             multigrid_options const& o) {
-    auto const M = finer.coarser(K, inverse_, o);
+             rows_type const& inverse, multigrid_options const& o) {
+    auto const M = finer.coarser(K, inverse);
     separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(K), f, surface};
     symmetric_newton_options<S> newton;
     newton.energy_goal = std::numeric_limits<S>::min();
-    nested_start const coarser(f, surface, tangents_, M, candidates, inverse_, o);
+    nested_start const coarser(f, surface, tangents_, M, candidates, inverse, o);
     auto const method = [&] { return envelope_newton{qp, M, newton}; };
     auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
                                  : method().start(vector_type::Zero(f.size()));
@@ -373,8 +376,6 @@ class nested_start {
   std::vector<int> of_, number_;  // the aggregate of a node, and the contact of an aggregate
   std::vector<contact> list_;     // of level 1
   std::vector<std::pair<index, frame>> frames_;
-  sparse_type E_;      // E, without rows where that is the identity
-  rows_type inverse_;  // E⁻¹
   std::vector<bool> touches_, sticks_;
   vector_type coarse_, displacement_;
   bool found_ = false;
