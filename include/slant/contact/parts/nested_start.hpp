@@ -11,8 +11,9 @@
 //
 //     minimise  ½ w'ᵀ(EᵀPᵀK P E)w' − (EᵀPᵀf)ᵀw' + φ'(w'),      gaps the least ones, slip bounds added up,
 //
-// and that problem, on the levels that follow, starts from its own next one. What has come of it is prolonged; a node is held
-// as its aggregate is, and the first step does not ask whether that is right.
+// and that problem, on the levels that follow, starts from its own next one. What has come of it is
+// prolonged; a node is held as its aggregate is, and the first step does not ask whether that is
+// right.
 //
 // Between two bodies the motion is that of the one less that of the other: ū = T w_I + Σ T_J w_J with
 // aggregates J of the other body, and E of w' in place of w_I takes T_J w_J away. With prolongations
