@@ -241,7 +241,7 @@ TEST_CASE("contact::solve: bodies without supports that a gap parts from what ho
   for (push const& p :
        {push{"contact alone", {0, 0, 0}, 0, false}, push{"friction", {-0.3, 0, 0}, 0.05},
         push{"sticking", {-0.3, 0.1, 0}, infinity}}) {
-    CAPTURE(p.by);
+    CAPTURE(std::string(p.by));
     test::loose_brick brick(1, p.end, p.slip, p.friction);
     auto const floor = brick.mesh.nodes_on({2, false});
     auto const closed = contact::solve(brick.K, brick.data);
@@ -258,8 +258,10 @@ TEST_CASE("contact::solve: bodies without supports that a gap parts from what ho
         CHECK(error_across(brick, h, τ, r, exact.u) <= 1e-8);
         CHECK((brick.data.N * r.u - brick.data.d).maxCoeff() <= 1e-12);
         CHECK(r.work.factorizations == 1);
-        // No more than without the gap.
-        CHECK(r.work.operator_applications <= 1.5 * double(closed.work.operator_applications));
+        // No more problems than without the gap. Where everything sticks, rounding decides how many
+        // corrections each of them takes.
+        CHECK(r.springs <= closed.springs + 2);
+        CHECK(r.work.operator_applications <= 2 * closed.work.operator_applications);
       }
     }
     // Moved so far beside what it deforms, u itself is rounded by more than is asked.

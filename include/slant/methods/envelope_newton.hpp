@@ -201,8 +201,10 @@ class envelope_newton {
     if (!s.at_projection) advance(s);
     if (s.status == status::running) newton_step(s);
     ++s.iteration;
+    // ‖F‖ may rise for a long time while E_γ falls.
+    auto const value = [&] { return std::pair(s.value, s.value_noise); };
     if (s.status == status::running &&
-        s.progress.stalled(s.iteration, s.residual_norm, options_.patience, s.rounding())) {
+        s.progress.stalled(s.iteration, s.residual_norm, options_.patience, value, s.rounding())) {
       s.status = status::stalled;
     }
   }
@@ -313,6 +315,7 @@ class envelope_newton {
       s.gradient_error *= before / s.unit;
       s.value *= before / s.unit;
       s.value_noise *= before / s.unit;
+      s.progress.forget_energy();
     }
     vectors::difference(s.x, s.y, s.trial);
     vectors::difference(s.r, s.gradient, s.reduced);
@@ -324,6 +327,7 @@ class envelope_newton {
     scalar const allowed = share * way * (way / (s.γ * s.unit));
     if (!(bend > allowed + noise)) return false;
     s.γ *= allowed / bend;
+    s.progress.forget_energy();  // a shorter γ has higher values
     return true;
   }
 
