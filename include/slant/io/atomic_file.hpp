@@ -18,7 +18,6 @@
 #include <filesystem>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/io/text_scanner.hpp>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>

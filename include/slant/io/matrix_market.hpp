@@ -26,15 +26,13 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace slant {
 
 // --- header --------------------------------------------------------------------------------------
-//
-// The first lines of a Matrix Market file: what it holds, and how much. Nothing is allocated for
-// sizes that the bytes of the file could not back.
 
 struct matrix_market_options {
   /// Empty rows and columns cost memory but no bytes of the file, so a short file could claim any
@@ -49,13 +47,6 @@ struct matrix_market_header {
   index rows = 0, cols = 0;
   index entries = 0;  ///< stored in the file, not expanded
 };
-
-[[nodiscard, gnu::cold]] inline std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
 
 /// The next word of the banner; one of those accepted, in any letter case.
 inline std::string banner_word(line_scanner& lines, std::vector<std::string_view> const& accepted,
@@ -186,40 +177,30 @@ inline void next_entry(line_scanner& lines, index read, matrix_market_header con
   }
 }
 
-/// The entries of a coordinate file; the mirrored ones too if it is symmetric.
+/// The entries, the mirrored ones too if it is symmetric. Those of an array stand column by column;
+/// zeros among them are not kept.
 template <std::floating_point S, std::signed_integral I>
-[[nodiscard]] std::vector<Eigen::Triplet<S, I>> parse_coordinates(
-    line_scanner& lines, matrix_market_header const& header) {
+[[nodiscard]] std::vector<Eigen::Triplet<S, I>> parse_entries(line_scanner& lines,
+                                                              matrix_market_header const& header) {
   std::vector<Eigen::Triplet<S, I>> entries;
   entries.reserve(static_cast<std::size_t>(header.entries) * (header.symmetric ? 2 : 1));
+  index row = -1, col = 0;
   for (index k = 0; k < header.entries; ++k) {
     next_entry(lines, k, header);
-    auto const [row, col] = parse_position(lines, header);
+    if (!header.array) {
+      std::tie(row, col) = parse_position(lines, header);
+    } else if (++row == header.rows) {
+      ++col;
+      row = header.symmetric ? col : 0;
+    }
     S const value = header.pattern ? S(1) : parse_entry<S>(lines, header.integer);
-    lines.expect_end_of_line("nothing after the entry");
+    lines.expect_end_of_line(header.array ? "one number per line in an array"
+                                          : "nothing after the entry");
+    if (header.array && value == 0) continue;
     entries.emplace_back(static_cast<I>(row), static_cast<I>(col), value);
     if (header.symmetric && row != col)
       entries.emplace_back(static_cast<I>(col), static_cast<I>(row), value);
   }
-  return entries;
-}
-
-/// The numbers of an array file, column by column; zeros are not kept.
-template <std::floating_point S, std::signed_integral I>
-[[nodiscard]] std::vector<Eigen::Triplet<S, I>> parse_array(line_scanner& lines,
-                                                            matrix_market_header const& header) {
-  std::vector<Eigen::Triplet<S, I>> entries;
-  index read = 0;
-  for (index col = 0; col < header.cols; ++col)
-    for (index row = header.symmetric ? col : 0; row < header.rows; ++row) {
-      next_entry(lines, read++, header);
-      S const value = parse_entry<S>(lines, header.integer);
-      lines.expect_end_of_line("one number per line in an array");
-      if (value == 0) continue;
-      entries.emplace_back(static_cast<I>(row), static_cast<I>(col), value);
-      if (header.symmetric && row != col)
-        entries.emplace_back(static_cast<I>(col), static_cast<I>(row), value);
-    }
   return entries;
 }
 
@@ -236,8 +217,7 @@ template <std::floating_point S = double, std::signed_integral I = int>
   detail::parse_sizes<I>(lines, header, options);
 
   detail::line_scanner const at_entries = lines;
-  auto const entries = header.array ? detail::parse_array<S, I>(lines, header)
-                                    : detail::parse_coordinates<S, I>(lines, header);
+  auto const entries = detail::parse_entries<S, I>(lines, header);
   while (lines.next_line())
     if (!lines.is_blank())
       lines.refuse(detail::quoted(lines.line()),

@@ -53,6 +53,13 @@ namespace slant::detail {
   return "'" + printable(text.substr(0, longest), true) + (cut ? "...'" : "'");
 }
 
+[[nodiscard, gnu::cold]] inline std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 /// A path for a message.
 [[nodiscard, gnu::cold]] inline std::string printable(std::filesystem::path const& path) {
   return printable(path.string(), false);

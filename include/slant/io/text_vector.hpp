@@ -32,8 +32,7 @@ namespace detail {
 [[nodiscard]] inline int sign_of_infinity(std::string_view word) {
   int const sign = word.starts_with('-') ? -1 : 1;
   if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
-  std::string lower;
-  for (char const c : word) lower += ('A' <= c && c <= 'Z') ? static_cast<char>(c - 'A' + 'a') : c;
+  std::string const lower = lower_case(word);
   return lower == "inf" || lower == "infinity" ? sign : 0;
 }
 
@@ -59,8 +58,8 @@ template <std::floating_point S>
 /// The vector in a text of one number per line; file names it in messages.
 /// Throws bad_input naming file, line, value and expectation.
 template <std::floating_point S = double>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> parse_text_vector(
-    std::string_view text, std::string file, text_vector_options const& options = {}) {
+[[nodiscard]] Eigen::VectorX<S> parse_text_vector(std::string_view text, std::string file,
+                                                  text_vector_options const& options = {}) {
   detail::line_scanner lines(text, std::move(file));
   std::vector<S> values;
   index blank_line = 0;
@@ -83,13 +82,13 @@ template <std::floating_point S = double>
   if (options.size && count != *options.size)
     lines.refuse("the end of the file after " + detail::show(count) + " numbers",
                  detail::show(*options.size) + " numbers");
-  return Eigen::Map<Eigen::Matrix<S, Eigen::Dynamic, 1> const>(values.data(), count);
+  return Eigen::Map<Eigen::VectorX<S> const>(values.data(), count);
 }
 
 /// Reads a vector from a file. Throws bad_input.
 template <std::floating_point S = double>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> read_text_vector(
-    std::filesystem::path const& path, text_vector_options const& options = {}) {
+[[nodiscard]] Eigen::VectorX<S> read_text_vector(std::filesystem::path const& path,
+                                                 text_vector_options const& options = {}) {
   return parse_text_vector<S>(detail::read_text_file(path), detail::printable(path), options);
 }
 

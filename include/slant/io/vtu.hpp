@@ -132,15 +132,6 @@ template <class Values>
   return vtu_numbers(name, numbers, components, encoding);
 }
 
-/// A vector of `count` numbers, one per tuple. Throws bad_input.
-template <class Values>
-[[nodiscard]] vtu_array vtu_scalars(std::string_view name, Eigen::MatrixBase<Values> const& values,
-                                    index count, vtu_encoding encoding) {
-  static_assert(Values::ColsAtCompileTime == 1, "scalars: a column vector");
-  if (values.size() != count) throw bad_input(name, show(values.size()) + " values", show(count));
-  return vtu_columns(name, values.transpose(), 1, encoding);
-}
-
 /// A matrix of `count` columns with 2 or 3 components. Throws bad_input.
 template <class Values>
 [[nodiscard]] vtu_array vtu_vectors(std::string_view name, Eigen::MatrixBase<Values> const& values,
@@ -247,7 +238,10 @@ class vtu_grid {
   /// One number per point: floating point, or integers such as states.
   template <class Values>
   void add_point_scalars(std::string_view name, Eigen::MatrixBase<Values> const& values) {
-    add(name, detail::vtu_scalars(name, values, points_, encoding_));
+    static_assert(Values::ColsAtCompileTime == 1, "scalars: a column vector");
+    if (values.size() != points_)
+      throw bad_input(name, detail::show(values.size()) + " values", detail::show(points_));
+    add(name, detail::vtu_columns(name, values.transpose(), 1, encoding_));
   }
 
   /// One vector per point: 2 × n or 3 × n; a missing third component is 0.
