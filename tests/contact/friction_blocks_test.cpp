@@ -78,9 +78,7 @@ TEST_CASE("blocks: the scaled error is that of verify and knows no units, roundi
   CHECK(verified(tiny, r * 1e20).floor > 1e3);
   using error = slant::contact::friction_error<double>;
   CHECK(error{1e-9, 1e3, 1e4, 0}.at_most(1e-8));
-  CHECK(error{1e-9, 1e3, 1e4, 0}.plain_at_most(1e-8));
   CHECK(error{1e-9, 1e5, 1e4, 0}.at_most(1e-8));
-  CHECK(!error{1e-9, 1e5, 1e4, 0}.plain_at_most(1e-8));
   CHECK(!error{1e-7, 1e-9, 1e4, 0}.at_most(1e-8));
 }
 

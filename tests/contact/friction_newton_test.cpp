@@ -8,16 +8,12 @@
 
 namespace friction_newton_test {
 
-using slant::contact::friction_equations;
 using blocks = slant::contact::friction_blocks<3, double>;
 using newton = slant::contact::friction_newton<3, double>;
 using lu = slant::contact::detail::block_lu<2, double>;
 
-constexpr friction_equations both[] = {friction_equations::natural_map,
-                                       friction_equations::alart_curnier};
-
 template <int N>
-void check_differences(friction_equations which) {
+void check_differences() {
   using part = Eigen::Matrix<double, N, 1>;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -28,9 +24,9 @@ void check_differences(friction_equations which) {
     part const dr = part::NullaryExpr(number), du = part::NullaryExpr(number);
     double const mu = std::exp(normal(random)), ρ = std::exp(normal(random)), h = 1e-6;
     slant::contact::detail::friction_map<N, double> f, ahead, behind;
-    f.look(which, mu, ρ, r, u, true);
-    ahead.look(which, mu, ρ, part(r + h * dr), part(u + h * du), true);
-    behind.look(which, mu, ρ, part(r - h * dr), part(u - h * du), true);
+    f.look(mu, ρ, r, u, true);
+    ahead.look(mu, ρ, part(r + h * dr), part(u + h * du), true);
+    behind.look(mu, ρ, part(r - h * dr), part(u - h * du), true);
     if (f.open) {
       ++open;
       CHECK(f.B.norm() == 0);
@@ -48,10 +44,8 @@ void check_differences(friction_equations which) {
 }
 
 TEST_CASE("maps of one contact: derivatives against differences") {
-  for (auto const which : both) {
-    check_differences<2>(which);
-    check_differences<3>(which);
-  }
+  check_differences<2>();
+  check_differences<3>();
 }
 
 TEST_CASE("maps of one contact: the natural map is that of the oracle") {
@@ -59,31 +53,29 @@ TEST_CASE("maps of one contact: the natural map is that of the oracle") {
   Vector3d const r(0.3, 0.4, -0.2);
   Vector3d const u = p.W * r + p.q;
   slant::contact::detail::friction_map<3, double> f;
-  f.look(friction_equations::natural_map, 0.6, 1., r, u, false);
+  f.look(0.6, 1., r, u, false);
   CHECK(f.F.norm() == doctest::Approx(double(test::naive(p, r)[0].natural_map)).epsilon(1e-12));
 }
 
 TEST_CASE("Newton: few steps near a solution, sparse or dense") {
-  for (auto const which : both) {
-    auto const p = test::chain_friction(60);
-    blocks const b(p);
-    newton n(b, which);
-    VectorXd r = VectorXd::Zero(b.size());
-    n.begin(r);
-    for (int k = 0; k < 15 && n.residual_norm() > 1e-13; ++k) CHECK(n.advance(r, 0, 20));
-    CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
-    CHECK(n.work().steps <= 12);
-    CHECK(n.work().factorizations == n.work().steps);
-    CHECK(n.work().sparse > 0);  // three diagonals: never a full matrix
-    // Every second contact is open, and in no system after the first.
-    CHECK(n.work().unknowns < 60 * 3 + (n.work().steps - 1) * (30 * 3 + 1));
-  }
+  auto const p = test::chain_friction(60);
+  blocks const b(p);
+  newton n(b);
+  VectorXd r = VectorXd::Zero(b.size());
+  n.begin(r);
+  for (int k = 0; k < 15 && n.residual_norm() > 1e-13; ++k) CHECK(n.advance(r, 0, 20));
+  CHECK(slant::contact::verify(p, b.force(r)).relative_natural_map <= 1e-12);
+  CHECK(n.work().steps <= 12);
+  CHECK(n.work().factorizations == n.work().steps);
+  CHECK(n.work().sparse > 0);  // three diagonals: never a full matrix
+  // Every second contact is open, and in no system after the first.
+  CHECK(n.work().unknowns < 60 * 3 + (n.work().steps - 1) * (30 * 3 + 1));
 }
 
 TEST_CASE("Newton: a singular system has a direction if damped, one of no use is refused") {
   auto const p = test::repeated(test::random_friction(20, 3, 0.4, 2), 2);
   blocks const b(p);
-  newton n(b, friction_equations::natural_map);
+  newton n(b);
   VectorXd r = VectorXd::Zero(b.size());
   for (slant::index i = 0; i < b.contacts(); ++i) r[3 * i] = 1;  // all stick
   double const before = n.begin(r);

@@ -25,6 +25,8 @@
 #include <slant/contact/friction/verify.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -33,8 +35,6 @@
 namespace slant::contact {
 
 // --- options and result --------------------------------------------------------------------------
-//
-// Options of solve_friction, and what it returns.
 
 /// Which method solve_friction uses.
 enum class friction_method : unsigned char {
@@ -46,17 +46,9 @@ enum class friction_method : unsigned char {
 
 /// The method in words.
 [[nodiscard]] constexpr std::string_view to_string(friction_method m) {
-  switch (m) {
-    case friction_method::automatic:
-      return "automatic";
-    case friction_method::gauss_seidel:
-      return "gauss_seidel";
-    case friction_method::newton:
-      return "newton";
-    case friction_method::interior_point:
-      return "interior_point";
-  }
-  return "unknown";
+  constexpr std::string_view names[] = {"automatic", "gauss_seidel", "newton", "interior_point"};
+  auto const k = std::size_t(m);
+  return k < std::size(names) ? names[k] : "unknown";
 }
 
 /// Options of solve_friction.
@@ -67,7 +59,6 @@ struct friction_options {
   /// literature, with ρ = 1, is larger and not by rounding, the run goes on for a while to make
   /// that smaller too; its verdict does not depend on it.
   S tolerance = S(1e-8);
-  friction_equations equations = friction_equations::natural_map;
   asymmetric_data asymmetry = asymmetric_data::used_as_given;
   index first_sweeps = 100;    ///< before the first Newton step
   index sweeps = 300000;       ///< of Gauss–Seidel at most, in all
@@ -78,19 +69,14 @@ struct friction_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    using slant::detail::show;
+    using slant::detail::check_option;
     slant::detail::check_fraction("tolerance", tolerance);
-    at_least_zero("first_sweeps", first_sweeps);
-    at_least_zero("sweeps", sweeps);
-    at_least_zero("newton_steps", newton_steps);
-    at_least_zero("interior_steps", interior_steps);
-    if (attempt < 1) throw bad_input("attempt", show(attempt), "at least 1");
-    if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
-  }
-
- private:
-  static void at_least_zero(char const* name, index value) {
-    if (value < 0) throw bad_input(name, slant::detail::show(value), "a number >= 0");
+    check_option("first_sweeps", first_sweeps, first_sweeps >= 0, "a number >= 0");
+    check_option("sweeps", sweeps, sweeps >= 0, "a number >= 0");
+    check_option("newton_steps", newton_steps, newton_steps >= 0, "a number >= 0");
+    check_option("interior_steps", interior_steps, interior_steps >= 0, "a number >= 0");
+    check_option("attempt", attempt, attempt >= 1, "at least 1");
+    check_option("patience", patience, patience >= 1, "at least 1");
   }
 };
 
@@ -111,7 +97,7 @@ struct friction_work {
 /// Result of solve_friction.
 template <class S>
 struct friction_result {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   vector_type r{};  ///< forces: the best that were found
   vector_type u{};  ///< W r + q
   slant::status status = slant::status::running;
@@ -130,10 +116,8 @@ struct friction_result {
 namespace slant::contact::detail {
 
 // --- friction run --------------------------------------------------------------------------------
-//
-// One run of solve_friction: the methods, their turns and their limits.
 
-/// See the top of this file. Used once.
+/// One run of solve_friction: the methods, their turns and their limits.
 template <int N, class S>
 class friction_run {
  public:
@@ -146,7 +130,7 @@ class friction_run {
         target_(options.tolerance),
         blocks_(problem),
         gauss_seidel_(blocks_),
-        newton_(blocks_, options.equations),
+        newton_(blocks_),
         best_(vector_type::Zero(blocks_.size())),
         best_u_(blocks_.q()),
         u_(blocks_.size()) {}
@@ -164,15 +148,13 @@ class friction_run {
   }
 
  private:
-  [[nodiscard]] bool solved() const { return best_error_.at_most(options_.tolerance); }
-
   /// Whether there is nothing left to do. Where the problem is solved but the natural map of the
   /// literature is still larger than the tolerance, the target is made smaller, and no more work
   /// allowed than as much again.
   bool done() {
     if (!best_error_.at_most(target_)) return false;
     S const most = std::max(options_.tolerance, best_error_.floor);
-    if (best_error_.plain_at_most(options_.tolerance)) return true;
+    if (best_error_.plain <= most) return true;
     target_ = best_error_.worst() *
               std::max(std::numeric_limits<S>::epsilon(), S(S(0.5) * most / best_error_.plain));
     if (target_ < S(4) * std::numeric_limits<S>::epsilon()) return true;
@@ -334,7 +316,8 @@ class friction_run {
                                   .penetration = check.unit_free_penetration};
     bool const holds =
         error.at_most(options_.tolerance) && check.unit_free_rounding <= options_.tolerance;
-    if (solved()) status_ = lost ? status::breakdown : holds ? status::converged : status::stalled;
+    bool const solved = best_error_.at_most(options_.tolerance);
+    if (solved) status_ = lost ? status::breakdown : holds ? status::converged : status::stalled;
     std::string reason = "unit-free natural map " + brief(error.scaled);
     if (error.penetration > error.scaled) reason += " and penetration " + brief(error.penetration);
     if (status_ == status::converged) {

@@ -47,10 +47,6 @@ struct friction_error {
   }
   /// Those without units at most `tolerance`, and `plain` a number.
   [[nodiscard]] bool at_most(S const& tolerance) const { return worst() <= tolerance; }
-  /// `plain` as well, as far as rounding allows.
-  [[nodiscard]] bool plain_at_most(S const& tolerance) const {
-    return plain <= std::max(tolerance, floor);
-  }
 };
 
 /// A friction_problem in blocks; see the top of this file. N is its dimension, 2 or 3.
@@ -67,10 +63,9 @@ class friction_blocks {
   /// The problem must be valid and of dimension N.
   explicit friction_blocks(friction_problem<S> const& p) : mu_(p.mu) {
     measure_units(p.W);
-    q_ = p.q;
     int highest = -std::numeric_limits<int>::max();
-    for (index k = 0; k < q_.size(); ++k) {
-      S const size = q_[k] < S(0) ? -q_[k] : q_[k];
+    for (index k = 0; k < p.q.size(); ++k) {
+      S const size = p.q[k] < S(0) ? -p.q[k] : p.q[k];
       if (size > S(0)) highest = std::max(highest, exponent_of(size) - half(k / N));
     }
     velocity_ = highest == -std::numeric_limits<int>::max() ? 0 : highest;

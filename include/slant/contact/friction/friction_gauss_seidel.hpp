@@ -251,9 +251,8 @@ struct gauss_seidel_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    using slant::detail::show;
-    if (sweeps < 1) throw bad_input("sweeps", show(sweeps), "at least 1");
-    if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
+    slant::detail::check_option("sweeps", sweeps, sweeps >= 1, "at least 1");
+    slant::detail::check_option("patience", patience, patience >= 1, "at least 1");
   }
 };
 

@@ -162,9 +162,6 @@ class lorentz_scaling {
 };
 
 // --- friction cone pair --------------------------------------------------------------------------
-//
-// One contact of friction_interior_point: x and s of the top of that file, and what the linearised
-// equations hold of them.
 
 using slant::detail::combination;
 using slant::detail::dot_of;
@@ -172,7 +169,7 @@ using slant::detail::from_entries;
 using slant::detail::multiple_of;
 using slant::detail::product_of;
 
-/// See the top of this file.
+/// One contact: x and s of the top of this file, and what the linearised equations hold of them.
 template <int N, class S>
 struct friction_cone_pair {
   using cone = slant::detail::lorentz_algebra<N, S>;
@@ -268,11 +265,8 @@ struct friction_interior_options {
   index patience = 100;  ///< steps without a clearly smaller error that mean stalled
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    using slant::detail::show;
-    if (!(small > S(0) && small < S(1))) {
-      throw bad_input("small", show(small), "a number in (0, 1)");
-    }
-    if (patience < 1) throw bad_input("patience", show(patience), "at least 1");
+    slant::detail::check_fraction("small", small);
+    slant::detail::check_option("patience", patience, patience >= 1, "at least 1");
   }
 };
 

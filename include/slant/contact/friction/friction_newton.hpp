@@ -32,13 +32,9 @@ namespace slant::contact {
 // The equations of one contact for Newton's method, F = 0, and their generalised derivative
 // dF = A dr + B du by the chain rule, composed of parts of the library:
 //
-//     natural map    F = r − P_K(r − ρ û),  û de Saxcé's map of u     A = I − G,   B = ρ G û°
-//     Alart–Curnier  F = r − P(r − ρ u),    P of coulomb_law.hpp      A = I − P°,  B = ρ P°
+//     F = r − P_K(r − ρ û),  û de Saxcé's map of u,     A = I − G,   B = ρ G û°
 //
-// An open contact has G = 0 or P° = 0: F = r, A = I, B = 0.
-
-/// Which equations Newton's method solves.
-enum class friction_equations : unsigned char { natural_map, alart_curnier };
+// An open contact has G = 0: F = r, A = I, B = 0.
 
 namespace detail {
 
@@ -53,46 +49,26 @@ struct friction_map {
   bool open = false;  ///< A = I, B = 0
 
   /// F at (r, u), with A, B and open if `derivative`.
-  void look(friction_equations which, S const& μ, S const& ρ, part_type const& r,
-            part_type const& u, bool derivative) {
-    if (which == friction_equations::natural_map) {
-      de_saxce_block<N, S> const velocity(μ);
-      compose(second_order_cone<N, S>(μ), ρ, r, velocity.value(u), derivative);
-      if (derivative) B = slant::detail::product_of(B, velocity.slant(u));
-    } else {
-      compose(as_set{alart_curnier_block<N, S>(μ)}, ρ, r, u, derivative);
-    }
-  }
-
- private:
-  struct as_set {
-    alart_curnier_block<N, S> block;
-    [[nodiscard]] part_type project(part_type const& z) const { return block.value(z); }
-    [[nodiscard]] block_type slant(part_type const& z) const { return block.slant(z); }
-  };
-
-  template <class Set>
-  void compose(Set const& set, S const& ρ, part_type const& r, part_type const& v,
-               bool derivative) {
+  void look(S const& μ, S const& ρ, part_type const& r, part_type const& u, bool derivative) {
     using slant::detail::combination;
-    part_type const z = combination(S(1), r, S(-ρ), v);
-    F = combination(S(1), r, S(-1), set.project(z));
+    de_saxce_block<N, S> const velocity(μ);
+    second_order_cone<N, S> const cone(μ);
+    part_type const z = combination(S(1), r, S(-ρ), velocity.value(u));
+    F = combination(S(1), r, S(-1), cone.project(z));
     if (!derivative) return;
-    B = set.slant(z);
+    B = cone.slant(z);
     open = slant::detail::all_zero(B);
     A = slant::detail::from_entries<block_type>(
         [&](int i, int j) -> S { return S(i == j ? 1 : 0) - B(i, j); });
-    for (int k = 0; k < N * N; ++k) B.data()[k] *= ρ;
+    B = slant::detail::product_of(slant::detail::multiple_of(ρ, B), velocity.slant(u));
   }
 };
 
 // --- block lu ------------------------------------------------------------------------------------
-//
-// LU factors of a matrix of N × N blocks that is assembled anew at every Newton step: a sparse LU,
-// which allocates, as does the assembly; of a small or full matrix a dense LU, which does not for a
-// size that it has seen.
 
-/// See the top of this file.
+/// LU factors of a matrix of N × N blocks that is assembled anew at every Newton step: a sparse LU,
+/// which allocates, as does the assembly; of a small or full matrix a dense LU, which does not for
+/// a size that it has seen.
 template <int N, class S>
 class block_lu {
  public:
@@ -182,9 +158,8 @@ class friction_newton {
   using part_type = typename blocks_type::part_type;
   using block_type = typename blocks_type::block_type;
 
-  friction_newton(blocks_type const& blocks, friction_equations which)
+  explicit friction_newton(blocks_type const& blocks)
       : blocks_(&blocks),
-        which_(which),
         weight_(blocks.contacts()),
         place_(std::size_t(blocks.contacts())),
         maps_(std::size_t(blocks.contacts())),
@@ -250,7 +225,7 @@ class friction_newton {
   S residual(vector_type const& r, vector_type const& u) {
     detail::friction_map<N, S> f;
     for (index i = 0; i < blocks_->contacts(); ++i) {
-      f.look(which_, blocks_->mu(i), rho(i), blocks_->part_of(r, i), blocks_->part_of(u, i), false);
+      f.look(blocks_->mu(i), rho(i), blocks_->part_of(r, i), blocks_->part_of(u, i), false);
       blocks_->put(f.F, i, F_);
     }
     return F_.norm();
@@ -259,7 +234,7 @@ class friction_newton {
     closed_.clear();
     for (index i = 0; i < blocks_->contacts(); ++i) {
       auto& f = maps_[std::size_t(i)];
-      f.look(which_, blocks_->mu(i), rho(i), blocks_->part_of(r, i), blocks_->part_of(u_, i), true);
+      f.look(blocks_->mu(i), rho(i), blocks_->part_of(r, i), blocks_->part_of(u_, i), true);
       place_[std::size_t(i)] = f.open ? -1 : index(closed_.size());
       if (!f.open) closed_.push_back(i);
       for (int a = 0; a < N; ++a) direction_[N * i + a] = -f.F[a];
@@ -314,7 +289,6 @@ class friction_newton {
   }
 
   blocks_type const* blocks_;
-  friction_equations which_;
   vector_type weight_;  // Λ: the mean diagonal of W of each contact (1 where that is 0)
   std::vector<index> place_, closed_;
   std::vector<detail::friction_map<N, S>> maps_;

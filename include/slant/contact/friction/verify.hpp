@@ -147,19 +147,6 @@ template <class S>
   return -u[0] / slope(μ);
 }
 
-template <class S>
-[[nodiscard]] S size_of(S const& x) {
-  return x < S(0) ? S(-x) : x;
-}
-/// |W| |r| + |q|.
-template <class S>
-[[nodiscard]] typename friction_problem<S>::vector_type sum_of_sizes(
-    friction_problem<S> const& p, typename friction_problem<S>::vector_type const& r) {
-  typename friction_problem<S>::vector_type sum = p.q.cwiseAbs();
-  sum.noalias() += p.W.cwiseAbs() * r.cwiseAbs();
-  return sum;
-}
-
 /// x / y where 0 / 0 is 0.
 template <class S>
 [[nodiscard]] S ratio(S const& x, S const& y) {
@@ -185,13 +172,15 @@ template <class S>
                                        S ρ = S(1)) {
   using vector_type = typename friction_problem<S>::vector_type;
   using block = detail::contact_vector<S>;
+  using std::abs;
   p.validate();
   slant::detail::check_size("r", index(r.size()), index(p.q.size()));
   if (!(ρ > S(0) && slant::detail::is_finite(ρ))) {
     throw bad_input("rho", slant::detail::show(ρ), "a finite number > 0");
   }
   vector_type const u = p.W * r + p.q;
-  vector_type magnitude = detail::sum_of_sizes(p, r);
+  vector_type magnitude = p.q.cwiseAbs();
+  magnitude.noalias() += p.W.cwiseAbs() * r.cwiseAbs();
   auto const largest = [](vector_type const& x) {
     S const size = slant::detail::largest_of(x);
     return size > S(0) ? size : S(1);
@@ -245,10 +234,9 @@ template <class S>
       loads[i * d + k] = p.q[i * d + k] / root[i];
       S& size = magnitude[i * d + k];
       // Without a force all depends on the sign of u_n.
-      size_in_units[i * d + k] =
-          forceless ? (k == 0 ? S(size / root[i]) : S(0))
-                    : S(detail::size_of(own[k]) + (S(1) + sliding_μ) * (size / root[i]));
-      size = detail::size_of(ri[k]) + ρ * (S(1) + μ) * size;
+      size_in_units[i * d + k] = forceless ? (k == 0 ? S(size / root[i]) : S(0))
+                                           : S(abs(own[k]) + (S(1) + sliding_μ) * (size / root[i]));
+      size = abs(ri[k]) + ρ * (S(1) + μ) * size;
     }
     c.natural_map = slant::detail::length_of(F);
     c.outside_cone = detail::distance_from_cone(ri, μ);
@@ -258,7 +246,7 @@ template <class S>
     block const f = over(ri, force), w = over(ui, velocity);
     S const tangential = f[1] * w[1] + f[2] * w[2];
     S const friction = μ * detail::tangential_length(w);
-    S const power = detail::size_of(S(f[0] * w[0] + (f[0] * friction + tangential)));
+    S const power = abs(S(f[0] * w[0] + (f[0] * friction + tangential)));
     dissipation -= tangential;
     c.complementarity = power * force * velocity;
     c.dissipation = -tangential * force * velocity;
