@@ -80,19 +80,6 @@ TEST_CASE_TEMPLATE("its laws, and those of its rounded twin", Way, by_sweeps, by
   slant::testing::check_operator_laws(a.rounded(), {.roundings = 1e10});
 }
 
-TEST_CASE_TEMPLATE("entries of A: as by dense matrices, symmetric to the last bit", Way, by_sweeps,
-                   by_inverse) {
-  scene const s(Way::value);
-  MatrixXd const A = s.condensed().formed();
-  CHECK((A - s.dense()).norm() < 1e-14 * A.norm());
-  CHECK(A == A.transpose());
-  // B and the unit may each be far from 1 where A is not.
-  scene large = s;
-  large.B *= std::ldexp(1.0, 700);
-  large.unit = std::ldexp(large.unit, -1000);
-  CHECK((large.condensed().formed() * std::ldexp(1.0, -400) - A).norm() < 1e-14 * A.norm());
-}
-
 TEST_CASE_TEMPLATE("a workspace fits other numbers of right-hand sides", Way, by_sweeps,
                    by_inverse) {
   auto const a = scene(Way::value).condensed();
@@ -170,13 +157,11 @@ TEST_CASE("nothing in contact, and no rows") {
   y.setOnes();
   slant::apply(none.rounded(), VectorXd(VectorXd::Ones(2)), y);
   CHECK(y.isZero(0));
-  CHECK(none.formed() == MatrixXd::Zero(2, 2));
 
   scene const s(false);
   exact const empty(shared(sparse(0, 44)), s.columns, s.unit);
   VectorXd zero(0);
   slant::apply(empty, VectorXd(zero), zero);
-  CHECK(empty.formed().size() == 0);
 }
 
 TEST_CASE_TEMPLATE("sizes that do not fit are refused", Way, by_sweeps, by_inverse) {

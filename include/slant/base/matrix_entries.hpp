@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Passes over the entries of a dense or sparse Eigen matrix: finiteness, largest entry, symmetry.
+// Passes over the entries of a dense or sparse Eigen matrix: finiteness, largest entry, symmetry;
+// and columns of the identity.
 #pragma once
 
 #include <slant/base/sizes.hpp>
@@ -61,6 +62,29 @@ template <class M>
     if (size > largest) largest = size;
   });
   return largest;
+}
+
+/// The largest sum of |K_ij| over a row i: ‖K‖ in the maximum norm, and a bound of its eigenvalues.
+template <class S>
+[[nodiscard]] S largest_row_sum(Eigen::SparseMatrix<S> const& K) {
+  using std::abs;
+  Eigen::VectorX<S> sums = Eigen::VectorX<S>::Zero(K.rows());
+  for_each_entry(K, [&](index i, index, S const& value) { sums[i] += abs(value); });
+  return K.rows() > 0 ? S(sums.maxCoeff()) : S(0);
+}
+
+/// The columns of I ∈ ℝⁿˣⁿ with these numbers.
+template <class S>
+[[nodiscard]] Eigen::SparseMatrix<S> columns_of_identity(index n,
+                                                         std::vector<index> const& numbers) {
+  Eigen::SparseMatrix<S> columns(n, index(numbers.size()));
+  columns.reserve(columns.cols());
+  for (index j = 0; j < columns.cols(); ++j) {
+    columns.startVec(j);
+    columns.insertBack(numbers[std::size_t(j)], j) = S(1);
+  }
+  columns.finalize();
+  return columns;
 }
 
 /// The largest 2^e ≤ max |m_ij| as its exponent e; 0 for a zero matrix. Division by 2^e is exact,

@@ -37,6 +37,15 @@ struct node_blocks {
 
 namespace detail {
 
+/// The numbers 0 … n − 1 that are not among these, which increase.
+[[nodiscard]] inline std::vector<index> complement(index n, std::vector<index> const& numbers) {
+  std::vector<index> rest;
+  for (index i = 0; i < n; ++i) {
+    if (!std::ranges::binary_search(numbers, i)) rest.push_back(i);
+  }
+  return rest;
+}
+
 /// The rows of the entries of column j; of a matrix that is stored by rows the columns of row j.
 template <class M>
 [[nodiscard]] auto inner_indices(Eigen::SparseCompressedBase<M> const& k, index j) {
@@ -96,6 +105,20 @@ class union_find {
     j = find(j);
     if (i > j) std::swap(i, j);
     parent(j) = i;
+  }
+  /// The sets: their numbers in increasing order, sets in the order of their first ones.
+  [[nodiscard]] std::vector<std::vector<index>> lists() {
+    std::vector<std::vector<index>> all;
+    std::vector<std::size_t> place(parent_.size());
+    for (index i = 0; i < static_cast<index>(parent_.size()); ++i) {
+      index const first = find(i);
+      if (first == i) {
+        place[static_cast<std::size_t>(i)] = all.size();
+        all.emplace_back();
+      }
+      all[place[static_cast<std::size_t>(first)]].push_back(i);
+    }
+    return all;
   }
 
  private:

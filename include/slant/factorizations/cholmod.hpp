@@ -27,7 +27,6 @@
 #include <memory>
 #include <new>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -209,29 +208,15 @@ class cholmod_workspace {
   }
   cholmod_workspace(cholmod_workspace const& other) : cholmod_workspace() {
     right_.setZero(other.right_.rows(), other.right_.cols());
-    solution_ = room_like(other.solution_);
-    y_ = room_like(other.y_);
-    e_ = room_like(other.e_);
-  }
-  cholmod_workspace(cholmod_workspace&& other) noexcept
-      : state_(std::move(other.state_)),
-        right_(std::move(other.right_)),
-        solution_(std::exchange(other.solution_, nullptr)),
-        y_(std::exchange(other.y_, nullptr)),
-        e_(std::exchange(other.e_, nullptr)) {}
-  cholmod_workspace& operator=(cholmod_workspace other) noexcept {
-    std::swap(state_, other.state_);
-    right_.swap(other.right_);
-    std::swap(solution_, other.solution_);
-    std::swap(y_, other.y_);
-    std::swap(e_, other.e_);
-    return *this;
-  }
-  ~cholmod_workspace() {
-    if (state_ == nullptr) return;
-    for (cholmod_dense** vectors : {&solution_, &y_, &e_}) {
-      cholmod_free_dense(vectors, state_->get());
+    for (auto const vectors : {&room::solution, &room::y, &room::e}) {
+      room_.get()->*vectors = room_like(other.room_.get()->*vectors);
     }
+  }
+  cholmod_workspace(cholmod_workspace&&) noexcept = default;
+  cholmod_workspace& operator=(cholmod_workspace other) noexcept {
+    room_.swap(other.room_);
+    right_.swap(other.right_);
+    return *this;
   }
 
   /// Where the right-hand sides belong.
@@ -248,36 +233,45 @@ class cholmod_workspace {
     b.dtype = CHOLMOD_DOUBLE;
     // A simplicial solve works on up to four right-hand sides at a time and leaves y_ with the size
     // of the last few; the next one would allocate it anew.
-    if (y_ != nullptr && factors.get()->is_super == 0) {
-      y_->nrow = y_->d = y_->nzmax / b.nrow;
-      y_->ncol = b.nrow;
+    auto& [solution, y, e, state] = *room_;
+    if (y != nullptr && factors.get()->is_super == 0) {
+      y->nrow = y->d = y->nzmax / b.nrow;
+      y->ncol = b.nrow;
     }
-    if (cholmod_solve2(CHOLMOD_A, factors.get(), &b, nullptr, &solution_, nullptr, &y_, &e_,
-                       state_->get()) == 0) {
+    if (cholmod_solve2(CHOLMOD_A, factors.get(), &b, nullptr, &solution, nullptr, &y, &e,
+                       state.get()) == 0) {
       throw std::bad_alloc();
     }
-    return {static_cast<double const*>(solution_->x), right_.rows(), right_.cols()};
+    return {static_cast<double const*>(solution->x), right_.rows(), right_.cols()};
   }
 
  private:
-  cholmod_workspace() : state_(std::make_unique<cholmod_state>()) {}
+  struct room {
+    cholmod_dense* solution = nullptr;
+    cholmod_dense* y = nullptr;
+    cholmod_dense* e = nullptr;
+    cholmod_state state{};
+
+    ~room() {
+      for (cholmod_dense** vectors : {&solution, &y, &e}) cholmod_free_dense(vectors, state.get());
+    }
+  };
+
+  cholmod_workspace() : room_(std::make_unique<room>()) {}
 
   /// A matrix of the same width that can hold as many numbers; null for null.
   [[nodiscard]] cholmod_dense* room_like(cholmod_dense const* vectors) {
     if (vectors == nullptr) return nullptr;
     std::size_t const width = vectors->ncol;
     std::size_t const height = width > 0 ? vectors->nzmax / width : 0;
-    cholmod_dense* room =
-        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, state_->get());
-    if (room == nullptr) throw std::bad_alloc();
-    return room;
+    cholmod_dense* const copy =
+        cholmod_allocate_dense(height, width, height, CHOLMOD_REAL, room_->state.get());
+    if (copy == nullptr) throw std::bad_alloc();
+    return copy;
   }
 
-  std::unique_ptr<cholmod_state> state_;
+  std::unique_ptr<room> room_;
   Eigen::MatrixXd right_;
-  cholmod_dense* solution_ = nullptr;
-  cholmod_dense* y_ = nullptr;
-  cholmod_dense* e_ = nullptr;
 };
 
 }  // namespace slant::detail
@@ -366,8 +360,8 @@ class cholmod {
   void factor(Eigen::SparseMatrixBase<M> const& matrix, Make make) {
     matrix_type k = matrix.derived();
     detail::require_symmetric_matrix("K", k);
-    exponent_ = detail::scale_exponent(k);
-    unit_ = detail::power_of_two<double>(-exponent_);
+    int const exponent = detail::scale_exponent(k);
+    unit_ = detail::power_of_two<double>(-exponent);
     k *= unit_;
     k.makeCompressed();
     rows_ = k.rows();
@@ -377,19 +371,18 @@ class cholmod {
     Eigen::VectorXd const diagonal = k.diagonal();
     auto const require = [&](index i, double pivot) {
       index const row = made->original_row(i);
-      detail::require_positive_pivot("K", rows_, i, row, pivot, diagonal[row], exponent_);
+      detail::require_positive_pivot("K", rows_, i, row, pivot, diagonal[row], exponent);
     };
     made->for_each_pivot(require);
     if (index const i = made->failed_column(); i < rows_) {
       index const row = made->original_row(i);
       double const pivot = made->failed_pivot(diagonal[row]);
       require(i, pivot);
-      detail::refuse_pivot("K", i, row, std::ldexp(pivot, exponent_), true);
+      detail::refuse_pivot("K", i, row, std::ldexp(pivot, exponent), true);
     }
     factors_ = made;
   }
 
-  int exponent_ = 0;
   double unit_ = 1;
   index rows_ = 0;
   std::shared_ptr<detail::cholmod_factors const> factors_;  // null for the empty matrix

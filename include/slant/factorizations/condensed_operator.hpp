@@ -22,11 +22,9 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace slant {
 
@@ -89,40 +87,7 @@ class condensed_operator {
     slant::local(y).noalias() = *b_ * w.forces;
   }
 
-  /// A as a dense matrix, for methods that want its entries, its diagonal or a factorisation of
-  /// it. Costs a third of as many solves as B touches unknowns.
-  [[nodiscard]] Eigen::MatrixXd formed() const
-    requires std::same_as<T, double>
-  {
-    std::vector<int> touched;
-    for (int j = 0; j < b_->cols(); ++j) {
-      if (sparse_type::InnerIterator(*b_, j)) touched.push_back(j);
-    }
-    auto const n = static_cast<index>(touched.size());
-    auto const unknown = [&](index i) { return touched[static_cast<std::size_t>(i)]; };
-    auto const part = inverse_ ? inverse_ : detail::tail_inverse(*factor_, touched);
-    Eigen::MatrixXd s(n, n);
-    for (index j = 0; j < n; ++j) {
-      for (index i = j; i < n; ++i) {
-        s(i, j) = s(j, i) = inverse_ ? (*part)(unknown(i), unknown(j)) : (*part)(i, j);
-      }
-    }
-    // A = (B S⁻¹) Bᵀ. The unit comes between: B alone may be of any scale.
-    auto const times_b = [&](auto const& x) {
-      Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), rows());
-      for (index j = 0; j < n; ++j) {
-        for (sparse_type::InnerIterator e(*b_, unknown(j)); e; ++e) {
-          y.col(e.row()) += e.value() * x.col(j);
-        }
-      }
-      return y;
-    };
-    Eigen::MatrixXd const bs = unit_ * times_b(s).transpose();
-    Eigen::MatrixXd const a = times_b(bs);
-    return a / 2 + a.transpose() / 2;
-  }
-
-  /// The same with entries of floats, which are made on first use and shared.
+  /// The same operator with entries of floats, which are made on first use and shared.
   [[nodiscard]] condensed_operator<float> rounded() const
     requires std::same_as<T, double>
   {

@@ -77,54 +77,27 @@ void check_parts(index n, std::vector<conjugate_part<S, F>> const& parts) {
   }
 }
 
-/// The matrix of some columns of m.
-template <class S>
-[[nodiscard]] Eigen::SparseMatrix<S> chosen_columns(Eigen::SparseMatrix<S> const& m,
-                                                    std::vector<index> const& columns) {
-  Eigen::SparseMatrix<S> part(m.rows(), static_cast<index>(columns.size()));
-  index entries = 0;
-  for (index const c : columns) entries += m.col(c).nonZeros();
-  part.reserve(entries);
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    part.startVec(static_cast<index>(j));
-    for (typename Eigen::SparseMatrix<S>::InnerIterator e(m, columns[j]); e; ++e) {
-      part.insertBack(e.row(), static_cast<index>(j)) = e.value();
-    }
-  }
-  part.finalize();
-  return part;
-}
-
 /// The columns of each body, in increasing order; bodies in the order of their first column.
 /// Columns belong to one body if they or their images share a row. Throws bad_input for an empty
 /// column.
 template <class S>
 [[nodiscard]] std::vector<std::vector<index>> columns_by_body(Eigen::SparseMatrix<S> const& u,
                                                               Eigen::SparseMatrix<S> const& ku) {
-  union_find rows(u.rows());
-  std::vector<index> first_row(static_cast<std::size_t>(u.cols()), -1);
+  union_find columns(u.cols());
+  std::vector<index> first_column(static_cast<std::size_t>(u.rows()), -1);  // of each row
   for (index j = 0; j < u.cols(); ++j) {
-    index& first = first_row[static_cast<std::size_t>(j)];
+    bool is_empty = true;
     for (auto const* m : {&u, &ku}) {
       for (typename Eigen::SparseMatrix<S>::InnerIterator e(*m, j); e; ++e) {
-        if (first < 0) first = e.row();
-        rows.join(first, e.row());
+        index& first = first_column[static_cast<std::size_t>(e.row())];
+        if (first < 0) first = j;
+        columns.join(first, j);
+        is_empty = false;
       }
     }
-    if (first < 0) throw bad_input("U", "an empty column", "columns of full rank").at(j);
+    if (is_empty) throw bad_input("U", "an empty column", "columns of full rank").at(j);
   }
-  std::vector<index> body_of(static_cast<std::size_t>(u.rows()), -1);
-  std::vector<std::vector<index>> bodies;
-  for (index j = 0; j < u.cols(); ++j) {
-    index const root = rows.find(first_row[static_cast<std::size_t>(j)]);
-    index& number = body_of[static_cast<std::size_t>(root)];
-    if (number < 0) {
-      number = static_cast<index>(bodies.size());
-      bodies.emplace_back();
-    }
-    bodies[static_cast<std::size_t>(number)].push_back(j);
-  }
-  return bodies;
+  return columns.lists();
 }
 
 /// All parts, factored in parallel. Throws bad_input for the first that the factorisation refuses.
@@ -137,8 +110,8 @@ template <class F, class S, class Factor>
   std::vector<std::optional<conjugate_part<S, F>>> made(bodies.size());
   parallel_for(static_cast<index>(bodies.size()), std::numeric_limits<index>::max(), [&](index i) {
     auto const at = static_cast<std::size_t>(i);
-    auto own = chosen_columns(u, bodies[at]);
-    auto image = chosen_columns(ku, bodies[at]);
+    Eigen::SparseMatrix<S> const chosen = columns_of_identity<S>(u.cols(), bodies[at]);
+    Eigen::SparseMatrix<S> own = u * chosen, image = ku * chosen;
     Eigen::SparseMatrix<S> const block = own.transpose() * image;
     try {
       made[at].emplace(conjugate_part<S, F>{std::move(own), std::move(image), factor(block)});
@@ -222,7 +195,7 @@ class conjugate_projector_operator {
   }
 
  private:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   struct room {
     vector_type before;

@@ -31,7 +31,7 @@ template <class S = double>
 class dense_ldlt {
  public:
   using scalar = S;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix_type = Eigen::MatrixX<S>;
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_definite>;
 
   /// Throws bad_input if K is not square, has an entry that is NaN or infinite, is not symmetric
@@ -84,11 +84,10 @@ class dense_ldlt {
                        index rows) {
     if constexpr (has_kernels) {
       bool const long_vectors = detail::has_long_vectors();
-      if (y.step == 1 && y.count == 4) {
-        return detail::subtract_panel_from_four(long_vectors, r, p, y.first, y.apart, rows);
-      }
-      if (y.step == 1 && y.count == 1) {
-        return detail::subtract_panel(long_vectors, r, p, y.first, rows);
+      if (y.step == 1) {
+        return y.count == 4
+                   ? detail::subtract_panel_from_four(long_vectors, r, p, y.first, y.apart, rows)
+                   : detail::subtract_panel(long_vectors, r, p, y.first, rows);
       }
     }
     for (index k = 0; k < y.count; ++k) {
@@ -103,11 +102,10 @@ class dense_ldlt {
                        S* result) {
     if constexpr (has_kernels) {
       bool const long_vectors = detail::has_long_vectors();
-      if (y.step == 1 && y.count == 4) {
-        return detail::panel_products_of_four(long_vectors, r, y.first, y.apart, rows, result);
-      }
-      if (y.step == 1 && y.count == 1) {
-        return detail::panel_products(long_vectors, r, y.first, rows, result);
+      if (y.step == 1) {
+        return y.count == 4
+                   ? detail::panel_products_of_four(long_vectors, r, y.first, y.apart, rows, result)
+                   : detail::panel_products(long_vectors, r, y.first, rows, result);
       }
     }
     for (index k = 0; k < y.count; ++k) {

@@ -15,6 +15,7 @@
 //     auto F = slant::congruence(B, Kplus);
 #pragma once
 
+#include <slant/base/partitions.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/factorizations/kernel_basis.hpp>
@@ -22,7 +23,6 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,7 +35,7 @@ class generalized_inverse {
  public:
   using scalar = S;
   using sparse_type = Eigen::SparseMatrix<S>;
-  using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using dense_type = Eigen::MatrixX<S>;
   static constexpr law_set laws = slant::laws<slant::self_adjoint, slant::positive_semidefinite>;
 
   /// K of which the kernel is not known; see kernel_basis.hpp. Two factorisations.
@@ -48,7 +48,7 @@ class generalized_inverse {
   generalized_inverse(sparse_type const& K, dense_type const& R)
       : kernel_(basis(K, R)),
         fixing_(fixing_rows(kernel_)),
-        kept_(complement(kernel_.rows(), fixing_)),
+        kept_(detail::complement(kernel_.rows(), fixing_)),
         factors_(factored(K, kept_, kernel_.cols())) {}
 
   [[nodiscard]] index rows() const noexcept { return kernel_.rows(); }
@@ -107,27 +107,9 @@ class generalized_inverse {
     return basis;
   }
 
-  /// I: the rows that are not in J.
-  static std::vector<index> complement(index n, std::vector<index> const& fixing) {
-    std::vector<index> rest;
-    for (index i = 0; i < n; ++i) {
-      if (!std::ranges::binary_search(fixing, i)) rest.push_back(i);
-    }
-    return rest;
-  }
-
   static factors_type factored(sparse_type const& K, std::vector<index> const& rows, index d) {
-    std::vector<int> place(static_cast<std::size_t>(K.rows()), -1);
-    int count = 0;
-    for (index const row : rows) place[static_cast<std::size_t>(row)] = count++;
-    std::vector<Eigen::Triplet<S>> entries;
-    entries.reserve(static_cast<std::size_t>(K.nonZeros()));
-    detail::for_each_entry(K, [&](index i, index j, S const& value) {
-      int const row = place[static_cast<std::size_t>(i)], col = place[static_cast<std::size_t>(j)];
-      if (row >= 0 && col >= 0) entries.emplace_back(row, col, value);
-    });
-    sparse_type block(count, count);
-    block.setFromTriplets(entries.begin(), entries.end());
+    sparse_type const E = detail::columns_of_identity<S>(K.rows(), rows);
+    sparse_type const block = E.transpose() * K * E;
     try {
       return slant::factorize(block);
     } catch (bad_input const& refusal) {

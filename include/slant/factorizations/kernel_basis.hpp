@@ -36,9 +36,8 @@ namespace detail {
 /// Orthonormal columns that span those of R, as many as R has independent ones: up to 1024 ε, each
 /// column measured by its own length. Entries are finite.
 template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> orthonormal_basis(
-    Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> R) {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+[[nodiscard]] Eigen::MatrixX<S> orthonormal_basis(Eigen::MatrixX<S> R) {
+  using matrix_type = Eigen::MatrixX<S>;
   for (index j = 0; j < R.cols(); ++j) {
     S const largest = R.rows() > 0 ? S(R.col(j).cwiseAbs().maxCoeff()) : S(0);
     if (!(largest > S(0))) continue;
@@ -63,15 +62,6 @@ template <class S>
     }
   }
   return Q;
-}
-
-/// The largest sum of |K_ij| over a row i: ‖K‖ in the maximum norm, and a bound of its eigenvalues.
-template <class S>
-[[nodiscard]] S largest_row_sum(Eigen::SparseMatrix<S> const& K) {
-  using std::abs;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> sums = Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(K.rows());
-  for_each_entry(K, [&](index i, index, S const& value) { sums[i] += abs(value); });
-  return K.rows() > 0 ? S(sums.maxCoeff()) : S(0);
 }
 
 /// ‖K R‖ / (‖K‖ ‖R‖) that rounding errors of the assembly of K and of R may make.
@@ -101,7 +91,7 @@ void require_kernel(Eigen::SparseMatrix<S> const& K, R const& kernel) {
 template <class M>
 [[nodiscard]] std::vector<index> fixing_rows(Eigen::MatrixBase<M> const& R) {
   using S = typename M::Scalar;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix_type = Eigen::MatrixX<S>;
   detail::require_finite_entries("R", R.derived());
   index const d = R.cols();
   std::vector<index> rows;
@@ -155,10 +145,9 @@ namespace detail {
 
 /// How many of the vectors X, of length 1, have ‖K x‖ ≤ limit.
 template <class S>
-[[nodiscard]] index count_below(Eigen::SparseMatrix<S> const& K,
-                                Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const& X,
+[[nodiscard]] index count_below(Eigen::SparseMatrix<S> const& K, Eigen::MatrixX<S> const& X,
                                 S const& limit) {
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> const image = K * X;
+  Eigen::MatrixX<S> const image = K * X;
   index count = 0;
   for (index j = 0; j < image.cols(); ++j) count += image.col(j).norm() <= limit ? 1 : 0;
   return count;
@@ -171,10 +160,9 @@ template <class S>
 /// Throws bad_input if K is not symmetric or not semidefinite, or if it has eigenvalues of which
 /// the precision does not tell whether they are zero.
 template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> computed_kernel(
-    Eigen::SparseMatrix<S> const& K) {
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+[[nodiscard]] Eigen::MatrixX<S> computed_kernel(Eigen::SparseMatrix<S> const& K) {
+  using matrix_type = Eigen::MatrixX<S>;
+  using vector_type = Eigen::VectorX<S>;
   using std::sqrt;
   detail::require_symmetric_matrix("K", K);
   index const n = K.rows();

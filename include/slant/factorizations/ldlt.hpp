@@ -27,7 +27,7 @@ template <class S>
 class sparse_ldlt_factors : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<S>, Eigen::Lower> {
  public:
   using matrix_type = Eigen::SparseMatrix<S>;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   sparse_ldlt_factors() = default;
   explicit sparse_ldlt_factors(matrix_type const& k) {
@@ -124,7 +124,7 @@ class ldlt {
   }
 
  private:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   using factors = detail::sparse_ldlt_factors<S>;
 

@@ -34,7 +34,7 @@ template <operand K, class U, class C>
   requires declares_self_adjoint<K> && declares_positive_definite<K>
 [[nodiscard]] auto woodbury(K&& k_inverse, Eigen::MatrixBase<U> const& u,
                             Eigen::MatrixBase<C> const& c) {
-  using dense = Eigen::Matrix<typename U::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using dense = Eigen::MatrixX<typename U::Scalar>;
   detail::require_rows("U", u, k_inverse.rows(), "the size of K");
   detail::require_size("C", c, u.cols(), u.cols(), "the columns of U");
   detail::require_finite_entries("U", u.derived());
@@ -42,7 +42,7 @@ template <operand K, class U, class C>
   dense const columns = u;
   dense v(columns.rows(), columns.cols());
   for (index j = 0; j < columns.cols(); ++j) {
-    Eigen::Matrix<typename U::Scalar, Eigen::Dynamic, 1> const column = columns.col(j);
+    Eigen::VectorX<typename U::Scalar> const column = columns.col(j);
     auto image = column;
     slant::apply(k_inverse, column, image);
     v.col(j) = image;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -161,31 +162,16 @@ class cholmod_condensation {
   /// B touches marked unknowns only.
   [[nodiscard]] auto restricted(sparse_type const& b) const {
     if (inverse_) {
-      std::vector<int> const contact = contact_unknowns();
-      std::vector<int> number(place_.size(), -1);
-      for (std::size_t i = 0; i < contact.size(); ++i) {
-        number[static_cast<std::size_t>(contact[i])] = static_cast<int>(i);
-      }
-      return condensed_operator<S>(moved(b, number, inverse_->size()), inverse_, factor_.unit());
+      return condensed_operator<S>(columns_of(b, contact_unknowns()), inverse_, factor_.unit());
     }
-    return condensed_operator<S>(moved(b, place_, tail_->shape().size()), tail_, factor_.unit());
+    return condensed_operator<S>(columns_of(b, unknowns_), tail_, factor_.unit());
   }
 
  private:
-  /// B with column j at number[j].
-  static std::shared_ptr<sparse_type const> moved(sparse_type const& b,
-                                                  std::vector<int> const& number, index columns) {
-    std::vector<Eigen::Triplet<S>> entries;
-    for (index j = 0; j < b.cols(); ++j) {
-      for (typename sparse_type::InnerIterator e(b, j); e; ++e) {
-        if (e.value() == 0) continue;
-        entries.emplace_back(static_cast<int>(e.row()), number[static_cast<std::size_t>(j)],
-                             e.value());
-      }
-    }
-    auto result = std::make_shared<sparse_type>(b.rows(), columns);
-    result->setFromTriplets(entries.begin(), entries.end());
-    return result;
+  static std::shared_ptr<sparse_type const> columns_of(sparse_type const& b,
+                                                       std::vector<index> const& unknowns) {
+    sparse_type const columns = b * columns_of_identity<S>(b.cols(), unknowns);
+    return std::make_shared<sparse_type>(columns.pruned());
   }
 
   static std::vector<int> best_order(auto const& matrix, std::vector<char> const& marked,
@@ -236,9 +222,8 @@ class cholmod_condensation {
   /// Numbers the columns that marked unknowns reach.
   std::shared_ptr<tail_columns const> reached_part() {
     auto shape = std::make_shared<tail_shape>();
-    place_.assign(marked_.size(), -1);
+    unknowns_.clear();
     std::vector<tail_columns::matrix> parts;
-    std::vector<index> skipped;
     if (rows() > 0) {
       auto const& factors = *factor_.handle();
       std::vector<int> const order = factors.order();
@@ -246,8 +231,7 @@ class cholmod_condensation {
       // all that follow it.
       std::vector<char> reached(marked_.size(), 0);
       std::vector<int> number(marked_.size(), -1);
-      int count = 0;
-      std::vector<typename cholmod_factors::supernode> nodes;
+      std::vector<typename cholmod_factors::supernode> nodes;  // their columns that are reached
       factors.for_each_supernode([&](cholmod_factors::supernode const& s) {
         index from = s.first;
         index const end = s.first + s.columns;
@@ -256,32 +240,34 @@ class cholmod_condensation {
           ++from;
         }
         if (from == end) return;
-        for (index j = from; j < end; ++j) number[static_cast<std::size_t>(j)] = count++;
+        for (index j = from; j < end; ++j) {
+          number[static_cast<std::size_t>(j)] = static_cast<int>(unknowns_.size());
+          unknowns_.push_back(order[static_cast<std::size_t>(j)]);
+        }
         if (s.height > s.columns) reached[static_cast<std::size_t>(s.rows[s.columns])] = 1;
-        parts.push_back({s.entries + (from - s.first) * (s.height + 1), s.height});
-        skipped.push_back(from - s.first);
-        nodes.push_back(s);
+        index const skipped = from - s.first;
+        nodes.push_back({from, s.columns - skipped, s.height - skipped, s.rows + skipped,
+                         s.entries + skipped * (s.height + 1)});
+        parts.push_back({nodes.back().entries, s.height});
       });
       std::vector<int> below;
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        below.assign(nodes[i].rows + nodes[i].columns, nodes[i].rows + nodes[i].height);
+      for (auto const& s : nodes) {
+        below.assign(s.rows + s.columns, s.rows + s.height);
         for (int& row : below) row = number[static_cast<std::size_t>(row)];
-        shape->add(nodes[i].columns - skipped[i], below);
-      }
-      for (std::size_t j = 0; j < order.size(); ++j) {
-        place_[static_cast<std::size_t>(order[j])] = number[j];
+        shape->add(s.columns, below);
       }
     }
     return std::make_shared<tail_columns>(std::move(shape), parts, factor_.handle());
   }
 
+  [[nodiscard]] bool is_contact(index unknown) const {
+    return marked_[static_cast<std::size_t>(unknown)] != 0;
+  }
   /// The contact unknowns in the order of the tail.
-  [[nodiscard]] std::vector<int> contact_unknowns() const {
-    std::vector<int> result;
-    for (std::size_t j = 0; j < marked_.size(); ++j) {
-      if (marked_[j] != 0) result.push_back(static_cast<int>(j));
-    }
-    std::ranges::sort(result, {}, [this](int j) { return place_[static_cast<std::size_t>(j)]; });
+  [[nodiscard]] std::vector<index> contact_unknowns() const {
+    std::vector<index> result;
+    std::ranges::copy_if(unknowns_, std::back_inserter(result),
+                         [this](index j) { return is_contact(j); });
     return result;
   }
 
@@ -290,11 +276,13 @@ class cholmod_condensation {
     report_ = planned_;
     inverse_.reset();
     if (!report_.chosen.inverse) return;
-    std::vector<int> numbers = contact_unknowns();
+    std::vector<int> numbers;
     std::vector<S> stiffness;
-    for (int& j : numbers) {
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      index const j = unknowns_[i];
+      if (!is_contact(j)) continue;
+      numbers.push_back(static_cast<int>(i));
       stiffness.push_back(matrix.coeff(j, j) * factor_.unit());
-      j = place_[static_cast<std::size_t>(j)];
     }
     inverse_ = tail_inverse(*tail_, numbers);
     if (stays_definite<float>(*inverse_, stiffness)) return;
@@ -307,7 +295,7 @@ class cholmod_condensation {
   condensation_report planned_;  // before it was known whether the inverse is any good
   condensation_report report_;
   cholmod factor_;
-  std::vector<int> place_;  // unknown → number in the tail, or −1
+  std::vector<index> unknowns_;  // of the tail
   std::shared_ptr<tail_columns const> tail_;
   std::shared_ptr<packed_symmetric<S> const> inverse_;  // on contact unknowns; may be missing
 };

@@ -5,8 +5,7 @@
 //
 //     y ← y − R p        forward,          Rᵀy        backward,
 //
-// and both in one, for products with symmetric matrices. For four right-hand sides at a time:
-// panel_kernels four at a time, below.
+// and both in one, for products with symmetric matrices. For one or four right-hand sides.
 //
 // Each is written once with the vectors of the compiler, 16 or 32 bytes long, and compiled for
 // both; which one runs is asked of the processor. Compilers that are told nothing of it would use

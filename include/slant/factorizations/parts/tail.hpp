@@ -86,8 +86,8 @@ class tail_shape {
 /// Right-hand sides of a tail, which become the solutions, and the buffer of the sweeps.
 template <class T>
 struct tail_vectors {
-  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> x;       ///< shape.size() rows
-  Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> buffer;  ///< shape.height() rows
+  Eigen::MatrixX<T> x;       ///< shape.size() rows
+  Eigen::MatrixX<T> buffer;  ///< shape.height() rows
 
   tail_vectors(index size, index height, index right_hand_sides)
       : x(size, right_hand_sides), buffer(height, right_hand_sides) {}
@@ -226,12 +226,10 @@ void solve_in_place(Storage const& storage, tail_vectors<T>& v, index first = 0)
 }
 
 // --- panels --------------------------------------------------------------------------------------
-//
-// L_tt packed and rounded: each panel as D⁻¹ and the rows below in tiles of
-// 32 bytes of each column, one after the other, so that a sweep reads one long stream. Columns are
-// padded to whole panels and rows to whole tiles.
 
-/// L_tt with entries of type T.
+/// L_tt packed and rounded to T: each panel as D⁻¹ and the rows below in tiles of 32 bytes of each
+/// column, one after the other, so that a sweep reads one long stream. Columns are padded to whole
+/// panels and rows to whole tiles.
 template <class T>
 class tail_panels {
  public:
@@ -295,11 +293,9 @@ class tail_panels {
 };
 
 // --- columns -------------------------------------------------------------------------------------
-//
-// L_tt where the factorisation has left it: each supernode a dense matrix stored
-// by columns. Nothing is copied; added are the inverses D⁻¹ of the 8 × 8 blocks on the diagonal.
 
-/// Entries of the supernodes of a tail_shape, in doubles.
+/// L_tt where the factorisation has left it, in doubles: each supernode a dense matrix stored by
+/// columns. Nothing is copied; added are the inverses D⁻¹ of the 8 × 8 blocks on the diagonal.
 class tail_columns {
   using square = Eigen::Matrix<double, panel_width, panel_width>;
 
