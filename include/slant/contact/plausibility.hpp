@@ -38,9 +38,6 @@
 namespace slant::contact::detail {
 
 // --- plausible normals ---------------------------------------------------------------------------
-//
-// Checks of contact data against the bodies: do normals point outwards, or at least as those beside
-// them; does anything touch; is a body moved farther than it is long?
 
 /// A row of N is an outer normal: from each of its nodes the neighbours lie on the other side, but
 /// for a few of a hollow or an edge. Inward: nearly all of them lie where it points.
@@ -155,17 +152,16 @@ void find_opposed_normals(Eigen::SparseMatrix<S> const& K, contact_rows<S> const
            "Turn its sign: a row of N is positive towards the obstacle", found);
 }
 
-inline constexpr char const* about_no_contact =
-    "If there should be contact look at the signs of N and d: N u <= d, where N u > 0 is towards "
-    "the "
-    "obstacle and d is the gap";
+[[gnu::cold]] inline void warn_of_no_contact(std::string const& what, warnings& found) {
+  found.push_back({suspicion::no_contact, "contact nodes", 0, 1,
+                   what + ". If there should be contact look at the signs of N and d: N u <= d, "
+                          "where N u > 0 is towards the obstacle and d is the gap"});
+}
 
 template <class S>
 void find_no_contact(data<S> const& c, warnings& found) {
   if (c.d.array().isFinite().any()) return;
-  suspects s;
-  s.add(0, [] { return "all gaps in d are infinite: no node can touch"; });
-  s.report(suspicion::no_contact, "contact nodes", "", about_no_contact, found);
+  warn_of_no_contact("all gaps in d are infinite: no node can touch", found);
 }
 
 /// No node touches: each is open, and no normal force is more than a rounding error of the load.
@@ -181,9 +177,7 @@ void find_no_contact(data<S> const& c, V const& u, V const& λ, warnings& found)
     if (!(c.d[i] > moved[i]) || !(abs(λ[i]) <= small)) return;
   }
   if (!possible) return;  // was said of the data
-  suspects s;
-  s.add(0, [] { return "no contact node touches, and no normal force acts"; });
-  s.report(suspicion::no_contact, "contact nodes", "", about_no_contact, found);
+  warn_of_no_contact("no contact node touches, and no normal force acts", found);
 }
 
 /// Small strains and rotations are assumed; a node that moves by more than its body is long is far

@@ -25,8 +25,6 @@
 namespace slant::contact {
 
 // --- plausibility warning ------------------------------------------------------------------------
-//
-// Warnings about contact data: kinds, and their text. See contact/plausibility.hpp.
 
 /// What looks like a mistake; to_string names them in this order.
 enum class suspicion : unsigned char {
@@ -74,7 +72,6 @@ class suspects {
     first_ = at;
     text_ = sentence();
   }
-  [[nodiscard]] index count() const { return count_; }
   /// "…, as in 3 other rows of N. Mend it."
   void report(suspicion kind, std::string rows, std::string_view others, std::string_view mend,
               std::vector<plausibility_warning>& found) const {
@@ -365,15 +362,11 @@ bool find_missing_tangents(Eigen::SparseMatrix<S> const& K, node_layout<S> const
     }
   }
   if (!in_space) return false;
-  suspects s;
-  s.add(0, [&] {
-    return "T has one row for each of the " + slant::detail::show(rows.m) +
-           " contact nodes, but the nodes of the body have three unknowns";
-  });
-  s.report(suspicion::missing_tangents, "T", "",
-           "In space give two rows of T for each contact "
-           "node, rows 2i and 2i+1 those of node i",
-           found);
+  found.push_back(
+      {suspicion::missing_tangents, "T", 0, 1,
+       "T has one row for each of the " + slant::detail::show(rows.m) +
+           " contact nodes, but the nodes of the body have three unknowns. In space "
+           "give two rows of T for each contact node, rows 2i and 2i+1 those of node i"});
   return true;
 }
 
@@ -393,15 +386,12 @@ bool find_grouped_tangents(contact_rows<S> const& rows, warnings& found) {
   }
   if (grouped <= interleaved || 2 * grouped <= all) return false;
   using slant::detail::show;
-  suspects s;
-  s.add(first, [&] {
-    return "T has all rows of the first tangent and then all of the second: " +
-           row_text(first, "N") + " touches the same nodes as rows " + show(first) + " and " +
-           show(rows.m + first) + " of T, not as rows " + show(2 * first) + " and " +
-           show(2 * first + 1);
-  });
-  s.report(suspicion::grouped_tangents, "contact nodes", "",
-           "Put them node by node: rows 2i and 2i+1 of T are those of node i", found);
+  found.push_back(
+      {suspicion::grouped_tangents, "contact nodes", first, 1,
+       "T has all rows of the first tangent and then all of the second: " + row_text(first, "N") +
+           " touches the same nodes as rows " + show(first) + " and " + show(rows.m + first) +
+           " of T, not as rows " + show(2 * first) + " and " + show(2 * first + 1) +
+           ". Put them node by node: rows 2i and 2i+1 of T are those of node i"});
   return true;
 }
 
@@ -595,10 +585,9 @@ void find_other_units(contact_rows<S> const& rows, warnings& found) {
   if (ratios.empty()) return;
   S const middle = median(ratios);
   if (middle > S(2) || S(2) * middle < S(1)) {
-    suspects all;
-    all.add(0,
-            [&] { return "the rows of T are " + brief(middle) + " times as long as those of N"; });
-    all.report(suspicion::other_units, "T", "", mend, found);
+    found.push_back(
+        {suspicion::other_units, "T", 0, 1,
+         "the rows of T are " + brief(middle) + " times as long as those of N. " + mend});
   }
   find_outliers(ratios, middle, S(8), [&](std::size_t j) {
     index const r = of_ratio[j];
