@@ -29,7 +29,7 @@ struct body {
       rest.node.push_back(layout.node[std::size_t(j)]);
       rest.axis.push_back(layout.axis[std::size_t(j)]);
     }
-    auto const P = slant::contact::detail::columns_of_identity<double>(K.rows(), kept);
+    auto const P = slant::detail::columns_of_identity<double>(K.rows(), kept);
     K = sparse(P.transpose() * K * P);
     layout = rest;
   }

@@ -120,7 +120,7 @@ model symmetric(model s, int axis, double at) {
     layout.node.push_back(s.layout.node[u]);
     layout.axis.push_back(s.layout.axis[u]);
   }
-  auto const P = slant::contact::detail::columns_of_identity<double>(s.K.rows(), kept);
+  auto const P = slant::detail::columns_of_identity<double>(s.K.rows(), kept);
   return {sparse(P.transpose() * s.K * P), s.N * P, s.T * P, P.transpose() * s.f, s.d, s.g, layout};
 }
 

@@ -29,7 +29,7 @@ inline slant::contact::data<double> one_tangent(fem::contact_scene<3> const& s) 
   std::vector<slant::index> first;
   for (Eigen::Index i = 0; i < s.d.size(); ++i) first.push_back(2 * i);
   Eigen::SparseMatrix<double> const T =
-      slant::contact::detail::columns_of_identity<double>(s.T.rows(), first).transpose() * s.T;
+      slant::detail::columns_of_identity<double>(s.T.rows(), first).transpose() * s.T;
   return {s.N, T, s.f, s.d, s.g};
 }
 

@@ -434,7 +434,7 @@ TEST_CASE("contact::solve: some motions of one of three bodies, and their names"
   auto const thrice = [](sparse const& M) {
     return contact::detail::diagonal_of<double>(std::vector<sparse>(3, M));
   };
-  sparse const P = contact::detail::columns_of_identity<double>(3 * n, kept), Pt = P.transpose(),
+  sparse const P = slant::detail::columns_of_identity<double>(3 * n, kept), Pt = P.transpose(),
                own = Pt * thrice(one.K) * P;
   contact::data<double> data{thrice(one.data.N) * P, thrice(one.data.T) * P,
                              Pt * one.data.f.replicate(3, 1), VectorXd::Zero(36),

@@ -67,7 +67,7 @@ class bodies {
     slant::detail::require_symmetric_entries("K", stiffness);
     slant::detail::require_semidefinite_diagonal("K", stiffness);
     split(stiffness, f, constraint_rows<S>(b, c), factor);
-    sparse_type const live = detail::columns_of_identity<S>(size_, live_);
+    sparse_type const live = slant::detail::columns_of_identity<S>(size_, live_);
     f_ = live.transpose() * f;
     k_ = sparse_type(live.transpose() * stiffness * live);
     rows_.emplace(sparse_type(b.derived() * live), c);

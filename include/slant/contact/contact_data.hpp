@@ -9,17 +9,13 @@
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <vector>
 
 namespace slant::contact::detail {
 
 // --- contact checks ------------------------------------------------------------------------------
-//
-// The checks of gaps, slip bounds and coefficients, whenever they come.
 
 /// Throws bad_input unless d has m entries that are numbers or +∞.
 template <class V>
@@ -103,68 +99,33 @@ struct data {
     using slant::detail::check_size;
     if (N.rows() < 1) throw bad_input("N", slant::detail::show(N.rows()), "at least one row");
     check_size("columns of N", N.cols(), f.size(), "the size of f,");
-    check_size("d", d.size(), nodes(), "one gap per row of N,");
     slant::detail::check_finite("f", f);
     slant::detail::require_finite_entries("N", N);
     slant::detail::require_finite_entries("T", T);
     detail::check_gaps(d, nodes());
     detail::check_reach(N, d);
-    if (T.rows() == 0) {
-      detail::check_slip_bounds(g, nodes(), false);
-      return;
-    }
-    check_size("columns of T", T.cols(), f.size(), "the size of f,");
-    if (T.rows() != nodes() && T.rows() != 2 * nodes()) {
+    bool const has_tangents = T.rows() > 0;
+    if (has_tangents) check_size("columns of T", T.cols(), f.size(), "the size of f,");
+    if (has_tangents && T.rows() != nodes() && T.rows() != 2 * nodes()) {
       throw bad_input(
           "rows of T", slant::detail::show(T.rows()),
           slant::detail::show(nodes()) + " (2D) or " + slant::detail::show(2 * nodes()) + " (3D)");
     }
-    detail::check_slip_bounds(g, nodes(), true);
+    detail::check_slip_bounds(g, nodes(), has_tangents);
   }
 };
-
-// --- contact unknowns ----------------------------------------------------------------------------
-//
-// The displacement unknowns that a contact scene's multipliers act on: what static_condensation
-// keeps for the end.
-
-/// The columns of a matrix that have an entry other than zero, in order.
-template <class M>
-[[nodiscard]] std::vector<index> touched_unknowns(Eigen::SparseMatrixBase<M> const& b) {
-  Eigen::SparseMatrix<typename M::Scalar> const columns = b.derived();
-  std::vector<index> touched;
-  for (index j = 0; j < columns.cols(); ++j) {
-    for (typename decltype(columns)::InnerIterator e(columns, j); e; ++e) {
-      if (e.value() == 0) continue;
-      touched.push_back(j);
-      break;
-    }
-  }
-  return touched;
-}
-
-/// Those of N and T together, in order. Throws bad_input as data::validate does.
-template <class S>
-[[nodiscard]] std::vector<index> contact_unknowns(data<S> const& c) {
-  c.validate();
-  std::vector<index> const of_N = touched_unknowns(c.N), of_T = touched_unknowns(c.T);
-  std::vector<index> both;
-  std::set_union(of_N.begin(), of_N.end(), of_T.begin(), of_T.end(), std::back_inserter(both));
-  return both;
-}
 
 }  // namespace slant::contact
 
 namespace slant::contact::detail {
 
 // --- gap loads -----------------------------------------------------------------------------------
-//
-// The linear term of dual contact problems, b = B u⁰ − c with the displacement u⁰ without contact.
 
-/// b −= c for the normal multipliers, which are the first entries of b. A node with an infinite
-/// gap, whose row of B is empty, gets a negative load instead: it keeps the multiplier at 0 and is
-/// small enough not to show in ‖b‖. Its size is that of the other entries, which are lengths too;
-/// without any, λ = 0 is the solution and no length is needed.
+/// b −= c for the normal multipliers, which are the first entries of b = B u⁰, u⁰ the displacement
+/// without contact. A node with an infinite gap, whose row of B is empty, gets a negative load
+/// instead: it keeps the multiplier at 0 and is small enough not to show in ‖b‖. Its size is that
+/// of the other entries, which are lengths too; without any, λ = 0 is the solution and no length is
+/// needed.
 template <class S, class B>
 void subtract_gaps(Eigen::VectorX<S> const& d, B&& b) {
   if (d.size() == 0) return;
@@ -180,8 +141,6 @@ void subtract_gaps(Eigen::VectorX<S> const& d, B&& b) {
 }
 
 // --- stacked constraints -------------------------------------------------------------------------
-//
-// B = [N; T] of contact data, and the lengths of its rows.
 
 /// A above B.
 template <class S>
@@ -209,20 +168,6 @@ template <class S>
   return stacked(N, c.T);
 }
 
-/// The columns of I ∈ ℝⁿˣⁿ with these numbers.
-template <class S>
-[[nodiscard]] Eigen::SparseMatrix<S> columns_of_identity(index n,
-                                                         std::vector<index> const& numbers) {
-  Eigen::SparseMatrix<S> columns(n, index(numbers.size()));
-  columns.reserve(columns.cols());
-  for (index j = 0; j < columns.cols(); ++j) {
-    columns.startVec(j);
-    columns.insertBack(numbers[std::size_t(j)], j) = S(1);
-  }
-  columns.finalize();
-  return columns;
-}
-
 /// ‖row‖² of each row of B.
 template <class S>
 [[nodiscard]] Eigen::VectorX<S> row_squares(Eigen::SparseMatrix<S> const& B) {
@@ -230,3 +175,34 @@ template <class S>
 }
 
 }  // namespace slant::contact::detail
+
+namespace slant::contact {
+
+// --- contact unknowns ----------------------------------------------------------------------------
+//
+// The displacement unknowns that a contact scene's multipliers act on: what static_condensation
+// keeps for the end.
+
+/// The columns of a matrix that have an entry other than zero, in order.
+template <class M>
+[[nodiscard]] std::vector<index> touched_unknowns(Eigen::SparseMatrixBase<M> const& b) {
+  Eigen::SparseMatrix<typename M::Scalar> const columns = b.derived();
+  std::vector<index> touched;
+  for (index j = 0; j < columns.cols(); ++j) {
+    for (typename decltype(columns)::InnerIterator e(columns, j); e; ++e) {
+      if (e.value() == 0) continue;
+      touched.push_back(j);
+      break;
+    }
+  }
+  return touched;
+}
+
+/// Those of N and T together, in order. Throws bad_input as data::validate does.
+template <class S>
+[[nodiscard]] std::vector<index> contact_unknowns(data<S> const& c) {
+  c.validate();
+  return touched_unknowns(detail::stacked(c.N, c.T));
+}
+
+}  // namespace slant::contact

@@ -16,12 +16,19 @@
 namespace slant::contact {
 
 // --- friction law --------------------------------------------------------------------------------
-//
-// Friction laws as types: which set the tangential multipliers live in.
 
-struct frictionless {};   ///< no tangential multipliers
-struct friction_line {};  ///< one tangent per node (2D bodies): |λ_t,i| ≤ gᵢ
-struct friction_disc {};  ///< two tangents per node (3D bodies): ‖λ_t,i‖ ≤ gᵢ
+/// No tangential multipliers.
+struct frictionless {
+  static constexpr index tangents = 0;  ///< per node
+};
+/// 2D bodies: |λ_t,i| ≤ gᵢ.
+struct friction_line {
+  static constexpr index tangents = 1;
+};
+/// 3D bodies: ‖λ_t,i‖ ≤ gᵢ.
+struct friction_disc {
+  static constexpr index tangents = 2;
+};
 
 /// The law that data stand for by the rows of T; its set is an any_set, so that what is written for
 /// it is one type for all of them.
@@ -49,14 +56,9 @@ auto feasible_set(friction_disc, index m, V const& g) {
 template <class V>
 auto feasible_set(friction_of_data law, index m, V const& g) {
   using set = any_set<scalar_t<V>, contact_runs<scalar_t<V>>>;
-  switch (law.tangents) {
-    case 0:
-      return set(detail::feasible_set(frictionless{}, m, g));
-    case 1:
-      return set(detail::feasible_set(friction_line{}, m, g));
-    default:
-      return set(detail::feasible_set(friction_disc{}, m, g));
-  }
+  if (law.tangents == 0) return set(detail::feasible_set(frictionless{}, m, g));
+  if (law.tangents == 1) return set(detail::feasible_set(friction_line{}, m, g));
+  return set(detail::feasible_set(friction_disc{}, m, g));
 }
 template <class Friction, class S>
 auto feasible_set(Friction friction, data<S> const& c) {
@@ -67,30 +69,15 @@ template <class Friction, class S>
 using feasible_set_t =
     decltype(detail::feasible_set(std::declval<Friction>(), std::declval<data<S> const&>()));
 
-/// Tangents per node.
-[[nodiscard]] inline index tangents_of(frictionless) {
-  return 0;
-}
-[[nodiscard]] inline index tangents_of(friction_line) {
-  return 1;
-}
-[[nodiscard]] inline index tangents_of(friction_disc) {
-  return 2;
-}
-[[nodiscard]] inline index tangents_of(friction_of_data law) {
-  return law.tangents;
-}
-
 /// The data, after a look at them. Throws bad_input unless they are valid, K has as many rows as f
 /// and the friction law as many tangents as T.
 template <class Friction, class S>
 data<S> const& validated(Friction friction, data<S> const& c, index unknowns) {
   c.validate();
   slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
-  index const tangents = tangents_of(friction);
-  if (c.tangents() != tangents) {
+  if (c.tangents() != friction.tangents) {
     throw bad_input("tangents per contact node", slant::detail::show(c.tangents()),
-                    slant::detail::show(tangents) + " for this friction law");
+                    slant::detail::show(friction.tangents) + " for this friction law");
   }
   return c;
 }

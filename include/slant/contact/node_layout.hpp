@@ -126,17 +126,7 @@ template <class S>
   slant::detail::for_each_entry(k, [&](index i, index j, S const&) {
     if (i < j) sets.join(i, j);
   });
-  std::vector<index> number(std::size_t(k.rows()), -1);
-  std::vector<std::vector<index>> bodies;
-  for (index j = 0; j < k.rows(); ++j) {
-    index& body = number[std::size_t(sets.find(j))];
-    if (body < 0) {
-      body = index(bodies.size());
-      bodies.emplace_back();
-    }
-    bodies[std::size_t(body)].push_back(j);
-  }
-  return bodies;
+  return sets.lists();
 }
 
 }  // namespace detail

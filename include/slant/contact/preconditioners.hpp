@@ -3,6 +3,7 @@
 // Preconditioners of the dual operator A = B K⁻¹Bᵀ: lumped, and Dirichlet.
 #pragma once
 
+#include <slant/base/partitions.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
 #include <slant/contact/contact_data.hpp>
@@ -15,11 +16,7 @@
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
-#include <iterator>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 namespace slant::contact {
 
@@ -83,13 +80,10 @@ template <class S>
   using matrix_type = Eigen::SparseMatrix<S>;
   matrix_type const scaled = detail::scaled_constraints(K, B);
   auto const contact = touched_unknowns(B);
-  std::vector<index> all(std::size_t(B.cols())), interior;
-  std::iota(all.begin(), all.end(), index(0));
-  std::set_difference(all.begin(), all.end(), contact.begin(), contact.end(),
-                      std::back_inserter(interior));
   // Cᵀx = x_c, Iᵀx = x_i.
-  matrix_type const C = detail::columns_of_identity<S>(B.cols(), contact);
-  matrix_type const I = detail::columns_of_identity<S>(B.cols(), interior);
+  matrix_type const C = slant::detail::columns_of_identity<S>(B.cols(), contact);
+  matrix_type const I =
+      slant::detail::columns_of_identity<S>(B.cols(), slant::detail::complement(B.cols(), contact));
   matrix_type const rows = C.transpose() * K, interior_rows = I.transpose() * K;
   matrix_type K_cc = rows * C, K_ci = rows * I;
   matrix_type const K_ii = interior_rows * I;

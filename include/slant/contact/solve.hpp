@@ -346,7 +346,7 @@ template <class Friction>
   requires(!std::same_as<Friction, friction_of_data>)
 [[nodiscard]] solution<double> solve(Friction friction, Eigen::SparseMatrix<double> const& K,
                                      data<double> const& c, solve_options<double> const& o = {}) {
-  return solve(friction_of_data{detail::tangents_of(friction)}, K, c, o);
+  return solve(friction_of_data{friction.tangents}, K, c, o);
 }
 
 extern template solution<double> solve<friction_of_data, double>(friction_of_data,

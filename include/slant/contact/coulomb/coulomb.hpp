@@ -94,11 +94,8 @@ class coulomb_radii {
   using scalar = scalar_t<vector_type>;
   static constexpr bool orthotropic =
       std::is_same_v<Coefficient, orthotropic_friction<vector_type>>;
-  /// Tangential directions: 1 for friction_line, 2 for friction_disc.
-  static constexpr index tangents =
-      std::is_same_v<typename Dual::friction_type, friction_line> ? 1 : 2;
-  static_assert(std::is_same_v<typename Dual::friction_type, friction_line> ||
-                    std::is_same_v<typename Dual::friction_type, friction_disc>,
+  static constexpr index tangents = Dual::friction_type::tangents;
+  static_assert(tangents > 0,
                 "coulomb_radii: the dual problem must have the law friction_line or friction_disc");
   static_assert(!(orthotropic && tangents == 1),
                 "coulomb_radii: orthotropic friction needs two tangents");
@@ -201,12 +198,10 @@ class coulomb_cones {
   using vector_type = typename Dual::vector_type;
   using scalar = scalar_t<vector_type>;
   using sparse_type = typename Dual::sparse_type;
-  static_assert(std::is_same_v<typename Dual::friction_type, friction_line> ||
-                    std::is_same_v<typename Dual::friction_type, friction_disc>,
-                "coulomb_cones: the dual problem must have the law friction_line or friction_disc");
   /// Components of a contact.
-  static constexpr int dimension =
-      std::is_same_v<typename Dual::friction_type, friction_line> ? 2 : 3;
+  static constexpr int dimension = 1 + int(Dual::friction_type::tangents);
+  static_assert(dimension > 1,
+                "coulomb_cones: the dual problem must have the law friction_line or friction_disc");
 
   /// Throws bad_input unless there is a coefficient for every contact node, finite and >= 0.
   coulomb_cones(Dual& problem, vector_type μ)

@@ -69,7 +69,7 @@ template <class S, class F, class Factor>
     std::vector<index> rows;
     for (index const i : inside) rows.push_back(number[std::size_t(i)]);
     result.inside.emplace(slant::detail::conjugate_part<S, F>{
-        columns_of_identity<S>(index(body.size()), rows),
+        slant::detail::columns_of_identity<S>(index(body.size()), rows),
         columns_of_body(k, number, body, inside, false), std::move(factors_of_block)});
     return true;
   } catch (bad_input const&) {
