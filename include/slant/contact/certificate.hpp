@@ -64,6 +64,7 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace slant::contact {
 
@@ -131,8 +132,9 @@ class certificate {
       note_quotient(quotient, S(1));
       x.swap(y);
     }
-    // K may be symmetric up to rounding only; the problem is that of its symmetric part.
-    skew_ = detail::skew_part(m_.K());
+    // K may be symmetric up to rounding only; the problem is that of its symmetric part, of which a
+    // vector of length 1 misses ½‖K − Kᵀ‖_∞ at most.
+    skew_ = slant::detail::largest_row_sum(sparse_type(m_.K() - sparse_type(m_.K().transpose())));
     smallest_ = smallest_eigenvalue_bound(m_.K(), quotient, factor);
     smallest_ = smallest_ > skew_ ? S(smallest_ - skew_) : S(0);
     is_proven_ = smallest_ > S(0);
@@ -140,8 +142,6 @@ class certificate {
   }
   /// The lower bound of λ_min(K) in use.
   [[nodiscard]] S smallest_eigenvalue() const { return smallest_; }
-  /// An upper bound of λ_max(K): the largest sum of moduli in a row.
-  [[nodiscard]] S largest_eigenvalue() const { return m_.largest; }
   /// Estimate of the condition number of K; 0 before the first certificate.
   [[nodiscard]] S condition() const { return quotient_ > S(0) ? S(m_.largest / quotient_) : S(0); }
   /// m: the stiffness that acts on each multiplier, diag of the lumped preconditioner; ∞ for empty
@@ -422,6 +422,42 @@ class certificate {
   index solves_ = 0;
   vector_type residual_, load_, second_, w_, g_, rest_, image_, lost_, outward_, scaled_;
 };
+
+namespace detail {
+
+/// One factor for each row of B, a power of two, so that D A D has a diagonal of the order 1:
+/// 2ᵏ ≈ √m, m the mean stiffness of the tangents of a node, or of these and its normal, which keeps
+/// its cone. Empty if the stiffnesses are alike.
+template <class V>
+[[nodiscard]] V row_factors(V const& stiffness, index nodes, index tangents, bool keeps_cones) {
+  using S = scalar_t<V>;
+  using std::sqrt;
+  V d(stiffness.size());
+  S least = std::numeric_limits<S>::infinity(), most(0);
+  std::vector<index> rows;
+  auto const assign = [&] {
+    S sum(0);
+    for (index const row : rows) sum += stiffness(row);
+    bool const acts = sum > S(0) && slant::detail::is_finite(sum);
+    S const mean = acts ? S(sum / S(index(rows.size()))) : S(0);
+    // Nothing is asked of an empty row.
+    for (index const row : rows) d(row) = acts ? unit_near(S(sqrt(mean))) : S(1);
+    if (acts) {
+      least = std::min<S>(least, mean);
+      most = std::max<S>(most, mean);
+    }
+    rows.clear();
+  };
+  for (index i = 0; i < nodes; ++i) {
+    rows.push_back(i);
+    if (!keeps_cones) assign();
+    for (index k = 0; k < tangents; ++k) rows.push_back(nodes + tangents * i + k);
+    assign();
+  }
+  return most > S(64) * least ? d : V();
+}
+
+}  // namespace detail
 
 // --- newton certificate --------------------------------------------------------------------------
 //

@@ -24,7 +24,6 @@
 // can be had alone: contact/coulomb/coulomb.hpp.
 #pragma once
 
-#include <slant/base/scaling.hpp>
 #include <slant/compiled.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/contact/coulomb/coulomb.hpp>
@@ -34,14 +33,12 @@
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
 #include <slant/contact/solve_options.hpp>
-#include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/methods/unconstrained_start.hpp>
 #include <slant/operators/identity.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -137,9 +134,8 @@ void clear_slip_bounds(data<S>& c) {
 // error, or, if one was not even checked, the smaller residual ‖λ − P(λ − ρ (A λ − b))‖. The work
 // is that of all.
 //
-// The residuals are relative to those at λ = 0, which bodies that nearly move rigidly make as large
-// as their motion: relative to it any forces are a solution. So what has converged is judged by the
-// check, of (λ, u).
+// Relative to the residuals at λ = 0 any forces of bodies that nearly move rigidly are a solution,
+// so what has converged is judged by the check, of (λ, u).
 
 /// How far a run goes.
 struct coulomb_limits {
@@ -310,40 +306,6 @@ template <class Dual, class V, class Check>
   return r;
 }
 
-// --- scaled rows ---------------------------------------------------------------------------------
-
-/// A power of two for each contact node, next to the square root of the mean stiffness that acts on
-/// its multipliers: then D A D has a diagonal of the order 1. Empty if these are alike.
-template <class V>
-[[nodiscard]] V contact_factors(V const& stiffness, index nodes) {
-  using S = scalar_t<V>;
-  using std::sqrt;
-  index const k = nodes > 0 ? index(stiffness.size()) / nodes - 1 : 0;
-  V factors(nodes);
-  S least = std::numeric_limits<S>::infinity(), most(0);
-  for (index i = 0; i < nodes; ++i) {
-    S sum = stiffness(i);
-    for (index j = 0; j < k; ++j) sum += stiffness(nodes + k * i + j);
-    S const mean = sum / S(k + 1);
-    bool const acts = mean > S(0) && slant::detail::is_finite(mean);
-    factors(i) = acts ? unit_near(S(sqrt(mean))) : S(1);
-    if (!acts) continue;
-    least = mean < least ? mean : least;
-    most = mean > most ? mean : most;
-  }
-  return most > S(64) * least ? factors : V();
-}
-
-/// One entry for each row of B.
-template <class V>
-[[nodiscard]] V by_rows(V const& factors, index rows) {
-  index const m = factors.size(), k = m > 0 ? rows / m - 1 : 0;
-  V all(rows);
-  all.head(m) = factors;
-  for (index row = m; row < rows; ++row) all(row) = factors((row - m) / k);
-  return all;
-}
-
 // --- without factors -----------------------------------------------------------------------------
 
 /// What was found without factors, as it is reported.
@@ -353,13 +315,8 @@ template <class S>
   certified_coulomb_result<Eigen::VectorX<S>> result{std::move(found.λ)};
   result.u = std::move(found.u);
   result.error = found.error;
-  result.status = found.status;
-  result.reason = found.error.sentence();
-  if (result.converged()) {
-    result.reason += ", at most " + slant::detail::show(o.tolerance);
-  } else {
-    result.reason += "; asked was " + slant::detail::show(o.tolerance) + "; " + found.reason;
-  }
+  conclude(result, found.status == status::converged, found.status, o.tolerance,
+           "; " + found.reason);
   result.method = found.newton_steps > 0 ? "slip bounds and Newton" : "successive slip bounds";
   result.steps = found.bounds + found.newton_steps;
   result.work = found.work;
@@ -383,16 +340,14 @@ template <class Friction, class S>
   certified_coulomb_result<vector_type> result{given.zero()};
   result.factorization = std::string(factor.name());
 
-  vector_type const factors =
-      o.scale ? detail::contact_factors(certificate.stiffness(), c.nodes()) : vector_type();
-  result.scaled = factors.size() > 0;
-  vector_type d;
+  vector_type const d =
+      o.scale ? row_factors(certificate.stiffness(), c.nodes(), c.tangents(), true) : vector_type();
+  result.scaled = d.size() > 0;
   std::optional<dual_type> scaled;
   if (result.scaled) {
-    d = detail::by_rows(factors, given.b().size());
-    c.N = sparse_type(factors.asDiagonal() * c.N);
+    c.N = sparse_type(d.head(c.nodes()).asDiagonal() * c.N);
     c.T = sparse_type(d.tail(c.T.rows()).asDiagonal() * c.T);
-    c.d = c.d.cwiseProduct(factors);
+    c.d = c.d.cwiseProduct(d.head(c.nodes()));
     scaled.emplace(friction, factor, c);
   }
   dual_type& problem = result.scaled ? *scaled : given;
@@ -428,17 +383,8 @@ template <class Friction, class S>
   result.work.operator_applications += certificate.applications();
   ++result.work.factorizations;
   result.condition = certificate.condition();
-  bool const is_enough = result.error.relative() <= S(o.tolerance);
-  result.status = is_enough                       ? status::converged
-                  : r.status == status::converged ? status::stalled
-                                                  : r.status;
-  result.reason = result.error.sentence();
-  if (is_enough) {
-    result.reason += ", at most " + slant::detail::show(o.tolerance);
-  } else {
-    result.reason += "; asked was " + slant::detail::show(o.tolerance) + " (condition of K about " +
-                     slant::detail::brief(result.condition) + "); " + r.reason;
-  }
+  conclude(result, result.error.relative() <= S(o.tolerance), r.status, o.tolerance,
+           " (condition of K about " + slant::detail::brief(result.condition) + "); " + r.reason);
   return result;
 }
 

@@ -47,7 +47,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cmath>
 #include <concepts>
 #include <limits>
 #include <memory>
@@ -59,42 +58,13 @@
 namespace slant::contact::detail {
 
 // --- certified run -------------------------------------------------------------------------------
-//
-// The method of this file for bodies that supports hold.
 
-/// One factor for each row of B, a power of two, the same for the tangents of a node: 2ᵏ ≈ √mᵢ, so
-/// that D A D has a diagonal of the order 1. Empty if the stiffnesses m are alike within `spread`.
-template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, 1> row_factors(
-    Eigen::Matrix<S, Eigen::Dynamic, 1> const& m, index nodes, index tangents, S const& spread) {
-  using std::sqrt;
-  Eigen::Matrix<S, Eigen::Dynamic, 1> d(m.size());
-  S least = std::numeric_limits<S>::infinity(), most(0);
-  auto const assign = [&](index first, index count) {
-    S sum(0);
-    for (index j = 0; j < count; ++j) sum += m(first + j);
-    bool const acts = sum > S(0) && slant::detail::is_finite(sum);
-    S const mean = acts ? S(sum / S(count)) : S(0);
-    if (acts) {
-      least = std::min<S>(least, mean);
-      most = std::max<S>(most, mean);
-    }
-    for (index j = 0; j < count; ++j) d(first + j) = acts ? unit_near(S(sqrt(mean))) : S(0);
-  };
-  for (index i = 0; i < nodes; ++i) assign(i, 1);
-  for (index i = 0; i < nodes && tangents > 0; ++i) assign(nodes + i * tangents, tangents);
-  if (!(most > spread * least)) return {};
-  for (S& factor : d) {
-    if (factor == S(0)) factor = S(1);  // an empty row, of which nothing is asked
-  }
-  return d;
-}
-
-/// Newton's method on the scaled dual problem, under the control of the certificate.
+/// Newton's method on the scaled dual problem of bodies that supports hold, under the control of
+/// the certificate.
 template <class Friction, class S>
 class certified_run final : public supported_problem<S> {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   certified_run(Friction law, sparse_type const& K, data<S> const& c, solve_options<S> const& o)
@@ -105,9 +75,8 @@ class certified_run final : public supported_problem<S> {
         certificate_(K, c),
         b_(dual_.b()),
         C_(dual_.constraints()) {
-    auto const d = o.scale
-                       ? row_factors<S>(certificate_.stiffness(), c.nodes(), c.tangents(), S(64))
-                       : vector_type();
+    auto const d = o.scale ? row_factors(certificate_.stiffness(), c.nodes(), c.tangents(), false)
+                           : vector_type();
     result_.scaled = d.size() > 0;
     d_ = result_.scaled ? d : vector_type::Ones(b_.size());
     b_ = b_.cwiseProduct(d_);
@@ -146,7 +115,7 @@ class certified_run final : public supported_problem<S> {
   [[nodiscard]] solution<S> solve() override {
     auto const set = feasible_set(dual_.friction(), data_->nodes(), g_);
     separable_qp const qp{dual_.a(C_), b_, set};
-    auto const M = lumped_preconditioner(certificate_matrix(), C_);
+    auto const M = lumped_preconditioner(certificate_.matrix(), C_);
     vector_type const x0 = start(qp, M);
     // The reduced gradient is some 3 to 10 times smaller than the error that goes with it, and the
     // bound some 2 to 10 times larger. A few products more are less than a second phase.
@@ -164,9 +133,7 @@ class certified_run final : public supported_problem<S> {
     std::optional<
         newton_certificate<std::remove_cvref_t<decltype(qp)>, std::remove_const_t<decltype(M)>>>
         by_newton;
-    auto const tell = [&](auto const& now) {
-      if (options_.progress) options_.progress({now.iteration, relative_gradient(now)});
-    };
+    auto const tell = [&](auto const& now) { tell_progress(options_, now); };
     while (true) {
       auto newton = method();
       auto stop = reduced_gradient_below(threshold) || at_most(budget);
@@ -208,15 +175,13 @@ class certified_run final : public supported_problem<S> {
       b_ = image_ - d_.cwiseProduct(certificate_.gradient());
       ++result_.corrections;
       S const ask = S(0.3) * options_.tolerance / error;
-      S const reached = relative_gradient(state);
+      S const reached = relative_gradient<S>(state);
       S const factor = ask < S(1e-3) || !(ask == ask) ? S(1e-3) : ask < S(0.3) ? ask : S(0.3);
       threshold = std::min<S>(threshold, reached) * factor;
       newton.resume(state);
     }
     result_.iterations = state.iteration;
-    result_.work.operator_applications += state.work.operator_applications;
-    result_.work.setup_applications += state.work.setup_applications;
-    result_.work.inner_iterations += state.work.inner_iterations;
+    result_.work += state.work;
     result_.solves += certificate_.solves() - solves_before_;
     result_.condition = certificate_.condition();
     result_.factorization = std::string(factor_.name());
@@ -224,14 +189,6 @@ class certified_run final : public supported_problem<S> {
   }
 
  private:
-  sparse_type const& certificate_matrix() const { return certificate_.matrix(); }
-
-  template <class State>
-  [[nodiscard]] static S relative_gradient(State const& state) {
-    return state.gradient_scale > S(0) ? S(state.reduced_gradient_norm / state.gradient_scale)
-                                       : S(0);
-  }
-
   template <class QP, class M>
   [[nodiscard]] vector_type start(QP const& qp, M const& m) {
     if (options_.start) {

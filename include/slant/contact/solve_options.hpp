@@ -10,7 +10,6 @@
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/route.hpp>
 #include <slant/factorizations/condensation_options.hpp>
-#include <slant/iteration/iteration.hpp>
 #include <slant/iteration/stopping.hpp>
 #include <slant/multilevel/multigrid.hpp>
 
@@ -39,7 +38,7 @@ struct solve_options {
   bool scale = true;       ///< whether rows of B may be scaled
   condensation_options condensation{};
   /// λ to start from; none: conjugate gradients without the constraints.
-  std::optional<Eigen::Matrix<S, Eigen::Dynamic, 1>> start{};
+  std::optional<Eigen::VectorX<S>> start{};
   /// Where the unknowns are. Gives motions of bodies without supports their names, and multigrid the
   /// rigid-body modes. Without it K is factored first, unless `route` says otherwise: bodies without
   /// supports are not known as such then.
@@ -64,7 +63,7 @@ struct solve_options {
 /// What contact::solve found.
 template <class S = double>
 struct solution {
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
 
   vector_type u;            ///< displacements, n_u
   vector_type multipliers;  ///< (λ_ν, λ_t): forces of the contact nodes, in Λ
@@ -101,5 +100,19 @@ std::ostream& operator<<(std::ostream& out, solution<S> const& run) {
                            std::to_string(run.iterations), run.work, run.choice.reason);
   return out;
 }
+
+namespace detail {
+
+/// Status and reason of a run that ended with an error that is known to be at most the tolerance,
+/// or not, and then why.
+template <class Result, class T>
+void conclude(Result& r, bool is_enough, status how, T const& tolerance, std::string const& why) {
+  using slant::detail::show;
+  r.status = is_enough ? status::converged : how == status::converged ? status::stalled : how;
+  r.reason = r.error.sentence() +
+             (is_enough ? ", at most " + show(tolerance) : "; asked was " + show(tolerance) + why);
+}
+
+}  // namespace detail
 
 }  // namespace slant::contact

@@ -45,26 +45,6 @@ template <class S, class V>
   return sum;
 }
 
-/// ½‖K − Kᵀ‖_∞ at most: what a vector of length 1 may miss of the symmetric part of K.
-template <class S>
-[[nodiscard]] S skew_part(Eigen::SparseMatrix<S> const& K) {
-  using std::abs;
-  Eigen::SparseMatrix<S> const other = K.transpose();
-  S largest(0);
-  for (index j = 0; j < K.outerSize(); ++j) {
-    S sum(0);
-    typename Eigen::SparseMatrix<S>::InnerIterator a(K, j), b(other, j);
-    while (a || b) {
-      bool const has_a = a && (!b || a.row() <= b.row()), has_b = b && (!a || b.row() <= a.row());
-      sum += abs(S((has_a ? a.value() : S(0)) - (has_b ? b.value() : S(0))));
-      if (has_a) ++a;
-      if (has_b) ++b;
-    }
-    largest = std::max<S>(largest, sum);
-  }
-  return largest;
-}
-
 /// Refers to K.
 template <class S>
 class scene_matrices {

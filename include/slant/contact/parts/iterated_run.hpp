@@ -35,7 +35,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace slant::contact::detail {
 
@@ -49,20 +48,11 @@ template <class S>
                                          of(layout.node), of(layout.axis));
 }
 
-/// The motions of n unknowns, so many of a node, that move all nodes alike.
-template <class S>
-[[nodiscard]] Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> translations(index n, index size) {
-  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> R;
-  R.setZero(n, size);
-  for (index j = 0; j < n; ++j) R(j, j % size) = S(1);
-  return R;
-}
-
 /// Bodies with rigid motions that K resists by less than `share` of what its diagonal would.
 template <class S>
 [[nodiscard]] free_motions<S> floating_bodies(Eigen::SparseMatrix<S> const& K,
                                               node_layout<S> const& layout, S const& share) {
-  using matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using matrix = Eigen::MatrixX<S>;
   using six = Eigen::Matrix<S, 6, 6>;
   auto const R = rigid_motions(layout);
   free_motions<S> floating;
@@ -148,8 +138,8 @@ class primal_run {
   using method_type = envelope_newton<qp_type const&, slant::multigrid<S> const&>;
 
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::VectorX<S>;
+  using matrix_type = Eigen::MatrixX<S>;
   using state_type = typename method_type::state_type;
 
   /// At most `most` steps; with tangential positions w, none: 0. Throws bad_input where K is found
@@ -244,8 +234,10 @@ auto primal_run<S>::begin(index tangents, multigrid_options const& o, vector_typ
     -> state_type {
   if (w.size() > 0) problem_.set_positions(w);
   // What level 1 stands for: rigid motions of aggregates, or translations.
+  index const size = M_.node_size(), nodes = qp_.b().size() / size;
   matrix_type const motions =
-      o.prolongations.empty() ? motions_ : translations<S>(qp_.b().size(), M_.node_size());
+      o.prolongations.empty() ? motions_
+                              : matrix_type(matrix_type::Identity(size, size).replicate(nodes, 1));
   nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions,
                                problem_.turning(), o);
   if (!coarse.found()) return method(S(0)).start(problem_.zero());
@@ -280,20 +272,21 @@ extern template free_motions<double> floating_bodies<double>(Eigen::SparseMatrix
 extern template class primal_run<double>;
 #endif
 
-/// What tells options.progress of a state.
+/// The reduced gradient of a state relative to that at P_Λ(0); 0 if that is.
+template <class S, class State>
+[[nodiscard]] S relative_gradient(State const& state) {
+  return state.gradient_scale > S(0) ? S(state.reduced_gradient_norm / state.gradient_scale) : S(0);
+}
+/// Tells options.progress of a state.
 template <class S, class State>
 void tell_progress(solve_options<S> const& o, State const& state) {
-  if (!o.progress) return;
-  bool const is_measured = state.gradient_scale > S(0);
-  o.progress({state.iteration,
-              is_measured ? S(state.reduced_gradient_norm / state.gradient_scale) : S(0)});
+  if (o.progress) o.progress({state.iteration, relative_gradient<S>(state)});
 }
 
 /// Steps until the certificate agrees, and what has come of them but for the choice of a route.
 template <class Friction, class S, class Certificate>
 void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate, data<S> const& c,
                       solve_options<S> const& o, solution<S>& result) {
-  using slant::detail::show;
   auto const& state = run.state();
   index const before = certificate.applications();
   S share = o.tolerance / S(2), best = std::numeric_limits<S>::infinity();
@@ -314,12 +307,7 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
     bool const goes_on = state.status == status::converged && idle < 2 &&
                          state.reduced_gradient_norm > S(0) && round < rounds;
     if (is_enough || !goes_on) {
-      result.status = is_enough                           ? status::converged
-                      : state.status == status::converged ? status::stalled
-                                                          : state.status;
-      result.reason = result.error.sentence() +
-                      (is_enough ? ", at most " + show(o.tolerance)
-                                 : "; asked was " + show(o.tolerance) + "; " + state.reason());
+      conclude(result, is_enough, state.status, o.tolerance, "; " + state.reason());
       break;
     }
     best = std::min<S>(best, error);
@@ -357,7 +345,7 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
 template <class S>
 class moving_springs {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// On these bodies; none: nothing is copied or done. Refers to K.
@@ -454,7 +442,6 @@ template <class Friction, class S, class Certificate>
 void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<S>& springs,
                                Certificate& certificate, data<S> const& c,
                                solve_options<S> const& o, solution<S>& result) {
-  using slant::detail::show;
   constexpr index rounds = 40, patience = 12;
   index const before = certificate.applications();
   auto const& state = run.state();
@@ -487,15 +474,8 @@ void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<
     bool const is_enough = error <= o.tolerance;
     slow = springs.contraction() < S(0.5) ? 0 : slow + 1;
     if (is_enough || ended || slow > patience || result.springs >= rounds) {
-      result.status = is_enough ? status::converged : ended ? state.status : status::stalled;
-      result.reason = result.error.sentence();
-      if (is_enough) {
-        result.reason += ", at most " + show(o.tolerance);
-      } else {
-        result.reason +=
-            "; asked was " + show(o.tolerance) + "; " +
-            (ended ? state.reason() : std::string("contact hardly holds bodies without supports"));
-      }
+      conclude(result, is_enough, state.status, o.tolerance,
+               ended ? "; " + state.reason() : "; contact hardly holds bodies without supports");
       break;
     }
     springs.move();
