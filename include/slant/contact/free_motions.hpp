@@ -32,7 +32,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -75,7 +74,7 @@ namespace slant::contact {
 /// another number of rows, coordinates that are not finite, or no nodes.
 template <class M>
 [[nodiscard]] auto rigid_body_modes(Eigen::MatrixBase<M> const& nodes)
-    -> Eigen::Matrix<typename M::Scalar, Eigen::Dynamic, Eigen::Dynamic> {
+    -> Eigen::MatrixX<typename M::Scalar> {
   using S = typename M::Scalar;
   index const D = nodes.rows(), n = nodes.cols();
   if (D != 2 && D != 3) {
@@ -94,8 +93,6 @@ template <class M>
 namespace slant::contact::detail {
 
 // --- rigid names ---------------------------------------------------------------------------------
-//
-// Names of rigid motions: which translations and rotations span a few motions of a body.
 
 /// "body 2 (unknowns 300 … 899)".
 [[nodiscard, gnu::cold]] inline std::string body_text(index number,
@@ -119,23 +116,15 @@ namespace slant::contact::detail {
   return text;
 }
 
-/// Three digits, for reading.
-template <class S>
-[[nodiscard, gnu::cold]] std::string rounded(S const& value) {
-  char text[32];
-  (void)std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value));
-  return text;
-}
-
 /// "(0.6, 0, 0.8)"; components that are rounding errors of the largest, or of `size`, are 0.
 template <class V>
 [[nodiscard, gnu::cold]] std::string rounded_vector(V const& v, typename V::Scalar const& size) {
   using std::abs;
   std::string text = "(";
   for (index i = 0; i < v.size(); ++i) {
-    bool const zero = abs(v[i]) <= typename V::Scalar(1e-6) * size;
-    text.append(i == 0 ? "" : ", ")
-        .append(zero ? std::string("0") : rounded(typename V::Scalar(v[i])));
+    typename V::Scalar const x = v[i];
+    bool const is_zero = abs(x) <= typename V::Scalar(1e-6) * size;
+    text.append(i == 0 ? "" : ", ").append(is_zero ? "0" : slant::detail::brief(x));
   }
   return text + ")";
 }

@@ -39,13 +39,9 @@ namespace slant::contact {
 
 // --- load step -----------------------------------------------------------------------------------
 //
-// What changes from one load step to the next. K, N and T stay, and with them A = B K⁻¹ Bᵀ, its
-// factors, its bounds and everything else that was learnt about it:
-//
-//     f    b = B K⁻¹ f − c      one solve with K
-//     d    c = (d, w)           no solve
-//     g    Λ                    no solve
-//     w    c = (d, w)           no solve
+// What changes from one load step to the next: f or c = (d, w) in b = B K⁻¹ f − c, and g in Λ; only
+// f takes a solve with K. K, N and T stay, and with them A = B K⁻¹ Bᵀ, its factors, its bounds and
+// everything else that was learnt about it.
 //
 // w is where the contact nodes stood when friction began to act: Σ gᵢ‖(T u)ᵢ − wᵢ‖ instead of
 // Σ gᵢ‖(T u)ᵢ‖. In a quasi-static sequence friction resists the increment of a step, so w is T u of
@@ -202,16 +198,14 @@ class load_stepper {
   static_assert(slant::detail::solvable<method_type const&, vector_type, Rule>,
                 "load_stepper: expected a method for vectors like b, and a rule for its states");
 
-  /// The first step starts from 0.
-  load_stepper(Dual& problem, held<Method> method, Rule stop)
-      : load_stepper(problem, std::move(method), std::move(stop), problem.zero()) {}
-  /// The first step starts from x0. Throws bad_input if that is of the wrong size.
-  load_stepper(Dual& problem, held<Method> method, Rule stop, vector_type x0)
+  /// The first step starts from x0, or 0. Throws bad_input if that is of the wrong size.
+  load_stepper(Dual& problem, held<Method> method, Rule stop,
+               std::optional<vector_type> x0 = std::nullopt)
       : problem_(&problem),
         method_(std::move(method)),
         stop_(std::move(stop)),
         line_(problem.b().size()),
-        start_(std::move(x0)) {
+        start_(x0 ? std::move(*x0) : problem.zero()) {
     slant::detail::check_size("x0", start_.size(), problem.b().size(), "the size of b,");
   }
 
@@ -285,9 +279,7 @@ class load_stepper {
 };
 
 template <class Dual, class Method, class Rule>
-load_stepper(Dual&, Method&&, Rule) -> load_stepper<Dual, kept_t<Method>, Rule>;
-template <class Dual, class Method, class Rule>
-load_stepper(Dual&, Method&&, Rule, typename Dual::vector_type)
+load_stepper(Dual&, Method&&, Rule, std::optional<typename Dual::vector_type> = std::nullopt)
     -> load_stepper<Dual, kept_t<Method>, Rule>;
 
 }  // namespace slant::contact

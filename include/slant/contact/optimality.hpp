@@ -48,19 +48,6 @@ template <class S>
   return S(1);
 }
 
-/// max K_ii.
-template <class S, class Matrix>
-[[nodiscard]] S largest_stiffness(Matrix const& K, index n) {
-  slant::detail::check_size("rows of K", K.rows(), n, "the size of f,");
-  slant::detail::check_size("columns of K", K.cols(), n, "the size of f,");
-  Eigen::VectorX<S> const diagonal = K.diagonal();
-  S const κ = n > 0 ? diagonal.maxCoeff() : S(0);
-  if (!(κ > S(0) && slant::detail::is_finite(κ))) {
-    throw bad_input("largest diagonal entry of K", slant::detail::show(κ), "a finite number > 0");
-  }
-  return κ;
-}
-
 }  // namespace detail
 
 /// Evaluates the conditions. K is n_u × n_u, dense or sparse, u has n_u and λ = (λ_ν, λ_t) has
@@ -71,7 +58,11 @@ template <class S, class Matrix, class V>
                                              V const& λ) {
   using vector_type = Eigen::VectorX<S>;
   c.validate();
-  S const κ = detail::largest_stiffness<S>(K, c.f.size());
+  slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
+  slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+  vector_type const diagonal = K.diagonal();
+  S const κ = diagonal.size() > 0 ? diagonal.maxCoeff() : S(0);
+  slant::detail::check_positive("largest diagonal entry of K", κ);
   slant::detail::check_size("u", u.size(), c.f.size());
   slant::detail::check_size("lambda", λ.size(), c.N.rows() + c.T.rows());
   auto const m = c.nodes();

@@ -149,8 +149,8 @@ template <class S>
 struct local_coordinates {
   using sparse_type = Eigen::SparseMatrix<S>;
   using rows_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::VectorX<S>;
+  using matrix_type = Eigen::MatrixX<S>;
 
   std::vector<local_row<S>> normal;    ///< of each contact
   std::vector<local_row<S>> tangents;  ///< as the rows of T
@@ -375,8 +375,8 @@ template <class S>
 template <class S = double>
 class primal {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::VectorX<S>;
+  using matrix_type = Eigen::MatrixX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// K: n × n, both triangles, definite (which is asserted, not checked). Throws bad_input naming
@@ -453,13 +453,6 @@ class primal {
     return slant::multigrid<S>(own_, mixed_unknowns<S>{*K_, local_.G}, candidates, o);
   }
 
-  /// v = G u; of a matrix, that of each column.
-  template <class V>
-  [[nodiscard]] V coordinates(V const& u) const {
-    slant::detail::check_size("rows of u", u.rows(), f_.size(), "the size of f,");
-    if (!turns()) return u;
-    return V(local_.G * u);
-  }
   /// u = G⁻¹(v + s).
   [[nodiscard]] vector_type displacement(vector_type const& v) const {
     slant::detail::check_size("v", v.size(), f_.size(), "the size of f,");
@@ -550,21 +543,18 @@ class primal {
     list.reserve(local_.normal.size());
     for (index i = 0; i < c.nodes(); ++i) {
       auto const& normal = local_.normal[static_cast<std::size_t>(i)];
-      typename surface_function<S>::contact here{gap(i, c.d[i]), 0};
-      here.number = i;
+      auto const* const t = local_.tangents.data() + static_cast<std::size_t>(i * per);
       bool acts = normal.component >= 0;
-      if (acts) here.p = normal.component;
+      for (index k = 0; k < per; ++k) acts = acts && t[k].component >= 0;
+      if (!acts) continue;
+      typename surface_function<S>::contact here{gap(i, c.d[i]), normal.component};
+      here.number = i;
       if (per > 0) {
-        auto const* const t = local_.tangents.data() + static_cast<std::size_t>(i * per);
-        if (t[0].component >= 0 && (per == 1 || t[1].component >= 0)) {
-          here.g = slip_bound(i, c.g[i]);
-          here.q = t[0].component;
-          if (per == 2) here.stride = t[1].component - t[0].component;
-        } else {
-          acts = false;
-        }
+        here.g = slip_bound(i, c.g[i]);
+        here.q = t[0].component;
       }
-      if (acts) list.push_back(here);
+      if (per == 2) here.stride = t[1].component - t[0].component;
+      list.push_back(here);
     }
     return list;
   }

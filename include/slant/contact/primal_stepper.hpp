@@ -36,7 +36,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -46,7 +45,7 @@ namespace slant::contact::detail {
 template <class S>
 class stepped_run {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
   /// Of options with layout and multigrid; at most `most` steps of Newton's method in each.
@@ -236,7 +235,7 @@ primal_stepper(Eigen::SparseMatrix<S> const&, data<S>) -> primal_stepper<S>;
 template <class S = double>
 class primal_coulomb_stepper {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  using vector_type = Eigen::VectorX<S>;
   using report_type = certified_coulomb_result<vector_type>;
 
   /// F: a coefficient for each contact. Of the options `route`, `method`, `costs`, `newton_steps` and

@@ -37,7 +37,6 @@
 #include <cmath>
 #include <limits>
 #include <ranges>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -47,9 +46,6 @@ namespace slant::contact {
 namespace detail {
 
 // --- feti constraints ----------------------------------------------------------------------------
-//
-// The sparse matrices of Total-FETI: blocks of bodies side by side, gluing above contact, and the
-// resultants of the constraints without their rounding errors.
 
 /// Matrices as blocks on the diagonal of a sparse one.
 template <class S, class Blocks>
@@ -79,18 +75,6 @@ template <class S>
   slant::detail::require_finite_entries("B", B);
   slant::detail::check_finite("c", c);
   return stacked(B, stacked_constraints(of_contact));
-}
-
-/// G without entries that are rounding errors of their terms: a motion that B does not see would
-/// become a row of its own, because rows count by their directions.
-template <class S>
-[[nodiscard]] Eigen::SparseMatrix<S> without_rounding(Eigen::SparseMatrix<S> G,
-                                                      Eigen::SparseMatrix<S> const& terms,
-                                                      S const& rounding) {
-  using std::abs;
-  G.prune(
-      [&](index i, index j, S const& value) { return abs(value) > rounding * terms.coeff(i, j); });
-  return G;
 }
 
 }  // namespace detail
@@ -229,9 +213,14 @@ class total_feti {
     // 64: each of the sums has as many roundings as a body has unknowns, most of which cancel.
     S const rounding = S(64) * std::numeric_limits<S>::epsilon();
     vector_type const errors = rounding * (sizes_of_R.transpose() * f_.cwiseAbs());
-    sparse_type const G = detail::without_rounding(
-        sparse_type(R_.transpose() * sparse_type(B_.transpose())),
-        sparse_type(sizes_of_R.transpose() * sparse_type(B_.cwiseAbs().transpose())), rounding);
+    sparse_type G = R_.transpose() * sparse_type(B_.transpose());
+    sparse_type const terms = sizes_of_R.transpose() * sparse_type(B_.cwiseAbs().transpose());
+    // A motion that B does not see would become a row of its own, because rows count by their
+    // directions.
+    G.prune([&](index i, index j, S const& value) {
+      using std::abs;
+      return abs(value) > rounding * terms.coeff(i, j);
+    });
     try {
       return equality_constraints<S>(G, resultants, errors);
     } catch (bad_input const& complaint) {

@@ -48,8 +48,8 @@ namespace slant::contact::detail {
 template <class S>
 class nested_start {
  public:
-  using vector_type = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using matrix_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
+  using vector_type = Eigen::VectorX<S>;
+  using matrix_type = Eigen::MatrixX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
   using rows_type = Eigen::SparseMatrix<S, Eigen::RowMajor>;
   using contact = typename surface_function<S>::contact;

@@ -22,7 +22,6 @@
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/solve_options.hpp>
 #include <slant/factorizations/factorize.hpp>
-#include <slant/iteration/iteration.hpp>
 #include <slant/operators/inverse.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -32,7 +31,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -160,17 +158,6 @@ void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
                         node_layout<S> const& layout, solution<S>& r) {
   conclude_unbounded(K, c, layout, falling_motion(c, kernel_of(r.motions, K.rows()), index(20000)),
                      r);
-}
-
-/// The residual of the optimality conditions (contact/optimality.hpp) that a solution of this
-/// tolerance may have: K u has rounding errors of ε ‖K‖ ‖u‖, however far the bodies have moved.
-template <class S, class V>
-[[nodiscard]] S allowed_residual(Eigen::SparseMatrix<S> const& K, data<S> const& c,
-                                 S const& tolerance, V const& u, V const& λ) {
-  S const force = std::max<S>(c.f.norm(), (c.N.transpose() * λ.head(c.nodes())).norm());
-  S const rounding =
-      S(64) * std::numeric_limits<S>::epsilon() * slant::detail::largest_row_sum(K) * u.norm();
-  return S(1000) * tolerance + (force > S(0) ? S(rounding / force) : S(0));
 }
 
 // --- rigid position ------------------------------------------------------------------------------
