@@ -126,16 +126,8 @@ template <class C>
 struct run_type {
   using type = void;
 };
-template <class Block, class Layout>
-struct run_type<power_product<Block, Layout, listed_blocks<Block>>> {
-  using type = run_of<Block, Layout>;
-};
-template <class Block, class Layout>
-struct run_type<power_product<Block, Layout, identical_blocks<Block>>> {
-  using type = run_of<Block, Layout>;
-};
-template <class Block, class Layout>
-struct run_type<run_of<Block, Layout>> {
+template <class Block, class Layout, class Blocks>
+struct run_type<power_product<Block, Layout, Blocks>> {
   using type = run_of<Block, Layout>;
 };
 template <class C>

@@ -54,15 +54,7 @@ consteval bool all_blocks() {
   }
 }
 
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- block states --------------------------------------------------------------------------------
-//
-// Whether every block of a set can be classified.
-
-namespace detail {
+// --- questions -----------------------------------------------------------------------------------
 
 struct ask_for_states {
   template <class C, class V>
@@ -70,19 +62,6 @@ struct ask_for_states {
   template <class B, class X>
   static constexpr bool of_block = has_state<B, X>;
 };
-
-}  // namespace detail
-
-/// The points of the set have a face: of the set's own kind, or because every block has state(x),
-/// as far as its type tells.
-template <class C, class V>
-concept has_block_states = detail::all_blocks<detail::ask_for_states, C, V>();
-
-// --- block slants --------------------------------------------------------------------------------
-//
-// Whether the slanting operator of the projection onto a set is known block by block.
-
-namespace detail {
 
 struct ask_for_slants {
   template <class C, class V>
@@ -93,19 +72,6 @@ struct ask_for_slants {
       has_static_dimension<B> && (has_slant<B, X> || has_prox_slant<B, X>);
 };
 
-}  // namespace detail
-
-/// Every block of the set has slant(x), of a function slant(ρ, z), a matrix of its dimension, as far
-/// as its type tells.
-template <class C, class V>
-concept has_block_slants = detail::all_blocks<detail::ask_for_slants, C, V>();
-
-// --- block inequalities --------------------------------------------------------------------------
-//
-// Whether a set is known block by block by smooth inequalities.
-
-namespace detail {
-
 struct ask_for_inequalities {
   template <class C, class V>
   static constexpr bool of_set = false;
@@ -115,7 +81,19 @@ struct ask_for_inequalities {
       (has_inequality_form<B, X> || single_point<B>)&&has_step_to_boundary<B, X>;
 };
 
-}  // namespace detail
+}  // namespace slant::detail
+
+namespace slant {
+
+/// The points of the set have a face: of the set's own kind, or because every block has state(x),
+/// as far as its type tells.
+template <class C, class V>
+concept has_block_states = detail::all_blocks<detail::ask_for_states, C, V>();
+
+/// Every block of the set has slant(x), of a function slant(ρ, z), a matrix of its dimension, as far
+/// as its type tells.
+template <class C, class V>
+concept has_block_slants = detail::all_blocks<detail::ask_for_slants, C, V>();
 
 /// Every block of the set is without constraint, a single point, or has a smooth inequality form
 /// and step_to_boundary(x, d), as far as its type tells.

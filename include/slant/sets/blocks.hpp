@@ -4,6 +4,7 @@
 // (which takes and returns its few numbers by value) or itself a product (which works in place).
 #pragma once
 
+#include <slant/base/held.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/scalar.hpp>
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace slant {
@@ -134,15 +136,6 @@ struct set_scalar<C> {
   using type = typename C::scalar;
 };
 
-template <class C>
-[[nodiscard]] consteval int static_dimension() {
-  if constexpr (has_static_dimension<C>) {
-    return C::dimension;
-  } else {
-    return Eigen::Dynamic;
-  }
-}
-
 /// Base class with the static dimension N, or with nothing.
 template <int N>
 struct static_size {
@@ -159,7 +152,10 @@ using set_scalar_t = typename detail::set_scalar<std::remove_cvref_t<C>>::type;
 
 /// Dimension of a set as far as its type tells, else Eigen::Dynamic.
 template <class C>
-inline constexpr int static_dimension_of = detail::static_dimension<std::remove_cvref_t<C>>();
+inline constexpr int static_dimension_of = Eigen::Dynamic;
+template <class C>
+  requires has_static_dimension<std::remove_cvref_t<C>>
+inline constexpr int static_dimension_of<C> = std::remove_cvref_t<C>::dimension;
 
 /// Points of a set as Eigen objects.
 template <class C>
@@ -214,6 +210,12 @@ struct visit_block_fn {
     }
   }
 };
+
+/// How a set or function made of parts keeps one passed as T&&: blocks are small and copied,
+/// everything else follows the rule of base/held.hpp.
+template <class T>
+using kept_part_t = std::conditional_t<has_static_dimension<std::remove_cvref_t<T>>,
+                                       std::remove_cvref_t<T>, kept_t<T>>;
 
 /// The argument a part gets for its components of x: a copy for a block, a view for a product.
 template <class C, class P, class X>
@@ -294,32 +296,19 @@ inline constexpr detail::visit_block_fn visit_block{};
 namespace slant::detail {
 
 // --- inequality count ----------------------------------------------------------------------------
-//
-// The member `inequalities` of a set made from other sets: there only if all of them have it.
 
 template <class... Parts>
 inline constexpr bool all_smooth = (has_inequality_form<Parts, point_t<Parts>> && ...);
 
-struct no_inequality_form {};
-
+/// Base class with the member `inequalities` of a set made of Parts, if all of them have it.
 template <class... Parts>
-struct inequality_form {
+struct inequality_count {};
+template <class... Parts>
+  requires all_smooth<Parts...>
+struct inequality_count<Parts...> {
   /// Number of smooth inequalities f_i(x) <= 0 that describe the set.
   static constexpr int inequalities = (Parts::inequalities + ...);
 };
-
-template <class... Parts>
-[[nodiscard]] consteval auto inequality_form_of() {
-  if constexpr (all_smooth<Parts...>) {
-    return inequality_form<Parts...>{};
-  } else {
-    return no_inequality_form{};
-  }
-}
-
-/// Base class that has `inequalities`, or nothing.
-template <class... Parts>
-using inequality_count = decltype(inequality_form_of<Parts...>());
 
 // --- block list ----------------------------------------------------------------------------------
 //
@@ -344,6 +333,10 @@ template <class P>
     return (p);
   }
 }
+
+/// The scalar of a list of numbers: entries of an Eigen or a standard vector.
+template <class L>
+using list_scalar_t = std::remove_cvref_t<decltype(parameter_at(std::declval<L const&>(), 0))>;
 
 template <class Shape, class... Params>
 concept takes_parameters = requires(Shape const& shape, Params const&... params) {

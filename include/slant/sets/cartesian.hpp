@@ -29,12 +29,6 @@ namespace slant::detail {
 
 // --- base ----------------------------------------------------------------------------------------
 
-/// How a product keeps a part passed as T&&: blocks are small and copied, everything else follows
-/// the rule of base/held.hpp.
-template <class T>
-using kept_part_t = std::conditional_t<has_static_dimension<std::remove_cvref_t<T>>,
-                                       std::remove_cvref_t<T>, kept_t<T>>;
-
 /// Parts that follow one another in the vector: sets, or functions.
 template <class... Parts>
 class part_sequence {
@@ -207,11 +201,9 @@ class cartesian_base : public part_sequence<Parts...> {
 namespace slant {
 
 // --- block product -------------------------------------------------------------------------------
-//
-// A product of blocks of fixed dimensions is itself a block: the half line and the disc of one node
-// are a block of three components, of which a power can be made.
 
-/// Λ₁ × … × Λ_k of blocks: again a block, of static dimension. Made by `cartesian`.
+/// Λ₁ × … × Λ_k of blocks: again a block, of static dimension, of which a power can be made: the
+/// half line and the disc of one node, say. Made by `cartesian`.
 template <class... Parts>
 class block_product : public detail::cartesian_base<Parts...>,
                       public detail::inequality_count<Parts...> {
@@ -234,7 +226,6 @@ class block_product : public detail::cartesian_base<Parts...>,
   [[nodiscard]] static constexpr index size() { return dimension; }
 
   using base::project;
-  /// Nearest point of the set.
   template <class X>
   [[nodiscard]] auto project(X const& x) const {
     Eigen::Matrix<scalar_t<X>, dimension, 1> y;
@@ -310,9 +301,6 @@ class block_product : public detail::cartesian_base<Parts...>,
 };
 
 // --- direct sum slant ----------------------------------------------------------------------------
-//
-// The slanting operator of a projection onto a cartesian product: the operators of the parts, one
-// after the other.
 
 /// diag(P₁, …, P_k) for operators P_i that apply without a workspace to segments of a vector. Every
 /// law that all parts declare holds for the direct sum, and it can do what all parts can.

@@ -14,14 +14,6 @@
 
 namespace slant {
 
-namespace detail {
-
-/// The scalar of a list of numbers: entries of an Eigen or a standard vector.
-template <class L>
-using list_scalar_t = std::remove_cvref_t<decltype(parameter_at(std::declval<L const&>(), 0))>;
-
-}  // namespace detail
-
 /// x_i >= 0, i < m: normal contact forces.
 template <scalar S = double>
 [[nodiscard]] auto half_lines(std::integral auto m) {

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -75,7 +76,7 @@ class ellipse_secular_equation {
     auto const τ2 = ordered_sum(τ, S(G.hi / (S(2) * slope(τ))));
     auto const Dx = word(a_) + word(b_) * τ2, Dy = word(b_) + word(a_) * τ2;
     auto const X = word(x_) / Dx, Y = word(y_) / Dy;
-    S const ab_tau = largest(S(0), a_ * (b_ * τ2.hi), S(0));
+    S const ab_tau = std::max<S>(S(0), a_ * (b_ * τ2.hi));
     return {false,  (word(a_) * X).hi,  (word(b_) * Y).hi, X.hi, Y.hi,
             ab_tau, (word(a_) / Dx).hi, (word(b_) / Dy).hi};
   }
@@ -106,9 +107,9 @@ class ellipse_secular_equation {
   [[nodiscard]] S working_precision_root() const {
     using std::sqrt;
     S const root2 = sqrt(S(2));
-    S lower = largest(S(0), (x_ - a_) / b_, (y_ - b_) / a_);  // X or Y is 1: G >= 0
-    S upper =
-        largest(lower, (root2 * x_ - a_) / b_, (root2 * y_ - b_) / a_);  // X², Y² <= 1/2: G <= 0
+    // X or Y is 1: G >= 0; X², Y² <= 1/2: G <= 0.
+    S lower = std::max({S(0), S((x_ - a_) / b_), S((y_ - b_) / a_)});
+    S upper = std::max({lower, S((root2 * x_ - a_) / b_), S((root2 * y_ - b_) / a_)});
     while (b_ + a_ * upper > S(4) * (b_ + a_ * lower)) {
       S const middle = (sqrt(b_ + a_ * upper) * sqrt(b_ + a_ * lower) - b_) / a_;
       if (!(middle > lower && middle < upper)) break;
@@ -121,15 +122,10 @@ class ellipse_secular_equation {
       S const G = excess(τ);
       S const n = sqrt(G + S(1));
       S const step = (G + S(1)) * G / ((n + S(1)) * slope(τ));
-      τ = largest(S(0), τ + step, S(0));
+      τ = std::max<S>(S(0), τ + step);
       if (!(S(abs(step)) * a_ > tolerance * (b_ + a_ * τ))) break;
     }
     return τ;
-  }
-
-  [[nodiscard]] static S largest(S const& u, S const& v, S const& w) {
-    S const m = u < v ? v : u;
-    return m < w ? w : m;
   }
 
   S a_, b_, x_, y_;
@@ -205,8 +201,6 @@ template <class S>
 }
 
 // --- step ----------------------------------------------------------------------------------------
-//
-// Longest step inside an axis-parallel ellipse.
 
 /// sup{α >= 0 : Σ (xᵢ + α dᵢ)²/aᵢ² <= 1}: the unit disc after division by the axes, in double
 /// words. Each quotient is formed from numbers of order one, with its exponent apart.
@@ -280,12 +274,11 @@ class ellipse {
   [[nodiscard]] S const& a() const { return a_; }
   [[nodiscard]] S const& b() const { return b_; }
 
-  /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
     if (detail::any_nan(v(0), v(1))) return vector_type::Constant(detail::not_a_number<S>());
     if (is_box()) {
-      for (int i = 0; i < 2; ++i) v(i) = clamp(v(i), axis(i));
+      for (int i = 0; i < 2; ++i) v(i) = std::clamp<S>(v(i), -axis(i), axis(i));
       return v;
     }
     if (!detail::all_finite(v)) return vector_type::Constant(detail::not_a_number<S>());
@@ -422,10 +415,6 @@ class ellipse {
   [[nodiscard]] static S magnitude(S const& v) {
     using std::abs;
     return abs(v);
-  }
-
-  [[nodiscard]] static S clamp(S const& v, S const& bound) {
-    return v > bound ? bound : v < -bound ? S(-bound) : v;
   }
 
   /// x²/a² + y²/b² after moving each component inwards by `margin`.

@@ -20,8 +20,6 @@
 namespace slant {
 
 // --- shifted -------------------------------------------------------------------------------------
-//
-// Sets moved by a vector: shifted(ball<2>{g}, c) is the disc around c.
 
 namespace detail {
 
@@ -82,8 +80,6 @@ template <class C, class V>
 }
 
 // --- scaled --------------------------------------------------------------------------------------
-//
-// Sets blown up or shrunk: scaled(2.0, set) is { 2 z : z ∈ set }.
 
 namespace detail {
 
@@ -233,8 +229,6 @@ class scaled_function : public detail::static_size<static_dimension_of<F>> {
 /// x ↦ φ(D⁻¹x) for a separable function; made by block_scaled.
 template <class F, class S>
 class block_scaled_function : public detail::static_size<Eigen::Dynamic> {
-  using function_type = std::remove_cvref_t<F>;
-
  public:
   using scalar = S;
 
@@ -298,9 +292,6 @@ template <class S, class C>
 }
 
 // --- rotated -------------------------------------------------------------------------------------
-//
-// Blocks turned by an orthogonal matrix: rotated(ellipse{a, b}, Q) has its axes along the columns
-// of Q.
 
 namespace detail {
 
@@ -312,8 +303,6 @@ class rotation {
   static constexpr bool separable = false;
 
   explicit rotation(matrix_type const& q) : q_(q) {}
-
-  [[nodiscard]] matrix_type const& matrix() const { return q_; }
 
   [[nodiscard]] auto pull(auto const& x) const { return (q_.transpose() * x).eval(); }
   [[nodiscard]] auto push(auto const& z) const { return (q_ * z).eval(); }
@@ -339,7 +328,8 @@ class rotation {
 
 }  // namespace detail
 
-/// QΛ for a block of dimension N and an orthogonal N × N matrix Q.
+/// QΛ for a block of dimension N and an orthogonal N × N matrix Q: rotated(ellipse{a, b}, Q) has its
+/// axes along the columns of Q.
 /// @throws bad_input if QᵀQ differs from I by more than 8 N ε in some entry, ε the machine epsilon.
 template <set_block C, class Q>
 [[nodiscard]] auto rotated(C const& set, Q const& matrix) {

@@ -41,7 +41,6 @@ class half_line {
   [[nodiscard]] half_line with(S const& l) const { return half_line(l); }
   [[nodiscard]] S const& lower() const { return lower_; }
 
-  /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
     if (v(0) < lower_) v(0) = lower_;
@@ -130,7 +129,6 @@ class interval {
   [[nodiscard]] S const& lower() const { return lower_; }
   [[nodiscard]] S const& upper() const { return upper_; }
 
-  /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
     if (v(0) < lower_) v(0) = lower_;

@@ -12,8 +12,6 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/sets/blocks.hpp>
 
-#include <Eigen/Core>
-
 #include <type_traits>
 #include <utility>
 

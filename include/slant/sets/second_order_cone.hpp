@@ -123,10 +123,9 @@ template <class S, int N>
 }
 
 // --- cone slant ----------------------------------------------------------------------------------
-//
-// Derivative of the projection onto { ‖t‖ <= μ n } where it lands on the mantle.
 
-/// w wᵀ + θ (0 ⊕ (I − e eᵀ)) as second_order_cone::slant has it, θ = ‖p_t‖/‖x_t‖ of the foot p.
+/// The derivative where x is projected onto the mantle, w wᵀ + θ (0 ⊕ (I − e eᵀ)) as
+/// second_order_cone::slant has it, θ = ‖p_t‖/‖x_t‖ of the foot p.
 template <class S, int N>
 [[nodiscard]] Eigen::Matrix<S, N, N> mantle_slant(S const& μ, cone_foot<S> const& foot,
                                                   Eigen::Matrix<S, N, 1> const& x) {
@@ -163,8 +162,6 @@ template <class S, int N>
 }
 
 // --- cone step -----------------------------------------------------------------------------------
-//
-// Longest step inside a second-order cone.
 
 /// (μ n, t) in units of 2^exponent, the entries of order one at most; 0 keeps exponent 0.
 template <class S, int N>
@@ -290,7 +287,6 @@ class second_order_cone {
   [[nodiscard]] second_order_cone with(S const& mu) const { return second_order_cone(mu); }
   [[nodiscard]] S const& mu() const { return mu_; }
 
-  /// Nearest point of the set.
   [[nodiscard]] vector_type project(auto const& x) const {
     vector_type v = x;
     detail::nearest_on_cone<S, N>(mu_, v).move(v);

@@ -16,9 +16,6 @@
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/proximal_step.hpp>
 
-#include <Eigen/Core>
-
-#include <cstddef>
 #include <utility>
 
 namespace slant {

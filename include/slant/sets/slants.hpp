@@ -183,8 +183,6 @@ struct projection_slant_fn {
 inline constexpr detail::projection_slant_fn projection_slant{};
 
 // --- direct sum ----------------------------------------------------------------------------------
-//
-// Operators of parts, one after the other, as those of products are.
 
 namespace detail {
 

@@ -183,8 +183,7 @@ class support_function : public detail::static_size<static_dimension_of<C>> {
 template <class C>
   requires set_part<std::remove_cvref_t<C>>
 [[nodiscard]] auto support(C&& set) {
-  using kept = std::conditional_t<has_static_dimension<std::remove_cvref_t<C>>,
-                                  std::remove_cvref_t<C>, kept_t<C>>;
+  using kept = detail::kept_part_t<C>;
   return support_function<kept>(held<kept>(std::forward<C>(set)));
 }
 

@@ -12,8 +12,6 @@
 namespace slant::detail {
 
 // --- bounds --------------------------------------------------------------------------------------
-//
-// One-sided bounds on a number, shared by half_line, interval and the flat cases of other sets.
 
 /// x within a few ulp of the bound. A bound 0 is met exactly or not at all, an infinite one never.
 template <class S>
@@ -54,8 +52,6 @@ template <class S>
 }
 
 // --- exit root -----------------------------------------------------------------------------------
-//
-// Where a ray that starts inside a quadric leaves it.
 
 /// Smallest α >= 0 beyond which A α² + 2 B α − C <= 0 fails, infinity if there is none.
 ///

@@ -16,6 +16,11 @@
 #include <type_traits>
 #include <utility>
 
+namespace slant {
+template <class Part, class Map>
+class image_set;
+}
+
 namespace slant::detail {
 
 // --- rounding reach ------------------------------------------------------------------------------
@@ -62,13 +67,7 @@ template <class C, class Z, class S>
   return most;
 }
 
-}  // namespace slant::detail
-
-namespace slant {
-
 // --- image ---------------------------------------------------------------------------------------
-
-namespace detail {
 
 /// A block's few numbers are worked out, a long vector stays an expression: no temporary.
 template <class E>
@@ -80,13 +79,6 @@ template <class E>
   }
 }
 
-}  // namespace detail
-
-template <class Part, class Map>
-class image_set;
-
-namespace detail {
-
 /// Calls f for the images of blocks under the map T.
 template <class Map, class F>
 [[nodiscard]] auto of_image(Map const& map, F& f) {
@@ -95,7 +87,9 @@ template <class Map, class F>
   };
 }
 
-}  // namespace detail
+}  // namespace slant::detail
+
+namespace slant {
 
 /// T(Part) of a block, or of a product or any set whose dimension is known at run time; these under
 /// a T that acts on each component. Made by `shifted`, `scaled` and `rotated`. T has
@@ -264,9 +258,7 @@ namespace detail {
 /// T(set). Blocks are copied.
 template <class C, class Map>
 [[nodiscard]] auto image_of(C&& set, Map map) {
-  using part = std::conditional_t<has_static_dimension<std::remove_cvref_t<C>>,
-                                  std::remove_cvref_t<C>, kept_t<C>>;
-  return image_set<part, Map>(held<part>(std::forward<C>(set)), std::move(map));
+  return image_set<kept_part_t<C>, Map>(held<kept_part_t<C>>(std::forward<C>(set)), std::move(map));
 }
 
 }  // namespace detail
