@@ -103,33 +103,15 @@ using erased_t = any_qp<typename QP::scalar,
                                                                                : semidefinite_laws,
                         Runs>;
 
-/// The kinds of runs where none are listed.
-template <class QP>
-struct usual_runs_of {
-  using type = void;
-};
-template <class QP>
-  requires requires { typename QP::scalar; }
-struct usual_runs_of<QP> {
-  using type = usual_runs<typename QP::scalar>;
-};
-
-/// `erased` without Runs.
-struct usual_kinds {};
-
-template <class QP, class Runs>
-using runs_or_usual_t =
-    std::conditional_t<std::same_as<Runs, usual_kinds>, typename usual_runs_of<QP>::type, Runs>;
-
 }  // namespace detail
 
 /// The same program with its types forgotten, as definite as A declares to be. Runs: the kinds of
 /// blocks that it can have, usual_runs<S> unless said.
-template <class Runs = detail::usual_kinds, class QP>
+template <class Runs = void, class QP>
   requires(!psd_operator<std::remove_cvref_t<QP>, Eigen::VectorXd>)
 [[nodiscard]] auto erased(QP&& qp) {
   using problem = std::remove_cvref_t<QP>;
-  using runs = detail::runs_or_usual_t<problem, Runs>;
+  using runs = std::conditional_t<std::is_void_v<Runs>, usual_runs<set_scalar_t<QP>>, Runs>;
   constexpr bool fits = detail::forgettable_problem<problem, runs>;
   static_assert(
       fits,

@@ -84,8 +84,7 @@ class constraint_rows {
   [[nodiscard]] vector_type const& units() const noexcept { return units_; }
   [[nodiscard]] std::vector<cluster> const& clusters() const noexcept { return clusters_; }
   /// Does row i act at all? It has entries and a finite bound.
-  [[nodiscard]] bool acts(index i) const { return acts_[static_cast<std::size_t>(i)] != 0; }
-
+  [[nodiscard]] bool acts(index i) const { return lengths_[i] > S(0); }
   /// ‖b̃_i‖ of a row that acts.
   [[nodiscard]] S const& length(index i) const { return lengths_[i]; }
 
@@ -143,20 +142,17 @@ class constraint_rows {
   void collect(Eigen::SparseMatrix<S, Eigen::RowMajor> const& b) {
     using entry = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
     detail::union_find sets(unknowns_);
-    acts_.assign(static_cast<std::size_t>(b.rows()), 0);
     for (index i = 0; i < b.rows(); ++i) {
       if (!(c_[i] < std::numeric_limits<S>::infinity())) continue;
-      for (entry e(b, i); e; ++e) {
-        acts_[static_cast<std::size_t>(i)] = 1;
-        sets.join(entry(b, i).col(), e.col());
-      }
+      for (entry e(b, i); e; ++e) sets.join(entry(b, i).col(), e.col());
     }
     lengths_ = vector_type::Zero(b.rows());
     std::vector<index> cluster_of(static_cast<std::size_t>(unknowns_), -1);
     std::vector<index> place(static_cast<std::size_t>(unknowns_), -1);
     for (index i = 0; i < b.rows(); ++i) {
-      if (!acts(i)) continue;
-      auto& number = cluster_of[static_cast<std::size_t>(sets.find(entry(b, i).col()))];
+      entry const first(b, i);
+      if (!first || !(c_[i] < std::numeric_limits<S>::infinity())) continue;
+      auto& number = cluster_of[static_cast<std::size_t>(sets.find(first.col()))];
       if (number < 0) {
         number = static_cast<index>(clusters_.size());
         clusters_.emplace_back();
@@ -186,8 +182,7 @@ class constraint_rows {
   index unknowns_;
   vector_type c_;
   vector_type units_;
-  std::vector<unsigned char> acts_;
-  vector_type lengths_;
+  vector_type lengths_;  // 0 for rows that do not act
   std::vector<cluster> clusters_;
 };
 
@@ -219,10 +214,6 @@ class polyhedral_qp : public detail::refused, public detail::scalar_of<std::remo
       "polyhedral_qp: Q must have add_minimiser(a, b, y, w), as a conjugate_projector has");
 
  public:
-  using operator_type = std::remove_cvref_t<K>;
-  using vector_type = std::remove_cvref_t<V>;
-  using projector_type = std::remove_cvref_t<Q>;
-
   polyhedral_qp(held<K>, held<V>, held<R>, held<Q>);
 };
 
