@@ -27,8 +27,6 @@ class linear_map : public slanting_base {
 
   [[nodiscard]] index rows() const { return a_.get().rows(); }
   [[nodiscard]] index cols() const { return a_.get().cols(); }
-  /// A.
-  [[nodiscard]] operator_type const& matrix() const noexcept { return a_.get(); }
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
@@ -152,8 +150,6 @@ template <operand A, class C>
 }
 
 // --- identity ------------------------------------------------------------------------------------
-//
-// The identity y ↦ y as a slanting function.
 
 /// F(y) = y on n unknowns, F° = I.
 class identity_map : public slanting_base {

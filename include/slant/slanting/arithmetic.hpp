@@ -45,8 +45,7 @@ struct sum_map_workspace {
 
 }  // namespace detail
 
-/// F₁(y) + F₂(y) + …; F₁ − F₂ has the term −F₂. Each F is `Function const&` (referenced) or a
-/// function type (owned).
+/// F₁(y) + F₂(y) + …; F₁ − F₂ has the term −F₂.
 template <class... F>
 class sum_map : public slanting_base {
   static constexpr std::make_index_sequence<sizeof...(F) - 1> rest{};
@@ -148,6 +147,9 @@ class sum_map : public slanting_base {
   parts_type parts_;
 };
 
+template <class... F>
+sum_map(boost::hana::tuple<held<F>...>) -> sum_map<F...>;
+
 namespace detail {
 
 template <class F>
@@ -165,11 +167,6 @@ template <class F>
   }
 }
 
-template <class... F>
-[[nodiscard]] auto make_sum_map(boost::hana::tuple<held<F>...> parts) {
-  return sum_map<F...>(std::move(parts));
-}
-
 /// Throws bad_input unless f and g have as many values and arguments.
 template <class F, class G>
 void require_terms(F const& f, G const& g) {
@@ -184,8 +181,8 @@ void require_terms(F const& f, G const& g) {
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto add(F&& f, G&& g) {
   detail::require_terms(f, g);
-  return detail::make_sum_map(boost::hana::concat(detail::terms_of_function(std::forward<F>(f)),
-                                                  detail::terms_of_function(std::forward<G>(g))));
+  return sum_map(boost::hana::concat(detail::terms_of_function(std::forward<F>(f)),
+                                     detail::terms_of_function(std::forward<G>(g))));
 }
 
 /// y ↦ F(y) − G(y), also spelled f - g. Lvalues are referenced.

@@ -21,8 +21,7 @@
 
 namespace slant {
 
-/// c F₁∘…∘F_n. Each F is `Function const&` (referenced) or a function type (owned), C a number of
-/// operators/factors.hpp.
+/// c F₁∘…∘F_n, C a number of operators/factors.hpp.
 template <class C, class... F>
 class composition_map : public slanting_base {
   static constexpr std::size_t n = sizeof...(F);
@@ -162,6 +161,9 @@ class composition_map : public slanting_base {
   parts_type parts_;
 };
 
+template <class C, class... F>
+composition_map(C, boost::hana::tuple<held<F>...>) -> composition_map<C, F...>;
+
 namespace detail {
 
 template <class F>
@@ -190,23 +192,13 @@ template <slanting_part F>
   }
 }
 
-template <class C, class... F>
-[[nodiscard]] auto make_composition(C c, boost::hana::tuple<held<F>...> parts) {
-  return composition_map<C, F...>(std::move(c), std::move(parts));
-}
-
 /// What stands inside of a composition: of an own one without a number its parts.
 template <slanting_part G>
 [[nodiscard]] auto inner_parts(G&& g) {
-  using kept = held<kept_t<G>>;
-  if constexpr (own_composition<G>) {
-    if constexpr (std::is_same_v<decltype(coefficient_in_front<G>(g)), expr::one>) {
-      return std::move(g).parts();
-    } else {
-      return boost::hana::tuple<kept>(kept(std::forward<G>(g)));
-    }
+  if constexpr (std::is_same_v<decltype(coefficient_in_front<G>(g)), expr::one>) {
+    return parts_of_function(std::forward<G>(g));
   } else {
-    return boost::hana::tuple<kept>(kept(std::forward<G>(g)));
+    return boost::hana::tuple<held<kept_t<G>>>(held<kept_t<G>>(std::forward<G>(g)));
   }
 }
 
@@ -214,7 +206,7 @@ template <slanting_part G>
 template <class C, class F>
 [[nodiscard]] auto scale_by(C const& c, F&& f) {
   auto const product = expr::multiply_numbers(c, detail::coefficient_in_front<F>(f));
-  return detail::make_composition(product, detail::parts_of_function(std::forward<F>(f)));
+  return composition_map(product, detail::parts_of_function(std::forward<F>(f)));
 }
 
 }  // namespace detail
@@ -225,9 +217,8 @@ template <slanting_part F, slanting_part G>
 [[nodiscard]] auto compose(F&& f, G&& g) {
   detail::require_equal_sizes("g.rows()", g.rows(), f.cols(), "f.cols()");
   auto const c = detail::coefficient_in_front<F>(f);
-  return detail::make_composition(c,
-                                  boost::hana::concat(detail::parts_of_function(std::forward<F>(f)),
-                                                      detail::inner_parts(std::forward<G>(g))));
+  return composition_map(c, boost::hana::concat(detail::parts_of_function(std::forward<F>(f)),
+                                                detail::inner_parts(std::forward<G>(g))));
 }
 
 }  // namespace slant

@@ -186,8 +186,7 @@ class alart_curnier_block {
 /// coefficients mu. @throws bad_input "mu[3]: got -1, expected a finite number >= 0".
 template <int N, detail::parameter_list M>
 [[nodiscard]] auto alart_curnier_projection(M const& mu) {
-  using S = std::remove_cvref_t<decltype(detail::parameter_at(mu, 0))>;
-  return slant::blockwise(alart_curnier_block<N, S>{}, mu);
+  return slant::blockwise(alart_curnier_block<N, detail::list_scalar_t<M>>{}, mu);
 }
 
 /// r ↦ r − A(r − ρ (W r + q)), ρ a vector with one factor > 0 for each component, in units of 1/W,
@@ -311,16 +310,14 @@ class de_saxce_block {
 /// coefficients mu. @throws bad_input "mu[3]: got -1, expected a finite number >= 0".
 template <int N, detail::parameter_list M>
 [[nodiscard]] auto de_saxce(M const& mu) {
-  using S = std::remove_cvref_t<decltype(detail::parameter_at(mu, 0))>;
-  return slant::blockwise(de_saxce_block<N, S>{}, mu);
+  return slant::blockwise(de_saxce_block<N, detail::list_scalar_t<M>>{}, mu);
 }
 
 /// The same for orthotropic friction in space, with coefficients along the two tangents.
 /// @throws bad_input "mu2[3]: got -1, expected a finite number >= 0".
 template <detail::parameter_list M1, detail::parameter_list M2>
 [[nodiscard]] auto de_saxce(M1 const& mu1, M2 const& mu2) {
-  using S = std::remove_cvref_t<decltype(detail::parameter_at(mu1, 0))>;
-  return slant::blockwise(de_saxce_block<3, S>{}, mu1, mu2);
+  return slant::blockwise(de_saxce_block<3, detail::list_scalar_t<M1>>{}, mu1, mu2);
 }
 
 }  // namespace slant

@@ -237,8 +237,6 @@ class inequality_map : public slanting_base {
   void slant(X const& x, inequality_jacobian<scalar_t<X>>& j) const {
     j.renew(set_.get(), x, scalar_t<X>(c_));
   }
-  /// c.
-  [[nodiscard]] S const& factor() const noexcept { return c_; }
 
  private:
   held<C> set_;

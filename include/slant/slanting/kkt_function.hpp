@@ -94,8 +94,7 @@ class kkt_operator : public Composed {
   S ρ_;
 };
 
-/// F of [T (2.11)] for A, b and a set made of blocks with smooth inequalities. A and the set are
-/// `T const&` (referenced) or plain types (owned). Made by slant::kkt.
+/// F of [T (2.11)] for A, b and a set made of blocks with smooth inequalities. Made by slant::kkt.
 template <class A, class V, class C>
 class kkt_function : public slanting_base {
   using scalar = scalar_t<V>;

@@ -32,6 +32,8 @@ struct weighted_sum_workspace {
   Second second;
   Vector product;
 };
+template <class First, class Second, class Vector>
+weighted_sum_workspace(First, Second, Vector) -> weighted_sum_workspace<First, Second, Vector>;
 
 /// y = p∘(A x) + q∘(B x), p and q of type P. Owns all four, which can be renewed. With Chooses all pᵢ
 /// are 0 or 1, qᵢ = 1 − pᵢ, or both are NaN.
@@ -55,7 +57,8 @@ class weighted_sum_operator {
   template <class X>
     requires linear_operator<A, plain_t<X>> && linear_operator<B, plain_t<X>>
   [[nodiscard]] auto workspace(X const& x) const {
-    return make_workspace(slant::workspace(a_, x), slant::workspace(b_, x), slant::like(x, rows()));
+    return weighted_sum_workspace{slant::workspace(a_, x), slant::workspace(b_, x),
+                                  slant::like(x, rows())};
   }
   template <class X, class Y, class W>
     requires applies<A, X, Y> && applies<B, X, plain_t<X>>
@@ -97,8 +100,8 @@ class weighted_sum_operator {
   template <class X>
     requires has_adjoint<A, plain_t<X>> && has_adjoint<B, plain_t<X>>
   [[nodiscard]] auto adjoint_workspace(X const& x) const {
-    return make_workspace(slant::adjoint_workspace(a_, x), accumulate_workspace<true>(b_, x),
-                          slant::like(x, rows()));
+    return weighted_sum_workspace{slant::adjoint_workspace(a_, x),
+                                  accumulate_workspace<true>(b_, x), slant::like(x, rows())};
   }
   /// y = Aᵀ(p∘x) + Bᵀ(q∘x).
   template <class X, class Y, class W>
@@ -124,11 +127,6 @@ class weighted_sum_operator {
     }
   }
 
-  template <class First, class Second, class Vector>
-  static weighted_sum_workspace<First, Second, Vector> make_workspace(First first, Second second,
-                                                                      Vector product) {
-    return {std::move(first), std::move(second), std::move(product)};
-  }
   template <class Weights, class X, class Z>
   static void weigh(Weights const& weights, X const& x, Z& z) {
     for (index j = 0; j < slant::local(x).cols(); ++j) {
@@ -148,8 +146,6 @@ class weighted_sum_operator {
 // slopes p_i, q_i of κ in its two arguments
 //
 //     F̃°(y) = diag(p) F°(y) + diag(q) G°(y).
-//
-// The maximum, the minimum and the Fischer–Burmeister function are three choices of κ.
 
 /// `f` and `g` hold F(y) and G(y).
 template <class First, class Second, class Vector>
@@ -159,10 +155,12 @@ struct pointwise_pair_workspace {
   Vector f;
   Vector g;
 };
+template <class First, class Second, class Vector>
+pointwise_pair_workspace(First, Second, Vector, Vector)
+    -> pointwise_pair_workspace<First, Second, Vector>;
 
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
 /// the slopes are always (1, 0) or (0, 1), or NaN.
-/// F and G are `Function const&` (referenced) or function types (owned).
 template <class Kernel, class F, class G>
 class pointwise_pair : public slanting_base {
   using left_type = std::remove_cvref_t<F>;
@@ -185,11 +183,8 @@ class pointwise_pair : public slanting_base {
 
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
-    using first = decltype(slant::workspace(left(), y));
-    using second = decltype(slant::workspace(right(), y));
-    return pointwise_pair_workspace<first, second, plain_t<Y>>{
-        slant::workspace(left(), y), slant::workspace(right(), y), slant::like(y, rows()),
-        slant::like(y, rows())};
+    return pointwise_pair_workspace{slant::workspace(left(), y), slant::workspace(right(), y),
+                                    slant::like(y, rows()), slant::like(y, rows())};
   }
   template <class Y, class V, class W>
     requires usable<plain_t<Y>>
@@ -248,8 +243,6 @@ class pointwise_pair : public slanting_base {
 namespace slant {
 
 // --- max -----------------------------------------------------------------------------------------
-//
-// Componentwise maxima: max(0, y) and max(F(y), G(y)).
 //
 // Kinks. max(0,·)° = 1 for y >= 0, else 0 [K (49)]. Everything else follows from
 // max(F, G) = G + max(0, F − G): where F(y)_i = G(y)_i the row is that of F°.

@@ -29,8 +29,6 @@ concept has_projection_slant = has_slant<C, local_t<Y>> || has_slant<C, Y>;
 template <class C>
 class projection_map : public slanting_base {
   using set_type = std::remove_cvref_t<C>;
-  static constexpr law_set projection_laws =
-      slant::laws<slant::self_adjoint, slant::firmly_nonexpansive>;
 
   /// Blocks work on Eigen vectors, products on all vectors.
   template <class Y>
@@ -60,7 +58,7 @@ class projection_map : public slanting_base {
   template <class Y>
     requires has_projection_slant<set_type, Y>
   [[nodiscard]] auto slant(Y const& y) const {
-    return detail::derivative_operator<projection_laws>(
+    return detail::derivative_operator<detail::projection_laws(false)>(
         slant::projection_slant(set(), argument(y)));
   }
   template <class Y, class G>

@@ -4,7 +4,8 @@
 // how functions are written.
 //
 // Lifetime, for all of slant/slanting. A composition references the functions, operators, sets and
-// vectors that were passed as lvalues and owns those passed as rvalues. An operator F°(y) owns what
+// vectors that were passed as lvalues and owns those passed as rvalues: a part of type T is `T
+// const&` in the first case, T in the second. An operator F°(y) owns what
 // depends on y and refers to F for the rest (the matrix A of an affine part, say), so it must not
 // outlive F: `auto G = (f + g).slant(y)` is a mistake, `auto F = f + g; auto G = F.slant(y)` is
 // not.
@@ -37,8 +38,6 @@ concept slanting_part =
 namespace slant::detail {
 
 // --- vectors and sizes ---------------------------------------------------------------------------
-//
-// Vectors that slanting functions keep, and checks of sizes, all at construction.
 
 /// Vectors are kept like any part; expressions are evaluated, lest they refer to what is gone.
 template <class C>

@@ -30,9 +30,7 @@ struct stacked_part_workspace {
 };
 
 template <class Inner, class Vector>
-[[nodiscard]] auto make_stacked_part_workspace(Inner inner, Vector rows) {
-  return stacked_part_workspace<Inner, Vector>{std::move(inner), std::move(rows)};
-}
+stacked_part_workspace(Inner, Vector) -> stacked_part_workspace<Inner, Vector>;
 
 }  // namespace slant::detail
 
@@ -70,8 +68,8 @@ class stack_map : public slanting_base {
   template <class Y>
   [[nodiscard]] auto workspace(Y const& y) const {
     return boost::hana::unpack(parts_, [&](auto const&... f) {
-      return boost::hana::make_tuple(detail::make_stacked_part_workspace(
-          slant::workspace(f.get(), y), slant::like(y, f.get().rows()))...);
+      return boost::hana::make_tuple(detail::stacked_part_workspace{
+          slant::workspace(f.get(), y), slant::like(y, f.get().rows())}...);
     });
   }
   template <class Y, class V, class W>

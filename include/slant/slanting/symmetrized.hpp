@@ -109,6 +109,9 @@ struct symmetrized_workspace {
   Slant slant_part;
   Matrix matrix_part;
 };
+template <class Vector, class Slant, class Matrix>
+symmetrized_workspace(Vector, Vector, Slant, Matrix)
+    -> symmetrized_workspace<Vector, Slant, Matrix>;
 
 }  // namespace detail
 
@@ -132,11 +135,8 @@ class symmetrized_operator {
   template <class X>
     requires linear_operator<g_type, plain_t<X>> && linear_operator<a_type, plain_t<X>>
   [[nodiscard]] auto workspace(X const& x) const {
-    auto slant_part = slant::workspace(g(), x);
-    auto matrix_part = slant::workspace(a(), x);
-    return detail::symmetrized_workspace<plain_t<X>, decltype(slant_part), decltype(matrix_part)>{
-        slant::like(x, rows()), slant::like(x, rows()), std::move(slant_part),
-        std::move(matrix_part)};
+    return detail::symmetrized_workspace{slant::like(x, rows()), slant::like(x, rows()),
+                                         slant::workspace(g(), x), slant::workspace(a(), x)};
   }
   /// One product by A, two by G.
   template <class X, class Y, class W>
