@@ -14,16 +14,11 @@ template <class G>
 std::vector<double> lengths(G const& g, std::vector<double> const& residuals) {
   search_point<double> p;
   p.residual_before = 1;
-  p.best_residual = std::numeric_limits<double>::infinity();
   p.length = double(g.first_length());
   std::vector<double> tried;
   for (double residual : residuals) {
     tried.push_back(p.length);
     p.residual = residual;
-    if (residual < p.best_residual) {
-      p.best_residual = residual;
-      p.best_length = p.length;
-    }
     if (g.accepts(p)) return tried;
     p.length = g.next_length(p);
     ++p.trial;
@@ -57,12 +52,6 @@ TEST_CASE("the decrease asked for is that of an inexact model") {
   CHECK(search.accepts(p));
   p.residual = 0.96;
   CHECK(!search.accepts(p));
-}
-
-TEST_CASE("accept_best goes back to the best length tried, unless all were NaN") {
-  slant::halving_line_search const search{.max_halvings = 2, .accept_best = true};
-  CHECK(lengths(search, {3, 1.5, 2, 1.5}) == std::vector<double>{1, 0.5, 0.25, 0.5});
-  CHECK(lengths(search, {nan, nan, nan}) == std::vector<double>{1, 0.5, 0.25, 0});
 }
 
 TEST_CASE("a scalar without silent conversions") {

@@ -79,7 +79,6 @@ struct ssnm_options {
   bool absolute_precision = false;
   ssnm_multipliers multipliers = ssnm_multipliers::zero;
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_positive("rho", rho);
     precision.validate();
@@ -120,7 +119,6 @@ struct ssnm_state {
   slant::work work{};  ///< operator_applications: those of K⁻¹ in schur_bicgstab and schur_cg,
                        ///< those of F° in bicgstab_solver; evaluations of F are `iteration` + 1
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     std::string const how(to_string(solver_status));
     return detail::reason_of(
@@ -214,9 +212,10 @@ class ssnm<QP, LinearSolver> {
   explicit ssnm(held<QP> qp, LinearSolver solver = {}, options o = {})
       : qp_(std::move(qp)),
         solver_(std::move(solver)),
-        options_(validated(o)),
+        options_(o),
         f_(slant::kkt(qp_.get().a(), qp_.get().b(), qp_.get().set(), options_.rho)) {
-    solver_.validate();
+    options_.validate();
+    detail::validate_part(solver_);
   }
 
   /// Multipliers as the option says. Throws bad_input if x0 or F is not finite or of the wrong
@@ -294,10 +293,6 @@ class ssnm<QP, LinearSolver> {
  private:
   [[nodiscard]] problem_type const& problem() const { return qp_.get(); }
 
-  static options validated(options const& o) {
-    o.validate();
-    return o;
-  }
   void check(vector_type const& x0) const {
     detail::check_size("x0", index(slant::local(x0).size()), f_.unknowns());
     detail::check_finite("x0", x0);

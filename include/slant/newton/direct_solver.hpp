@@ -53,6 +53,8 @@ struct direct_workspace {
   V residual;     ///< F + G dy
   W g_workspace;  ///< temporaries of G
 };
+template <class Factors, class V, class W>
+direct_workspace(Factors, V, W) -> direct_workspace<V, Factors, W>;
 
 /// solve(dy) makes dy = G⁻¹ F and says whether it could; what comes of it.
 template <class G, class V, class P, class Solve>
@@ -99,15 +101,11 @@ concept solved_directly =
 
 /// LU of F°(y), or its inverse; for operators that are `solved_directly`. Factorisations allocate.
 struct direct_solver {
-  [[gnu::cold]] void validate() const {}
-
   template <class G, class V>
     requires solved_directly<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto factors = factors_for(g, f);
-    auto w = slant::workspace(g, f);
-    return detail::direct_workspace<V, decltype(factors), decltype(w)>{
-        std::move(factors), like(f, slant::local(f).size()), std::move(w)};
+    return detail::direct_workspace{factors_for(g, f), like(f, slant::local(f).size()),
+                                    slant::workspace(g, f)};
   }
 
   template <class G, class V, class P>
@@ -130,7 +128,6 @@ struct direct_solver {
     });
   }
 
-  /// The complaint about operators that it cannot handle.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(solved_directly<G, V>,
@@ -153,13 +150,7 @@ struct direct_solver {
   template <class G, class Factors>
   [[nodiscard]] static bool factor(G const& g, Factors& factors) {
     if constexpr (detail::matrix_behind<G>::sparse) {
-      auto const& m = detail::matrix_behind<G>::of(g);
-      using matrix_type = typename Factors::matrix_type;
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, matrix_type>) {
-        return factors.factor(m);
-      } else {
-        return factors.factor(matrix_type(m));
-      }
+      return factors.factor(detail::matrix_behind<G>::of(g));
     } else {
       return factors.factor(g);
     }
@@ -226,15 +217,11 @@ class sparse_columns {
 
 /// Sparse LU of F°(y); for operators with columns, most of whose entries are zero. Allocates.
 struct sparse_direct_solver {
-  [[gnu::cold]] void validate() const {}
-
   template <class G, class V>
     requires linear_operator<G, V> && has_columns<G, detail::dense_matrix_t<V>>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto w = slant::workspace(g, f);
-    return detail::direct_workspace<V, detail::sparse_columns<scalar_t<V>>, decltype(w)>{
-        detail::sparse_columns<scalar_t<V>>(g.rows()), like(f, slant::local(f).size()),
-        std::move(w)};
+    return detail::direct_workspace{detail::sparse_columns<scalar_t<V>>(g.rows()),
+                                    like(f, slant::local(f).size()), slant::workspace(g, f)};
   }
 
   template <class G, class V, class P>
@@ -249,7 +236,6 @@ struct sparse_direct_solver {
     });
   }
 
-  /// The complaint about operators that it cannot handle.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(has_columns<G, detail::dense_matrix_t<V>>,

@@ -14,6 +14,7 @@
 // Optional:
 //     choice<G, V>                   a type: the solver stands for another one, made of it by
 //                                    static_cast, as by_laws does
+//     refuse<G, V>()                 a complaint, at compile time, about operators it cannot take
 //
 // Laws.   report.residual_norm = ‖F + G dy‖ up to rounding;   converged ⇒ it is ≤ η ‖F‖.
 //
@@ -96,8 +97,6 @@ using chosen_solver_t = typename detail::chosen_solver<D, G, V>::type;
 namespace slant::detail {
 
 // --- iteration limit -----------------------------------------------------------------------------
-//
-// When the inner iterations of a Newton step end.
 
 /// Throws bad_input unless it is a number of iterations, or 0 for "choose".
 inline void check_iteration_limit(index max_iterations) {

@@ -80,7 +80,6 @@ template <class S>
 struct fixed_forcing {
   double tolerance = 0;  ///< η in [0, 1)
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_option("tolerance", tolerance, tolerance >= 0 && tolerance < 1,
                          "a number in [0, 1)");

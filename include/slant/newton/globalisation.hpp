@@ -28,8 +28,6 @@ struct search_point {
   S residual{0};         ///< ‖F(y + α dy)‖; NaN and ∞ are possible
   S residual_before{0};  ///< ‖F(y)‖
   S linear_residual{0};  ///< ‖F(y) + F°(y) dy‖
-  S best_length{0};      ///< the length with the smallest residual so far; 0: all were NaN
-  S best_residual{0};    ///< that residual
 };
 
 /// A rule for the length of Newton steps; see the top of this file.
@@ -42,7 +40,6 @@ concept globalisation = requires(G const& g, search_point<S> const& p) {
 
 /// α = 1 always: Newton's method itself. Local convergence.
 struct full_step {
-  [[gnu::cold]] void validate() const {}
   [[nodiscard]] static constexpr int first_length() { return 1; }
   template <class S>
   [[nodiscard]] bool accepts(search_point<S> const& p) const {
@@ -59,7 +56,6 @@ struct full_step {
 struct multiple_root {
   double multiplicity = 2;  ///< m ≥ 1
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_option("multiplicity", multiplicity,
                          multiplicity >= 1 && detail::is_finite(multiplicity),
@@ -81,11 +77,10 @@ struct multiple_root {
 ///
 /// Where F is smooth and F° dy = −F nearly, some α is accepted. At a kink it may be that none is:
 /// then the run stalls rather than accept an increase, since a monotone sequence ‖F‖ is all that
-/// is known to keep it from cycling. `accept_best` goes on from the best point tried instead.
+/// is known to keep it from cycling.
 struct halving_line_search {
   double sufficient = 1e-4;  ///< c in (0, 1)
   index max_halvings = 30;   ///< ≥ 0
-  bool accept_best = false;  ///< if none is accepted, take the one with the smallest residual
 
   [[gnu::cold]] void validate() const {
     detail::check_fraction("sufficient", sufficient);
@@ -94,14 +89,12 @@ struct halving_line_search {
   [[nodiscard]] static constexpr int first_length() { return 1; }
   template <class S>
   [[nodiscard]] bool accepts(search_point<S> const& p) const {
-    if (p.trial > max_halvings) return detail::is_finite(p.residual);  // the best, once more
     S const promised = p.residual_before - p.linear_residual;
     return p.residual <= p.residual_before - S(sufficient) * p.length * promised;
   }
   template <class S>
   [[nodiscard]] S next_length(search_point<S> const& p) const {
-    if (p.trial < max_halvings) return p.length / S(2);
-    return accept_best && p.trial == max_halvings ? p.best_length : S(0);
+    return p.trial < max_halvings ? S(p.length / S(2)) : S(0);
   }
 };
 

@@ -27,7 +27,6 @@ namespace slant {
 struct cg_solver {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
   template <class G, class V>
@@ -55,7 +54,6 @@ struct cg_solver {
             s.work.operator_applications, 0};
   }
 
-  /// The complaint about operators that it cannot handle.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(spd_operator<G, V>,
@@ -290,9 +288,7 @@ struct gmres_solver {
   template <class S, class V, class Memory>
   static void take_back(std::size_t used, direction_report<S>& report, S const& whole, V& dy,
                         Memory const& m) {
-    for (std::size_t i = 0; i < used; ++i) {
-      vectors::axpy(-m.t[i], m.basis[i], dy);
-    }
+    for (std::size_t i = 0; i < used; ++i) vectors::axpy(-m.t[i], m.basis[i], dy);
     if (detail::is_finite(norm(dy))) return;
     vectors::set_zero(dy);
     report.residual_norm = whole;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <slant/base/lu.hpp>
+#include <slant/base/matrix_entries.hpp>
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>
@@ -145,9 +146,9 @@ class dense_hessian_factors {
 
 /// The factors for matrices like M.
 template <class M>
-using hessian_factors_t = std::conditional_t<std::is_base_of_v<Eigen::SparseMatrixBase<M>, M>,
-                                             sparse_hessian_factors<typename M::Scalar>,
-                                             dense_hessian_factors<typename M::Scalar>>;
+using hessian_factors_t =
+    std::conditional_t<is_sparse_matrix<M>, sparse_hessian_factors<typename M::Scalar>,
+                       dense_hessian_factors<typename M::Scalar>>;
 
 /// K⁻¹ as an operator.
 template <class Factors>
@@ -229,24 +230,6 @@ struct schur_krylov_workspace {
   Krylov krylov;
 };
 
-/// The inner iteration of a Schur complement solver, on the operator Self::schur(g, workspace).
-template <class Self, class Krylov>
-struct schur_solver {
-  Krylov inner{};
-
-  /// Throws bad_input naming the option, its value and what was expected.
-  [[gnu::cold]] void validate() const { inner.validate(); }
-
-  template <class G, class V>
-    requires factorable_saddle<G, V>
-  [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto common = make_schur_workspace(g, f);
-    auto krylov = inner.prepare(Self::schur(g, common), common.reduced);
-    return schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
-                                                                      std::move(krylov)};
-  }
-};
-
 /// diag(v), referring to v.
 template <class V>
 [[nodiscard]] auto diagonal_view(V const& v) {
@@ -291,6 +274,54 @@ template <class V>
   return {status::breakdown, request.residual_norm, 0, 0, 1};
 }
 
+/// The frame of the Schur complement solvers. Self::reduce(g, F₁, F₂, workspace) makes the
+/// right-hand side of the operator Self::schur(g, workspace), of which the inner iteration finds
+/// dz; if Self::symmetric K must be definite, and dz_𝒜 is found.
+template <class Self, class Krylov>
+struct schur_solver {
+  Krylov inner{};
+
+  [[gnu::cold]] void validate() const { inner.validate(); }
+
+  template <class G, class V>
+    requires factorable_saddle<G, V>
+  [[nodiscard]] auto prepare(G const& g, V const& f) const {
+    auto common = make_schur_workspace(g, f);
+    auto krylov = inner.prepare(Self::schur(g, common), common.reduced);
+    return schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
+                                                                      std::move(krylov)};
+  }
+
+  template <class G, class V, class P>
+    requires factorable_saddle<G, V>
+  direction_report<scalar_t<V>> solve(G const& g, V const& f,
+                                      direction_request<scalar_t<V>> const& request, V& dy,
+                                      P& prepared) const {
+    using S = scalar_t<V>;
+    auto& p = prepared.common;
+    index const n = g.jacobian().cols();
+    index const m = g.jacobian().rows();
+    auto const f1 = slice(n + m, 0, n).segment(f);
+    auto const f2 = slice(n + m, n, m).segment(f);
+    auto const pivots = p.factors.factor(g.hessian().get(), g.curvature());
+    if (pivots == factored::failed || (Self::symmetric && pivots != factored::definite)) {
+      return no_factors(request, dy);
+    }
+    slant::local(p.inactive) = S(1) - slant::local(g.active()).array();
+    Self::reduce(g, f1, f2, p);
+    if (!is_finite(S(norm(p.reduced)))) return no_factors(request, dy);
+    auto reduced = request;
+    if (Self::symmetric) reduced.residual_norm /= S(g.rho());  // as the active rows were
+    auto report =
+        inner.solve(Self::schur(g, p), p.reduced, reduced, p.multipliers, prepared.krylov);
+    if (Self::symmetric) {
+      slant::local(p.multipliers) -= slant::local(p.inactive).cwiseProduct(f2);  // dz_ℐ
+    }
+    finish_direction(g, f, request, dy, p, report);
+    return report;
+  }
+};
+
 }  // namespace slant::detail
 
 namespace slant {
@@ -312,42 +343,23 @@ namespace slant {
 /// CG on the symmetrised Schur complement; for F°(y) of a kkt_function whose A is a matrix, sparse
 /// or dense. operator_applications are those of K⁻¹. Factorisations allocate.
 struct schur_cg : detail::schur_solver<schur_cg, cg_solver> {
-  template <class G, class V, class P>
-    requires detail::factorable_saddle<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& prepared) const {
-    using S = scalar_t<V>;
-    auto& p = prepared.common;
-    auto const& J = g.jacobian();
-    index const n = J.cols();
-    index const m = J.rows();
-    auto const f1 = slice(n + m, 0, n).segment(f);
-    auto const f2 = slice(n + m, n, m).segment(f);
-    if (p.factors.factor(g.hessian().get(), g.curvature()) != detail::factored::definite) {
-      return detail::no_factors(request, dy);
-    }
-    vectors::copy(g.active(), p.active);
-    slant::local(p.inactive) = S(1) - slant::local(g.active()).array();
+  static constexpr bool symmetric = true;
 
-    // dz_ℐ, and x = K⁻¹(F₁ + J_ℐᵀdz_ℐ)
+  /// dz_ℐ, and what that leaves of the active rows.
+  template <class G, class F1, class F2, class P>
+  static void reduce(G const& g, F1 const& f1, F2 const& f2, P& p) {
+    using S = typename F1::Scalar;
+    auto const& J = g.jacobian();
+    vectors::copy(g.active(), p.active);
     slant::local(p.multipliers) = -slant::local(p.inactive).cwiseProduct(f2);
     slant::local(p.force) = f1;
     J.apply_adjoint_add(S(1), p.multipliers, p.force);
-    p.factors.solve(p.force, p.x, p.w);
+    p.factors.solve(p.force, p.x, p.w);  // x = K⁻¹(F₁ + J_ℐᵀdz_ℐ)
     J.apply(p.x, p.reduced);
     slant::local(p.reduced) =
         slant::local(p.active).cwiseProduct(f2 * (S(1) / S(g.rho())) + slant::local(p.reduced));
-    if (!detail::is_finite(S(norm(p.reduced)))) return detail::no_factors(request, dy);
-    auto symmetric = request;
-    symmetric.residual_norm /= S(g.rho());  // the active rows were divided by ρ
-    auto report = inner.solve(schur(g, p), p.reduced, symmetric, p.multipliers, prepared.krylov);
-    slant::local(p.multipliers) -= slant::local(p.inactive).cwiseProduct(f2);
-    detail::finish_direction(g, f, request, dy, p, report);
-    return report;
   }
 
-  /// What is missing, in words.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(detail::factorable_saddle<G, V>,
@@ -377,34 +389,16 @@ struct schur_cg : detail::schur_solver<schur_cg, cg_solver> {
 
 /// BiCGSTAB on the Schur complement; for the same F°(y), counted alike.
 struct schur_bicgstab : detail::schur_solver<schur_bicgstab, bicgstab_solver> {
-  template <class G, class V, class P>
-    requires detail::factorable_saddle<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& prepared) const {
-    using S = scalar_t<V>;
-    auto& p = prepared.common;
-    auto const& J = g.jacobian();
-    index const n = J.cols();
-    index const m = J.rows();
-    auto const f1 = slice(n + m, 0, n).segment(f);
-    auto const f2 = slice(n + m, n, m).segment(f);
-    if (p.factors.factor(g.hessian().get(), g.curvature()) == detail::factored::failed) {
-      return detail::no_factors(request, dy);
-    }
-    vectors::scale(S(g.rho()), g.active(), p.active);
-    slant::local(p.inactive) = S(1) - slant::local(g.active()).array();
+  static constexpr bool symmetric = false;
 
+  template <class G, class F1, class F2, class P>
+  static void reduce(G const& g, F1 const& f1, F2 const& f2, P& p) {
+    vectors::scale(typename F1::Scalar(g.rho()), g.active(), p.active);
     p.factors.solve(f1, p.x, p.w);  // x = K⁻¹F₁
-    J.apply(p.x, p.reduced);
+    g.jacobian().apply(p.x, p.reduced);
     slant::local(p.reduced) = f2 + slant::local(p.active).cwiseProduct(slant::local(p.reduced));
-    if (!detail::is_finite(S(norm(p.reduced)))) return detail::no_factors(request, dy);
-    auto report = inner.solve(schur(g, p), p.reduced, request, p.multipliers, prepared.krylov);
-    detail::finish_direction(g, f, request, dy, p, report);
-    return report;
   }
 
-  /// What is missing, in words.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(detail::factorable_saddle<G, V>,
@@ -429,14 +423,11 @@ struct schur_bicgstab : detail::schur_solver<schur_bicgstab, bicgstab_solver> {
 
 /// Sparse LU of F°(y) of a kkt_function whose A is a matrix. Allocates in each solve.
 struct saddle_direct {
-  [[gnu::cold]] void validate() const {}
-
   template <class G, class V>
     requires detail::factorable_saddle<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto w = slant::workspace(g, f);
-    return detail::direct_workspace<V, detail::sparse_lu<scalar_t<V>>, decltype(w)>{
-        {}, like(f, slant::local(f).size()), std::move(w)};
+    return detail::direct_workspace{detail::sparse_lu<scalar_t<V>>(),
+                                    like(f, slant::local(f).size()), slant::workspace(g, f)};
   }
 
   template <class G, class V, class P>
@@ -451,7 +442,6 @@ struct saddle_direct {
     });
   }
 
-  /// What is missing, in words.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(detail::factorable_saddle<G, V>,
@@ -467,7 +457,7 @@ struct saddle_direct {
     auto const put = [&](index i, index j, S const& value) {
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
     };
-    put_matrix(g.hessian().get(), put);
+    detail::for_each_entry(g.hessian().get(), put);
     g.curvature().visit_hessian(put);
     g.jacobian().visit([&](index row, index component, S const& entry) {
       put(component, n + row, entry);
@@ -477,18 +467,6 @@ struct saddle_direct {
     Eigen::SparseMatrix<S> matrix(n + m, n + m);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
-  }
-  template <class M, class Put>
-  static void put_matrix(M const& a, Put const& put) {
-    if constexpr (std::is_base_of_v<Eigen::SparseMatrixBase<M>, M>) {
-      for (index k = 0; k < index(a.outerSize()); ++k) {
-        for (typename M::InnerIterator e(a, k); e; ++e) put(e.row(), e.col(), e.value());
-      }
-    } else {
-      for (index j = 0; j < index(a.cols()); ++j) {
-        for (index i = 0; i < index(a.rows()); ++i) put(i, j, a(i, j));
-      }
-    }
   }
 };
 

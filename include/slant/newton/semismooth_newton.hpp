@@ -51,32 +51,16 @@ namespace slant {
 //     direct_solver       G is a matrix, sparse or dense
 //     bicgstab_solver     whatever else
 
-namespace detail {
-
-template <class G, class V>
-[[nodiscard]] consteval auto solver_by_laws() {
-  if constexpr (symmetrizable<G>) {
-    return std::type_identity<symmetrized_cg>{};
-  } else if constexpr (has_inverse<G, V>) {
-    return std::type_identity<direct_solver>{};
-  } else if constexpr (spd_operator<G, V>) {
-    return std::type_identity<cg_solver>{};
-  } else if constexpr (solved_cheaply<G, V>) {
-    return std::type_identity<direct_solver>{};
-  } else {
-    return std::type_identity<bicgstab_solver>{};
-  }
-}
-
-}  // namespace detail
-
 /// The default: stands for one of the solvers above, with its default options. What was chosen is
 /// visible as a type, chosen_solver_t<by_laws, G, V>.
 struct by_laws {
   template <class G, class V>
-  using choice = typename decltype(detail::solver_by_laws<G, V>())::type;
+  using choice = std::conditional_t<
+      symmetrizable<G>, symmetrized_cg,
+      std::conditional_t<has_inverse<G, V> || (solved_cheaply<G, V> && !spd_operator<G, V>),
+                         direct_solver,
+                         std::conditional_t<spd_operator<G, V>, cg_solver, bicgstab_solver>>>;
 
-  [[gnu::cold]] void validate() const {}
   template <class Solver>
   [[nodiscard]] explicit operator Solver() const {
     return {};
@@ -89,7 +73,6 @@ struct by_laws {
 struct newton_options {
   index patience = 100;  ///< steps without a new smallest ‖F‖ that mean stalled
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
   }
@@ -158,7 +141,6 @@ struct newton_state {
     return give_up(how, why);
   }
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     switch (failure) {
       case newton_failure::no_direction:
@@ -380,17 +362,14 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     search_point<S> p;
     p.residual_before = s.residual_norm;
     p.linear_residual = s.linear_residual;
-    p.best_residual = std::numeric_limits<S>::infinity();
+    bool is_finite_somewhere = false;
     for (p.length = S(search_.first_length()); p.length > S(0);
          p.length = S(search_.next_length(p)), ++p.trial) {
       vectors::waxpy(p.length, s.direction, s.x, s.trial);
       slant::evaluate(f(), s.trial, s.trial_residual, s.f_workspace);
       ++s.work.operator_applications;
       p.residual = norm(s.trial_residual);
-      if (p.residual < p.best_residual) {
-        p.best_residual = p.residual;
-        p.best_length = p.length;
-      }
+      is_finite_somewhere = is_finite_somewhere || detail::is_finite(p.residual);
       s.length = p.length;
       s.trials = p.trial + 1;
       if (search_.accepts(std::as_const(p))) {
@@ -398,8 +377,8 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
         return true;
       }
     }
-    return p.best_length > S(0) ? s.give_up_step(status::stalled, newton_failure::no_length)
-                                : s.give_up_step(status::breakdown, newton_failure::not_finite);
+    return is_finite_somewhere ? s.give_up_step(status::stalled, newton_failure::no_length)
+                               : s.give_up_step(status::breakdown, newton_failure::not_finite);
   }
 
   /// The trial point becomes the iterate: its F is known, so F° is all that is to be computed.
@@ -422,15 +401,13 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
   template <class State>
   void note_progress(State& s) const {
     using S = typename State::scalar;
-    S const infinity = std::numeric_limits<S>::infinity();
     S const before = norm(s.trial_residual);
     s.forcing.record(s.residual_norm);
     if (s.status != status::running) return;
     bool const last_digits = s.step_norm <= S(4) * std::numeric_limits<S>::epsilon() * s.x_norm;
     if (last_digits && !(s.residual_norm < before)) {
       s.give_up(status::stalled, newton_failure::no_digits);
-    } else if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience,
-                                  [&] { return std::pair(infinity, S(0)); })) {
+    } else if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {
       s.give_up(status::stalled, newton_failure::no_progress);
     }
   }

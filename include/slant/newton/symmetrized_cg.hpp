@@ -29,8 +29,6 @@
 #include <slant/sets/slants.hpp>
 #include <slant/slanting/symmetrized.hpp>
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <limits>
 #include <type_traits>
@@ -159,7 +157,6 @@ struct symmetrized_cg_workspace {
 struct symmetrized_cg {
   index max_iterations = 0;  ///< in one Newton step; 0: 10 n + 100
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const { detail::check_iteration_limit(max_iterations); }
 
   template <class N, class V>
@@ -201,7 +198,6 @@ struct symmetrized_cg {
             p.s.work.operator_applications + 1, 0};
   }
 
-  /// The complaint about operators that it cannot handle.
   template <class G, class V>
   static consteval void refuse() {
     static_assert(symmetrizable<G>,
