@@ -152,26 +152,16 @@ class linear_operator {
   Eigen::MatrixXd m_;
 };
 
-/// The same for a matrix that the caller knows to be symmetric.
-class self_adjoint_operator : public linear_operator {
+/// The same for a matrix that the caller knows to have the laws L.
+template <law... L>
+class lawful_operator : public linear_operator {
  public:
-  static constexpr law_set laws = slant::laws<law::self_adjoint>;
+  static constexpr law_set laws = slant::laws<L...>;
   using linear_operator::linear_operator;
 };
-
-/// The same for a symmetric positive semidefinite matrix.
-class psd_operator : public linear_operator {
- public:
-  static constexpr law_set laws = slant::laws<law::self_adjoint, law::positive_semidefinite>;
-  using linear_operator::linear_operator;
-};
-
-/// The same for a symmetric positive definite matrix.
-class spd_operator : public linear_operator {
- public:
-  static constexpr law_set laws = slant::laws<law::self_adjoint, law::positive_definite>;
-  using linear_operator::linear_operator;
-};
+using self_adjoint_operator = lawful_operator<law::self_adjoint>;
+using psd_operator = lawful_operator<law::self_adjoint, law::positive_semidefinite>;
+using spd_operator = lawful_operator<law::self_adjoint, law::positive_definite>;
 
 /// linear_operator and its adjoint.
 class operator_with_adjoint : public linear_operator {

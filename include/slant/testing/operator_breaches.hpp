@@ -70,8 +70,6 @@ struct operator_laws {
   S size{0};
 
   // --- capability laws ---------------------------------------------------------------------------
-  //
-  // Checks that the capabilities which an operator has agree with its apply.
 
   /// ⟨Ax, y⟩ = ⟨x, Aᵀy⟩; the adjoint overwrites.
   void check_adjoint() {
@@ -182,8 +180,6 @@ struct operator_laws {
   }
 
   // --- declared laws -----------------------------------------------------------------------------
-  //
-  // Samples the laws that an operator type declares.
 
   /// x ↦ Aᵀx by what there is: self-adjointness, apply_adjoint, or all columns of a small A. Else
   /// empty.

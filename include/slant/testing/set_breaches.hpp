@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The laws of convex sets, sampled; needs no test framework (laws.hpp does).
-//
-//     P(P(x)) = P(x),   contains(P(x)),   ‖P(x) − P(y)‖² ≤ ⟨x − y, P(x) − P(y)⟩,
-//     ⟨x − P(x), z − P(x)⟩ ≤ 0 for z ∈ Λ,
-// and of each capability the set has: slanting operator, step to the boundary, support function,
-// inequality form, states, blocks. Those in parts/ state them one by one, with what sampling
-// cannot see.
+// Those of projections, and of each capability the set has: slanting operator, step to the boundary,
+// support function, inequality form, states, blocks. parts/projection_breaches.hpp states them one
+// by one, with what sampling cannot see.
 #pragma once
 
 #include <slant/concepts/vector.hpp>

@@ -61,6 +61,13 @@ template <class V, class S>
   return true;
 }
 
+/// p + t q.
+template <class V>
+[[nodiscard]] V moved(V p, scalar_t<V> const& t, V const& q) {
+  slant::local(p) += t * slant::local(q);
+  return p;
+}
+
 /// Not inlined for the reason given at slant::evaluate.
 template <class G, class V>
 [[gnu::noinline]] void apply_into(G const& g, V const& x, V& y) {
@@ -174,12 +181,9 @@ template <class V>
 [[nodiscard]] auto predict(observed_function<V> const& f, V const& a, V const& value_a, V const& b)
     -> prediction<scalar_t<V>> {
   using S = scalar_t<V>;
-  auto step = slant::like(a, slant::local(a).size());
-  slant::local(step) = slant::local(b) - slant::local(a);
-  auto const predicted = f.slope(b, step);
-  auto defect = f.value(b);
-  slant::local(defect) -= slant::local(value_a);
-  slant::local(defect) -= slant::local(predicted);
+  V const step = moved(b, S(-1), a);
+  V const predicted = f.slope(b, step);
+  V const defect = moved(moved(f.value(b), S(-1), value_a), S(-1), predicted);
   S const length = slant::norm(step);
   return {S(slant::norm(defect) / length), S(slant::norm(predicted) / length), length};
 }
@@ -197,15 +201,15 @@ class kink_search {
   /// eight parts and keeps the worst one with its neighbours.
   [[nodiscard]] std::pair<V, V> operator()(V const& y, V const& h) const {
     using std::sqrt;
-    V a = combination(y, S(-1), h);
-    V b = combination(y, S(1), h);
+    V a = moved(y, S(-1), h);
+    V b = moved(y, S(1), h);
     std::pair<V, V> found{a, b};
     S width(2);
     for (int k = 0; k < std::numeric_limits<S>::digits; ++k, width *= S(3) / S(parts)) {
       std::vector<V> points{a};
-      V const whole = combination(b, S(-1), a);
+      V const whole = moved(b, S(-1), a);
       for (std::size_t i = 1; i < parts; ++i) {
-        points.push_back(combination(a, S(i) / S(parts), whole));
+        points.push_back(moved(a, S(i) / S(parts), whole));
       }
       points.push_back(b);
       // Below √ε differences of values are not accurate any more, jumps of F° are.
@@ -220,7 +224,7 @@ class kink_search {
           worst = i;
         }
       }
-      if (!(slant::norm(combination(points[worst], S(-1), points[worst + 1])) > S(0))) break;
+      if (!(slant::norm(moved(points[worst], S(-1), points[worst + 1])) > S(0))) break;
       found = {points[worst], points[worst + 1]};
       a = points[worst == 0 ? 0 : worst - 1];
       b = points[std::min(parts, worst + 2)];
@@ -229,11 +233,6 @@ class kink_search {
   }
 
  private:
-  /// p + t q.
-  [[nodiscard]] static V combination(V p, S const& t, V const& q) {
-    slant::local(p) += t * slant::local(q);
-    return p;
-  }
   /// Error of prediction, the smaller one of both ends: near a singular point one is always bad.
   [[nodiscard]] S surprise(V const& p, V const& q) const {
     S const forward = predict(f_, p, f_.value(p), q).defect;
@@ -241,7 +240,7 @@ class kink_search {
     return forward < backward ? forward : backward;
   }
   [[nodiscard]] S jump(V const& p, V const& q, V const& h) const {
-    return slant::norm(combination(f_.slope(p, h), S(-1), f_.slope(q, h)));
+    return slant::norm(moved(f_.slope(p, h), S(-1), f_.slope(q, h)));
   }
 
   observed_function<V> const& f_;
@@ -254,94 +253,82 @@ class kink_search {
 
 /// Looks at F at y; `elsewhere` is another point, `rounding` a number of ε.
 template <class V>
-class slanting_protocol {
+struct slanting_protocol {
   using S = scalar_t<V>;
 
- public:
-  slanting_protocol(observed_function<V> const& f, V const& y, V const& elsewhere,
-                    S const& rounding, sampler& sample, breach_log& report)
-      : f_(f),
-        y_(y),
-        elsewhere_(elsewhere),
-        rounding_(rounding),
-        sample_(sample),
-        report_(report) {}
+  observed_function<V> const& f;
+  V const& y;
+  V const& elsewhere;
+  S rounding;
+  sampler& sample;
+  breach_log& report;
 
   /// Without the right sizes nothing else can be asked.
   [[nodiscard]] bool sizes() const {
-    auto const [rows, cols] = f_.slope_size(y_);
-    index const n = slant::local(y_).size();
-    bool const fit = rows == f_.rows && cols == f_.cols && f_.cols == n;
+    auto const [rows, cols] = f.slope_size(y);
+    index const n = slant::local(y).size();
+    bool const fit = rows == f.rows && cols == f.cols && f.cols == n;
     if (!fit) {
-      report_("sizes", std::to_string(rows) + " x " + std::to_string(cols) + " for F of " +
-                           std::to_string(f_.rows) + " values, " + std::to_string(f_.cols) +
-                           " arguments, at y with " + std::to_string(n));
+      report("sizes", std::to_string(rows) + " x " + std::to_string(cols) + " for F of " +
+                          std::to_string(f.rows) + " values, " + std::to_string(f.cols) +
+                          " arguments, at y with " + std::to_string(n));
     }
     return fit;
   }
 
   void overwriting() const {
-    V const x = sample_(y_, f_.cols);
-    V into_zero = slant::like(y_, f_.rows);
+    V const x = sample(y, f.cols);
+    V into_zero = slant::like(y, f.rows);
     V into_nan = into_zero;
     auto const fill = [&] {
       slant::local(into_zero).setZero();
       slant::local(into_nan).setConstant(std::numeric_limits<S>::quiet_NaN());
     };
     fill();
-    f_.evaluate(y_, into_zero);
-    f_.evaluate(y_, into_nan);
+    f.evaluate(y, into_zero);
+    f.evaluate(y, into_nan);
     expect("value overwrites", into_zero, into_nan, S(0));
     fill();
-    f_.apply(y_, x, into_zero);
-    f_.apply(y_, x, into_nan);
+    f.apply(y, x, into_zero);
+    f.apply(y, x, into_nan);
     expect("slant overwrites", into_zero, into_nan, S(0));
-    expect("slant applied again", into_zero, f_.apply_again(y_, sample_(y_, f_.cols), x), S(0));
+    expect("slant applied again", into_zero, f.apply_again(y, sample(y, f.cols), x), S(0));
   }
 
   void linear() const {
-    V const x = sample_(y_, f_.cols);
-    V const z = sample_(y_, f_.cols);
-    V const gx = f_.slope(y_, x);
-    V const gz = f_.slope(y_, z);
+    V const x = sample(y, f.cols);
+    V const z = sample(y, f.cols);
+    V const gx = f.slope(y, x);
+    V const gz = f.slope(y, z);
     V mixed = x;
     slant::local(mixed) = S(3) / S(4) * slant::local(x) - S(5) / S(4) * slant::local(z);
     V mixed_g = gx;
     slant::local(mixed_g) = S(3) / S(4) * slant::local(gx) - S(5) / S(4) * slant::local(gz);
-    expect("slant is linear", f_.slope(y_, mixed), mixed_g,
+    expect("slant is linear", f.slope(y, mixed), mixed_g,
            tolerance() * (slant::norm(gx) + slant::norm(gz)));
   }
 
   void renewal() const {
     for (int k = 0; k < 4; ++k) {
-      V const x = sample_(y_, f_.cols);
-      V const expected = f_.slope(y_, x);
+      V const x = sample(y, f.cols);
+      V const expected = f.slope(y, x);
       S const bound = tolerance() * slant::norm(expected);
-      auto const [renewed, after_value, value] = f_.renew(elsewhere_, y_, x);
+      auto const [renewed, after_value, value] = f.renew(elsewhere, y, x);
       expect("renewed slant = new slant", expected, renewed, bound);
       expect("slant after value = new slant", expected, after_value, bound);
-      expect("value with a used workspace", value, f_.value(y_), S(0));
+      expect("value with a used workspace", value, f.value(y), S(0));
     }
   }
 
  private:
-  [[nodiscard]] S tolerance() const { return rounding_ * std::numeric_limits<S>::epsilon(); }
+  [[nodiscard]] S tolerance() const { return rounding * std::numeric_limits<S>::epsilon(); }
   /// ‖a − b‖ <= bound, and not NaN.
   void expect(std::string const& law, V const& a, V const& b, S const& bound) const {
-    V difference = a;
-    slant::local(difference) -= slant::local(b);
-    S const size = slant::norm(difference);
+    S const size = slant::norm(moved(a, S(-1), b));
     if (!(size <= bound)) {
-      report_(law, "difference " + slant::detail::show(static_cast<double>(size)));
+      report(law, "difference " + slant::detail::show(static_cast<double>(size)));
     }
   }
-
-  observed_function<V> const& f_;
-  V const& y_;
-  V const& elsewhere_;
-  S rounding_;
-  sampler& sample_;
-  breach_log& report_;
 };
 
 }  // namespace slant::testing::detail
@@ -395,11 +382,6 @@ class slanting_limits {
     S const exponent = (S(1) + S(static_cast<int>(k)) / S(static_cast<int>(scales - 1))) / S(4);
     return S(pow(epsilon(), exponent));
   }
-  [[nodiscard]] V moved(V const& p, V const& h, S const& t) const {
-    V q = p;
-    slant::local(q) += t * slant::local(h);
-    return q;
-  }
   /// Not <=, so that NaN counts as too large.
   [[nodiscard]] static bool exceeds(S const& value, S const& bound) { return !(value <= bound); }
 
@@ -411,7 +393,7 @@ class slanting_limits {
     bool grows = true;
     std::string evidence;
     for (std::size_t k = 0; k < scales; ++k) {
-      V const p = moved(y_, h, fraction(k));
+      V const p = moved(y_, fraction(k), h);
       for (auto const* x : {&h, &other}) {
         S const along = slant::norm(f_.slope(p, *x)) / slant::norm(*x);
         if (exceeds(along, slope[k])) slope[k] = along;
@@ -427,12 +409,8 @@ class slanting_limits {
   /// ‖ΔF‖/‖h‖ over the longest step, which rounding hardly touches. So what is taken for rounding
   /// below does not depend on F°, which may be wrong.
   [[nodiscard]] S steepness(V const& y, V const& value, V const& h) const {
-    V const p = moved(y, h, fraction(0));
-    V change = f_.value(p);
-    slant::local(change) -= slant::local(value);
-    V step = p;
-    slant::local(step) -= slant::local(y);
-    return S(slant::norm(change) / slant::norm(step));
+    V const p = moved(y, fraction(0), h);
+    return S(slant::norm(moved(f_.value(p), S(-1), value)) / slant::norm(moved(p, S(-1), y)));
   }
 
   void limit(V const& y, V const& h, std::string const& where) {
@@ -445,7 +423,7 @@ class slanting_limits {
     bool good = false;
     std::string evidence = where;
     for (std::size_t k = 0; k < scales; ++k) {
-      auto const p = predict(f_, y, value, moved(y, h, fraction(k)));
+      auto const p = predict(f_, y, value, moved(y, fraction(k), h));
       error[k] = p.defect;
       bool decays = k > 0;
       for (std::size_t j = 0; j < k; ++j) {
@@ -493,11 +471,10 @@ template <class F, vector V>
   detail::sampler sample(options.seed);
   S const size = slant::norm(y);
   S const length = options.length > 0 ? S(options.length) : size > S(0) ? size : S(1);
-  V elsewhere = sample(y, slant::local(y).size());
-  slant::local(elsewhere) = slant::local(y) + length * slant::local(elsewhere);
+  V const elsewhere = detail::moved(y, length, V(sample(y, slant::local(y).size())));
   auto const observed = detail::observe<V>(f);
-  detail::slanting_protocol<V> const protocol(observed, y, elsewhere, S(options.rounding), sample,
-                                              report);
+  detail::slanting_protocol<V> const protocol{observed, y,     elsewhere, S(options.rounding),
+                                              sample,   report};
   if (!protocol.sizes()) return report.found();
   protocol.overwriting();
   protocol.linear();

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <any>
-#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
@@ -125,12 +124,6 @@ template <class V, class A>
   }
   return probe;
 }
-
-}  // namespace detail
-
-}  // namespace slant::testing
-
-namespace slant::testing::detail {
 
 // --- operator sampler ----------------------------------------------------------------------------
 
@@ -298,4 +291,6 @@ template <class V, class Image>
   return directions;
 }
 
-}  // namespace slant::testing::detail
+}  // namespace detail
+
+}  // namespace slant::testing

@@ -21,8 +21,6 @@
 namespace slant::testing {
 
 // --- set probe -----------------------------------------------------------------------------------
-//
-// A set seen through dense vectors, whatever kind of vector it takes.
 
 /// How thoroughly a set is sampled.
 struct set_options {
@@ -86,19 +84,13 @@ void copy_entries(From const& from, To& to) {
   }
 }
 
-/// A vector as one of dynamic size.
+/// A vector or matrix as one of dynamic size.
 template <class V>
 [[nodiscard]] auto dense_of(V const& v) {
-  Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, 1> copy(slant::local(v).size());
-  copy_entries(slant::local(v), copy);
-  return copy;
-}
-
-/// A matrix as one of dynamic size.
-template <class M>
-[[nodiscard]] auto dense_matrix_of(M const& m) {
-  Eigen::Matrix<typename M::Scalar, Eigen::Dynamic, Eigen::Dynamic> copy(m.rows(), m.cols());
-  copy_entries(m, copy);
+  auto const& from = slant::local(v);
+  constexpr int columns = local_t<V>::ColsAtCompileTime == 1 ? 1 : Eigen::Dynamic;
+  Eigen::Matrix<scalar_t<V>, Eigen::Dynamic, columns> copy(from.rows(), from.cols());
+  copy_entries(from, copy);
   return copy;
 }
 
@@ -107,7 +99,7 @@ template <class G, class V>
 [[nodiscard]] auto matrix_of(G const& g, V const& prototype, index n) {
   using S = scalar_t<V>;
   if constexpr (requires { typename G::PlainObject; }) {
-    return dense_matrix_of(g);
+    return dense_of(g);
   } else {
     Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> m(n, n);
     V e = slant::like(prototype, n);
@@ -207,13 +199,13 @@ template <class C, class V>
                           return dense_of(s.set.inequality(s.in(x)));
                         }};
     probe.inequality_gradient = {seen, [](seen_type const& s, dense const& x) {
-                                   return dense_matrix_of(s.set.inequality_gradient(s.in(x)));
+                                   return dense_of(s.set.inequality_gradient(s.in(x)));
                                  }};
     probe.inequality_hessian = {seen,
                                 [](seen_type const& s, dense const& x, dense const& multipliers) {
                                   Eigen::Matrix<S, C::inequalities, 1> ν;
                                   copy_entries(multipliers, ν);
-                                  return dense_matrix_of(s.set.inequality_hessian(s.in(x), ν));
+                                  return dense_of(s.set.inequality_hessian(s.in(x), ν));
                                 }};
   }
   probe.origin = slant::norm(probe.project(dense::Zero(probe.size)));
