@@ -26,8 +26,7 @@ struct conjugate_directions {
   bool live = false;    ///< p continues a sequence; false: the next one is a restart
 
   explicit conjugate_directions(V const& prototype)
-      : p(like(prototype, slant::local(prototype).size())),
-        Ap(like(prototype, slant::local(prototype).size())) {}
+      : p(like(prototype, slant::local(prototype).size())), Ap(p) {}
 
   /// Next direction from the (preconditioned, projected) gradient φ.
   void advance(V const& φ) {
@@ -74,7 +73,7 @@ struct projected_directions : conjugate_directions<V> {
   V q;  ///< direction of the step
 
   explicit projected_directions(V const& prototype)
-      : conjugate_directions<V>(prototype), q(like(prototype, slant::local(prototype).size())) {}
+      : conjugate_directions<V>(prototype), q(this->p) {}
 
   /// q, K q and qᵀKq; one application of Q and one of K.
   void image(auto const& k, auto& k_workspace, auto const& q_operator, auto& q_workspace) {

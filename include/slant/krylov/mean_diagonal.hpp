@@ -34,7 +34,6 @@ struct mean_diagonal_options {
   unsigned long long seed = 19905;  ///< the same seed gives the same estimate. A distributed vector
                                     ///< wants another one on each process
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (samples < 1) throw bad_input("samples", detail::show(samples), "a number >= 1");
   }

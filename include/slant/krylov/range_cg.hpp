@@ -51,7 +51,6 @@ struct range_cg_state : detail::residual_state<V> {
   bool flat_ended = false;             ///< it stalled on a direction without curvature
   index projector_applications = 0;    ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     switch (this->status) {
       case slant::status::converged:

@@ -111,7 +111,6 @@ template <class A, class V>
                                                        spectral_bound_options const& options = {})
     -> spectral_bound<scalar_t<V>> {
   using S = scalar_t<V>;
-  using std::sqrt;
   options.validate();
   index const here = slant::local(prototype).size(), n = slant::global_size(prototype);
   if (n == 0) return {S(0), S(0), S(0), 0};

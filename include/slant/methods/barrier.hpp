@@ -34,7 +34,6 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>

@@ -51,7 +51,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
@@ -83,7 +82,6 @@ struct constrained_newton_options {
   index patience = 100;          ///< steps in which the merit does not fall that mean stalled
   smalse_options<S> fallback{};  ///< of the method that takes over where Newton's fails
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_positive("step_factor", step_factor);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
@@ -176,7 +174,6 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
     vectors::set_zero(ν);
   }
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_with_equalities(status, infeasible);
   }

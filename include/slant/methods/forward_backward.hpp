@@ -51,7 +51,6 @@ struct forward_backward_options {
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (step_length) detail::check_positive("step_length", *step_length);
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
@@ -78,7 +77,6 @@ struct forward_backward_state : gradient_point<QP> {
   forward_backward_state(QP const& qp, vector_type const& x0)
       : gradient_point<QP>(qp, x0), previous(x0), previous_gradient(x0), y(x0) {}
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_of(
         status, {.stalled = "the reduced gradient has not fallen any more: " + this->accuracy()});
@@ -128,7 +126,7 @@ class forward_backward<QP> {
     state_type s(qp_.get(), x0);
     static_cast<void>(s.set_step_length(qp_.get(), options_, scalar(1)));
     if (s.begin(qp_.get(), x0)) s.status = status::converged;
-    judge(s);
+    judge_reduced_gradient(s);
     return s;
   }
 
@@ -147,10 +145,10 @@ class forward_backward<QP> {
     vectors::difference(s.y, s.x, s.y);
     vectors::difference(s.x, s.previous, s.trial);
     bool const turns = inner_product(s.y, s.trial) > scalar(0);
-    if (s.gradient_and_unit(qp) || turns) restart(s);
+    if (s.gradient_and_unit(qp) || turns) s.momentum = scalar(1);
     s.reduce(qp);
     ++s.iteration;
-    judge(s);
+    judge_reduced_gradient(s);
     auto const energy = [&] { return s.energy(qp); };
     if (s.status == status::running &&
         s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy,
@@ -174,12 +172,6 @@ class forward_backward<QP> {
     scalar const before = s.momentum;
     s.momentum = (scalar(1) + sqrt(scalar(1) + scalar(4) * before * before)) / scalar(2);
     return (before - scalar(1)) / s.momentum;
-  }
-  static void restart(state_type& s) { s.momentum = scalar(1); }
-
-  static void judge(state_type& s) {
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
   }
 
   held<QP> qp_;

@@ -184,12 +184,6 @@ class interior_point_steps {
   static constexpr index most_raises = 10;
 
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
-  using column = Eigen::Array<scalar, Eigen::Dynamic, 1>;
-
-  static scalar root(scalar const& v) {
-    using std::sqrt;
-    return sqrt(v);
-  }
 
   /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
   [[gnu::noinline]] void set_diagonal(state_type& s) const {
@@ -567,8 +561,7 @@ class interior_point_steps {
   }
 
   void note_progress(state_type& s) const {
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+    judge_reduced_gradient(s);
     if (s.status != status::running) return;
     if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience)) {
       s.status = status::stalled;
@@ -590,7 +583,8 @@ auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_ty
   auto origin = like(x0, qp.size());
   vectors::set_zero(origin);
   bool const solved = s.begin(qp, origin);
-  scalar const per_entry = root(scalar(1) / scalar(slant::global_size(x0)));
+  using std::sqrt;
+  scalar const per_entry = sqrt(scalar(scalar(1) / scalar(slant::global_size(x0))));
   scalar const start_force =
       detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
   scalar const force = start_force * norm(s.r) * per_entry;

@@ -19,8 +19,6 @@
 #include <slant/sets/blocks.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -103,7 +101,6 @@ struct interior_point_state : gradient_point<QP> {
         trial_multipliers(like(x0, barrier.rows())),
         inner(x0, qp.size(), m) {}
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_of(
         status, {.converged = "the reduced gradient is zero: x is the solution",
@@ -161,7 +158,6 @@ struct interior_point_options {
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
   index patience = 30;       ///< steps without progress that mean stalled
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_positive("start_length", start_length);

@@ -39,8 +39,6 @@
 #include <slant/problems/any_qp.hpp>
 #endif
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -48,14 +46,6 @@
 #include <utility>
 
 namespace slant {
-
-// --- release rules -------------------------------------------------------------------------------
-//
-// When and how an active set method releases blocks from its active set.
-//
-//     KPRGP   β̃ = r̃ on 𝒜;   the face is kept while  β̃ᵀr < Γ² φ̃ᵀr;   x ← x − α̃ β̃           [K (33)]
-//     QPQ     β of [K Lemma 1];  while  ‖β‖ < Γ ‖φ‖;                  x ← x − α β, α minimises q
-//     QPC     β of [K Lemma 1];  until CG has minimised q on the face;  x ← x − α β
 
 // --- qpc options ---------------------------------------------------------------------------------
 
@@ -71,7 +61,6 @@ struct qpc_options {
   index patience = 1000;
   spectral_bound_options spectrum{};
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_option("face_accuracy", face_accuracy,
                          face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
@@ -146,6 +135,12 @@ void kkt_vector(Set const& set, Face const& face, V const& x, V const& r, V cons
 }
 
 // --- release rules -------------------------------------------------------------------------------
+//
+// When and how an active set method releases blocks from its active set.
+//
+//     KPRGP   β̃ = r̃ on 𝒜;   the face is kept while  β̃ᵀr < Γ² φ̃ᵀr;   x ← x − α̃ β̃           [K (33)]
+//     QPQ     β of [K Lemma 1];  while  ‖β‖ < Γ ‖φ‖;                  x ← x − α β, α minimises q
+//     QPC     β of [K Lemma 1];  until CG has minimised q on the face;  x ← x − α β
 
 /// The rule of KPRGP.
 struct reduced_gradient_release {

@@ -158,7 +158,6 @@ struct modified_newton_options {
   index patience = 100;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     forcing.validate();
     if (step_length) detail::check_positive("step_length", *step_length);
@@ -181,8 +180,7 @@ struct outside_point {
   bool in_use = false;      ///< false: λ is the state's x
 
   explicit outside_point(V const& prototype)
-      : x(like(prototype, slant::local(prototype).size())),
-        r(like(prototype, slant::local(prototype).size())) {}
+      : x(like(prototype, slant::local(prototype).size())), r(x) {}
 };
 
 /// Methods that stay in Λ need none.
@@ -220,7 +218,6 @@ struct modified_newton_state : gradient_point<QP> {
         outside(x0),
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_of(
         status,
@@ -333,7 +330,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
     if (s.since_refresh == 0) return false;
     s.status = status::running;
     compute_gradient(s);
-    reduce(s);
+    s.reduce(qp_.get());
     judge(s);
     return true;
   }
@@ -343,7 +340,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
   void begin_newton(state_type& s, bool solved) const {
     s.face.assign(qp_.get().set(), slant::local(s.x));
-    reduce(s);
+    s.reduce(qp_.get());
     judge(s);
     s.forcing = s.forcing.starting_at(s.reduced_gradient_norm);
     if (solved) s.status = status::converged;
@@ -426,11 +423,11 @@ class modified_newton<QP, Start, Inner, Forcing> {
         compute_gradient(s);
       }
     }
-    reduce(s);
+    s.reduce(qp_.get());
     // r̃ = 0 counts if r was computed from x.
     if (s.reduced_gradient_norm == scalar(0) && s.since_refresh > 0) {
       compute_gradient(s);
-      reduce(s);
+      s.reduce(qp_.get());
     }
     judge(s);
     if constexpr (!definite) {
@@ -447,8 +444,6 @@ class modified_newton<QP, Start, Inner, Forcing> {
     std::swap(s.r, s.outside.r);
     std::swap(s.since_refresh, s.outside.since_refresh);
   }
-
-  void reduce(state_type& s) const { s.reduce(qp_.get()); }
 
   /// The status of the point at which a step has ended.
   void judge(state_type& s) const {
@@ -483,13 +478,9 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
 // --- mssn ----------------------------------------------------------------------------------------
 //
-// MSSN, "modified semismooth Newton" [K §3.3.3]: every step freezes the blocks outside 𝒜,
-//
-//     λᵢ^(k+1) = P_Λᵢ(λᵢ − ρ rᵢ),  i ∉ 𝒜                                                 (57)
-//     λ^(k+1)  = arg min q  subject to (57)
-//
-// If it converges, then to the solution [K Theorem 6]. It need not: active sets can recur, and a
-// sliding disc moves only by the fixed steps of (57).
+// MSSN, "modified semismooth Newton" [K §3.3.3]: every step freezes the blocks outside 𝒜 by (57) and
+// minimises q over the others. If it converges, then to the solution [K Theorem 6]. It need not:
+// active sets can recur, and a sliding disc moves only by the fixed steps of (57).
 
 template <class S>
 using mssn_options = modified_newton_options<S, fixed_forcing>;
@@ -511,11 +502,9 @@ mssn(QP&&, mssn_options<detail::program_scalar_t<QP>> = {}) -> mssn<kept_t<QP>>;
 
 // --- imssn ---------------------------------------------------------------------------------------
 //
-// IMSSN, "inexact MSSN" [K §3.3.3]: a restarted CG method,
+// IMSSN, "inexact MSSN" [K §3.3.3]: a restarted CG method, (3.2°) with frozen blocks (57) and
 //
-//     tol^(k+1)  = min(r_tol err^(k)/err^(0), c_fact tol^(k)),   tol^(0) = r_tol/c_fact     (3.1°)
-//     λᵢ^(k+1,0) = P_Λᵢ(λᵢ − ρ rᵢ), i ∉ 𝒜;  λᵢ, i ∈ 𝒜                                       (3.2°)
-//     λ^(k+1)    = CG(A, b, 𝒜, λ^(k+1,0), tol^(k+1))                                        (3.3°)
+//     tol^(k+1) = min(r_tol err^(k)/err^(0), c_fact tol^(k)),   tol^(0) = r_tol/c_fact      (3.1°)
 //
 // Nothing guarantees convergence: use gimssn where it stalls. Measured: with ρ = 1.9/σ_max it
 // converges on all wires and bricks tried, with 8/σ_max in half the products on some bricks and not
@@ -545,15 +534,10 @@ imssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> imssn<kept_t<QP
 
 // --- gimssn --------------------------------------------------------------------------------------
 //
-// GIMSSN, "globally convergent IMSSN" [K §3.3.4]: every step begins with a projected gradient step
-// on all blocks and ends in Λ,
-//
-//     tol^(k+1)   as IMSSN has it                                                           (3.1°)
-//     λ^(k+1,0)   = P_Λ(λ^(k) − ρ r^(k)),   ρ ∈ (0, 2/σ_max)                                (3.2°)
-//     λ^(k+1)     = CG_feas(A, b, 𝒜, λ^(k+1,0), tol^(k+1))                                  (3.3°)
-//
-// where CG_feas ends with a half step to the boundary when it would leave Λ. q falls in every step,
-// by the factor η = 1 − min(ρ, 2/σ_max − ρ) σ_min at least, and
+// GIMSSN, "globally convergent IMSSN" [K §3.3.4]: with tol^(k+1) as IMSSN has it every step begins
+// with a projected gradient step on all blocks, (63) with ρ ∈ (0, 2/σ_max), and ends in Λ: CG_feas
+// makes a half step to the boundary when it would leave Λ. q falls in every step, by the factor
+// η = 1 − min(ρ, 2/σ_max − ρ) σ_min at least, and
 // ‖λ^(k) − λ*‖² ≤ 2 (q(λ^(0)) − q(λ*)) η^k / σ_min for subsymmetric sets [K Theorem 7].
 //
 // Known weakness: on a curved boundary a sliding block moves only by the gradient steps (3.2°).

@@ -50,7 +50,6 @@ struct kprgp_options {
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_positive("proportioning", proportioning);
     if (step_length) detail::check_positive("step_length", *step_length);
@@ -94,7 +93,6 @@ struct kprgp_state : gradient_point<QP> {
         directions(x0),
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     std::string const why =
         no_minimum ? "along a direction that does not leave the set the curvature is lost in "
@@ -251,7 +249,7 @@ class proportioning_steps {
     s.reduce(qp_.get());
     s.face.assign(qp_.get().set(), slant::local(semismooth ? s.projected : s.x));
     s.directions.live = false;
-    weigh(s);
+    Rule::weigh(qp_.get(), s);
     s.φr_at_restart = s.φr;
     if constexpr (!definite) {
       // Steps that leave Λ again and again may still sum up to a direction that never does.
@@ -265,10 +263,8 @@ class proportioning_steps {
   /// r̃ and what its two parts can gain.
   void split(state_type& s) const {
     s.reduce(qp_.get());
-    weigh(s);
+    Rule::weigh(qp_.get(), s);
   }
-
-  void weigh(state_type& s) const { Rule::weigh(qp_.get(), s); }
 
   /// The status of the point at which a step has ended, never of one that it has passed. Whatever
   /// ends the run counts if r was computed from x; if not, the run goes on from there.
@@ -278,11 +274,7 @@ class proportioning_steps {
       s.status = status::running;
       recompute(s);
     }
-    if (s.status == status::running) judge(s);
-  }
-  void judge(state_type& s) const {
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+    if (s.status == status::running) judge_reduced_gradient(s);
   }
 
   /// At least max(‖b‖, ‖A x‖) / unit.
@@ -296,7 +288,7 @@ class proportioning_steps {
       s.no_minimum = false;
       if (s.since_refresh > 0) recompute(s);
       s.status = status::stalled;
-      judge(s);
+      judge_reduced_gradient(s);
     }
   }
 
@@ -358,7 +350,7 @@ bool proportioning_steps<QP, Rule>::refresh(state_type& s) const {
   if (s.since_refresh == 0) return false;
   s.status = status::running;
   recompute(s);
-  judge(s);
+  judge_reduced_gradient(s);
   return true;
 }
 

@@ -80,7 +80,6 @@ struct schur_contact_options {
   index projected_trials = 1;
   index patience = 1000;  ///< steps in which neither the residual nor the energy falls: stalled
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_option("release", release, release >= S(0) && detail::is_finite(release),
                          "a number >= 0");
@@ -163,7 +162,6 @@ struct schur_contact_state {
   /// belong to the rows of B in the units of those.
   [[nodiscard]] row_vector multipliers() const { return unit * λ.cwiseQuotient(row_units); }
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_of(
         status,

@@ -73,7 +73,6 @@ struct smalse_options {
   spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
   kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     detail::check_positive("penalty", penalty);
     detail::check_positive("balance", balance);
@@ -147,7 +146,6 @@ struct smalse_state {
   bool comparable = false;            ///< L may be compared with that of the step before
   bool infeasible = false;            ///< no point of Λ satisfies G x = e, which has been shown
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_with_equalities(status, infeasible);
   }
@@ -404,16 +402,13 @@ class smalse<QP, C> {
     if (!detail::is_finite(s.feasibility_norm)) s.status = status::breakdown;
   }
 
-  /// In lengths, by a factor that does not change: x may be much larger on the way than at its end.
-  [[nodiscard]] static scalar error(state_type const& s) {
-    return std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
-  }
-
   /// Infeasible constraints are recognised by a plane that separates them from Λ, and by nothing
   /// else: where the two meet at a small angle, progress is as slow as if they did not.
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
-    if (!s.progress.stalled(s.iteration, error(s), options_.patience)) return;
+    // In lengths, by a factor that does not change: x may be much larger on the way than at its end.
+    scalar const error = std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
+    if (!s.progress.stalled(s.iteration, error, options_.patience)) return;
     s.status = status::stalled;
     s.infeasible = detail::is_apart(qp_.get().set(), constraints_.get(), s.x);
   }

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,13 +33,6 @@ concept equality_constrained_program = requires(P const& p) {
 };
 
 namespace detail {
-
-/// Whether x meets the equations, if they are known.
-template <class C, class V, class S>
-[[nodiscard]] bool meets(C const& c, V const& x, S const& tolerance) {
-  if constexpr (requires { c.meets(x, tolerance); }) return c.meets(x, tolerance);
-  return true;
-}
 
 /// constrained_newton from x0 until the certificate says that it is enough.
 template <class QP, class C, class M>
@@ -59,8 +51,9 @@ template <class QP, class C, class M>
     auto const certify = [&](V const& x, V const& ν) {
       auto now = certificate(x, ν);
       // Where rows are nearly dependent on the face, the digits are missing that would tell.
-      bool const is_enough = now.relative() <= tolerance;
-      if (is_enough && !meets(c, x, tolerance)) now.bound = infinity<S>();
+      if constexpr (requires { c.meets(x, tolerance); }) {
+        if (now.relative() <= tolerance && !c.meets(x, tolerance)) now.bound = infinity<S>();
+      }
       // Further steps may have led away from the best point.
       S const best = result.error.relative();
       if (now.relative() < best || !is_finite(best)) {

@@ -77,9 +77,6 @@ class anderson_mixing {
     }
   }
 
-  /// Number of differences in use.
-  [[nodiscard]] index size() const { return static_cast<index>(count_); }
-
   /// Forgets everything: the next step is a plain one.
   void forget() {
     count_ = 0;
@@ -169,7 +166,6 @@ struct successive_options {
   index inner_steps = 200;  ///< of the inner method in one outer step at most
   index patience = 30;      ///< outer steps in which the residual does not fall that mean stalled
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (window < 0) throw bad_input("window", detail::show(window), "a number >= 0");
     detail::check_option("growth", growth, growth >= S(1) && detail::is_finite(growth),
@@ -216,7 +212,6 @@ struct successive_state {
   slant::status inner_status = slant::status::running;  ///< how the last inner solve ended
   slant::work work{};  ///< inner_iterations: steps of the inner method
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
     if (status == slant::status::converged) return "x solves the problem that belongs to it";
     if (status == slant::status::stalled) return "the fixed point iteration gets no nearer";

@@ -273,7 +273,6 @@ struct symmetric_newton_state : gradient_point<QP> {
         inner(x0, qp.size(), m),
         products(qp.a(), x0) {}
 
-  /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const;
 };
 
@@ -390,8 +389,7 @@ class symmetric_newton_steps {
   void measure(state_type& s) const {
     static_cast<void>(s.gradient_and_unit(qp_.get()));
     s.reduce(qp_.get());
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
+    judge_reduced_gradient(s);
   }
 
   /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
@@ -489,11 +487,6 @@ class symmetric_newton_steps {
     end_descent(s);
   }
 
-  void descend(state_type& s) const {
-    s.status = s.descent.step(qp_.get(), options_.descent, s);
-    end_descent(s);
-  }
-
   /// Back to Newton's method if the other one has done its work.
   void end_descent(state_type& s) const {
     s.last_step = symmetric_newton_step::descent;
@@ -532,7 +525,8 @@ template <class QP, class M>
 void symmetric_newton_steps<QP, M>::step(state_type& s) const {
   if (s.status != status::running) return;
   if (s.descent.at_work()) {
-    descend(s);
+    s.status = s.descent.step(qp_.get(), options_.descent, s);
+    end_descent(s);
   } else {
     project(s);
     if (s.status == status::running) newton_step(s);

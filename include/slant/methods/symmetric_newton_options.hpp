@@ -41,7 +41,6 @@ struct symmetric_newton_options {
   index patience = 100;  ///< steps in which ‖F‖ does not fall that mean stalled
   kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
 
-  /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_positive("step_factor", step_factor);

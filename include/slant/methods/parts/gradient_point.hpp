@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace slant {
@@ -53,6 +54,13 @@ template <class V>
   auto const product = inner_product(reduced, r);
   auto const bound = inner_product(reduced, reduced);
   return product > bound + noise ? product : bound;
+}
+
+/// The status of a state with r̃: converged where it vanishes, breakdown where it is no number.
+void judge_reduced_gradient(auto& s) {
+  auto const& size = s.reduced_gradient_norm;
+  if (size == std::remove_cvref_t<decltype(size)>(0)) s.status = status::converged;
+  if (!detail::is_finite(size)) s.status = status::breakdown;
 }
 
 // --- gradient point ------------------------------------------------------------------------------

@@ -167,9 +167,6 @@ struct nearest_point {
   [[nodiscard]] S violation(matrix_type const& e, index i) const {
     return e.col(i).dot(x) - bounds[i];
   }
-  [[nodiscard]] bool bounded(index i) const {
-    return bounds[i] < std::numeric_limits<S>::infinity();
-  }
 
   /// Only for cones: the rows that were in use the last time may be so again.
   bool try_same_rows(matrix_type const& e) {
@@ -194,7 +191,8 @@ struct nearest_point {
     index row = -1;
     S most(0);
     for (index i = 0; i < e.cols(); ++i) {
-      if ((used_[i] != 0 && allowed == S(1)) || !bounded(i)) continue;
+      bool const is_bound = bounds[i] < std::numeric_limits<S>::infinity();
+      if ((used_[i] != 0 && allowed == S(1)) || !is_bound) continue;
       S const v = violation(e, i);
       if (!(v > allowed * noise(e, i))) continue;
       S const distance = v / e.col(i).norm();
