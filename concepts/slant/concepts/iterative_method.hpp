@@ -16,6 +16,11 @@
 //     method    refresh(state) → bool: computes it; whether there was anything to do
 // or that can go on after the data of the problem have changed:
 //     method    resume(state, x0)
+// or whose statuses want a sentence:
+//     state     reason() → std::string: what a status other than running means here
+//
+// Options of the library's methods are aggregates; validate() throws bad_input naming the option,
+// its value and what was expected.
 //
 // Laws.   start gives iteration 0; step adds 1 to it, or sets a status other than running;
 //         a step from a state at rest changes nothing; refresh leaves x alone, and a second one
