@@ -478,9 +478,9 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
 // --- mssn ----------------------------------------------------------------------------------------
 //
-// MSSN, "modified semismooth Newton" [K §3.3.3]: every step freezes the blocks outside 𝒜 by (57) and
-// minimises q over the others. If it converges, then to the solution [K Theorem 6]. It need not:
-// active sets can recur, and a sliding disc moves only by the fixed steps of (57).
+// MSSN, "modified semismooth Newton" [K §3.3.3]: every step freezes the blocks outside 𝒜 by (57)
+// and minimises q over the others. If it converges, then to the solution [K Theorem 6]. It need
+// not: active sets can recur, and a sliding disc moves only by the fixed steps of (57).
 
 template <class S>
 using mssn_options = modified_newton_options<S, fixed_forcing>;

@@ -406,7 +406,7 @@ class smalse<QP, C> {
   /// else: where the two meet at a small angle, progress is as slow as if they did not.
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
-    // In lengths, by a factor that does not change: x may be much larger on the way than at its end.
+    // In lengths, by a factor that does not change: x may be larger on the way than at its end.
     scalar const error = std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
     if (!s.progress.stalled(s.iteration, error, options_.patience)) return;
     s.status = status::stalled;

@@ -90,8 +90,8 @@ namespace slant {
 template <class C, class V>
 concept has_block_states = detail::all_blocks<detail::ask_for_states, C, V>();
 
-/// Every block of the set has slant(x), of a function slant(ρ, z), a matrix of its dimension, as far
-/// as its type tells.
+/// Every block of the set has slant(x), of a function slant(ρ, z), a matrix of its dimension, as
+/// far as its type tells.
 template <class C, class V>
 concept has_block_slants = detail::all_blocks<detail::ask_for_slants, C, V>();
 

@@ -328,8 +328,8 @@ class rotation {
 
 }  // namespace detail
 
-/// QΛ for a block of dimension N and an orthogonal N × N matrix Q: rotated(ellipse{a, b}, Q) has its
-/// axes along the columns of Q.
+/// QΛ for a block of dimension N and an orthogonal N × N matrix Q: rotated(ellipse{a, b}, Q) has
+/// its axes along the columns of Q.
 /// @throws bad_input if QᵀQ differs from I by more than 8 N ε in some entry, ε the machine epsilon.
 template <set_block C, class Q>
 [[nodiscard]] auto rotated(C const& set, Q const& matrix) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The laws of convex sets, sampled; needs no test framework (laws.hpp does).
-// Those of projections, and of each capability the set has: slanting operator, step to the boundary,
-// support function, inequality form, states, blocks. parts/projection_breaches.hpp states them one
-// by one, with what sampling cannot see.
+// Those of projections, and of each capability the set has: slanting operator, step to the
+// boundary, support function, inequality form, states, blocks. parts/projection_breaches.hpp states
+// them one by one, with what sampling cannot see.
 #pragma once
 
 #include <slant/concepts/vector.hpp>
