@@ -67,6 +67,20 @@ TEST_CASE("q + σ: the solution of the dual problem, in a few superlinear steps"
   }
 }
 
+TEST_CASE("no stall while the envelope falls: ‖F‖ may rise on the way") {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    CAPTURE(seed);
+    auto const A = test::spd(test::with_spectrum(test::log_spaced(20, 1e6), seed));
+    VectorXd const b = test::random_vector(20, seed + 40);
+    slant::separable_qp const program{A, b, slant::half_lines(20)};
+    slant::symmetric_newton_options<double> impatient;
+    impatient.patience = 1;
+    auto const r =
+        test::minimise(slant::envelope_newton{program, impatient}, test::zeros(20), 1e-10, 300);
+    CHECK(r.converged());
+  }
+}
+
 TEST_CASE("sets and functions side by side: normal gaps and friction") {
   Index const m = 8;
   MatrixXd const M = test::with_spectrum(test::log_spaced(3 * m, 200), 3);
