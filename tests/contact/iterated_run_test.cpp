@@ -533,6 +533,15 @@ TEST_CASE("what factors do not bring to an end is iterated after all") {
   CHECK(blind.converged());
   CHECK(blind.choice.reason.find("factored: no coordinates of nodes are given; iterated after") ==
         0);
+  // Forces that are far off are no reason to end there.
+  o.start = VectorXd::Constant(s.data.d.size() + s.data.T.rows(), 1e16);
+  for (auto const& layout : {s.layout, options{}.layout}) {
+    o.layout = layout;
+    auto const far = contact::solve(s.K, s.data, o);
+    CHECK(far.converged());
+    CHECK(far.choice.route == solution_route::iterate);
+    CHECK(energy_error(s.K, far.u, r.u) <= 2e-8);
+  }
   o.route = solution_route::factor;
   CHECK(contact::solve(s.K, s.data, o).status == slant::status::iteration_limit);
 }

@@ -257,10 +257,9 @@ template <class Friction, class S>
   o.validate();
   detail::validated(friction, c, K.rows());
   bool const asked = o.route == solution_route::iterate;
-  auto const outlook = o.prove ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
-                       : !asked && o.start
-                           ? detail::iteration_outlook<S>{"forces to start from are given"}
-                           : detail::outlook_of_iteration(K, c, o);
+  auto outlook = o.prove ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
+                         : detail::outlook_of_iteration(K, c, o);
+  if (o.start && !asked && !outlook.refusal) outlook.refusal = "forces to start from are given";
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
   auto const factor = [&] { return run(friction, K, c, o).solve(); };

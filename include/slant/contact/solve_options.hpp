@@ -37,7 +37,7 @@ struct solve_options {
   index max_steps = 5000;  ///< of each method that is tried
   bool scale = true;       ///< whether rows of B may be scaled
   condensation_options condensation{};
-  /// λ to start from; none: conjugate gradients without the constraints.
+  /// λ to start from, by factors of K; none: conjugate gradients without the constraints.
   std::optional<Eigen::VectorX<S>> start{};
   /// Where the unknowns are. Gives motions of bodies without supports their names, and multigrid the
   /// rigid-body modes. Without it K is factored first, unless `route` says otherwise: bodies without
