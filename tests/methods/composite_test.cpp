@@ -375,6 +375,17 @@ struct known_problem {
   }
 };
 
+TEST_CASE("a function that falls for ever ends as stalled") {
+  MatrixXd M = MatrixXd::Zero(2, 2);
+  M(0, 0) = 1;
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(M);
+  VectorXd const b = VectorXd::Ones(2);
+  auto const φ = support(slant::power(slant::interval<double>(-0.5, 0.5), 2));
+  slant::separable_qp const program{A, b, φ};
+  auto const r = test::minimise(slant::envelope_newton{program}, test::zeros(2), 1e-10, 1000);
+  CHECK(r.status == slant::status::stalled);
+}
+
 TEST_CASE("solve(problem, tolerance): right on random problems, in any units, with a singular A") {
   slant::index plain = 0;
   for (auto const& [spread, zeros] : {std::pair(0.0, 0), std::pair(4.0, 0), std::pair(0.0, 2)}) {

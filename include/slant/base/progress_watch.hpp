@@ -73,7 +73,7 @@ class progress_watch {
   }
   /// Has ‖r̃‖ been below `floor`?
   [[nodiscard]] bool at_floor() const { return at_floor_; }
-  /// q is measured in another unit from now on.
+  /// q is another function, or measured in another unit, from now on.
   void forget_energy() { smallest_energy_ = std::numeric_limits<S>::infinity(); }
 
  private:

@@ -19,6 +19,7 @@
 // Rows with an infinite bound never act and touch nothing.
 #pragma once
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/prepared_body.hpp>
 #include <slant/factorizations/conjugate_projector.hpp>

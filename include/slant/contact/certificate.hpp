@@ -46,6 +46,7 @@
 #pragma once
 
 #include <slant/base/double_word.hpp>
+#include <slant/base/matrix_entries.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/newton_estimate.hpp>

@@ -30,6 +30,13 @@ struct friction_disc {
   static constexpr index tangents = 2;
 };
 
+/// Tangents per node of a law that knows them by its type; 0 of others.
+template <class Friction>
+inline constexpr index static_tangents = 0;
+template <class Friction>
+  requires std::same_as<decltype(&Friction::tangents), index const*>
+inline constexpr index static_tangents<Friction> = Friction::tangents;
+
 /// The law that data stand for by the rows of T; its set is an any_set, so that what is written for
 /// it is one type for all of them.
 struct friction_of_data {

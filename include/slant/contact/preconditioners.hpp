@@ -3,6 +3,7 @@
 // Preconditioners of the dual operator A = B K⁻¹Bᵀ: lumped, and Dirichlet.
 #pragma once
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/base/partitions.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/laws.hpp>

@@ -6,6 +6,7 @@
 #include <slant/base/report.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/iterative_method.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/route.hpp>

@@ -208,6 +208,7 @@ class cholmod_workspace {
   }
   cholmod_workspace(cholmod_workspace const& other) : cholmod_workspace() {
     right_.setZero(other.right_.rows(), other.right_.cols());
+    if (!other.room_) return;  // it has been moved from
     for (auto const vectors : {&room::solution, &room::y, &room::e}) {
       room_.get()->*vectors = room_like(other.room_.get()->*vectors);
     }
@@ -231,7 +232,7 @@ class cholmod_workspace {
     b.x = right_.data();
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
-    // A simplicial solve works on up to four right-hand sides at a time and leaves y_ with the size
+    // A simplicial solve works on up to four right-hand sides at a time and leaves y with the size
     // of the last few; the next one would allocate it anew.
     auto& [solution, y, e, state] = *room_;
     if (y != nullptr && factors.get()->is_super == 0) {

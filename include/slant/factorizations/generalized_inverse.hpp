@@ -15,6 +15,7 @@
 //     auto F = slant::congruence(B, Kplus);
 #pragma once
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/base/partitions.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/factorizations/factorize.hpp>

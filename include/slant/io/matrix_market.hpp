@@ -183,7 +183,9 @@ template <std::floating_point S, std::signed_integral I>
 [[nodiscard]] std::vector<Eigen::Triplet<S, I>> parse_entries(line_scanner& lines,
                                                               matrix_market_header const& header) {
   std::vector<Eigen::Triplet<S, I>> entries;
-  entries.reserve(static_cast<std::size_t>(header.entries) * (header.symmetric ? 2 : 1));
+  if (!header.array) {
+    entries.reserve(static_cast<std::size_t>(header.entries) * (header.symmetric ? 2 : 1));
+  }
   index row = -1, col = 0;
   for (index k = 0; k < header.entries; ++k) {
     next_entry(lines, k, header);

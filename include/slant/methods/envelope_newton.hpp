@@ -201,8 +201,11 @@ class envelope_newton {
     if (!s.at_projection) advance(s);
     if (s.status == status::running) newton_step(s);
     ++s.iteration;
-    // ‖F‖ may rise for a long time while E_γ falls.
-    auto const value = [&] { return std::pair(s.value, s.value_noise); };
+    // ‖F‖ may rise for a long time while E_γ falls, which it may do for ever where A is singular.
+    constexpr bool bounded = declares_positive_definite<typename problem::operator_type>;
+    auto const value = [&] {
+      return std::pair(bounded ? s.value : std::numeric_limits<scalar>::infinity(), s.value_noise);
+    };
     if (s.status == status::running &&
         s.progress.stalled(s.iteration, s.residual_norm, options_.patience, value, s.rounding())) {
       s.status = status::stalled;
@@ -256,7 +259,7 @@ class envelope_newton {
     s.first_residual = s.residual_norm;
     s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
     s.forcing.first_error = s.gradient_scale;
-    judge(s);
+    judge_reduced_gradient(s);
     if (solved) s.status = status::converged;
   }
   /// y = x, with its z, E and ‖F‖.
@@ -267,10 +270,6 @@ class envelope_newton {
     project(s);
     evaluate(s);
     s.at_projection = false;
-  }
-  static void judge(state_type& s) {
-    if (s.reduced_gradient_norm == scalar(0)) s.status = status::converged;
-    if (!detail::is_finite(s.reduced_gradient_norm)) s.status = status::breakdown;
   }
 
   /// ρ per unit of the gradient: z = y − ρ r.
@@ -337,7 +336,7 @@ class envelope_newton {
     if (measure(s) && detail::is_finite(s.value)) evaluate(s);
     s.reduce(qp_.get());
     s.at_projection = true;
-    judge(s);
+    judge_reduced_gradient(s);
   }
 
   /// Π (r + v) is the gradient on the face; v = (z − x)/ρ, which a set has normal to its faces.

@@ -40,6 +40,7 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/interior_point_state.hpp>
+#include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>

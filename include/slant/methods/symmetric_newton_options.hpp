@@ -37,8 +37,10 @@ struct symmetric_newton_options {
   /// Of envelope_newton with a preconditioner that knows faces: ‖x − x*‖_A, as ‖Π(r + v)‖_M
   /// estimates it, at which x is good enough; 0: never.
   S energy_goal = S(0);
-  index halvings = 30;   ///< β = 1, ½, …: so often at most
-  index patience = 100;  ///< steps in which ‖F‖ does not fall that mean stalled
+  index halvings = 30;  ///< β = 1, ½, …: so often at most
+  /// Steps in which ‖F‖ does not fall that mean stalled; of envelope_newton for a definite A steps in
+  /// which neither ‖F‖ nor the envelope does.
+  index patience = 100;
   kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
 
   [[gnu::cold]] void validate() const {

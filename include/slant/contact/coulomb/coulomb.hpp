@@ -94,7 +94,7 @@ class coulomb_radii {
   using scalar = scalar_t<vector_type>;
   static constexpr bool orthotropic =
       std::is_same_v<Coefficient, orthotropic_friction<vector_type>>;
-  static constexpr index tangents = Dual::friction_type::tangents;
+  static constexpr index tangents = static_tangents<typename Dual::friction_type>;
   static_assert(tangents > 0,
                 "coulomb_radii: the dual problem must have the law friction_line or friction_disc");
   static_assert(!(orthotropic && tangents == 1),
@@ -199,7 +199,7 @@ class coulomb_cones {
   using scalar = scalar_t<vector_type>;
   using sparse_type = typename Dual::sparse_type;
   /// Components of a contact.
-  static constexpr int dimension = 1 + int(Dual::friction_type::tangents);
+  static constexpr int dimension = 1 + int(static_tangents<typename Dual::friction_type>);
   static_assert(dimension > 1,
                 "coulomb_cones: the dual problem must have the law friction_line or friction_disc");
 

@@ -4,6 +4,7 @@
 // body costs what it has unknowns, however many bodies there are.
 #pragma once
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/contact/contact_data.hpp>

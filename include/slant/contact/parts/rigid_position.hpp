@@ -17,6 +17,7 @@
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/free_motions.hpp>

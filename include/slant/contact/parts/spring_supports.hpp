@@ -31,6 +31,7 @@
 #pragma once
 
 #include <slant/base/double_word.hpp>
+#include <slant/base/matrix_entries.hpp>
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/free_motions.hpp>
 #include <slant/contact/optimality.hpp>

@@ -6,6 +6,7 @@
 
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
 
+#include <slant/base/matrix_entries.hpp>
 #include <slant/factorizations/cholmod.hpp>
 #include <slant/factorizations/condensation_options.hpp>
 #include <slant/factorizations/condensed_operator.hpp>
