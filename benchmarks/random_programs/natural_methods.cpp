@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods.hpp"
 
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/slanting/projection.hpp>

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <slant/contact/preconditioners.hpp>
 #include <slant/contact/primal_dual.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/interior_point.hpp>
 #include <slant/methods/ssnm.hpp>
 #include <slant/newton/krylov_solvers.hpp>

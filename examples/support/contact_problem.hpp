@@ -10,7 +10,7 @@
 #include <slant/contact/preconditioners.hpp>
 #include <slant/factorizations/factorize.hpp>
 #include <slant/iteration/nested.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <support/measured.hpp>
 #include <support/named_method.hpp>
 #include <type_traits>

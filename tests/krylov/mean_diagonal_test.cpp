@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/operators/operators.hpp>
 
 #include <support/testing.hpp>

@@ -17,7 +17,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>

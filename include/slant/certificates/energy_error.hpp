@@ -354,9 +354,16 @@ template <class C, class X, class G, class M, class D>
   slant::visit_blocks(set, [&](auto const& block, auto const& p) {
     using block_type = std::remove_cvref_t<decltype(block)>;
     if constexpr (!whole_space<block_type>) {
+      // What nothing resists and nothing pulls says nothing of the others.
       S ρ(0);
-      for (index j = 0; j < p.size(); ++j) ρ += slant::local(m).coeff(p.component(j));
-      ρ /= S(2 * p.size());
+      index count = 0;
+      for (index j = 0; j < p.size(); ++j) {
+        S const entry = slant::local(m).coeff(p.component(j));
+        if (!detail::is_finite(entry) && slant::local(d).coeff(p.component(j)) == S(0)) continue;
+        ρ += entry;
+        ++count;
+      }
+      ρ = count > 0 ? S(ρ / S(2 * count)) : detail::infinity<S>();
       // A function is in units of x and g; a set knows none of g.
       S const u = function_part<block_type> ? S(1) : unit;
       auto own = p.value(d);

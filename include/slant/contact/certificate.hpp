@@ -169,6 +169,10 @@ class certificate {
                                            S const& goal, Solve const& solve) {
     slant::detail::check_size("lambda", λ.size(), m_.B.rows());
     slant::detail::check_size("u", u.size(), m_.K().rows());
+    // An empty row moves nothing: its multiplier may as well be 0, where no force is missing.
+    for (index i = 0; i < λ.size(); ++i) {
+      if (!slant::detail::is_finite(m_.stiffness(i))) λ(i) = S(0);
+    }
     slant::project(set, λ, λ);
     outward_.setZero(λ.size());
     slant::visit_blocks(set, [&](auto const& block, auto const& p) {
@@ -438,11 +442,15 @@ template <class V>
   std::vector<index> rows;
   auto const assign = [&] {
     S sum(0);
-    for (index const row : rows) sum += stiffness(row);
+    index count = 0;
+    for (index const row : rows) {
+      if (!slant::detail::is_finite(stiffness(row))) continue;  // empty: it goes with the others
+      sum += stiffness(row);
+      ++count;
+    }
     bool const acts = sum > S(0) && slant::detail::is_finite(sum);
-    S const mean = acts ? S(sum / S(index(rows.size()))) : S(0);
-    // Nothing is asked of an empty row.
-    for (index const row : rows) d(row) = acts ? unit_near(S(sqrt(mean))) : S(1);
+    S const mean = acts ? S(sum / S(count)) : S(0);
+    for (index const row : rows) d(row) = acts ? unit_near(S(sqrt(mean))) : S(0);
     if (acts) {
       least = std::min<S>(least, mean);
       most = std::max<S>(most, mean);
@@ -455,7 +463,10 @@ template <class V>
     for (index k = 0; k < tangents; ++k) rows.push_back(nodes + tangents * i + k);
     assign();
   }
-  return most > S(64) * least ? d : V();
+  if (!(most > S(64) * least)) return V();
+  // Contacts that act on nothing are as the softest one: what stands for their gaps stays small.
+  for (auto& factor : d) factor = factor > S(0) ? factor : unit_near(S(sqrt(least)));
+  return d;
 }
 
 }  // namespace detail

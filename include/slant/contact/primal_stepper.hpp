@@ -56,7 +56,7 @@ class stepped_run {
         multigrid_(o.multigrid),
         most_(most),
         floating_(bodies_that_float(K, c_, o)),
-        springs_(K, floating_) {}
+        springs_(K, floating_, layout_.dimension()) {}
 
   [[nodiscard]] friction_of_data law() const { return friction_of_data{c_.tangents()}; }
   [[nodiscard]] data<S> const& scene() const { return c_; }

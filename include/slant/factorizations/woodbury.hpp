@@ -10,7 +10,6 @@
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
-#include <slant/base/sizes.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/operators/declare.hpp>

@@ -21,7 +21,7 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 
 #include <cmath>
 #include <limits>

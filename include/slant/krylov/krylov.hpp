@@ -16,7 +16,6 @@
 #include <slant/krylov/linear_system.hpp>
 
 // What they need to know of an operator:
-#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 // IWYU pragma: end_exports

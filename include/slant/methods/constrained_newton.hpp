@@ -37,8 +37,8 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/iteration/solve.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/smalse.hpp>

@@ -259,7 +259,7 @@ class envelope_newton {
     s.first_residual = s.residual_norm;
     s.forcing = forcing_history<scalar>::starting_at(s.residual_norm);
     s.forcing.first_error = s.gradient_scale;
-    judge_reduced_gradient(s);
+    detail::judge_reduced_gradient(s);
     if (solved) s.status = status::converged;
   }
   /// y = x, with its z, E and ‖F‖.
@@ -336,7 +336,7 @@ class envelope_newton {
     if (measure(s) && detail::is_finite(s.value)) evaluate(s);
     s.reduce(qp_.get());
     s.at_projection = true;
-    judge_reduced_gradient(s);
+    detail::judge_reduced_gradient(s);
   }
 
   /// Π (r + v) is the gradient on the face; v = (z − x)/ρ, which a set has normal to its faces.

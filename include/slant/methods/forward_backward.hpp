@@ -22,7 +22,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/problems/quadratic_program.hpp>
 
@@ -46,7 +46,7 @@ concept forward_backward_problem =
 /// Options of forward_backward.
 template <class S>
 struct forward_backward_options {
-  std::optional<S> step_length{};  ///< α in (0, 1/σ_max]; not given: see krylov/spectral_bound.hpp
+  std::optional<S> step_length{};  ///< α in (0, 1/σ_max]; not given: see krylov/spectrum.hpp
   bool extrapolate = true;         ///< θ as above; false: θ = 0
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
@@ -126,7 +126,7 @@ class forward_backward<QP> {
     state_type s(qp_.get(), x0);
     static_cast<void>(s.set_step_length(qp_.get(), options_, scalar(1)));
     if (s.begin(qp_.get(), x0)) s.status = status::converged;
-    judge_reduced_gradient(s);
+    detail::judge_reduced_gradient(s);
     return s;
   }
 
@@ -148,7 +148,7 @@ class forward_backward<QP> {
     if (s.gradient_and_unit(qp) || turns) s.momentum = scalar(1);
     s.reduce(qp);
     ++s.iteration;
-    judge_reduced_gradient(s);
+    detail::judge_reduced_gradient(s);
     auto const energy = [&] { return s.energy(qp); };
     if (s.status == status::running &&
         s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience, energy,

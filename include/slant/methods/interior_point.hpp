@@ -562,7 +562,7 @@ class interior_point_steps {
   }
 
   void note_progress(state_type& s) const {
-    judge_reduced_gradient(s);
+    detail::judge_reduced_gradient(s);
     if (s.status != status::running) return;
     if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience)) {
       s.status = status::stalled;

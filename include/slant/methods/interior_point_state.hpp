@@ -11,7 +11,7 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/random.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/barrier.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/parts/lorentz_pairs.hpp>

@@ -30,7 +30,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/newton/forcing.hpp>

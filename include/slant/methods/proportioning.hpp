@@ -17,7 +17,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/problems/quadratic_program.hpp>
@@ -43,7 +43,7 @@ enum class active_set_rule : unsigned char {
 template <class S>
 struct kprgp_options {
   S proportioning = S(1);  ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
-  std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectral_bound.hpp
+  std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectrum.hpp
   S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
   active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
@@ -274,7 +274,7 @@ class proportioning_steps {
       s.status = status::running;
       recompute(s);
     }
-    if (s.status == status::running) judge_reduced_gradient(s);
+    if (s.status == status::running) detail::judge_reduced_gradient(s);
   }
 
   /// At least max(‖b‖, ‖A x‖) / unit.
@@ -288,7 +288,7 @@ class proportioning_steps {
       s.no_minimum = false;
       if (s.since_refresh > 0) recompute(s);
       s.status = status::stalled;
-      judge_reduced_gradient(s);
+      detail::judge_reduced_gradient(s);
     }
   }
 
@@ -350,7 +350,7 @@ bool proportioning_steps<QP, Rule>::refresh(state_type& s) const {
   if (s.since_refresh == 0) return false;
   s.status = status::running;
   recompute(s);
-  judge_reduced_gradient(s);
+  detail::judge_reduced_gradient(s);
   return true;
 }
 

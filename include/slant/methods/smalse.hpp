@@ -33,7 +33,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/problems/augmented_problem.hpp>
@@ -69,7 +69,8 @@ struct smalse_options {
   S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
   S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
   index inner_steps = 5000;  ///< of one inner problem at most
-  index patience = 30;       ///< outer steps in which the error does not fall that mean stalled
+  index patience = 30;  ///< outer steps without progress that mean stalled: the error does not
+                        ///< fall, nor L rise
   spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
   kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
@@ -131,6 +132,7 @@ struct smalse_state {
   scalar M{1};           ///< inner problems are solved until ‖r̃‖ ≤ M ‖Q x − x̄‖
   scalar η{0};           ///< and ‖r̃‖ ≤ η
   scalar lagrangian{0};  ///< L(x, ν, ρ) of the last inner problem, in units of inner.unit
+  scalar lagrangian_noise{0};  ///< of that, from rounding
   scalar feasibility_norm{0};   ///< ‖Q x − x̄‖, distance of x from the affine space
   scalar feasibility_scale{0};  ///< max(‖x̄‖, ‖x‖)
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of L(·, ν, 0) with the new ν: of A x − b + ν on ker G
@@ -142,6 +144,7 @@ struct smalse_state {
   slant::work work{};
 
   progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  scalar energy_unit{1};              ///< what it is told L in
   bool resumed = true;                ///< the inner method has been told of ν already
   bool comparable = false;            ///< L may be compared with that of the step before
   bool infeasible = false;            ///< no point of Λ satisfies G x = e, which has been shown
@@ -315,6 +318,7 @@ class smalse<QP, C> {
   void resume(state_type& s, vector_type const& x, vector_type const& ν) const {
     s.status = status::running;
     s.progress = {};
+    s.energy_unit = s.inner.unit;
     s.M = options_.balance * s.ρ;
     slant::project(qp_.get().set(), slant::local(x), slant::local(s.inner.x));
     vectors::copy(ν, s.ν);
@@ -402,15 +406,23 @@ class smalse<QP, C> {
     if (!detail::is_finite(s.feasibility_norm)) s.status = status::breakdown;
   }
 
-  /// Infeasible constraints are recognised by a plane that separates them from Λ, and by nothing
-  /// else: where the two meet at a small angle, progress is as slow as if they did not.
+  /// While x stays in a corner of Λ the error does not fall before ν has grown to what b asks for,
+  /// and every step of that raises L. It rises for ever where the constraints are infeasible, which
+  /// is recognised by a plane that separates them from Λ, and by nothing else: where the two meet at
+  /// a small angle, progress is as slow as if they did not.
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
     // In lengths, by a factor that does not change: x may be larger on the way than at its end.
     scalar const error = std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
-    if (!s.progress.stalled(s.iteration, error, options_.patience)) return;
-    s.status = status::stalled;
-    s.infeasible = detail::is_apart(qp_.get().set(), constraints_.get(), s.x);
+    auto const energy = [&] {
+      s.infeasible = detail::is_apart(qp_.get().set(), constraints_.get(), s.x);
+      if (s.infeasible) return std::pair(detail::infinity<scalar>(), scalar(0));
+      scalar const unit = s.inner.unit / s.energy_unit;
+      return std::pair<scalar, scalar>(-s.lagrangian * unit, s.lagrangian_noise * unit);
+    };
+    if (s.progress.stalled(s.iteration, error, options_.patience, energy)) {
+      s.status = status::stalled;
+    }
   }
 
   /// 0 or another ν, whichever leaves less of r̃: the load of a bound that is far away (a large gap)
@@ -475,6 +487,7 @@ class smalse<QP, C> {
         s.ρ * s.feasibility_norm * (s.feasibility_norm / s.inner.unit) / scalar(2);
     if (s.comparable && now < s.lagrangian + growth - noise) s.M *= options_.shrink;
     s.lagrangian = now;
+    s.lagrangian_noise = noise;
   }
 
   held<QP> qp_;

@@ -389,7 +389,7 @@ class symmetric_newton_steps {
   void measure(state_type& s) const {
     static_cast<void>(s.gradient_and_unit(qp_.get()));
     s.reduce(qp_.get());
-    judge_reduced_gradient(s);
+    detail::judge_reduced_gradient(s);
   }
 
   /// x = P_Λ(z) with r and r̃; nothing to do if it is there.

@@ -6,8 +6,8 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
 #include <slant/krylov/preconditioner.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/proportioning.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/operators/identity.hpp>

@@ -6,5 +6,6 @@
 // IWYU pragma: begin_exports
 #include <slant/multilevel/aggregation.hpp>
 #include <slant/multilevel/block_matrix.hpp>
+#include <slant/multilevel/hierarchy.hpp>
 #include <slant/multilevel/multigrid.hpp>
 // IWYU pragma: end_exports

@@ -13,7 +13,6 @@
 #include <slant/base/held.hpp>
 #include <slant/base/long_arrays.hpp>
 #include <slant/base/matrix_entries.hpp>
-#include <slant/base/sizes.hpp>
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/member_names.hpp>
 

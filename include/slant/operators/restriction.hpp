@@ -6,7 +6,7 @@
 //     auto A_FF = slant::restricted(A, free);        // R A Rᵀ, keeps definiteness
 #pragma once
 
-#include <slant/base/sizes.hpp>
+#include <slant/base/matrix_entries.hpp>
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/capabilities.hpp>

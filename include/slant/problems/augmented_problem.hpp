@@ -12,7 +12,7 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/operators/sum.hpp>

@@ -5,7 +5,7 @@
 // function is one too: projection(at_step(φ, ρ)).
 #pragma once
 
-#include <slant/base/sizes.hpp>
+#include <slant/base/matrix_entries.hpp>
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/proximable.hpp>

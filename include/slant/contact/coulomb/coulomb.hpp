@@ -25,7 +25,7 @@
 #include <slant/contact/dual.hpp>
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/load_stepper.hpp>
-#include <slant/krylov/mean_diagonal.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/successive_approximations.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/forcing.hpp>

@@ -209,7 +209,7 @@ template <class Friction, class S>
     node_layout<S> const& layout, free_motions<S> const& floating, multigrid_options const& levels,
     S const& tolerance, index most) {
   c.g = Eigen::VectorX<S>::Zero(c.nodes());
-  moving_springs<S> springs(K, floating);
+  moving_springs<S> springs(K, floating, layout.dimension());
   primal_run<S> run(springs.held(), c, layout, levels, (most + 1) * steps_for_bounds);
   energy_certificate frozen(run.qp(), run.levels());
   std::optional<alart_curnier_steps<S>> newton;

@@ -327,11 +327,13 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
 //
 // Contact or friction holds them, or nothing. The proximal point method [Rockafellar 1976]
 //
-//     u⁺ = argmin  ½ vᵀK v − fᵀv + φ(v) + ½ ‖v − u‖²_D,       D = 1e-5 diag(K) on these bodies,
+//     u⁺ = argmin  ½ vᵀK v − fᵀv + φ(v) + ½ ‖v − u‖²_D,       D = δ diag(K) on these bodies,
 //
 // solves problems with springs that end where they began: they need nothing but another load, f + D
 // u, and levels of K + D. Where contact holds the bodies by a stiffness c it contracts by D/(D +
-// c), a hundredth or less on bricks; where it does not, u goes away and the run ends.
+// c), a hundredth or less on bricks; where it does not, u goes away and the run ends. On the mesh of
+// n unknowns of a body in d dimensions, K resists an even strain by some n^(−2/d) of its diagonal:
+// with δ = 2e-3 n^(−2/d), at most 1e-5, the mesh says nothing of how fast the springs are.
 //
 // Error. With w = ‖u⁺ − u‖_D and r(u⁺) + v = −D(u⁺ − u), v ∈ ∂φ(u⁺), monotonicity gives
 //
@@ -348,14 +350,16 @@ class moving_springs {
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  /// On these bodies; none: nothing is copied or done. Refers to K.
-  moving_springs(sparse_type const& K, free_motions<S> const& floating) : K_(&K) {
+  /// On these bodies in `dimension` dimensions; none: nothing is copied or done. Refers to K.
+  moving_springs(sparse_type const& K, free_motions<S> const& floating, index dimension) : K_(&K) {
     if (floating.free.empty()) return;
     D_ = centre_ = u_ = vector_type::Zero(K.rows());
     held_ = K;
     for (auto const& body : floating.free) {
+      auto const n = static_cast<double>(body.unknowns.size());
+      S const δ(std::min(1e-5, 2e-3 * std::pow(n, -2.0 / static_cast<double>(dimension))));
       for (index const j : body.unknowns) {
-        D_[j] = S(1e-5) * K.coeff(j, j);
+        D_[j] = δ * K.coeff(j, j);
         held_.coeffRef(j, j) += D_[j];
       }
     }
@@ -493,7 +497,7 @@ template <class Friction, class S>
 [[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
                                        data<S> const& c, free_motions<S> const& floating,
                                        solve_options<S> const& o) {
-  moving_springs<S> springs(K, floating);
+  moving_springs<S> springs(K, floating, o.layout.dimension());
   solution<S> result;
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
   result.factorization = run.levels().description();

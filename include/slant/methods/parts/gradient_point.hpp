@@ -12,7 +12,7 @@
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/spectral_bound.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/proximal_step.hpp>
 
@@ -56,16 +56,16 @@ template <class V>
   return product > bound + noise ? product : bound;
 }
 
+// --- gradient point ------------------------------------------------------------------------------
+
+namespace detail {
+
 /// The status of a state with r̃: converged where it vanishes, breakdown where it is no number.
 void judge_reduced_gradient(auto& s) {
   auto const& size = s.reduced_gradient_norm;
   if (size == std::remove_cvref_t<decltype(size)>(0)) s.status = status::converged;
-  if (!detail::is_finite(size)) s.status = status::breakdown;
+  if (!is_finite(size)) s.status = status::breakdown;
 }
-
-// --- gradient point ------------------------------------------------------------------------------
-
-namespace detail {
 
 template <class Norm, class N>
 [[nodiscard, gnu::cold]] std::string accuracy_reached(Norm const& reduced, Norm const& scale,

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+//
+// The levels of multigrid: K, its Galerkin products K_coarse = PᵀK P, and what their sweeps and the
+// last factor need. The same for every right-hand side and face, so that they are made once and
+// shared.
+//
+// P: of the user, as interpolation on nested meshes; or by smoothed aggregation (aggregation.hpp),
+// which represents the near kernel of K, what sweeps do not reach, exactly: constants of a
+// Laplacian, rigid-body modes in elasticity.
+//
+// Precision. The levels are of floats: a cycle is a correction that an outer iteration in double
+// takes as a preconditioner, and sweeps wait for memory. K itself is not kept. The levels are those
+// of K/2^e, so that the range of floats is no limit in any units.
+#pragma once
+
+#include <slant/base/matrix_entries.hpp>
+#include <slant/concepts/bad_input.hpp>
+#include <slant/concepts/scalar.hpp>
+#include <slant/multilevel/aggregation.hpp>
+#include <slant/multilevel/block_matrix.hpp>
+#include <slant/multilevel/parts/dense_factor.hpp>
+#include <slant/multilevel/parts/galerkin.hpp>
+#include <slant/multilevel/parts/prolongation.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace slant {
+
+// --- options -------------------------------------------------------------------------------------
+
+/// Options of multigrid.
+struct multigrid_options {
+  /// Of the nodes, a column for each, in 2 or 3 rows; node i has the unknowns D i … D i + D − 1.
+  /// From them come the rigid-body modes of elasticity. Empty: the near kernel is what is given
+  /// otherwise, or constants.
+  Eigen::MatrixXd coordinates{};
+  /// P of yours in place of aggregation, the one from level 1 to level 0 first, as interpolation on
+  /// nested meshes: weights of nodes (nodes × coarse nodes) or matrices of unknowns. If they end at a
+  /// level with more than twice `coarsest` unknowns, aggregation continues.
+  std::vector<Eigen::SparseMatrix<double>> prolongations{};
+  index block_size = 0;  ///< unknowns of a node, consecutive; 0: from the pattern of K, 1 to 3
+  double strength = 0.02;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
+  double damping = 4.0 / 3;  ///< ω λ_max(D⁻¹K) in (0, 2): the smoothing of the prolongation
+  /// A level with so few unknowns is factored, >= 1. A last level with more, where there is none
+  /// that is smaller, is factored up to twice as many (or 1200), else smoothed.
+  index coarsest = 500;
+  index levels = 20;  ///< at most so many, >= 1
+  /// > 1: numbers of the matrices of all levels over those of the finest. A level that would exceed
+  /// its share is coarsened along weaker couplings, θ/2, θ/4, …, 0; where that is not enough, its P
+  /// is not smoothed, which costs up to twice the cycles.
+  double complexity = 2;
+
+  /// A last level with so many unknowns is factored.
+  [[nodiscard]] index most_factored() const { return std::max<index>(2 * coarsest, 1200); }
+  /// Throws bad_input naming the option, its value and what was expected.
+  [[gnu::cold]] void validate() const {
+    using detail::show;
+    if (coordinates.size() > 0 && coordinates.rows() != 2 && coordinates.rows() != 3) {
+      throw bad_input("rows of coordinates", show(coordinates.rows()), "2 or 3");
+    }
+    detail::require_finite_entries("coordinates", coordinates);
+    if (block_size < 0 || block_size > 3) {
+      throw bad_input("block_size", show(block_size), "a number from 0 to 3");
+    }
+    if (!(strength >= 0 && strength < 1)) {
+      throw bad_input("strength", show(strength), "a number in [0, 1)");
+    }
+    if (!(damping > 0 && damping < 2)) {
+      throw bad_input("damping", show(damping), "a number in (0, 2)");
+    }
+    if (coarsest < 1) throw bad_input("coarsest", show(coarsest), "at least 1");
+    if (levels < 1) throw bad_input("levels", show(levels), "at least 1");
+    if (!(complexity > 1)) throw bad_input("complexity", show(complexity), "a number > 1");
+  }
+};
+
+}  // namespace slant
+
+namespace slant::detail {
+
+// --- levels --------------------------------------------------------------------------------------
+
+/// The inverse of the diagonal block i of a coarse level, for the sweeps; pivots are measured by
+/// those of `free` as well, the level while nothing is held.
+template <int N, class T>
+void invert_diagonal(block_matrix<N, T> const& A, block_matrix<N, T> const& free, int i,
+                     T* inverses) {
+  constexpr int stride = block_matrix<N, T>::stride;
+  double a[N * N], least[N], scale[N];
+  for (int k = 0; k < N * N; ++k) a[k] = static_cast<double>(A.diagonal(i)[k]);
+  for (int c = 0; c < N; ++c) {
+    scale[c] = a[(N + 1) * c];
+    // Unknowns that others of the node make up, as rotations of what a face leaves of an aggregate.
+    double const size = std::max(scale[c], static_cast<double>(free.diagonal(i)[(N + 1) * c]));
+    least[c] = 16 * static_cast<double>(std::numeric_limits<T>::epsilon()) * std::max(size, 0.0);
+  }
+  invert_semidefinite<N>(a, least, scale);
+  T* const to = inverses + static_cast<std::size_t>(i) * (N * stride);
+  for (int c = 0; c < N; ++c) {
+    for (int q = 0; q < stride; ++q) to[stride * c + q] = q < N ? T(a[N * c + q]) : T(0);
+  }
+}
+
+/// A level, and P from the next coarser one with nodes of M unknowns.
+template <int N, int M, class T>
+struct multigrid_level {
+  block_matrix<N, T> A;
+  std::vector<T> inverses;  // of the diagonal blocks
+  prolongation<N, M, T> P;
+  std::size_t longest = 0;     // of the rows of A P
+  aggregation aggregates{};    // of its nodes, if nodes of the next level stand for them
+  near_kernel<M, M> kernel{};  // of the next level, in that case
+};
+
+/// Constants, one for each unknown of a node.
+template <int N, int M>
+[[nodiscard]] near_kernel<N, M> constants(int nodes) {
+  near_kernel<N, M> B;
+  B.blocks.assign(static_cast<std::size_t>(nodes) * N * M, 0.0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i) {
+    for (std::size_t c = 0; c < N; ++c) B.blocks[i * N * M + c * M + c] = 1;
+  }
+  return B;
+}
+
+/// What is the same for every right-hand side and face: level 0 has nodes of N unknowns, the others
+/// of M.
+template <int N, int M, class T>
+class hierarchy {
+ public:
+  using fine_level = multigrid_level<N, M, T>;
+  using coarse_level = multigrid_level<M, M, T>;
+
+  fine_level fine;
+  std::vector<double> diagonal;      // D of level 0, N² numbers each
+  std::vector<coarse_level> coarse;  // the last one without P
+  dense_factor<N, T> only;           // of level 0 if there is no other
+  dense_factor<M, T> last;           // of the last level
+  bool factored = false;             // whether there is such a factor
+  index most_factored = 0;           // a last level with more unknowns is not
+  bool smoothed = true;              // all P by smoothing, none above the limit of complexity
+
+  [[nodiscard]] std::vector<index> sizes() const {
+    std::vector<index> list{fine.A.rows()};
+    for (auto const& l : coarse) list.push_back(l.A.rows());
+    return list;
+  }
+  /// Numbers of all matrices over those of the first.
+  [[nodiscard]] double complexity() const {
+    double sum = 0;
+    for (auto const& l : coarse) sum += double(l.A.blocks()) * (M * M);
+    return fine.A.blocks() == 0 ? 1 : 1 + sum / (double(fine.A.blocks()) * (N * N));
+  }
+
+  /// Level 0: factor · K.
+  template <class K>
+  void begin(K const& k, typename K::Scalar const& factor) {
+    fine = level_of(k, factor, diagonal);
+  }
+
+  /// Levels by aggregation until one is small enough. B: near kernel of level 0.
+  void aggregate_all(near_kernel<N, M> const& B, multigrid_options const& o) {
+    if (done(fine.A, o)) return;
+    auto below = aggregate_below(fine, B, o);
+    if (!below) return;
+    append(fine, std::move(*below));
+    aggregate_rest(o);
+  }
+  /// The same where level 0 is G⁻ᵀK G⁻¹, of unknowns v = G u: P = G P_K, with P_K and near kernel
+  /// those of factor · K.
+  template <class K, class G>
+  void aggregate_mixed(K const& k, typename K::Scalar const& factor, G const& g,
+                       near_kernel<N, M> const& B, multigrid_options const& o) {
+    if (done(fine.A, o)) return;
+    std::vector<double> unused;
+    fine_level apart = level_of(k, factor, unused);
+    auto below = aggregate_below(apart, B, o);
+    if (!below) return;
+    apart = {};
+    below->P = mixed_prolongation(below->P, g);
+    below->C = galerkin_pattern(fine.A, below->P, fine.longest);
+    append(fine, std::move(*below));
+    aggregate_rest(o);
+  }
+  /// Levels by prolongations of the user, of unknowns v = G u where G is given, then by aggregation
+  /// until one is small enough.
+  template <class G>
+  void interpolate_all(multigrid_options const& o, G const* g) {
+    static_assert(N == M);
+    for (std::size_t l = 0; l < o.prolongations.size(); ++l) {
+      fine_level& above = l == 0 ? fine : coarse.back();
+      auto P = prolongation_from<N, T>(o.prolongations[l], above.A.nodes(),
+                                       "prolongation " + show(static_cast<index>(l)));
+      auto nodes = heaviest_parents(P);
+      if (l == 0 && g) P = mixed_prolongation(P, *g);
+      auto kernel = constants<M, M>(P.coarse_nodes);
+      append_by(above, std::move(P), std::move(nodes), std::move(kernel));
+    }
+    if (coarse.back().A.rows() > 2 * o.coarsest) aggregate_rest(o);
+  }
+  /// Level 0 for factor · k = G⁻ᵀA G⁻¹, where A is level 1 of `finer` and G of unknowns or without
+  /// rows for the identity; its other levels, formed anew if G couples what A does not.
+  template <int F, class K, class G>
+  void take_below(hierarchy<F, M, T> const& finer, K const& k, typename K::Scalar const& factor,
+                  G const& g) {
+    begin(k, factor);
+    if (finer.coarse.size() < 2) return;
+    auto const& from = finer.coarse;
+    auto P = rows_apart<N>(from[0].P);
+    if (g.rows() > 0) P = mixed_prolongation(P, g);
+    level_below<N> below{std::move(P), {}, {}, from[0].kernel};
+    below.C = galerkin_pattern(fine.A, below.P, fine.longest);
+    below.aggregates.count = from[0].aggregates.count;
+    for (int const node : from[0].aggregates.of) {
+      for (int part = 0; part < M / N; ++part) below.aggregates.of.push_back(node);
+    }
+    if (!below.C.has_pattern_of(from[1].A)) {
+      append(fine, std::move(below));
+      for (std::size_t l = 1; l + 1 < from.size(); ++l) {
+        append_by(coarse.back(), from[l].P, from[l].aggregates, from[l].kernel);
+      }
+      return;
+    }
+    adopt(fine, below);
+    coarse.assign(from.begin() + 1, from.end());
+    last = finer.last;
+    factored = finer.factored;  // where it is not, finish() finds the same
+  }
+
+  /// Factors the last level, once. Throws bad_input if K is found not to be semidefinite.
+  void finish(index most) {
+    most_factored = most;
+    if (factored) return;
+    auto const factor = [&](auto& to, auto const& A) {
+      // A level that would not become smaller has few couplings, and sweeps solve it well enough.
+      if (A.rows() > most_factored) return;
+      to = std::remove_reference_t<decltype(to)>(A.nodes());
+      double const lowest = to.factor(A, A, whole_blocks{});
+      // Less is what rounding leaves of pivots of slender bodies, level after level.
+      if (lowest < -64 * std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()))) {
+        throw bad_input("K", "a negative pivot on level " + show(static_cast<index>(coarse.size())),
+                        "a symmetric positive definite matrix");
+      }
+      factored = true;
+    };
+    if (coarse.empty()) {
+      factor(only, fine.A);
+    } else {
+      factor(last, coarse.back().A);
+    }
+  }
+
+ private:
+  template <int F>
+  [[nodiscard]] bool done(block_matrix<F, T> const& A, multigrid_options const& o) const {
+    return A.rows() <= o.coarsest || static_cast<index>(coarse.size()) + 1 >= o.levels;
+  }
+
+  [[nodiscard]] static double weaker(double θ) { return θ > 0.01 ? θ / 2 : 0; }
+
+  /// What a level below is made of: P, the pattern of PᵀA P, the aggregates and their near kernel.
+  template <int F>
+  struct level_below {
+    prolongation<F, M, T> P;
+    block_matrix<M, T> C;
+    aggregation aggregates;
+    near_kernel<M, M> kernel;
+  };
+
+  template <int F>
+  static void adopt(multigrid_level<F, M, T>& above, level_below<F>& below) {
+    above.P = std::move(below.P);
+    above.aggregates = std::move(below.aggregates);
+    above.kernel = std::move(below.kernel);
+  }
+  /// A new last level, below the one that has been that.
+  template <int F>
+  void append(multigrid_level<F, M, T>& above, level_below<F> below) {
+    constexpr int stride = block_matrix<M, T>::stride;
+    adopt(above, below);
+    auto& C = below.C;
+    galerkin_scratch<F, M, T> scratch(above.P, above.longest);
+    galerkin(above.A, above.P, C, scratch);
+    std::vector<T> inverses(static_cast<std::size_t>(C.nodes()) * M * stride, T(0));
+    for (int i = 0; i < C.nodes(); ++i) invert_diagonal(C, C, i, inverses.data());
+    coarse.push_back({std::move(C), std::move(inverses), {}, 0});
+  }
+  template <int F>
+  void append_by(multigrid_level<F, M, T>& above, prolongation<F, M, T> P, aggregation aggregates,
+                 near_kernel<M, M> kernel) {
+    auto C = galerkin_pattern(above.A, P, above.longest);
+    append(above, {std::move(P), std::move(C), std::move(aggregates), std::move(kernel)});
+  }
+  void aggregate_rest(multigrid_options const& o) {
+    near_kernel<M, M> B = coarse.size() > 1 ? coarse[coarse.size() - 2].kernel : fine.kernel;
+    while (!done(coarse.back().A, o)) {
+      auto below = aggregate_below(coarse.back(), B, o);
+      if (!below) return;
+      B = below->kernel;
+      append(coarse.back(), std::move(*below));
+    }
+  }
+
+  /// The level below; nothing if there is none that is smaller.
+  template <int F>
+  std::optional<level_below<F>> aggregate_below(multigrid_level<F, M, T>& above,
+                                                near_kernel<F, M> const& B,
+                                                multigrid_options const& o) {
+    // A level may have so many of the numbers of the one above that all have what the limit allows.
+    double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
+    T const λ = largest_jacobi_eigenvalue(above.A, above.inverses.data());
+    double θ = o.strength;
+    bool smooth = λ > T(0);
+    while (true) {
+      aggregation a = aggregate(above.A, θ);
+      if (a.count == 0 || 10 * a.count > 9 * index(above.A.nodes())) {
+        if (θ == 0) return std::nullopt;
+        θ = weaker(θ);
+        continue;
+      }
+      near_kernel<M, M> next;
+      auto const Q = orthonormal_candidates<F, M, T>(a, B, next);
+      T const ω = smooth ? T(o.damping) / λ : T(0);
+      auto P = smoothed_prolongation<F, M, T>(above.A, above.inverses.data(), a, Q, ω);
+      auto C = galerkin_pattern(above.A, P, above.longest);
+      if (smooth && double(C.blocks()) * (M * M) > most) {
+        if (θ == 0) smooth = false;
+        θ = weaker(θ);
+        continue;
+      }
+      smoothed = smoothed && smooth;
+      return level_below<F>{std::move(P), std::move(C), std::move(a), std::move(next)};
+    }
+  }
+
+  /// The matrix factor · K, the blocks D of its diagonal, and their inverses.
+  template <class K>
+  static fine_level level_of(K const& k, typename K::Scalar const& factor,
+                             std::vector<double>& diagonal) {
+    using S = typename K::Scalar;
+    constexpr int stride = block_matrix<N, T>::stride;
+    fine_level l{block_matrix<N, T>(k, factor), {}, {}, 0};
+    auto const n = static_cast<std::size_t>(l.A.nodes());
+    diagonal.assign(n * N * N, 0.0);
+    l.inverses.assign(n * N * stride, T(0));
+    for (std::size_t i = 0; i < n; ++i) {
+      double* const a = diagonal.data() + i * (N * N);
+      for (int c = 0; c < N; ++c) {
+        index const column = static_cast<index>(i) * N + c;
+        auto const* const inner = k.innerIndexPtr();
+        index const end = k.isCompressed() ? index(k.outerIndexPtr()[column + 1])
+                                           : index(k.outerIndexPtr()[column]) +
+                                                 index(k.innerNonZeroPtr()[column]);
+        index e = std::lower_bound(inner + k.outerIndexPtr()[column], inner + end,
+                                   static_cast<index>(i) * N) -
+                  inner;
+        for (; e < end && inner[e] < static_cast<index>(i) * N + N; ++e) {
+          a[N * c + (inner[e] - static_cast<index>(i) * N)] =
+              static_cast<double>(S(k.valuePtr()[e] * factor));
+        }
+        // In double it may be a number that is none in T.
+        if (!(T(a[(N + 1) * c]) >= std::numeric_limits<T>::min())) {
+          throw bad_input("K",
+                          "diagonal entry " + show(column) + " = " + show(k.coeff(column, column)),
+                          "a symmetric positive definite matrix");
+        }
+      }
+      double inverse[N * N], least[N], scale[N];
+      std::copy(a, a + N * N, inverse);
+      for (int c = 0; c < N; ++c) {
+        scale[c] = a[(N + 1) * c];
+        least[c] = 64 * std::numeric_limits<double>::epsilon() * scale[c];
+      }
+      invert_semidefinite<N>(inverse, least, scale);
+      for (int c = 0; c < N; ++c) {
+        for (int q = 0; q < N; ++q) {
+          l.inverses[(i * N + std::size_t(c)) * stride + std::size_t(q)] = T(inverse[N * c + q]);
+        }
+      }
+    }
+    return l;
+  }
+};
+
+}  // namespace slant::detail
