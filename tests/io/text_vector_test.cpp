@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The refusal of a text, without the name of the file.
 std::string refused(std::string_view text, text_vector_options const& options = {}) {
-  std::string const message = complaint([&] { (void)parse_text_vector(text, "f.txt", options); });
+  std::string const message = SLANT_COMPLAINT(parse_text_vector(text, "f.txt", options));
   return message.starts_with("f.txt:") ? message.substr(6) : message;
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("text vector: every prefix is refused when the size is known") {
 TEST_CASE("text vector: files") {
   temporary_folder const folder;
   io_test::put(folder / "f.txt", "1\nx\n");
-  CHECK(complaint([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
+  CHECK(SLANT_COMPLAINT(slant::read_text_vector(folder / "f.txt")) ==
         (folder / "f.txt").string() + ":2: got 'x', expected a finite number");
 }
 

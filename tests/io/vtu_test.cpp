@@ -224,11 +224,9 @@ TEST_CASE("names and times that make no series are refused") {
   CHECK(test::complaint([] { slant::vtu_series("out.vtu"); }) ==
         "list: got out.vtu, expected the name of a .pvd file");
   slant::vtu_series series("out.pvd");
-  CHECK(test::complaint([&] { static_cast<void>(series.next(NAN)); }) ==
-        "time: got nan, expected a finite number");
+  CHECK(SLANT_COMPLAINT(series.next(NAN)) == "time: got nan, expected a finite number");
   static_cast<void>(series.next(1));
-  CHECK(test::complaint([&] { static_cast<void>(series.next(1)); }) ==
-        "time: got 1, expected a number greater than 1");
+  CHECK(SLANT_COMPLAINT(series.next(1)) == "time: got 1, expected a number greater than 1");
   CHECK(series.size() == 1);
 }
 

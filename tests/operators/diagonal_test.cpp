@@ -38,7 +38,7 @@ TEST_CASE("definite ones have an inverse") {
 TEST_CASE("an inverse that would not be finite is refused") {
   VectorXd const d = Vector3d(1, 1e-310, 2);
   auto const a = slant::diagonal<slant::positive_definite>(d);
-  CHECK(test::message<slant::bad_input>([&] { (void)a.inverse(); }) ==
+  CHECK(SLANT_COMPLAINT(a.inverse()) ==
         "d[1]: got 1e-310, expected a number with a finite reciprocal");
 }
 

@@ -27,6 +27,9 @@ std::string complaint(F f) {
   return message<slant::bad_input>(f);
 }
 
+/// The complaint of one expression.
+#define SLANT_COMPLAINT(...) test::complaint([&] { static_cast<void>(__VA_ARGS__); })
+
 [[nodiscard]] inline bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
