@@ -2,6 +2,7 @@
 #include <slant/contact/optimality.hpp>
 
 #include <slant/contact/solve.hpp>
+#include <slant/contact/solve_options.hpp>
 #include <slant/contact/total_feti.hpp>
 
 #include <fem/stacked_bricks.hpp>
@@ -606,6 +607,17 @@ TEST_CASE("contact::solve: two bricks held by friction, their unknowns in any or
   CHECK(contact::check_optimality(K, mixed, s.u, s.multipliers).residual() <= 1e-6);
   CHECK(energy_error(scene.K, P.transpose() * s.u, r.u) <=
         1.01 * (s.error.relative() + r.error.relative()));
+}
+
+TEST_CASE("contact::solve_options: values out of range are named") {
+  using options = slant::contact::solve_options<double>;
+  CHECK(test::complaint([] { options{}.validate(); }) == "nothing thrown");
+  CHECK(test::complaint([] { options{.tolerance = 0}.validate(); }) == "nothing thrown");
+  CHECK(
+      test::complaint([] { options{.tolerance = 1}.validate(); }).starts_with("tolerance: got 1"));
+  CHECK(test::complaint([] { options{.max_steps = -1}.validate(); }) ==
+        "max_steps: got -1, expected at least 0");
+  CHECK(slant::contact::solution<double>{}.motions.dimension() == 0);
 }
 
 }  // namespace solve_test
