@@ -20,7 +20,7 @@ template <class Change>
 std::string complaint(Change change) {
   auto c = good();
   change(c);
-  return test::complaint([&] { c.validate(); });
+  return SLANT_COMPLAINT(c.validate());
 }
 
 TEST_CASE("data of a scene are valid, and so are infinite gaps and slip bounds") {
@@ -122,7 +122,7 @@ TEST_CASE("layouts that do not fit") {
   auto const refused = [](auto change) {
     auto layout = interleaved_layout(x);
     change(layout);
-    return test::complaint([&] { layout.validate(6); });
+    return SLANT_COMPLAINT(layout.validate(6));
   };
   CHECK(refused([](auto& l) { l.axis[3] = 2; }) == "axis[3]: got 2, expected a row of x");
   CHECK(refused([](auto& l) { l.node[1] = 3; }) == "node[1]: got 3, expected a column of x");

@@ -37,9 +37,8 @@ struct body {
   }
   /// The unknown of a node at a place.
   [[nodiscard]] Eigen::Index at(VectorXd const& place, int axis) const {
-    for (std::size_t j = 0; j < layout.node.size(); ++j) {
+    for (std::size_t j = 0; j < layout.node.size(); ++j)
       if (layout.axis[j] == axis && layout.x.col(layout.node[j]) == place) return Eigen::Index(j);
-    }
     FAIL("no node there");
     return -1;
   }
@@ -190,9 +189,8 @@ TEST_CASE("nodes on a line do not turn about it, a single one not at all") {
   for (int i = 0; i < 4; ++i) line.col(i) = Vector3d(0.1, 0.2, 0.3) * i;
   CHECK(rigid_body_modes(line).cols() == 5);
   CHECK(rigid_body_modes(Matrix3Xd(line.col(1))).cols() == 3);
-  for (double const far : {1e3, 1e6}) {
+  for (double const far : {1e3, 1e6})
     CHECK(rigid_body_modes(Matrix3Xd(line.array() + far)).cols() == 5);
-  }
   for (double const size : {1e-300, 1e308}) {
     CHECK(rigid_body_modes(Matrix3Xd(size * line)).cols() == 5);
     Matrix3Xd corner = size * line;
@@ -238,9 +236,8 @@ TEST_CASE("rigid_position: a brick falls until it rests, however far that is") {
 TEST_CASE("rigid_position: it tilts over three nodes; far obstacles and units do not matter") {
   test::loose_brick brick(1, {0, 0, 0}, 0.05);
   auto const floor = brick.mesh.nodes_on({2, false});
-  for (slant::index i = 0; i < 12; ++i) {
+  for (slant::index i = 0; i < 12; ++i)
     brick.data.d(i) = 0.1 * (1 + 0.3 * brick.mesh.nodes(0, floor[std::size_t(i)]));
-  }
   VectorXd const tilted = position(brick);
   CHECK((brick.data.N * tilted - brick.data.d).cwiseAbs().maxCoeff() <= 1e-5);
   auto other = brick;

@@ -250,9 +250,8 @@ TEST_CASE("contact::solve: bodies without supports that a gap parts from what ho
     for (double const τ : {0.0, 0.25}) {
       for (double const h : {1e-6, 1e-2, 0.1, 1.0}) {
         CAPTURE(h);
-        for (slant::index i = 0; i < 12; ++i) {
+        for (slant::index i = 0; i < 12; ++i)
           brick.data.d(i) = h * (1 + τ * brick.mesh.nodes(0, floor[std::size_t(i)]));
-        }
         auto const r = contact::solve(brick.K, brick.data);
         CAPTURE(r.reason);
         REQUIRE(r.converged());
@@ -457,9 +456,8 @@ TEST_CASE("contact::solve: some motions of one of three bodies, and their names"
   CHECK(r.motions.dimension() == 2);
   CHECK(r.motions.sentence() == "body 2 (unknowns 162 to 250) can move along x and turn about z");
   // The load pulls all along x: only the last one gives way.
-  for (slant::index j = 0; j < own.rows(); ++j) {
+  for (slant::index j = 0; j < own.rows(); ++j)
     if (o.layout.axis[std::size_t(j)] == 0) data.f(j) += 0.05;
-  }
   auto const pulled = solve(own, data, o);
   CHECK(pulled.status == slant::status::unbounded);
   CHECK(pulled.reason.find("body 2") != std::string::npos);

@@ -16,7 +16,6 @@ using slant::detail::line_scanner;
 using slant::detail::number_defect;
 using slant::detail::parse_number;
 using slant::detail::read_text_file;
-using test::complaint;
 
 TEST_CASE("text file: content as it is") {
   temporary_folder const folder;
@@ -87,13 +86,13 @@ TEST_CASE("line scanner: lines, words and their numbers") {
   CHECK(lines.bytes_left() == 0);
   CHECK(lines.word() == "d");
   CHECK_FALSE(lines.next_line());
-  CHECK(complaint([&] { lines.refuse("this", "that"); }) == "x:5: got this, expected that");
+  CHECK(SLANT_COMPLAINT(lines.refuse("this", "that")) == "x:5: got this, expected that");
 }
 
 TEST_CASE("line scanner: the last line must be ended, no line may be endless") {
   line_scanner open("1\n2.5", "x");
   REQUIRE(open.next_line());
-  CHECK(complaint([&] { open.next_line(); }) ==
+  CHECK(SLANT_COMPLAINT(open.next_line()) ==
         "x:2: got '2.5' and the end of the file, expected a line feed at the end of the last line "
         "(truncated file?)");
   std::string text(1024, '7');
@@ -103,7 +102,7 @@ TEST_CASE("line scanner: the last line must be ended, no line may be endless") {
   CHECK(longest.word().size() == 1024);
   std::string const too_long = std::string(1025, '7') + "\n";
   line_scanner refused(too_long, "x");
-  CHECK(complaint([&] { refused.next_line(); }) ==
+  CHECK(SLANT_COMPLAINT(refused.next_line()) ==
         "x:1: got '" + std::string(40, '7') + "...', expected a line of at most 1024 characters");
 }
 

@@ -11,7 +11,6 @@ namespace text_vector_test {
 using io_test::temporary_folder;
 using slant::parse_text_vector;
 using slant::text_vector_options;
-using test::complaint;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -101,11 +100,11 @@ TEST_CASE("text vector: what is not written, and that nothing is left of it") {
   temporary_folder const folder;
   std::string const name = (folder / "x.txt").string();
   Vector2d const nan(1, std::numeric_limits<double>::quiet_NaN());
-  CHECK(complaint([&] {
-          slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true});
-        }) == name + ": got nan in component 1, expected finite numbers");
+  CHECK(
+      SLANT_COMPLAINT(slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true})) ==
+      name + ": got nan in component 1, expected finite numbers");
   Vector2d const inf(infinity, 1);
-  CHECK(complaint([&] { slant::write_text_vector(folder / "x.txt", inf); }) ==
+  CHECK(SLANT_COMPLAINT(slant::write_text_vector(folder / "x.txt", inf)) ==
         name + ": got inf in component 0, expected finite numbers");
   CHECK(folder.entries() == 0);
 }

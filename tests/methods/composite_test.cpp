@@ -303,9 +303,8 @@ TEST_CASE("a function of one's own, certified") {
   REQUIRE(run.converged());
   VectorXd const force = b - M * run.x();
   double const c[] = {2, 5, 0, 0, 0.1};
-  for (Index i : {0, 1, 4}) {
+  for (Index i : {0, 1, 4})
     CHECK(std::abs(force[i] - std::min(c[i] * run.x()[i], 0.0)) <= 1e-8 * b.norm());
-  }
 }
 
 TEST_CASE("singular A: as many zeros as it takes, by Newton's method as by forward–backward") {

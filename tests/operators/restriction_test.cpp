@@ -57,7 +57,7 @@ TEST_CASE("archetypes") {
 TEST_CASE("components must be different and exist") {
   using slant::bad_input;
   auto const reason = [](std::vector<int> const& components) {
-    return test::message<bad_input>([&] { slant::restriction r(4, components); });
+    return SLANT_COMPLAINT(slant::restriction(4, components));
   };
   CHECK(reason({1, 4}) ==
         "components[1]: got 4, expected a component of the vector (>= 0 and less than its size)");
