@@ -76,9 +76,8 @@ sparse chain(int nodes, int b) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < nodes; ++i) {
     for (int j = std::max(0, i - 1); j < std::min(nodes, i + 2); ++j) {
-      for (int a = 0; a < b; ++a) {
+      for (int a = 0; a < b; ++a)
         for (int c = 0; c < b; ++c) entries.emplace_back(b * i + a, b * j + c, 1.0);
-      }
     }
   }
   sparse m(b * nodes, b * nodes);

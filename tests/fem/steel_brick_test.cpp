@@ -138,9 +138,8 @@ TEST_CASE("constraints: floor, neighbours and walls; loads add up to the pressur
     CHECK(scene.c[i] == (scene.axes[at] == 2 ? 0.1 : 0));
   }
   VectorXd const to_the_wall = -rigid_motion(scene, 0);
-  for (Eigen::Index i = 0; i < rows; ++i) {
+  for (Eigen::Index i = 0; i < rows; ++i)
     CHECK((scene.B * to_the_wall)[i] == (scene.axes[static_cast<std::size_t>(i)] == 0 ? 1 : 0));
-  }
   CHECK(scene.f.dot(rigid_motion(scene, 0)) == doctest::Approx(-0.3 * 2));
   CHECK(scene.f.dot(rigid_motion(scene, 1)) == doctest::Approx(-0.3 * 4));
   // ∫ p over (0, 2) × (0, 1), p = 1.5 … −0.4, and its moment about the y axis less that of the

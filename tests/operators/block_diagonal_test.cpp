@@ -92,9 +92,8 @@ TEST_CASE("any number of blocks: laws are those of the blocks; no allocation") {
 MatrixXd kronecker(MatrixXd const& a, MatrixXd const& b) {
   MatrixXd k(a.rows() * b.rows(), a.cols() * b.cols());
   for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    for (Eigen::Index j = 0; j < a.cols(); ++j)
       k.block(i * b.rows(), j * b.cols(), b.rows(), b.cols()) = a(i, j) * b;
-    }
   }
   return k;
 }

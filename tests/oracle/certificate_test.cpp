@@ -78,9 +78,8 @@ TEST_CASE("references: solved far below the floor of double, next to what was pl
       VectorXd x(p.size());
       for (Eigen::Index i = 0; i < p.size(); ++i) x(i) = double((*exact)[std::size_t(i)]);
       CHECK(oracle::floors_above(p, x) <= 20);
-      if (p.planted.size() > 0) {
+      if (p.planted.size() > 0)
         CHECK((x - p.planted).norm() <= 1e-14 * p.condition * (1 + p.planted.norm()));
-      }
     }
     CHECK(missing <= definite / 10);
   }

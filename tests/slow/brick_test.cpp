@@ -12,9 +12,8 @@
 namespace brick_test {
 
 TEST_CASE("symmetric_newton: energy error 1e-8 within 250 products") {
-  for (int const k : {6, 8}) {
+  for (int const k : {6, 8})
     for (auto const load : fem::brick_loads) test::check_newton_brick(k, load, 250, 160);
-  }
 }
 
 TEST_CASE("kprgp: energy error 1e-6 within 25000 products") {
@@ -73,9 +72,8 @@ TEST_CASE("the dual problem of a brick, with its dense A") {
   auto const m = scene.d.size();
   oracle::dense_qp dense{brick.A, brick.b.cast<oracle::real>()};
   for (Eigen::Index i = 0; i < m; ++i) dense.intervals.push_back({i, 0.0});
-  for (Eigen::Index i = 0; i < m; ++i) {
+  for (Eigen::Index i = 0; i < m; ++i)
     dense.circles.push_back({m + 2 * i, m + 2 * i + 1, scene.g[i]});
-  }
   VectorXd const exact = oracle::solve_dense(dense).x.cast<double>();
   auto const c = fem::run_brick_ssnm(brick, slant::schur_cg{}, fem::thesis_options(1, 0.1, 0.2));
   auto const a =
