@@ -89,20 +89,20 @@ TEST_CASE("what is no grid and what is no weight") {
                   std::invalid_argument);
 }
 
-fem::five_point<> some_operator(int nx, int ny) {
+fem::five_point<> other_operator(int nx, int ny) {
   return {fem::rectangle_grid<>{nx, ny, 3, 2}, [](double x) { return 1 + x * x; }};
 }
 
-TEST_CASE("it keeps its word") {
+TEST_CASE("the incomplete factor keeps its word") {
   static_assert(slant::spd_operator<fem::incomplete_five_point<>, VectorXd>);
   for (double τ : {0.0, 0.99, 1.0}) {
-    slant::testing::check_operator_laws(fem::incomplete_five_point<>(some_operator(6, 5), τ));
-    slant::testing::check_operator_laws(fem::incomplete_five_point<>(some_operator(1, 1), τ));
+    slant::testing::check_operator_laws(fem::incomplete_five_point<>(other_operator(6, 5), τ));
+    slant::testing::check_operator_laws(fem::incomplete_five_point<>(other_operator(1, 1), τ));
   }
 }
 
 TEST_CASE("along a line nothing is dropped: it is the inverse") {
-  for (auto const& a : {some_operator(7, 1), some_operator(1, 7)}) {
+  for (auto const& a : {other_operator(7, 1), other_operator(1, 7)}) {
     MatrixXd const I = dense_of(fem::incomplete_five_point<>(a)) * a.matrix();
     CHECK(I.isIdentity(1e-12));
   }
@@ -110,7 +110,7 @@ TEST_CASE("along a line nothing is dropped: it is the inverse") {
 
 TEST_CASE(
     "of A it keeps the entries and, for τ = 1, the sums of the rows; for τ = 0 the diagonal") {
-  auto const a = some_operator(5, 4);
+  auto const a = other_operator(5, 4);
   MatrixXd const A = a.matrix();
   for (double τ : {0.0, 1.0}) {
     MatrixXd const B =
@@ -127,7 +127,7 @@ TEST_CASE(
 }
 
 TEST_CASE("an application does not allocate; what is no factor τ") {
-  auto const a = some_operator(6, 5);
+  auto const a = other_operator(6, 5);
   fem::incomplete_five_point<> const m(a);
   VectorXd const x = VectorXd::Ones(30);
   VectorXd y(30);

@@ -141,7 +141,7 @@ TEST_CASE("a scalar without silent conversions; an error that is NaN") {
   CHECK(h.next(slant::eisenstat_walker{}) == S(0.9));
 }
 
-TEST_CASE("options are checked by name") {
+TEST_CASE("options of forcing are checked by name") {
   CHECK_THROWS_WITH_AS(slant::fixed_forcing{.tolerance = 1}.validate(),
                        "tolerance: got 1, expected a number in [0, 1)", slant::bad_input);
   CHECK_THROWS_WITH_AS(slant::adaptive_precision{.r_tol = 0}.validate(),

@@ -136,7 +136,7 @@ TEST_CASE("a derivative full of NaN is the method's to report") {
   CHECK(std::isnan(slanting_support::dense_slant(f, Vector2d(nan, 1))(0, 0)));
 }
 
-TEST_CASE("bad input") {
+TEST_CASE("bad input of smooth maps") {
   auto const value = [](auto const&, auto&) {};
   auto const derivative = [](auto const&) { return Eigen::Matrix2d(); };
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::smooth(-1, 2, value, derivative)),

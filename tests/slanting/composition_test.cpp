@@ -111,7 +111,7 @@ TEST_CASE("archetypes") {
   CHECK(&g.part<1>() == &f);
 }
 
-TEST_CASE("bad input") {
+TEST_CASE("bad input of stacks") {
   CHECK_THROWS_WITH_AS(
       static_cast<void>(slant::stack(slant::positive_part(3), slant::positive_part(2))),
       "f2.cols(): got 2, expected 3 (f1.cols())", slant::bad_input);
