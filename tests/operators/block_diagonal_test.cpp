@@ -118,7 +118,7 @@ TEST_CASE("laws of self-adjoint factors, diagonal, inverse") {
   auto const b = matrix<self_adjoint, positive_definite>(n);
   auto const k = kronecker(a, b);
   static_assert(spd_operator<decltype(k), VectorXd>);
-  CHECK(test::matches(k, kronecker_test::kronecker(m, n)));
+  CHECK(test::matches(k, block_diagonal_test::kronecker(m, n)));
   testing::check_operator_laws(k);
   // Definite, not self-adjoint: (A ⊗ A) of a rotation by 90° is not definite.
   static_assert(
