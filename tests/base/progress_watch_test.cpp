@@ -43,9 +43,8 @@ TEST_CASE("a norm that falls by rounding errors only is none") {
 TEST_CASE("below the floor a halving counts, within half of the steps spent") {
   auto const ends = [](auto norm_at) {
     slant::progress_watch<double> watch;
-    for (int k = 1; k <= 100000; ++k) {
+    for (int k = 1; k <= 100000; ++k)
       if (watch.stalled(k, norm_at(k), 1000, 1e-12)) return k;
-    }
     return 0;
   };
   // At the floor after 40 steps, or 400, or 4000, and oscillating or creeping there.
@@ -66,9 +65,8 @@ TEST_CASE("below the floor a halving counts, within half of the steps spent") {
 TEST_CASE("without an energy the norm alone counts") {
   auto const ends = [](auto norm_at) {
     slant::progress_watch<double> watch;
-    for (int k = 1; k <= 1000; ++k) {
+    for (int k = 1; k <= 1000; ++k)
       if (watch.stalled(k, norm_at(k), 10)) return k;
-    }
     return 0;
   };
   CHECK(ends([](int k) { return 1.0 / k; }) == 0);

@@ -37,9 +37,8 @@ TEST_CASE_TEMPLATE("scaled norm: relative error below 2 epsilon over the whole r
 TEST_CASE("scaled norm: the error does not grow with the dimension") {
   oracle::number_source<double> source(4);
   double worst = 0;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 50; ++i)
     worst = std::max(worst, norm_error<double, 200>(source.direction<200>()));
-  }
   CHECK(worst < 2.0);
 }
 

@@ -26,9 +26,8 @@ using Eigen::VectorXd;
 MatrixXd stiffness(Eigen::Index n) {
   MatrixXd A(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index j = 0; j < n; ++j)
       A(i, j) = std::cos(0.7 * double((i + 1) * (j + 1))) / double(n) + (i == j ? 2 : 0);
-    }
   }
   VectorXd const d = VectorXd::LinSpaced(n, 0, 2).unaryExpr([](double e) { return std::exp(e); });
   MatrixXd const scaled = d.asDiagonal() * A * d.asDiagonal();

@@ -12,9 +12,8 @@ using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 template <class S>
 column<S> entries(slant::index n, int seed) {
   column<S> x(n);
-  for (slant::index i = 0; i < n; ++i) {
+  for (slant::index i = 0; i < n; ++i)
     x[i] = S(std::sin(1.0 + 3.7 * double(i) + seed) * std::exp(double((i * 7 + seed) % 11) - 5));
-  }
   return x;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <slant/concepts/capabilities.hpp>
+#include <slant/concepts/slanting_function.hpp>
 #include <slant/factorizations/ldlt.hpp>
 #include <slant/operators/operators.hpp>
+#include <slant/slanting/affine.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <support/testing.hpp>
@@ -8,12 +11,10 @@
 
 namespace linear_operator_test {
 
-using slant::bad_input;
-
 /// What apply says of arguments with these sizes.
 template <class A, class V>
 std::string complaint(A const& a, V const& x, V y) {
-  return test::message<bad_input>([&] { slant::apply(a, x, y); });
+  return SLANT_COMPLAINT(slant::apply(a, x, y));
 }
 
 TEST_CASE("apply names the argument whose size is wrong, and resizes nothing") {
@@ -35,7 +36,7 @@ TEST_CASE("apply names the argument whose size is wrong, and resizes nothing") {
   auto const kinv = slant::inverse(slant::ldlt(test::random_spd(5, 2).sparseView()));
   CHECK(complaint(kinv, x, unsized) == "y: got 0 rows, expected 5 (rows() of the operator)");
   auto w = slant::workspace(kinv, x);
-  CHECK(test::message<bad_input>([&] { slant::apply(kinv, x, unsized, w); }) ==
+  CHECK(SLANT_COMPLAINT(slant::apply(kinv, x, unsized, w)) ==
         "y: got 0 rows, expected 5 (rows() of the operator)");
 }
 
@@ -47,6 +48,54 @@ TEST_CASE("sizes are those of the local parts") {
   CHECK(complaint(a, x, y) == "nothing thrown");
   CHECK(complaint(a, y, y) == "x: got 2 rows, expected 3 (cols() of the operator)");
   CHECK(complaint(a, x, x) == "y: got 3 rows, expected 2 (rows() of the operator)");
+}
+
+TEST_CASE("adjoints and accumulations name the argument whose size is wrong") {
+  slant::restriction const r(5, {1, 4});
+  slant::no_workspace w;
+  VectorXd of_five = VectorXd::Ones(5);
+  VectorXd of_two = VectorXd::Ones(2);
+  VectorXd none;
+  auto const add = [&](VectorXd const& x, VectorXd& y) {
+    return SLANT_COMPLAINT(slant::apply_add(r, 2.0, x, y, w));
+  };
+  CHECK(add(of_five, of_two) == "nothing thrown");
+  CHECK(add(of_five, none) == "y: got 0 rows, expected 2 (rows() of the operator)");
+  CHECK(add(of_two, of_two) == "x: got 2 rows, expected 5 (cols() of the operator)");
+
+  std::string const why = "() of the operator, as the adjoint is applied)";
+  auto const adjoint = [&](VectorXd const& x, VectorXd& y) {
+    return SLANT_COMPLAINT(slant::apply_adjoint(r, x, y));
+  };
+  auto const adjoint_add = [&](VectorXd const& x, VectorXd& y) {
+    return SLANT_COMPLAINT(slant::apply_adjoint_add(r, 2.0, x, y, w));
+  };
+  CHECK(adjoint(of_two, of_five) == "nothing thrown");
+  CHECK(adjoint(of_two, none) == "y: got 0 rows, expected 5 (cols" + why);
+  CHECK(adjoint(of_five, of_five) == "x: got 5 rows, expected 2 (rows" + why);
+  CHECK(adjoint_add(of_two, of_five) == "nothing thrown");
+  CHECK(adjoint_add(of_two, none) == "y: got 0 rows, expected 5 (cols" + why);
+  CHECK(adjoint_add(of_five, of_five) == "x: got 5 rows, expected 2 (rows" + why);
+}
+
+TEST_CASE("evaluate and update_slant name the argument whose size is wrong") {
+  auto const f = slant::linear(test::random_dense(2, 3, 1));
+  VectorXd const two = VectorXd::Ones(2);
+  VectorXd const three = VectorXd::Ones(3);
+  auto w = slant::workspace(f, three);
+  auto const evaluate = [&](VectorXd const& y, VectorXd v) {
+    return SLANT_COMPLAINT(slant::evaluate(f, y, v, w));
+  };
+  CHECK(evaluate(three, two) == "nothing thrown");
+  CHECK(evaluate(three, VectorXd()) == "f: got 0 rows, expected 2 (rows() of the function)");
+  CHECK(evaluate(two, two) == "y: got 2 rows, expected 3 (cols() of the function)");
+  CHECK(SLANT_COMPLAINT(slant::evaluate(f, two)) ==
+        "y: got 2 rows, expected 3 (cols() of the function)");
+  auto g = f.slant(three);
+  CHECK(SLANT_COMPLAINT(slant::update_slant(f, two, g, w)) ==
+        "y: got 2 rows, expected 3 (cols() of the function)");
+  CHECK(SLANT_COMPLAINT(slant::update_slant_after_value(f, two, g, w)) ==
+        "y: got 2 rows, expected 3 (cols() of the function)");
 }
 
 }  // namespace linear_operator_test

@@ -211,7 +211,7 @@ TEST_CASE("bodies of softer and stiffer material, and in other units") {
 TEST_CASE("data that do not fit are named") {
   auto const message = [](sparse const& K, VectorXd const& f, sparse const& B,
                           VectorXd const& c) -> std::string {
-    return test::complaint([&] { (void)contact::bodies<double>(K, f, B, c); });
+    return SLANT_COMPLAINT(contact::bodies<double>(K, f, B, c));
   };
   MatrixXd k = 2 * MatrixXd::Identity(3, 3);
   sparse const B = MatrixXd{{1, 0, 0}}.sparseView();

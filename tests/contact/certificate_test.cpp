@@ -75,9 +75,8 @@ double energy_norm(Eigen::SparseMatrix<double> const& K, VectorXd const& u) {
   __extension__ using quad = __float128;
   quad sum = 0;
   for (Eigen::Index j = 0; j < K.outerSize(); ++j) {
-    for (Eigen::SparseMatrix<double>::InnerIterator k(K, j); k; ++k) {
+    for (Eigen::SparseMatrix<double>::InnerIterator k(K, j); k; ++k)
       sum += quad(u(k.row())) * quad(k.value()) * quad(u(j));
-    }
   }
   return std::sqrt(double(sum));
 }

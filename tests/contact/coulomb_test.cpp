@@ -105,7 +105,7 @@ TEST_CASE("new tangential positions: no solve, and data that do not fit are refu
   CHECK((problem.b().tail(w.size()) - (2 * b.tail(w.size()) - w)).norm() <= 1e-15);
   VectorXd const before = problem.b();
   auto const message = [&](VectorXd const& bad) -> std::string {
-    return test::complaint([&] { problem.update({.w = bad}); });
+    return SLANT_COMPLAINT(problem.update({.w = bad}));
   };
   CHECK(message(VectorXd::Zero(3)).starts_with("w: got 3, expected"));
   CHECK(message(VectorXd::Constant(w.size(), NAN)).starts_with("w[0]: got nan"));

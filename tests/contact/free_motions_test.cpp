@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/free_motions.hpp>
+#include <slant/contact/parts/rigid_position.hpp>
 
 #include <fem/stacked_bricks.hpp>
 #include <support/testing.hpp>
+#include "loose_brick.hpp"
 
 namespace free_motions_test {
 
@@ -35,9 +37,8 @@ struct body {
   }
   /// The unknown of a node at a place.
   [[nodiscard]] Eigen::Index at(VectorXd const& place, int axis) const {
-    for (std::size_t j = 0; j < layout.node.size(); ++j) {
+    for (std::size_t j = 0; j < layout.node.size(); ++j)
       if (layout.axis[j] == axis && layout.x.col(layout.node[j]) == place) return Eigen::Index(j);
-    }
     FAIL("no node there");
     return -1;
   }
@@ -120,7 +121,7 @@ TEST_CASE("bodies, places not known, and what a refusal says") {
   CHECK(motions.dimension() == 18);
   CHECK(motions.free[2].text == "body 2 (unknowns 72 to 107) has 6 free motions");
   CHECK((stack.K.block(72, 72, 36, 36) * motions.free[2].motions).norm() <= 1e-9 * stack.K.norm());
-  std::string const said = test::complaint([&] { (void)factorize_stiffness(stack.K); });
+  std::string const said = SLANT_COMPLAINT(factorize_stiffness(stack.K));
   CHECK(said.starts_with("K: got pivot "));
   CHECK(said.find("zero up to rounding: body 0 (unknowns 0 to 35) has 6 free motions; body 1") !=
         said.npos);
@@ -134,9 +135,8 @@ TEST_CASE("bodies, places not known, and what a refusal says") {
   sparse const indefinite = MatrixXd{{1, 2}, {2, 1}}.sparseView();
   CHECK(find_free_motions(indefinite).free.empty());
   CHECK(find_free_motions(indefinite).undetermined == std::vector<slant::index>{0});
-  CHECK(test::complaint([&] {
-          (void)factorize_stiffness(indefinite);
-        }).ends_with("= -3, expected a symmetric positive definite matrix"));
+  CHECK(SLANT_COMPLAINT(factorize_stiffness(indefinite))
+            .ends_with("= -3, expected a symmetric positive definite matrix"));
 }
 
 TEST_CASE("the name of a motion") {
@@ -189,9 +189,8 @@ TEST_CASE("nodes on a line do not turn about it, a single one not at all") {
   for (int i = 0; i < 4; ++i) line.col(i) = Vector3d(0.1, 0.2, 0.3) * i;
   CHECK(rigid_body_modes(line).cols() == 5);
   CHECK(rigid_body_modes(Matrix3Xd(line.col(1))).cols() == 3);
-  for (double const far : {1e3, 1e6}) {
+  for (double const far : {1e3, 1e6})
     CHECK(rigid_body_modes(Matrix3Xd(line.array() + far)).cols() == 5);
-  }
   for (double const size : {1e-300, 1e308}) {
     CHECK(rigid_body_modes(Matrix3Xd(size * line)).cols() == 5);
     Matrix3Xd corner = size * line;
@@ -210,6 +209,67 @@ TEST_CASE("bad coordinates") {
   MatrixXd nodes = MatrixXd::Ones(3, 2);
   nodes(1, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(static_cast<void>(rigid_body_modes(nodes)), slant::bad_input);
+}
+
+/// R α.
+VectorXd position(test::loose_brick const& b) {
+  auto const motions = slant::contact::find_free_motions(b.K);
+  sparse const R = slant::contact::detail::kernel_of(motions, b.K.rows());
+  return R * slant::contact::detail::rigid_position<double>(b.K, b.data, R)();
+}
+
+TEST_CASE("rigid_position: a brick falls until it rests, however far that is") {
+  test::loose_brick brick(1, {-0.3, 0, 0}, 0.05);
+  CHECK(position(brick).isZero(0));  // no gap, nothing to do
+  for (double const gap : {1e-6, 1.0, 1e4, -0.1}) {
+    CAPTURE(gap);
+    brick.data.d.setConstant(gap);
+    // The springs give way by 3 force units over 12 nodes of a stiffness of 1e5 and more.
+    VectorXd const left = brick.data.N * position(brick) - brick.data.d;
+    CHECK(left.minCoeff() >= -1e-5 - 1e-9 * std::abs(gap));
+    CHECK(left.maxCoeff() <= 1e-5 + 1e-9 * std::abs(gap));
+    // Friction holds it along x, up to what its springs give.
+    CHECK((brick.data.T * position(brick)).cwiseAbs().maxCoeff() <= 1e-5 + 1e-9 * std::abs(gap));
+  }
+}
+
+TEST_CASE("rigid_position: it tilts over three nodes; far obstacles and units do not matter") {
+  test::loose_brick brick(1, {0, 0, 0}, 0.05);
+  auto const floor = brick.mesh.nodes_on({2, false});
+  for (slant::index i = 0; i < 12; ++i)
+    brick.data.d(i) = 0.1 * (1 + 0.3 * brick.mesh.nodes(0, floor[std::size_t(i)]));
+  VectorXd const tilted = position(brick);
+  CHECK((brick.data.N * tilted - brick.data.d).cwiseAbs().maxCoeff() <= 1e-5);
+  auto other = brick;
+  other.data.d(5) = 1e9;
+  other.data.d(6) = std::numeric_limits<double>::infinity();
+  CHECK((position(other) - tilted).norm() <= 1e-4);
+  for (double const unit : {0x1p-400, 0x1p400}) {
+    other = brick;
+    other.K *= unit;
+    other.data.f *= unit;
+    other.data.g *= unit;
+    CHECK((position(other) - tilted).norm() <= 1e-9);
+    other = brick;
+    other.K /= unit;
+    other.data.d *= unit;
+    CHECK((position(other) / unit - tilted).norm() <= 1e-9);
+  }
+  other = brick;
+  for (slant::index i = 0; i < 12; i += 2) {
+    other.data.N.coeffRef(i, brick.unknowns.first[floor[std::size_t(i)]] + 2) *= 1e8;
+    other.data.d(i) *= 1e8;
+  }
+  CHECK((position(other) - tilted).norm() <= 1e-9);
+}
+
+TEST_CASE("rigid_position: it stays where nothing stops or moves it") {
+  test::loose_brick sliding(1, {-0.3, 0, 0}, 0.01), lifted(-1, {0, 0, 0}, 0.05),
+      idle(0, {0, 0, 0}, 0.05);
+  for (auto* brick : {&sliding, &lifted, &idle}) {
+    brick->data.d.setConstant(0.1);
+    CHECK(position(*brick).isZero(0));
+  }
 }
 
 }  // namespace free_motions_test

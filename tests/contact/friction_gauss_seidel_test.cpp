@@ -74,9 +74,8 @@ TEST_CASE("Gauss–Seidel: bad options and starts are named") {
     char const* name;
     slant::contact::gauss_seidel_options<double> o;
   };
-  for (auto const& [name, o] : {bad{"sweeps", {.sweeps = 0}}, {"patience", {.patience = 0}}}) {
+  for (auto const& [name, o] : {bad{"sweeps", {.sweeps = 0}}, {"patience", {.patience = 0}}})
     CHECK_THROWS_WITH_AS(method(b, o), doctest::Contains(name), slant::bad_input);
-  }
   CHECK_THROWS_AS(static_cast<void>(method(b).start(VectorXd::Zero(5))), slant::bad_input);
 }
 

@@ -115,9 +115,8 @@ TEST_CASE("loads of any size after each other") {
   scene const s(2, fem::brick_load::pull);
   auto const& c = s.data;
   std::vector<step> steps;
-  for (double const unit : {1.0, 1e12, 1e-12, 1.0}) {
+  for (double const unit : {1.0, 1e12, 1e-12, 1.0})
     steps.push_back({.f = VectorXd(unit * c.f), .d = VectorXd(unit * c.d), .g = unit * c.g});
-  }
   agree(s, steps);
 }
 
@@ -127,10 +126,7 @@ TEST_CASE("tangential positions in the first step") {
 }
 
 coulomb_options coulomb_options_of(scene const& s) {
-  coulomb_options o;
-  o.tolerance = s.o.tolerance;
-  o.layout = s.o.layout;
-  return o;
+  return {.tolerance = s.o.tolerance, .layout = s.o.layout};
 }
 
 /// Data whose solution is u − Tᵀw (rows of T are unit vectors): friction acts from 0 there.
@@ -203,11 +199,9 @@ TEST_CASE("bodies that contact and friction hold, on a path") {
     CAPTURE(friction);
     test::loose_brick const loose(0.3, {-0.05, 0, 0}, friction);
     contact::data<double> c = loose.data;
-    contact::solve_options<double> o{.tolerance = 1e-9};
-    o.layout = contact::interleaved_layout(loose.mesh.nodes);
-    coulomb_options with_law;
-    with_law.tolerance = o.tolerance;
-    with_law.layout = o.layout;
+    contact::solve_options<double> const o{.tolerance = 1e-9,
+                                           .layout = contact::interleaved_layout(loose.mesh.nodes)};
+    coulomb_options const with_law{.tolerance = o.tolerance, .layout = o.layout};
     contact::primal_stepper tresca(loose.K, c, o);
     contact::primal_coulomb_stepper coulomb(loose.K, c, VectorXd::Constant(c.d.size(), 0.3),
                                             with_law);
@@ -255,9 +249,7 @@ TEST_CASE("what does not fit is named and changes nothing") {
   auto const& c = s.data;
   contact::primal_stepper stepper(s.K, c, s.o);
   VectorXd const u = stepper.advance({}).u;
-  auto const refused = [&](step const& next) {
-    return test::complaint([&] { static_cast<void>(stepper.advance(next)); });
-  };
+  auto const refused = [&](step const& next) { return SLANT_COMPLAINT(stepper.advance(next)); };
   CHECK(refused({.f = VectorXd(VectorXd::Ones(3))}).find("f") != std::string::npos);
   CHECK(refused({.f = VectorXd(3 * c.f), .g = VectorXd(-c.g)}).find("g[0]: got -") == 0);
   CHECK(refused({.d = VectorXd(c.d.head(2))}).find("d") != std::string::npos);
@@ -269,7 +261,7 @@ TEST_CASE("what does not fit is named and changes nothing") {
   CHECK((stepper.advance({}).u - u).norm() <= 1e-8 * u.norm());
 
   auto const complaint = [&](sparse const& K, contact::data<double> const& data, options o) {
-    return test::complaint([&] { contact::primal_stepper(K, data, std::move(o)); });
+    return SLANT_COMPLAINT(contact::primal_stepper(K, data, std::move(o)));
   };
   options o = s.o;
   o.prove = true;
@@ -279,12 +271,11 @@ TEST_CASE("what does not fit is named and changes nothing") {
   CHECK(complaint(s.K, half, s.o).find("N and T: got contact 0 has an empty row of T") == 0);
   contact::primal_coulomb_stepper coulomb(s.K, c, VectorXd::Constant(c.d.size(), 0.3),
                                           coulomb_options_of(s));
-  CHECK(test::complaint([&] { static_cast<void>(coulomb.advance({.g = c.g})); }) ==
+  CHECK(SLANT_COMPLAINT(coulomb.advance({.g = c.g})) ==
         "g: got slip bounds, expected none, which are F times the pressures");
-  CHECK(test::complaint([&] {
-          contact::primal_coulomb_stepper(s.K, c, VectorXd::Constant(c.d.size(), -1),
-                                          coulomb_options_of(s));
-        }).find("F[0]: got -1") == 0);
+  CHECK(SLANT_COMPLAINT(contact::primal_coulomb_stepper(s.K, c, VectorXd::Constant(c.d.size(), -1),
+                                                        coulomb_options_of(s)))
+            .find("F[0]: got -1") == 0);
 }
 
 TEST_CASE("a step that ends early is told, and not gone on from") {

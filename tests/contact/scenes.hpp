@@ -49,9 +49,8 @@ inline Eigen::SparseMatrix<double> rotation(Eigen::Index n) {
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   Eigen::SparseMatrix<double> turn(n, n);
   turn.reserve(Eigen::VectorXi::Constant(n, 3));
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index a = 0; a < 3; ++a) turn.insert(i, i / 3 * 3 + a) = Q(i % 3, a);
-  }
   return turn;
 }
 

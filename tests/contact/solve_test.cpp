@@ -2,6 +2,7 @@
 #include <slant/contact/optimality.hpp>
 
 #include <slant/contact/solve.hpp>
+#include <slant/contact/solve_options.hpp>
 #include <slant/contact/total_feti.hpp>
 
 #include <fem/stacked_bricks.hpp>
@@ -144,7 +145,7 @@ TEST_CASE("contact::solve: a law that is named is the one that the rows of T sta
   CHECK(named.multipliers == of_data.multipliers);
   CHECK(named.iterations == of_data.iterations);
 
-  CHECK(test::complaint([&] { (void)contact::solve(contact::friction_line{}, scene.K, data); }) ==
+  CHECK(SLANT_COMPLAINT(contact::solve(contact::friction_line{}, scene.K, data)) ==
         "tangents per contact node: got 2, expected 1 for this friction law");
   data.T.resize(0, data.N.cols());
   data.g.resize(0);
@@ -249,9 +250,8 @@ TEST_CASE("contact::solve: bodies without supports that a gap parts from what ho
     for (double const τ : {0.0, 0.25}) {
       for (double const h : {1e-6, 1e-2, 0.1, 1.0}) {
         CAPTURE(h);
-        for (slant::index i = 0; i < 12; ++i) {
+        for (slant::index i = 0; i < 12; ++i)
           brick.data.d(i) = h * (1 + τ * brick.mesh.nodes(0, floor[std::size_t(i)]));
-        }
         auto const r = contact::solve(brick.K, brick.data);
         CAPTURE(r.reason);
         REQUIRE(r.converged());
@@ -414,7 +414,7 @@ TEST_CASE("contact::solve: bodies that nothing holds, and those that are unfit")
   CHECK(last.status == slant::status::stalled);
   CHECK(last.error.relative() <= 1e-11);
   brick.K.coeffRef(0, 0) *= -1;
-  CHECK(test::complaint([&] { (void)solve(brick); }).starts_with("K: got pivot"));
+  CHECK(SLANT_COMPLAINT(solve(brick)).starts_with("K: got pivot"));
 }
 
 TEST_CASE("contact::solve: some motions of one of three bodies, and their names") {
@@ -456,9 +456,8 @@ TEST_CASE("contact::solve: some motions of one of three bodies, and their names"
   CHECK(r.motions.dimension() == 2);
   CHECK(r.motions.sentence() == "body 2 (unknowns 162 to 250) can move along x and turn about z");
   // The load pulls all along x: only the last one gives way.
-  for (slant::index j = 0; j < own.rows(); ++j) {
+  for (slant::index j = 0; j < own.rows(); ++j)
     if (o.layout.axis[std::size_t(j)] == 0) data.f(j) += 0.05;
-  }
   auto const pulled = solve(own, data, o);
   CHECK(pulled.status == slant::status::unbounded);
   CHECK(pulled.reason.find("body 2") != std::string::npos);
@@ -606,6 +605,17 @@ TEST_CASE("contact::solve: two bricks held by friction, their unknowns in any or
   CHECK(contact::check_optimality(K, mixed, s.u, s.multipliers).residual() <= 1e-6);
   CHECK(energy_error(scene.K, P.transpose() * s.u, r.u) <=
         1.01 * (s.error.relative() + r.error.relative()));
+}
+
+TEST_CASE("contact::solve_options: values out of range are named") {
+  using options = slant::contact::solve_options<double>;
+  CHECK(test::complaint([] { options{}.validate(); }) == "nothing thrown");
+  CHECK(test::complaint([] { options{.tolerance = 0}.validate(); }) == "nothing thrown");
+  CHECK(
+      test::complaint([] { options{.tolerance = 1}.validate(); }).starts_with("tolerance: got 1"));
+  CHECK(test::complaint([] { options{.max_steps = -1}.validate(); }) ==
+        "max_steps: got -1, expected at least 0");
+  CHECK(slant::contact::solution<double>{}.motions.dimension() == 0);
 }
 
 }  // namespace solve_test

@@ -123,14 +123,12 @@ TEST_CASE("prescribed displacements: a brick whose end is moved, with no contact
   VectorXd entries = VectorXd::Zero(rows);
   slant::detail::for_each_entry(brick.bodies.B, [&](auto i, auto, double) { entries[i] += 1; });
   int axis = 0;
-  for (Eigen::Index i = 0; i < rows; ++i) {
+  for (Eigen::Index i = 0; i < rows; ++i)
     if (entries[i] == 1) brick.bodies.c[i] = axis++ % 3 == 2 ? 0.25 : 0.0;
-  }
   auto const [r, u] = solved(brick.bodies, data);
   CHECK(r.converged());
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
+  for (Eigen::Index i = 0; i < u.size(); ++i)
     CHECK(u[i] == doctest::Approx(i % 3 == 2 ? 0.25 : 0.0).epsilon(1e-9).scale(0.25));
-  }
 }
 
 TEST_CASE("redundant gluing, a body with no constraint, loads that nothing bears") {
@@ -177,9 +175,8 @@ decomposed_brick cube_held_at(std::vector<Eigen::Index> const& unknowns) {
   decomposed_brick cube({1, 1, 1}, 1, fem::brick_load::press);
   auto const rows = static_cast<Eigen::Index>(unknowns.size());
   cube.bodies.B = sparse(rows, cube.parts.unknowns());
-  for (Eigen::Index i = 0; i < rows; ++i) {
+  for (Eigen::Index i = 0; i < rows; ++i)
     cube.bodies.B.insert(i, unknowns[static_cast<std::size_t>(i)]) = 1;
-  }
   cube.bodies.c = VectorXd::Zero(rows);
   return cube;
 }

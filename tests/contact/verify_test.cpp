@@ -169,9 +169,8 @@ TEST_CASE("verify: each kind of mistake shows where it belongs") {
     auto const none = test::no_solution_case().problem;
     for (int i = 0; i <= 400; ++i) {
       double const normal = std::pow(10, i / 40. - 5);
-      for (double const side : {-1., -0.5, 0., 0.5, 1.}) {
+      for (double const side : {-1., -0.5, 0., 0.5, 1.})
         CHECK(verify(none, numbers({normal, side * normal})).relative_natural_map > 0.1);
-      }
     }
   }
 }

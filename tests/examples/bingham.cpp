@@ -47,9 +47,8 @@ errors errors_of(bingham::fluid const& p, int rings) {
   profile const exact(p);
   errors e{std::abs(flow.rate - exact.rate), 0,
            std::abs(flow.plug_radius - std::min(p.R, 2 * p.g / p.f)), flow.energy_error};
-  for (Index i = 0; i < flow.u.size(); ++i) {
+  for (Index i = 0; i < flow.u.size(); ++i)
     e.velocity = std::max(e.velocity, std::abs(flow.u[i] - exact(d.nodes.col(i).norm())));
-  }
   return e;
 }
 

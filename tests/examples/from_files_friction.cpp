@@ -56,9 +56,7 @@ TEST_CASE("from_files: contacts whose forces are known") {
     CHECK(result["asymmetry"] == 0);
     CHECK(files.files_written() == 2);
     check_report(files, c.problem, result);
-    if (c.r.size() == 1) {
-      CHECK((files.read("r.txt") - c.r[0]).norm() <= 1e-7 * (1 + c.r[0].norm()));
-    }
+    if (c.r.size() == 1) CHECK((files.read("r.txt") - c.r[0]).norm() <= 1e-7 * (1 + c.r[0].norm()));
   }
 }
 

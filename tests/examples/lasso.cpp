@@ -17,9 +17,8 @@ using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 /// entries that are not zero, if it has their signs and no other correlation exceeds μ.
 double error_of(lasso::sight const& s, VectorXd const& x, double μ) {
   std::vector<Index> free;
-  for (Index i = 0; i < x.size(); ++i) {
+  for (Index i = 0; i < x.size(); ++i)
     if (x[i] != 0) free.push_back(i);
-  }
   matrix const M = s.M.cast<long double>(), F = M(Eigen::all, free);
   vector const y = s.y.cast<long double>(), signs = x(free).cwiseSign().cast<long double>();
   vector exact = vector::Zero(x.size());

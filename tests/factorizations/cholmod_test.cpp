@@ -75,9 +75,8 @@ TEST_CASE("the pivot that is named is what elimination of the rows before it lea
     REQUIRE(failed < n);
     MatrixXd permuted(failed + 1, failed + 1);
     for (slant::index i = 0; i <= failed; ++i) {
-      for (slant::index j = 0; j <= failed; ++j) {
+      for (slant::index j = 0; j <= failed; ++j)
         permuted(i, j) = k.coeff(factors.original_row(i), factors.original_row(j));
-      }
     }
     VectorXd const row = permuted.col(failed).head(failed);
     double const expected = permuted(failed, failed) -

@@ -25,9 +25,8 @@ struct example {
 
   [[nodiscard]] slant::detail::panel_columns<T> columns() const {
     slant::detail::panel_columns<T> result{{}, slant::detail::tile_rows<T>};
-    for (index j = 0; j < 8; ++j) {
+    for (index j = 0; j < 8; ++j)
       result.column[static_cast<std::size_t>(j)] = R.data() + j * R.rows();
-    }
     return result;
   }
 };
@@ -44,16 +43,14 @@ TEST_CASE_TEMPLATE(
       Eigen::Matrix<T, Eigen::Dynamic, 1> y(rows + 2);
       y << T(7), e.y, T(9);
       slant::detail::subtract_panel(longer, e.columns(), e.p.data(), y.data() + 1, rows);
-      for (index i = 0; i < rows; ++i) {
+      for (index i = 0; i < rows; ++i)
         CHECK(std::abs(y[i + 1] - (e.y[i] - e.R.row(i).dot(e.p))) <= 16 * ε);
-      }
       CHECK(y[0] == T(7));
       CHECK(y[rows + 1] == T(9));
       Eigen::Matrix<T, 8, 1> products;
       slant::detail::panel_products(longer, e.columns(), e.y.data(), rows, products.data());
-      for (index j = 0; j < 8; ++j) {
+      for (index j = 0; j < 8; ++j)
         CHECK(std::abs(products[j] - e.R.col(j).dot(e.y)) <= T(rows + 1) * 2 * ε);
-      }
       Eigen::Matrix<T, Eigen::Dynamic, 1> z(rows + 2);
       z << T(7), e.y, T(9);
       Eigen::Matrix<T, 8, 1> again;
@@ -117,9 +114,8 @@ matrix<T> random_symmetric(index n) {
 
 template <class T>
 void pack(matrix<T> const& from, slant::detail::packed_symmetric<T>& to) {
-  for (index j = 0; j < from.cols(); ++j) {
+  for (index j = 0; j < from.cols(); ++j)
     for (index i = j; i < from.rows(); ++i) to.set(i, j, from(i, j));
-  }
 }
 
 TEST_CASE_TEMPLATE("packed: products as with the dense matrix, whatever the size", T, float,
@@ -130,9 +126,8 @@ TEST_CASE_TEMPLATE("packed: products as with the dense matrix, whatever the size
     slant::detail::packed_symmetric<T> packed(n);
     pack(S, packed);
     CHECK(packed.size() == n);
-    for (index j = 0; j < n; ++j) {
+    for (index j = 0; j < n; ++j)
       for (index i = j; i < n; ++i) CHECK(packed(i, j) == S(i, j));
-    }
     // One place before and behind: nothing else may be written to.
     matrix<T> const x = matrix<T>::Random(n, 1);
     matrix<T> y = matrix<T>::Constant(n + 2, 1, T(7));

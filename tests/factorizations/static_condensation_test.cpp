@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/contact/contact_data.hpp>
+#include <slant/factorizations/condensation_options.hpp>
 #include <slant/factorizations/static_condensation.hpp>
 
 #include <support/testing.hpp>
@@ -21,9 +22,8 @@ struct scene {
   explicit scene(int k) : K(test::grid_laplacian(k, 0.1)) {
     std::vector<Eigen::Triplet<double>> entries;
     int rows = 0;
-    for (int i = 0; i < k * k; ++i) {
+    for (int i = 0; i < k * k; ++i)
       if (i % 3 != 2) entries.emplace_back(rows++, i, 1.0 + 0.01 * i);
-    }
     entries.emplace_back(rows, 0, -1.0);
     entries.emplace_back(rows++, k * k - 1 - (k * k - 1) % 3, 2.0);
     B.resize(rows, K.cols());
@@ -95,8 +95,7 @@ TEST_CASE_TEMPLATE("another matrix with the same unknowns", Way, by_sweeps, by_i
   CHECK((y - z).norm() < 1e-13 * y.norm());
   slant::apply(factor.restricted(s.B), x, z);
   CHECK((y - z).norm() > 0.1 * y.norm());  // the first one is what it was
-  CHECK(test::contains(test::complaint([&] { (void)factor.refactorized(sparse(3, 3)); }),
-                       "rows of K"));
+  CHECK(test::contains(SLANT_COMPLAINT(factor.refactorized(sparse(3, 3))), "rows of K"));
 }
 
 TEST_CASE_TEMPLATE("units change no digit", Way, by_sweeps, by_inverse) {
@@ -142,24 +141,21 @@ TEST_CASE_TEMPLATE("degenerate: nothing in contact, everything, empty rows, no u
 TEST_CASE("bad input is named") {
   scene const s(3);
   auto const make = [&](std::vector<index> const& contact) {
-    return test::complaint([&] { slant::static_condensation(s.K, contact); });
+    return SLANT_COMPLAINT(slant::static_condensation(s.K, contact));
   };
   CHECK(test::contains(make({0, 99}), "contact[1]: got 99"));
   CHECK(test::contains(make({-1}), "contact[0]: got -1"));
   CHECK(test::contains(make({4, 4}), "contact[1]: got 4"));
-  CHECK(
-      test::contains(test::complaint([&] { slant::static_condensation(sparse(2, 3), {}); }), "K"));
-  CHECK(test::contains(
-      test::complaint([&] { slant::static_condensation(sparse(-s.K), s.contact); }), "pivot"));
+  CHECK(test::contains(SLANT_COMPLAINT(slant::static_condensation(sparse(2, 3), {})), "K"));
+  CHECK(test::contains(SLANT_COMPLAINT(slant::static_condensation(sparse(-s.K), s.contact)),
+                       "pivot"));
   sparse with_nan = s.K;
   with_nan.coeffRef(2, 2) = std::numeric_limits<double>::quiet_NaN();
-  CHECK(test::contains(test::complaint([&] { slant::static_condensation(with_nan, s.contact); }),
-                       "nan"));
+  CHECK(test::contains(SLANT_COMPLAINT(slant::static_condensation(with_nan, s.contact)), "nan"));
 
   slant::static_condensation const factor(s.K, {0, 1, 3, 4});
-  CHECK(test::contains(test::complaint([&] { (void)factor.restricted(s.B); }),
-                       "touch contact unknowns only"));
-  CHECK(test::contains(test::complaint([&] { (void)factor.restricted(sparse(2, 3)); }), "B"));
+  CHECK(test::contains(SLANT_COMPLAINT(factor.restricted(s.B)), "touch contact unknowns only"));
+  CHECK(test::contains(SLANT_COMPLAINT(factor.restricted(sparse(2, 3))), "B"));
 }
 
 #if defined(SLANT_HAS_CHOLMOD) && SLANT_HAS_CHOLMOD
@@ -336,5 +332,60 @@ TEST_CASE("without SuiteSparse the report says what would be faster") {
 }
 
 #endif
+
+std::string complaint(slant::condensation_options const& o) {
+  return SLANT_COMPLAINT(o.validate());
+}
+
+TEST_CASE("options out of range are named") {
+  CHECK(complaint({}) == "nothing thrown");
+  CHECK(test::contains(complaint({.levels = -1}), "levels"));
+  CHECK(test::contains(complaint({.applications = -1}), "applications"));
+  CHECK(test::contains(complaint({.flops_per_second = 0}), "flops_per_second"));
+  CHECK(test::contains(complaint({.forming_per_second = -1}), "forming_per_second"));
+  CHECK(test::contains(complaint({.bytes_per_second = std::numeric_limits<double>::quiet_NaN()}),
+                       "bytes_per_second"));
+  CHECK(test::contains(complaint({.cached_per_second = -1}), "cached_per_second"));
+  CHECK(test::contains(complaint({.cache = 0}), "cache"));
+  CHECK(test::contains(complaint({.most_memory = 0.5}), "most_memory"));
+}
+
+TEST_CASE("the fastest plan that fits the memory; the smallest if none does") {
+  slant::condensation_options o;
+  o.applications = 10;
+  o.flops_per_second = o.bytes_per_second = o.cached_per_second = 1;
+  auto const plan = [&](double flops, double entries, double tail) {
+    slant::condensation_plan p{
+        .flops = flops, .entries = entries, .stored = entries + 20, .tail_entries = tail};
+    p.predict(o);
+    return p;
+  };
+  std::vector const plans{plan(5000, 300, 10), plan(3000, 200, 20), plan(1000, 100, 60)};
+  auto const alone = plan(1000, 80, 0);
+  CHECK(plans[0].seconds == 5000 + 10 * 2 * 8 * 10);
+  CHECK(plans[0].bytes() == 8 * 320 + 4 * 10);
+  o.cache = 1;
+  o.most_memory = 4;
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[1]);  // 6200 against 6600 and 10600
+  o.most_memory = 2;
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[2]);
+  o.most_memory = 1;
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[2]);
+  o.cache = 1e6;  // so little that it does not matter
+  CHECK(&slant::detail::cheapest(plans, alone, o) == &plans[1]);
+}
+
+TEST_CASE("the price of a plan with the inverse, by hand") {
+  slant::condensation_options o;
+  o.applications = 10;
+  o.flops_per_second = o.forming_per_second = o.bytes_per_second = o.cached_per_second = 1;
+  slant::condensation_plan const swept{
+      .flops = 5000, .stored = 320, .contact = 6, .forming = 240, .tail_entries = 30};
+  auto const plan = swept.with_inverse(o);
+  CHECK(plan.inverse);
+  CHECK(plan.applied() == 18);
+  CHECK(plan.bytes() == 8 * 320 + 12 * 18);
+  CHECK(plan.seconds == doctest::Approx(5000 + 240 + 10 * 8 * 18));
+}
 
 }  // namespace static_condensation_test

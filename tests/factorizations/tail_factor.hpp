@@ -31,9 +31,8 @@ struct tail_factor {
     for (auto const& s : shape->supernodes()) {
       for (slant::index j = 0; j < s.columns; ++j) {
         for (slant::index i = j; i < s.columns; ++i) L(s.first + i, s.first + j) = (*block)(i, j);
-        for (slant::index i = 0; i < s.below; ++i) {
+        for (slant::index i = 0; i < s.below; ++i)
           L(shape->rows(s)[i], s.first + j) = (*block)(s.columns + i, j);
-        }
       }
       ++block;
     }

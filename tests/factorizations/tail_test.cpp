@@ -97,9 +97,7 @@ TEST_CASE("rounded to floats, definite matrices that are well-conditioned but fo
     for (int j = 0; j < 6; ++j) {
       double const unit = std::pow(scale, j);
       stiffness.push_back(1 / ((1 - c) * unit * unit));  // (S)_ii is less
-      for (int i = j; i < 6; ++i) {
-        inverse.set(i, j, (i == j ? 1 : c) * unit * std::pow(scale, i));
-      }
+      for (int i = j; i < 6; ++i) inverse.set(i, j, (i == j ? 1 : c) * unit * std::pow(scale, i));
     }
     return slant::detail::stays_definite<float>(inverse, stiffness);
   };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The numbers copied from the documents, where they can be checked against each other.
+#include <slant/sets/sets.hpp>
+
+#include <fem/active_counts.hpp>
 #include <fem/thesis_tables.hpp>
 #include <fem/wire_counts.hpp>
 #include <support/testing.hpp>
@@ -44,6 +47,25 @@ TEST_CASE("what two tables print of the same run is the same") {
   CHECK(same(fem::thesis_table_4_6[0].entries[1], fem::thesis_table_4_7[1].entries[0]));
   // The adaptive column of 4.5 at n = 512 is r_tol = 0.01, ρ = 0.5 of 4.7.
   CHECK(same(fem::thesis_table_4_5[4].adaptive, fem::thesis_table_4_7[10].entries[2]));
+}
+
+TEST_CASE("a block is active when x - r / A_ii lies strictly outside its set") {
+  MatrixXd const A = Eigen::Vector4d(2, 4, 4, 1).asDiagonal();
+  auto const set = slant::cartesian(slant::half_lines(1), slant::discs(VectorXd::Ones(1)),
+                                    slant::free_components(1));
+  auto const counts = [&](VectorXd const& b, VectorXd const& x) {
+    return fem::count_active(set, A, b, x);
+  };
+  VectorXd const origin = VectorXd::Zero(4);
+  // z = x − (A x − b)/A_ii = b/A_ii for a diagonal matrix.
+  CHECK(counts(Eigen::Vector4d(2, 0, 0, 5), origin) == fem::active_counts{0, 0});
+  CHECK(counts(Eigen::Vector4d(-2, 0, 0, 5), origin) == fem::active_counts{1, 0});
+  CHECK(counts(Eigen::Vector4d(0, 4, 0, 5), origin) == fem::active_counts{0, 0});  // on the circle
+  CHECK(counts(Eigen::Vector4d(0, 4, 0.5, 5), origin) == fem::active_counts{0, 1});
+  // The step belongs to the block, not to the matrix: with 1/2 for all the disc would be active.
+  CHECK(counts(Eigen::Vector4d(0, 3, 0, 5), origin) == fem::active_counts{0, 0});
+  CHECK((fem::active_blocks(set, A, VectorXd(Eigen::Vector4d(-1, 9, 0, 5)), origin) ==
+         std::vector<bool>{true, true, false}));
 }
 
 }  // namespace printed_tables_test

@@ -28,9 +28,8 @@ outcome run(std::size_t entry, double l, double g, slant::index most = 1000) {
 }
 
 fem::active_counts printed_counts(std::size_t entry, double l, double g) {
-  for (auto const& row : fem::printed_wire_counts) {
+  for (auto const& row : fem::printed_wire_counts)
     if (row.l == l && row.g == g) return {row.bounds[entry], row.circles[entry]};
-  }
   return {-1, -1};
 }
 

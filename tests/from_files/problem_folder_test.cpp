@@ -8,7 +8,6 @@
 namespace problem_folder_test {
 
 using io_test::temporary_folder;
-using test::complaint;
 namespace fs = std::filesystem;
 
 std::string const coordinate = "%%MatrixMarket matrix coordinate real general\n";
@@ -35,7 +34,7 @@ class problem {
   }
   /// The refusal, without the name of the folder.
   [[nodiscard]] std::string refused() const {
-    std::string const message = complaint([&] { (void)read(); });
+    std::string const message = SLANT_COMPLAINT(read());
     std::string const root = folder.path().string() + "/";
     return message.starts_with(root) ? message.substr(root.size()) : message;
   }
@@ -116,10 +115,10 @@ TEST_CASE("problem folder: files that are missing") {
       "with W.mtx, q.txt, "
       "mu.txt";
   fs::path const none = empty / "none";
-  CHECK(complaint([&] { (void)from_files::read_problem_folder(none); }) ==
+  CHECK(SLANT_COMPLAINT(from_files::read_problem_folder(none)) ==
         none.string() + ": got no such folder" + files);
   io_test::put(empty / "file", "1\n");
-  CHECK(complaint([&] { (void)from_files::read_problem_folder(empty / "file"); }) ==
+  CHECK(SLANT_COMPLAINT(from_files::read_problem_folder(empty / "file")) ==
         (empty / "file").string() + ": got not a folder" + files);
 }
 
@@ -160,9 +159,9 @@ TEST_CASE("problem folder: friction coefficients instead of slip bounds") {
   CHECK(p.body.contact.g[0] == 0);
   CHECK(p.body.contact.tangents() == 2);
   folder.put("F.txt", "inf\n");
-  CHECK(complaint([&] {
-          (void)from_files::read_coulomb_folder(folder.folder.path(), folder.folder / "F.txt");
-        }).ends_with("F.txt:1: got 'inf', expected a finite number"));
+  CHECK(SLANT_COMPLAINT(
+            from_files::read_coulomb_folder(folder.folder.path(), folder.folder / "F.txt"))
+            .ends_with("F.txt:1: got 'inf', expected a finite number"));
 }
 
 }  // namespace problem_folder_test

@@ -11,7 +11,6 @@
 namespace friction_folder_test {
 
 using io_test::temporary_folder;
-using test::complaint;
 
 std::string const coordinate = "%%MatrixMarket matrix coordinate real general\n";
 
@@ -30,7 +29,7 @@ struct one_contact {
   }
   /// The refusal, without the name of the folder.
   [[nodiscard]] std::string refused(slant::friction_folder_options const& options = {}) const {
-    std::string const message = complaint([&] { (void)read(options); });
+    std::string const message = SLANT_COMPLAINT(read(options));
     std::string const root = folder.path().string() + "/";
     return message.starts_with(root) ? message.substr(root.size()) : message;
   }
@@ -48,14 +47,13 @@ TEST_CASE("friction folder: the texts of its files, without a file") {
   auto const p = slant::parse_friction_problem({W, "-1\n2\n3\n", "0.5\n"}, "box");
   CHECK(p.W.coeff(2, 2) == 1);
   CHECK(p.q == Vector3d(-1, 2, 3));
-  CHECK(complaint([&] {
-          (void)slant::parse_friction_problem({W, "-1\n2\n3\n", "-1\n"}, "box");
-        }) == "box/mu.txt: got -1 of contact 0, expected a number >= 0");
+  CHECK(SLANT_COMPLAINT(slant::parse_friction_problem({W, "-1\n2\n3\n", "-1\n"}, "box")) ==
+        "box/mu.txt: got -1 of contact 0, expected a number >= 0");
   // Six bytes follow the sizes.
-  CHECK(complaint([&] {
-          (void)slant::parse_friction_problem({coordinate + "30 30 1\n1 1 2\n", "1\n", "1\n"},
-                                              "box", {.W = {.unbacked_dimension = 2}});
-        }) == "box/W.mtx:2: got '30', expected a number of rows from 0 to 6");
+  CHECK(
+      SLANT_COMPLAINT(slant::parse_friction_problem({coordinate + "30 30 1\n1 1 2\n", "1\n", "1\n"},
+                                                    "box", {.W = {.unbacked_dimension = 2}})) ==
+      "box/W.mtx:2: got '30', expected a number of rows from 0 to 6");
 }
 
 TEST_CASE("friction folder: the dimension follows from the sizes") {
@@ -99,7 +97,7 @@ TEST_CASE("friction folder: refusals name the file, the value and what was expec
     CHECK(files.refused() == name + ": got no such file, expected a readable text file");
   }
   temporary_folder const empty;
-  CHECK(complaint([&] { (void)slant::read_friction_problem(empty / "none"); }) ==
+  CHECK(SLANT_COMPLAINT(slant::read_friction_problem(empty / "none")) ==
         (empty / "none").string() +
             ": got no folder, expected a folder with W.mtx, q.txt and mu.txt");
 }

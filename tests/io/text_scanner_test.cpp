@@ -16,7 +16,6 @@ using slant::detail::line_scanner;
 using slant::detail::number_defect;
 using slant::detail::parse_number;
 using slant::detail::read_text_file;
-using test::complaint;
 
 TEST_CASE("text file: content as it is") {
   temporary_folder const folder;
@@ -32,13 +31,13 @@ TEST_CASE("text file: what cannot be read is named") {
   temporary_folder const folder;
   std::string const root = folder.path().string();
   auto const message = [&](std::string const& name) {
-    return complaint([&] { (void)read_text_file(folder / name); });
+    return SLANT_COMPLAINT(read_text_file(folder / name));
   };
   CHECK(message("none.txt") == root + "/none.txt: got no such file, expected a readable text file");
   put(folder / "empty.txt", "");
   CHECK(message("empty.txt") ==
         root + "/empty.txt: got an empty file, expected a readable text file");
-  CHECK(complaint([&] { (void)read_text_file(folder.path()); }) ==
+  CHECK(SLANT_COMPLAINT(read_text_file(folder.path())) ==
         root + ": got a directory, expected a readable text file");
   CHECK(message("empty.txt/inside") ==
         root + "/empty.txt/inside: got no such file, expected a readable text file");
@@ -56,7 +55,7 @@ TEST_CASE("text file: a pipe is not waited for") {
   temporary_folder const folder;
   io_test::fs::path const pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  CHECK(complaint([&] { (void)read_text_file(pipe); }) ==
+  CHECK(SLANT_COMPLAINT(read_text_file(pipe)) ==
         pipe.string() + ": got a special file, expected a readable text file");
 }
 
@@ -64,7 +63,7 @@ TEST_CASE("text file: a hole of a terabyte is refused at once") {
   temporary_folder const folder;
   put(folder / "hole.mtx", "%%MatrixMarket matrix array real general\n");
   io_test::fs::resize_file(folder / "hole.mtx", std::uintmax_t{1} << 40);
-  CHECK(complaint([&] { (void)read_text_file(folder / "hole.mtx"); }) ==
+  CHECK(SLANT_COMPLAINT(read_text_file(folder / "hole.mtx")) ==
         (folder / "hole.mtx").string() +
             ": got binary data (a zero byte), expected a readable text file");
 }
@@ -87,13 +86,13 @@ TEST_CASE("line scanner: lines, words and their numbers") {
   CHECK(lines.bytes_left() == 0);
   CHECK(lines.word() == "d");
   CHECK_FALSE(lines.next_line());
-  CHECK(complaint([&] { lines.refuse("this", "that"); }) == "x:5: got this, expected that");
+  CHECK(SLANT_COMPLAINT(lines.refuse("this", "that")) == "x:5: got this, expected that");
 }
 
 TEST_CASE("line scanner: the last line must be ended, no line may be endless") {
   line_scanner open("1\n2.5", "x");
   REQUIRE(open.next_line());
-  CHECK(complaint([&] { open.next_line(); }) ==
+  CHECK(SLANT_COMPLAINT(open.next_line()) ==
         "x:2: got '2.5' and the end of the file, expected a line feed at the end of the last line "
         "(truncated file?)");
   std::string text(1024, '7');
@@ -103,7 +102,7 @@ TEST_CASE("line scanner: the last line must be ended, no line may be endless") {
   CHECK(longest.word().size() == 1024);
   std::string const too_long = std::string(1025, '7') + "\n";
   line_scanner refused(too_long, "x");
-  CHECK(complaint([&] { refused.next_line(); }) ==
+  CHECK(SLANT_COMPLAINT(refused.next_line()) ==
         "x:1: got '" + std::string(40, '7') + "...', expected a line of at most 1024 characters");
 }
 

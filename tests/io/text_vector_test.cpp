@@ -11,13 +11,12 @@ namespace text_vector_test {
 using io_test::temporary_folder;
 using slant::parse_text_vector;
 using slant::text_vector_options;
-using test::complaint;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The refusal of a text, without the name of the file.
 std::string refused(std::string_view text, text_vector_options const& options = {}) {
-  std::string const message = complaint([&] { (void)parse_text_vector(text, "f.txt", options); });
+  std::string const message = SLANT_COMPLAINT(parse_text_vector(text, "f.txt", options));
   return message.starts_with("f.txt:") ? message.substr(6) : message;
 }
 
@@ -71,7 +70,7 @@ TEST_CASE("text vector: every prefix is refused when the size is known") {
 TEST_CASE("text vector: files") {
   temporary_folder const folder;
   io_test::put(folder / "f.txt", "1\nx\n");
-  CHECK(complaint([&] { (void)slant::read_text_vector(folder / "f.txt"); }) ==
+  CHECK(SLANT_COMPLAINT(slant::read_text_vector(folder / "f.txt")) ==
         (folder / "f.txt").string() + ":2: got 'x', expected a finite number");
 }
 
@@ -101,11 +100,11 @@ TEST_CASE("text vector: what is not written, and that nothing is left of it") {
   temporary_folder const folder;
   std::string const name = (folder / "x.txt").string();
   Vector2d const nan(1, std::numeric_limits<double>::quiet_NaN());
-  CHECK(complaint([&] {
-          slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true});
-        }) == name + ": got nan in component 1, expected finite numbers");
+  CHECK(
+      SLANT_COMPLAINT(slant::write_text_vector(folder / "x.txt", nan, {.allow_infinity = true})) ==
+      name + ": got nan in component 1, expected finite numbers");
   Vector2d const inf(infinity, 1);
-  CHECK(complaint([&] { slant::write_text_vector(folder / "x.txt", inf); }) ==
+  CHECK(SLANT_COMPLAINT(slant::write_text_vector(folder / "x.txt", inf)) ==
         name + ": got inf in component 0, expected finite numbers");
   CHECK(folder.entries() == 0);
 }

@@ -72,9 +72,8 @@ TEST_CASE("taking n states performs n - 1 steps") {
     }
   } method;
   int states = 0;
-  for ([[maybe_unused]] auto const& s : slant::iterates(method, 1.0) | ranges::views::take(4)) {
+  for ([[maybe_unused]] auto const& s : slant::iterates(method, 1.0) | ranges::views::take(4))
     ++states;
-  }
   CHECK(states == 4);
   CHECK(method.steps <= 4);  // the view may look one ahead, never more
 }

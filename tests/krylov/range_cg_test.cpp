@@ -118,9 +118,8 @@ TEST_CASE("projector preconditioning: the same minimum, sooner; one product and 
   k(0, 0) += 1;
   Eigen::SparseMatrix<double> const sparse = k.sparseView();
   std::vector<int> inside;
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i)
     if (i % 10 != 0) inside.push_back(i);
-  }
   Eigen::SparseMatrix<double> u(n, static_cast<int>(inside.size()));
   for (int j = 0; j < u.cols(); ++j) u.insert(inside[static_cast<std::size_t>(j)], j) = 1;
   auto const Q = slant::conjugate_projector(sparse, u);

@@ -116,9 +116,8 @@ struct modulus {
 };
 
 bool breaks(lie told, std::string const& law) {
-  for (auto const& breach : slant::testing::function_breaches(modulus{told}, few())) {
+  for (auto const& breach : slant::testing::function_breaches(modulus{told}, few()))
     if (breach.law == law) return true;
-  }
   return false;
 }
 

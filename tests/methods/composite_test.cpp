@@ -273,9 +273,8 @@ TEST_CASE("forward–backward: the projected gradient method, options, and what 
   CHECK(test::complaint([&] {
           slant::forward_backward{qp, {.step_length = -1.0}};
         }) == "step_length: got -1, expected a finite number > 0");
-  CHECK(test::complaint([&] {
-          static_cast<void>(slant::separable_qp{A, p.b, support(slant::intervals(p.w))});
-        }).find("dimension of the function: got 4") != std::string::npos);
+  CHECK(SLANT_COMPLAINT(slant::separable_qp{A, p.b, support(slant::intervals(p.w))})
+            .find("dimension of the function: got 4") != std::string::npos);
 }
 
 /// ½ c max(0, −x)², a spring that pulls back from below 0: an own block, no support function.
@@ -304,9 +303,8 @@ TEST_CASE("a function of one's own, certified") {
   REQUIRE(run.converged());
   VectorXd const force = b - M * run.x();
   double const c[] = {2, 5, 0, 0, 0.1};
-  for (Index i : {0, 1, 4}) {
+  for (Index i : {0, 1, 4})
     CHECK(std::abs(force[i] - std::min(c[i] * run.x()[i], 0.0)) <= 1e-8 * b.norm());
-  }
 }
 
 TEST_CASE("singular A: as many zeros as it takes, by Newton's method as by forward–backward") {

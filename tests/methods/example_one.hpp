@@ -78,9 +78,8 @@ example_one_solution<S>::example_one_solution() {
   }
   x = z.head(12);
   multipliers = z.tail(3);
-  for (Eigen::Index i : {0, 3, 5}) {
+  for (Eigen::Index i : {0, 3, 5})
     feasible_elsewhere = feasible_elsewhere && x(i) * x(i) + x(i + 6) * x(i + 6) < p.g(i) * p.g(i);
-  }
 }
 
 // Compiled once.

@@ -120,9 +120,8 @@ TEST_CASE("symmetric Newton method: superlinear convergence, the order of the la
   std::vector<double> logarithms;
   auto const note = [&](auto const& s) {
     using std::log10;
-    if (s.residual_norm > wide(0)) {
+    if (s.residual_norm > wide(0))
       logarithms.push_back(static_cast<double>(log10(wide(s.residual_norm / s.gradient_scale))));
-    }
   };
   slant::symmetric_newton const exact{
       qp, {.forcing = {.γ = 1e-49, .exponent = 2, .η_max = 1e-49, .η_first = 1e-49}}};

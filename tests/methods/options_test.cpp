@@ -20,7 +20,7 @@ struct row {
 template <class Options>
 void check(std::vector<row<Options>> const& table) {
   for (auto const& [options, expected] : table) {
-    auto const said = test::complaint([&] { options.validate(); });
+    auto const said = SLANT_COMPLAINT(options.validate());
     CAPTURE(expected);
     CAPTURE(said);
     CHECK(said.starts_with(expected));

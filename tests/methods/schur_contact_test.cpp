@@ -22,9 +22,8 @@ TEST_CASE(
     int const m = 2 + round % 5;
     // Unknowns 1, 4, 5 are inside; small whole numbers make dependent rows and ties likely.
     p.B = MatrixXd::Zero(m, 7);
-    for (int i = 0; i < m; ++i) {
+    for (int i = 0; i < m; ++i)
       for (int const j : {0, 2, 3, 6}) p.B(i, j) = std::rand() % 3 - 1;
-    }
     p.c = VectorXd::Zero(m);
     for (int i = 0; i < m; ++i) p.c[i] = std::rand() % 3;
     p.f = VectorXd::Zero(7);

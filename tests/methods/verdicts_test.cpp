@@ -105,9 +105,8 @@ TEST_CASE("no digit is left: stalled, with the level, soon after the floor was r
     auto const p = oracle::make_program(oracle::program_suite::tiny, k);
     solve_with_each(p, 0, 0, 20000, [&](char const*, auto const& r) {
       CHECK((r.status == status::stalled || r.converged()));
-      if (r.status == status::stalled) {
+      if (r.status == status::stalled)
         CHECK(r.reason.find("relative reduced gradient") != std::string::npos);
-      }
     });
   }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The wire [T §4.1] from zero: every method finds the printed numbers of active constraints, the
-// cells where the thesis failed included. Others than these run in tests/scenes.
+// cells where the thesis failed included; from coarser meshes; and the brick. Others than these run
+// in tests/scenes.
 #include <slant/slant.hpp>
 
 #include <fem/active_counts.hpp>
@@ -9,6 +10,8 @@
 #include <fem/wire_counts.hpp>
 #include <support/minimise.hpp>
 #include <support/testing.hpp>
+#include "brick_runs.hpp"
+#include "nested_newton.hpp"
 
 namespace wire_test {
 
@@ -54,6 +57,28 @@ TEST_CASE("symmetric_newton with A⁻¹: no descent step is needed") {
     CHECK(r.iterations() <= 8 + wire.m / 2);
     return r;
   });
+}
+
+TEST_CASE("symmetric_newton: error 1e-8 within 250 products, half of them with a preconditioner") {
+  for (auto const load : fem::brick_loads)
+    test::check_newton_brick(test::effort(4, 2), load, 250, 125);
+}
+
+TEST_CASE("interior_point: error 1e-6 in 30 steps and 300 products") {
+  for (auto const load : fem::brick_loads) {
+    for (int k = 2; k <= test::effort(4, 2); ++k) {
+      test::check_brick(
+          k, load, {1e-6, 300, 1e-7, 30}, [](auto const&, auto const& dual, auto const& watch) {
+            auto const qp = dual.qp();
+            return slant::solve(slant::interior_point{qp}, dual.zero(),
+                                slant::reduced_gradient_below(1e-9) || slant::at_most(60), watch);
+          });
+    }
+  }
+}
+
+TEST_CASE("nested Newton on the wire: at most 6 steps on every mesh up to n = 256") {
+  test::check_nested_newton(4);
 }
 
 }  // namespace wire_test

@@ -18,9 +18,8 @@ using test::laplacian;
 
 std::vector<int> sizes_of(slant::aggregation const& a) {
   std::vector<int> sizes(static_cast<std::size_t>(a.count), 0);
-  for (int const i : a.of) {
+  for (int const i : a.of)
     if (i >= 0) ++sizes[static_cast<std::size_t>(i)];
-  }
   return sizes;
 }
 
@@ -75,9 +74,8 @@ MatrixXd tentative(slant::aggregation const& a, std::vector<double> const& Q) {
 
 slant::detail::near_kernel<3, 6> kernel_of(MatrixXd const& modes) {
   slant::detail::near_kernel<3, 6> kernel;
-  for (Eigen::Index i = 0; i < modes.rows(); ++i) {
+  for (Eigen::Index i = 0; i < modes.rows(); ++i)
     for (int c = 0; c < 6; ++c) kernel.blocks.push_back(modes(i, c));
-  }
   return kernel;
 }
 
@@ -92,9 +90,8 @@ TEST_CASE("candidates: orthonormal columns whose range has the near kernel, also
     for (Eigen::Index i = 0; i < n; ++i) {
       Vector3d const x = nodes.col(i);
       B.block<3, 3>(3 * i, 0).setIdentity();
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < 3; ++c)
         B.block<3, 1>(3 * i, 3 + c) = Vector3d::Unit(c).cross(x) / (1 + away);
-      }
     }
     auto const kernel = kernel_of(B);
     auto const a = aggregate(block_matrix<3>(s.K), 0.02);
@@ -103,9 +100,8 @@ TEST_CASE("candidates: orthonormal columns whose range has the near kernel, also
     auto const Q = slant::detail::orthonormal_candidates<3, 6, double>(a, kernel, coarse);
     MatrixXd const P = tentative<3, 6>(a, Q);
     MatrixXd R(6 * a.count, 6);
-    for (Eigen::Index i = 0; i < R.rows(); ++i) {
+    for (Eigen::Index i = 0; i < R.rows(); ++i)
       for (int c = 0; c < 6; ++c) R(i, c) = coarse.blocks[std::size_t(6 * i + c)];
-    }
     double const loss = away > 0 ? 1e-6 : 1e-12;  // squares of candidates that nearly agree
     CHECK((P * R - B).norm() <= loss * B.norm());
     MatrixXd const gram = P.transpose() * P;
@@ -118,9 +114,8 @@ TEST_CASE("a node by itself has no rotations: these coarse unknowns are left out
   slant::aggregation const a{{0, 1, 1}, 2};
   slant::detail::near_kernel<3, 6> B;
   for (double const x : {0.5, 1.0, 2.0}) {
-    for (double const v : {1., 0., 0., 0., 0., 0., 0., 1., 0., 0., 0., x, 0., 0., 1., 0., -x, 0.}) {
+    for (double const v : {1., 0., 0., 0., 0., 0., 0., 1., 0., 0., 0., x, 0., 0., 1., 0., -x, 0.})
       B.blocks.push_back(v);
-    }
   }
   slant::detail::near_kernel<6, 6> R;
   auto const P = tentative<3, 6>(a, slant::detail::orthonormal_candidates<3, 6, double>(a, B, R));
@@ -135,9 +130,7 @@ TEST_CASE("the prolongation is smoothed by a step of Jacobi, by dense algebra") 
   MatrixXd const K(s.K / 2e5);
   auto const n = K.rows();
   MatrixXd inverse = MatrixXd::Zero(n, n);
-  for (Eigen::Index i = 0; i < n; i += 3) {
-    inverse.block<3, 3>(i, i) = K.block<3, 3>(i, i).inverse();
-  }
+  for (Eigen::Index i = 0; i < n; i += 3) inverse.block<3, 3>(i, i) = K.block<3, 3>(i, i).inverse();
   auto const inverses = test::block_inverses<3, double>(inverse);
   Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> const e(K, inverse.inverse());
   double const λ = slant::detail::largest_jacobi_eigenvalue(A, inverses.data());
@@ -154,9 +147,8 @@ TEST_CASE("the prolongation is smoothed by a step of Jacobi, by dense algebra") 
     auto const P = slant::detail::smoothed_prolongation<3, 6>(A, inverses.data(), a, Q, ω);
     MatrixXd found = MatrixXd::Zero(n, P0.cols());
     for (int i = 0; i < P.nodes(); ++i) {
-      for (int at = P.begin(i); at < P.end(i); ++at) {
+      for (int at = P.begin(i); at < P.end(i); ++at)
         for (int k = 0; k < 18; ++k) found(3 * i + k / 6, 6 * P.at(at) + k % 6) = P.block(at)[k];
-      }
     }
     CHECK((found - P0 + ω * inverse * K * P0).norm() <= 1e-13 * P0.norm());
   }

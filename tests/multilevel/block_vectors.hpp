@@ -17,9 +17,8 @@ template <int N, class T>
 std::vector<T> packed(Eigen::VectorXd const& x) {
   constexpr int stride = slant::block_matrix<N, T>::stride;
   std::vector<T> p(static_cast<std::size_t>(x.size() / N * stride), T(1e30));
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
+  for (Eigen::Index k = 0; k < x.size(); ++k)
     p[static_cast<std::size_t>(k / N * stride + k % N)] = T(x[k]);
-  }
   return p;
 }
 
@@ -27,9 +26,8 @@ template <int N, class T>
 Eigen::VectorXd unpacked(std::vector<T> const& p) {
   constexpr int stride = slant::block_matrix<N, T>::stride;
   Eigen::VectorXd x(static_cast<Eigen::Index>(p.size()) / stride * N);
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
+  for (Eigen::Index k = 0; k < x.size(); ++k)
     x[k] = double(p[static_cast<std::size_t>(k / N * stride + k % N)]);
-  }
   return x;
 }
 
@@ -39,9 +37,8 @@ std::vector<T> block_inverses(Eigen::MatrixXd const& D) {
   constexpr int stride = slant::block_matrix<N, T>::stride;
   std::vector<T> p(static_cast<std::size_t>(D.rows() * stride), T(0));
   for (Eigen::Index j = 0; j < D.rows(); ++j) {
-    for (Eigen::Index q = 0; q < N; ++q) {
+    for (Eigen::Index q = 0; q < N; ++q)
       p[static_cast<std::size_t>(j * stride + q)] = T(D(j / N * N + q, j));
-    }
   }
   return p;
 }

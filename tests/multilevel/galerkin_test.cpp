@@ -30,9 +30,8 @@ prolongation<N, M, double> sample(int nodes, bool weights) {
   for (int i = 0; i < nodes; ++i) {
     for (int J = i / 4; J < i / 4 + 2 && i % 5 != 4; ++J) {
       P.column.push_back(J);
-      for (int k = 0; k < (weights ? 1 : N * M); ++k) {
+      for (int k = 0; k < (weights ? 1 : N * M); ++k)
         P.entries.push_back(std::sin(1.0 + i + 3.0 * J + 7.0 * k));
-      }
     }
     P.first.push_back(static_cast<int>(P.column.size()));
   }
@@ -109,9 +108,8 @@ struct surface {
   }
   void block_entries(auto const& f) const {
     for (Eigen::Index i = 0; i < Π.rows(); ++i) {
-      for (Eigen::Index j = 0; j < Π.rows(); ++j) {
+      for (Eigen::Index j = 0; j < Π.rows(); ++j)
         if (i / 3 == j / 3 || Π(i, j) != 0) f(i, j, Π(i, j), C(i, j));
-      }
     }
   }
 };
@@ -155,18 +153,16 @@ void check_face(bool weights) {
     MatrixXd const change = test::dense(D);
     for (int I = 0; I < C.nodes(); ++I) {
       auto const rows = [&](MatrixXd const& m) { return m.middleRows(M * I, M); };
-      if (formed.count(I) > 0) {
+      if (formed.count(I) > 0)
         CHECK((rows(now) - rows(before) - rows(change)).norm() <= 1e-13 * exact.norm());
-      }
       for (int J = 0; J < C.nodes(); ++J) {
         if (formed.count(I) + formed.count(J) > 0) continue;
         CHECK(now.template block<M, M>(M * I, M * J) == before.template block<M, M>(M * I, M * J));
       }
     }
     std::set<int> all;
-    for (int const i : moved) {
+    for (int const i : moved)
       for (int e = P.begin(i); e < P.end(i); ++e) all.insert(P.at(e));
-    }
     CHECK(formed == all);
     CHECK(parents.size() == all.size());
     // The inverses of the diagonal blocks on range(Π).
@@ -250,9 +246,8 @@ TEST_CASE("great curvature is left to the sweeps: coarse levels hold its directi
   sparse const K = fem::make_steel_brick({.k = 1}).K / 2e5;
   block_matrix<3, float> const A(K);
   std::vector<double> diagonal;
-  for (int i = 0; i < A.nodes(); ++i) {
+  for (int i = 0; i < A.nodes(); ++i)
     for (int k = 0; k < 9; ++k) diagonal.push_back(double(A.diagonal(i)[k]));
-  }
   auto const n = K.rows();
   slant::detail::node_face<3, float> face(A.nodes(),
                                           test::block_inverses<3, float>(MatrixXd::Identity(n, n)));
@@ -312,9 +307,8 @@ TEST_CASE("prolongations of the user") {
   CHECK(of_nodes.weights);
   sparse unknowns(12, 6);
   for (int j = 0; j < P.outerSize(); ++j) {
-    for (sparse::InnerIterator e(P, j); e; ++e) {
+    for (sparse::InnerIterator e(P, j); e; ++e)
       for (int c = 0; c < 3; ++c) unknowns.coeffRef(3 * e.row() + c, 3 * e.col() + c) = e.value();
-    }
   }
   auto const the_same = slant::detail::prolongation_from<3, double>(unknowns, 4, "P");
   CHECK(the_same.weights);

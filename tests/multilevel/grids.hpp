@@ -36,9 +36,8 @@ template <int D>
 Eigen::MatrixXd moving_nodes(fem::contact_scene<D> const& s) {
   Eigen::MatrixXd nodes(D, s.f.size() / D);
   Eigen::Index next = 0;
-  for (Eigen::Index i = 0; i < s.mesh.node_count(); ++i) {
+  for (Eigen::Index i = 0; i < s.mesh.node_count(); ++i)
     if (!s.unknowns.is_fixed(i)) nodes.col(next++) = s.mesh.nodes.col(i);
-  }
   return nodes;
 }
 

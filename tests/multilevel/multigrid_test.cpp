@@ -513,9 +513,8 @@ TEST_CASE("contact of the brick by symmetric Newton, K never factored") {
   auto const n = s.f.size();
   double const infinity = std::numeric_limits<double>::infinity();
   VectorXd lower = VectorXd::Constant(n, -infinity);  // N u ≤ d, N of −1 at normal displacements
-  for (int j = 0; j < n; ++j) {
+  for (int j = 0; j < n; ++j)
     for (sparse::InnerIterator e(s.N, j); e; ++e) lower[j] = s.d[e.row()] / e.value();
-  }
   slant::separable_qp const qp{slant::matrix<slant::self_adjoint, slant::positive_definite>(s.K),
                                s.f,
                                slant::intervals(lower, VectorXd(VectorXd::Constant(n, infinity)))};
@@ -550,9 +549,8 @@ TEST_CASE("bodies that float") {
     CHECK(steps(m, K, b, all_free(n)) <= 40);
     // Contact as the only support.
     VectorXd kept = VectorXd::Ones(n);
-    for (Eigen::Index i = 0; i < s.mesh.nodes.cols(); ++i) {
+    for (Eigen::Index i = 0; i < s.mesh.nodes.cols(); ++i)
       if (s.mesh.nodes(2, i) == 0) kept.segment(3 * i, 3).setZero();
-    }
     CHECK(steps(m, masked(K, {kept}), b, mask{kept}) <= 40);
   }
   // Constants of a membrane that is held nowhere.
@@ -576,9 +574,8 @@ TEST_CASE("nothing, isolated unknowns") {
   sparse K = laplacian(20, 20);
   std::vector<Eigen::Triplet<double>> entries;
   for (int j = 0; j < K.outerSize(); ++j) {
-    for (sparse::InnerIterator e(K, j); e; ++e) {
+    for (sparse::InnerIterator e(K, j); e; ++e)
       entries.emplace_back(int(5 * e.row()), int(5 * e.col()), e.value());
-    }
     for (int l = 1; l < 5; ++l) entries.emplace_back(5 * j + l, 5 * j + l, 1 + l);
   }
   sparse sparse_mesh(2000, 2000);
@@ -680,9 +677,8 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
       auto const coarser = M.coarser(k, *G);
       REQUIRE(coarser.sizes().size() == M.sizes().size() - 1);
       MatrixXd P(n, coarser.sizes()[1]);
-      for (Eigen::Index j = 0; j < P.cols(); ++j) {
+      for (Eigen::Index j = 0; j < P.cols(); ++j)
         P.col(j) = coarser.prolonged(VectorXd::Unit(P.cols(), j));
-      }
       if (G == &none) P1 = P;
       CHECK((P - dense * P1).norm() <= 1e-14 * P.norm());
       MatrixXd const galerkin = P.transpose() * k * P;
@@ -730,24 +726,20 @@ TEST_CASE("options out of range are named") {
   using options = slant::multigrid_options;
   double const nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_NOTHROW(options{}.validate());
-  for (double const θ : {-0.1, 1.0, nan}) {
+  for (double const θ : {-0.1, 1.0, nan})
     CHECK_THROWS_AS(options{.strength = θ}.validate(), slant::bad_input);
-  }
-  for (double const ω : {0.0, 2.0, nan}) {
+  for (double const ω : {0.0, 2.0, nan})
     CHECK_THROWS_AS(options{.damping = ω}.validate(), slant::bad_input);
-  }
   CHECK_THROWS_WITH_AS(options{.coarsest = 0}.validate(), "coarsest: got 0, expected at least 1",
                        slant::bad_input);
   CHECK_THROWS_WITH_AS(options{.levels = 0}.validate(), "levels: got 0, expected at least 1",
                        slant::bad_input);
-  for (slant::index const b : {-1, 4}) {
+  for (slant::index const b : {-1, 4})
     CHECK_THROWS_AS(options{.block_size = b}.validate(), slant::bad_input);
-  }
   CHECK_THROWS_WITH_AS(options{.block_size = -1}.validate(),
                        "block_size: got -1, expected a number from 0 to 3", slant::bad_input);
-  for (double const c : {1.0, nan}) {
+  for (double const c : {1.0, nan})
     CHECK_THROWS_AS(options{.complexity = c}.validate(), slant::bad_input);
-  }
   CHECK_THROWS_WITH_AS(options{.coordinates = MatrixXd::Zero(4, 2)}.validate(),
                        "rows of coordinates: got 4, expected 2 or 3", slant::bad_input);
   CHECK_THROWS_AS(options{.coordinates = MatrixXd::Constant(3, 2, nan)}.validate(),

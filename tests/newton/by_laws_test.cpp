@@ -74,9 +74,8 @@ TEST_CASE("a solver, a globalisation and a forcing rule of a client's own") {
   auto const half = [](slant::forcing_history<double> const&) { return 0.5; };
   slant::semismooth_newton const method{F, picard{}, cautious{}, half};
   auto s = method.start(d.zero());
-  while (s.status == slant::status::running && s.residual_norm > 1e-6 * s.residual_scale) {
+  while (s.status == slant::status::running && s.residual_norm > 1e-6 * s.residual_scale)
     method.step(s);
-  }
   CHECK(s.residual_norm <= 1e-6 * s.residual_scale);
   CHECK(s.work.inner_iterations == s.iteration);
 }

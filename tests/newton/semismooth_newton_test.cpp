@@ -80,9 +80,8 @@ TEST_CASE("a root of multiplicity m: linear with 1 − 1/m, quadratic with steps
         errors(slant::semismooth_newton{F, slant::direct_solver{}, slant::full_step{}}, number(2),
                number(1), 20, 1e-5);
     REQUIRE(slow.size() > 8);
-    for (std::size_t k = 6; k < slow.size(); ++k) {
+    for (std::size_t k = 6; k < slow.size(); ++k)
       CHECK(slow[k] / slow[k - 1] == doctest::Approx(1 - 1.0 / multiplicity).epsilon(0.05));
-    }
     slant::semismooth_newton const known{
         F, slant::direct_solver{}, slant::multiple_root{.multiplicity = double(multiplicity)}};
     auto const fast = errors(known, number(2), number(1), 20, 1e-12);

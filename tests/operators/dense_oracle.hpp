@@ -24,9 +24,8 @@ dense<S> random_dense(slant::index rows, slant::index cols, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> entry(-1, 1);
   dense<S> m(rows, cols);
-  for (slant::index j = 0; j < cols; ++j) {
+  for (slant::index j = 0; j < cols; ++j)
     for (slant::index i = 0; i < rows; ++i) m(i, j) = S(entry(generator));
-  }
   return m;
 }
 template <class S = double>
@@ -37,9 +36,8 @@ column<S> random_column(slant::index n, unsigned seed) {
 template <class S = double>
 Eigen::SparseMatrix<S> random_sparse(slant::index rows, slant::index cols, unsigned seed) {
   dense<S> m = random_dense<S>(rows, cols, seed);
-  for (auto& entry : m.reshaped()) {
+  for (auto& entry : m.reshaped())
     if (entry < S(0)) entry = S(0);
-  }
   return m.sparseView();
 }
 /// Symmetric positive definite with a moderate condition.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
@@ -38,14 +39,14 @@ TEST_CASE("definite ones have an inverse") {
 TEST_CASE("an inverse that would not be finite is refused") {
   VectorXd const d = Vector3d(1, 1e-310, 2);
   auto const a = slant::diagonal<slant::positive_definite>(d);
-  CHECK(test::message<slant::bad_input>([&] { (void)a.inverse(); }) ==
+  CHECK(SLANT_COMPLAINT(a.inverse()) ==
         "d[1]: got 1e-310, expected a number with a finite reciprocal");
 }
 
 TEST_CASE("laws are verified") {
   using namespace slant;
   VectorXd d = VectorXd::Ones(3);
-  auto const reason = [&](auto make) { return test::message<bad_input>([&] { make(d); }); };
+  auto const reason = [&](auto make) { return SLANT_COMPLAINT(make(d)); };
   auto const any = [](auto const& v) { (void)slant::diagonal(v); };
   auto const definite = [](auto const& v) { (void)slant::diagonal<positive_definite>(v); };
   auto const semidefinite = [](auto const& v) { (void)slant::diagonal<positive_semidefinite>(v); };
@@ -77,6 +78,32 @@ TEST_CASE("laws are verified") {
 TEST_CASE("entries may be any kind of vector") {
   slant::testing::archetype::vector const d(VectorXd(VectorXd::LinSpaced(3, 1, 2)));
   slant::testing::check_operator_laws(slant::diagonal(d), d);
+}
+
+TEST_CASE("the identity") {
+  auto const a = slant::identity(5);
+  static_assert(slant::spd_operator<slant::identity_operator, VectorXd>);
+  static_assert(slant::declares_projector<slant::identity_operator>);
+  static_assert(slant::declares_firmly_nonexpansive<slant::identity_operator>);
+  CHECK(test::matches(a, MatrixXd(MatrixXd::Identity(5, 5)), 0));
+  slant::testing::check_operator_laws(a);
+  slant::testing::check_operator_laws(a, Eigen::VectorXf());
+  slant::testing::check_operator_laws(a, slant::testing::archetype::vector(VectorXd()));
+  CHECK(slant::identity(0).rows() == 0);
+  CHECK(SLANT_COMPLAINT(slant::identity(-1)) == "n: got -1, expected a size >= 0");
+}
+
+TEST_CASE("the zero operator") {
+  auto const wide = slant::zero(2, 3);
+  CHECK(test::matches(wide, MatrixXd(MatrixXd::Zero(2, 3)), 0));
+  static_assert(slant::laws_of<decltype(wide)> == slant::law_set{});
+  slant::testing::check_operator_laws(wide);
+  auto const square = slant::zero(3);
+  static_assert(slant::psd_operator<decltype(square), VectorXd>);
+  static_assert(!slant::spd_operator<decltype(square), VectorXd>);
+  static_assert(slant::declares_projector<decltype(square)>);
+  slant::testing::check_operator_laws(square);
+  CHECK(SLANT_COMPLAINT(slant::zero(2, -1)) == "cols: got -1, expected a size >= 0");
 }
 
 }  // namespace diagonal_test

@@ -37,9 +37,8 @@ test::dense<S> composition_dense(test::dense<S> const& b, test::dense<S> const& 
       test::column<S>::Constant(m, S(2)) + test::column<S>::LinSpaced(m, S(0), S(1));
   a.topRightCorner(m, m) = b * b.transpose();
   int const components[] = {2, 0, 4};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) a(m + i, m + j) = k(components[i], components[j]);
-  }
   return a;
 }
 

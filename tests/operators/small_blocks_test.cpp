@@ -59,9 +59,8 @@ TEST_CASE_TEMPLATE("definite inverse: G Gᵀ + I of every scale", S, float, long
     for (int j = 0; j < 3; ++j) g.col(j) = source.template direction<3>();
     Eigen::Matrix<S, 3, 3> const a =
         g * g.transpose() + Eigen::Matrix<S, 3, 3>::Identity();  // condition at most 4
-    for (S const& scale : {S(1), unit, S(S(1) / unit)}) {
+    for (S const& scale : {S(1), unit, S(S(1) / unit)})
       worst = std::max(worst, inverse_error<S, 3>(Eigen::Matrix<S, 3, 3>(scale * a)));
-    }
   }
   CHECK(worst < 16);
 }

@@ -200,9 +200,8 @@ hard_point<S, N> hard_cone_point(number_source<S>& source, int kind) {
   p.first = source.choice(4) == 0    ? S(1)
             : source.choice(16) == 0 ? S(0)
                                      : source.positive_of_size(-6, 6);
-  if (source.choice(16) == 0) {
+  if (source.choice(16) == 0)
     p.first = source.positive_of_size(-source.decades(), source.decades());
-  }
   S const scale = source.positive_of_size(-source.decades() / 2, source.decades() / 2);
   p.x = scale * source.template direction<N>();
   S squares(0);

@@ -340,9 +340,8 @@ extended_matrix jacobian(random_program const& p, quad_vector const& z, extended
   visit_projections(p, z, [&](std::size_t at, std::size_t size, projected_block const& block) {
     auto const first = Index(at), k = Index(size);
     extended_matrix G(k, k);
-    for (Index i = 0; i < k; ++i) {
+    for (Index i = 0; i < k; ++i)
       for (Index j = 0; j < k; ++j) G(i, j) = block.derivative[std::size_t(i)][std::size_t(j)];
-    }
     extended_matrix const rows = G * J.middleRows(first, k);
     J.middleRows(first, k) = rows;
     J.block(first, first, k, k) += (extended_matrix::Identity(k, k) - G) / ρ(first);
@@ -552,9 +551,8 @@ double energy_error(random_program const& p, VectorXd const& x, quad_vector cons
   // d may lie in the null space of a singular A, which is one up to the rounding of A only.
   quad off = square(d);
   for (std::size_t i = 0; i < d.size() && !p.definite; ++i) {
-    for (std::size_t j = 0; j < d.size(); ++j) {
+    for (std::size_t j = 0; j < d.size(); ++j)
       off -= quad(0x1p-53) * magnitude(d[i] * quad(p.A(Eigen::Index(i), Eigen::Index(j))) * d[j]);
-    }
   }
   quad const whole = root(square(exact)), error = off > 0 ? root(off) : quad(0);
   return static_cast<double>(whole > 0 ? error / whole : error);

@@ -45,9 +45,8 @@ void check_slant(Set const& set, typename Set::vector_type const& x, Project con
     if (k < N) v(k) = float_50(-2);
     if (k == N) v = widen<float_50>(x) / widen<float_50>(x).norm();
     Eigen::Matrix<float_50, N, 1> Gv = Eigen::Matrix<float_50, N, 1>::Zero();
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < N; ++i)
       for (int j = 0; j < N; ++j) Gv(i) += float_50(G(i, j)) * v(j);
-    }
     CHECK(Gv.squaredNorm() - v.dot(Gv) <= float_50(accuracy) * v.squaredNorm());
   }
 }

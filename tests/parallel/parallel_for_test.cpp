@@ -73,9 +73,8 @@ TEST_CASE("a projector of many bodies gives the same bits with any number of thr
   Eigen::SparseMatrix<double> k(n * bodies, n * bodies), u(n * bodies, (n - 4) * bodies);
   for (int b = 0; b < bodies; ++b) {
     Eigen::MatrixXd const block = test::random_spd(n, static_cast<unsigned>(b));
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) k.insert(n * b + i, n * b + j) = block(i, j);
-    }
     for (int j = 0; j + 4 < n; ++j) u.insert(n * b + j, (n - 4) * b + j) = 1;
   }
   VectorXd const x = test::random_column(n * bodies, 3);
@@ -142,17 +141,15 @@ TEST_CASE("a whole contact problem gives the same bits with any number of thread
 TEST_CASE("many blocks applied give the same bits with any number of threads") {
   slant::index const n = 40, count = 300;  // 24000 rows and columns: enough to wake threads
   std::vector<Eigen::MatrixXd> blocks;
-  for (slant::index b = 0; b < count; ++b) {
+  for (slant::index b = 0; b < count; ++b)
     blocks.emplace_back(test::random_spd(n, static_cast<unsigned>(b)));
-  }
   std::vector<decltype(slant::matrix(Eigen::MatrixXd()))> operators;
   for (auto const& block : blocks) operators.push_back(slant::matrix(Eigen::MatrixXd(block)));
   auto const a = slant::diagonal_blocks(std::move(operators));
   VectorXd const x = test::random_column(n * count, 5);
   VectorXd expected(x.size());
-  for (slant::index b = 0; b < count; ++b) {
+  for (slant::index b = 0; b < count; ++b)
     expected.segment(n * b, n) = blocks[static_cast<std::size_t>(b)] * x.segment(n * b, n);
-  }
   VectorXd first;
   with_threads([&] {
     auto w = slant::workspace(a, x);

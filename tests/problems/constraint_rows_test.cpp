@@ -58,9 +58,8 @@ TEST_CASE("projections onto the kernel of J, the tangent cone and the set, with 
 
     // Onto ker B^J.
     std::vector<Eigen::Index> chosen;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 6; ++i)
       if ((subset >> i & 1U) != 0) chosen.push_back(i);
-    }
     MatrixXd const bj = b(chosen, Eigen::all);
     VectorXd const expected =
         chosen.empty() ? x : VectorXd(x - bj.transpose() * test::least_squares(bj.transpose(), x));
@@ -116,9 +115,8 @@ TEST_CASE("rows that all but depend on each other: near the set, or said to be e
   for (int round = 0; round < 300; ++round) {
     MatrixXd b = MatrixXd::Zero(12, 5);
     b.topRows(4) = MatrixXd::Random(4, 5);
-    for (int i = 4; i < 12; ++i) {
+    for (int i = 4; i < 12; ++i)
       b.row(i) = b.row(i % 4) + std::pow(10.0, -8 - round % 9) * MatrixXd::Random(1, 5);
-    }
     VectorXd const c = round % 2 == 0 ? VectorXd::Zero(12) : VectorXd(VectorXd::Random(12));
     auto const rows = rows_of(b, c);
     slant::active_rows<double> active(rows);
@@ -205,7 +203,7 @@ TEST_CASE("no allocation after construction") {
 
 TEST_CASE("bounds that make no sense are named") {
   auto const message = [](MatrixXd const& b, VectorXd const& c) -> std::string {
-    return test::complaint([&] { (void)rows_of(b, c); });
+    return SLANT_COMPLAINT(rows_of(b, c));
   };
   MatrixXd const b{{1, 0}, {0, 0}};
   CHECK(message(b, VectorXd{{1}}) == "c: got 1, expected one entry per row of B, 2");

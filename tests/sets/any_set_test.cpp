@@ -46,9 +46,8 @@ TEST_CASE("any_set: every answer has the bits of the set that it was made of") {
     CHECK(set.contains(x));
     CHECK(set.contains(z) == given.contains(z));
     CHECK(set.support(d) == given.support(d));
-    for (double const enough : {0.0, 0.1, 10.0}) {
+    for (double const enough : {0.0, 0.1, 10.0})
       CHECK(set.step_to_boundary(x, d, enough) == given.step_to_boundary(x, d, enough));
-    }
     auto const g = set.slant(z);
     auto const expected = given.slant(z);
     VectorXd y(n), other(n);

@@ -98,9 +98,7 @@ TEST_CASE("Alart–Curnier: bad input is named") {
   MatrixXd const W = MatrixXd::Identity(3, 3);
   VectorXd const q = VectorXd::Zero(3);
   auto const made = [&](double μ, double n, double t) {
-    return test::complaint([&] {
-      (void)slant::alart_curnier<3>(W, q, VectorXd{{μ}}, VectorXd{{n, 1.0, t}});
-    });
+    return SLANT_COMPLAINT(slant::alart_curnier<3>(W, q, VectorXd{{μ}}, VectorXd{{n, 1.0, t}}));
   };
   CHECK(made(0.5, 1, 1) == "nothing thrown");
   CHECK(made(-1, 1, 1) == "mu[0]: got -1, expected a finite number >= 0");

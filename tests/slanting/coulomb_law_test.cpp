@@ -64,9 +64,8 @@ TEST_CASE("blockwise: new parameters and renewal in place allocate nothing") {
 }
 
 TEST_CASE("blockwise: the block to blame is named") {
-  CHECK(test::complaint([] {
-          (void)slant::blockwise(quadratic{}, VectorXd{{2.0, -3.0}});
-        }) == "c[1]: got -3, expected a number >= 0");
+  CHECK(SLANT_COMPLAINT(slant::blockwise(quadratic{}, VectorXd{{2.0, -3.0}})) ==
+        "c[1]: got -3, expected a number >= 0");
 }
 
 }  // namespace coulomb_law_test

@@ -54,9 +54,8 @@ TEST_CASE("de Saxcé: slanting against differences in 50 digits, at all scales")
     auto const J =
         oracle::differences<float_50, 3, 3>(exact, wide, float_50(scale) * float_50(1e-18));
     Eigen::Matrix3d const G = block.slant(u);
-    for (int k = 0; k < 9; ++k) {
+    for (int k = 0; k < 9; ++k)
       CHECK(std::abs(G(k / 3, k % 3) - double(J(k / 3, k % 3))) <= 4 * ε * (1 + μ));
-    }
   }
 }
 

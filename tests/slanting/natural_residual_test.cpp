@@ -134,9 +134,8 @@ TEST_CASE("multiprecision") {
   auto const set = slant::power(slant::ball<2, S>{}, vector(vector::Ones(2)));
   auto const f = slant::natural_residual(m, b, set, S(1) / S(8));
   vector x = vector::Zero(4);
-  for (int k = 0; k < 12; ++k) {
+  for (int k = 0; k < 12; ++k)
     x -= slanting_support::solve(slanting_support::dense_slant(f, x), slant::evaluate(f, x));
-  }
   CHECK(slant::evaluate(f, x).norm() <= S(16) * std::numeric_limits<S>::epsilon());
 }
 

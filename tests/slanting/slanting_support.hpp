@@ -99,9 +99,8 @@ template <class S>
   auto const n = a.rows();
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = k;
-    for (Eigen::Index i = k + 1; i < n; ++i) {
+    for (Eigen::Index i = k + 1; i < n; ++i)
       if (abs(a(i, k)) > abs(a(pivot, k))) pivot = i;
-    }
     for (Eigen::Index j = k; j < n; ++j) std::swap(a(k, j), a(pivot, j));
     std::swap(b[k], b[pivot]);
     for (Eigen::Index i = k + 1; i < n; ++i) {

@@ -41,9 +41,8 @@ TEST_CASE("no certificate is below the error; at the end of a run it is close to
     if (!exact) continue;
     ++programs;
     VectorXd solution(p.size());
-    for (Eigen::Index i = 0; i < p.size(); ++i) {
+    for (Eigen::Index i = 0; i < p.size(); ++i)
       solution(i) = static_cast<double>((*exact)[static_cast<std::size_t>(i)]);
-    }
     double const size = std::sqrt(solution.dot(p.A * solution));
     if (!(size > 0)) continue;
     MatrixXd const inverse = inverse_of(p.A);

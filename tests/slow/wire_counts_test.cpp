@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fem/wire_counts.hpp>
+#include <methods/nested_newton.hpp>
 #include <oracle/certificate.hpp>
 #include <oracle/wire_reference.hpp>
 #include <support/testing.hpp>
@@ -27,6 +28,10 @@ TEST_CASE("the wire has the printed numbers of active and free constraints up to
       coarse = std::move(solution);
     }
   }
+}
+
+TEST_CASE("nested Newton on the wire: at most 6 steps on every mesh up to n = 2048") {
+  test::check_nested_newton(7);
 }
 
 }  // namespace wire_counts_test

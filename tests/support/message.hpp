@@ -10,22 +10,19 @@
 
 namespace test {
 
-/// The message of the exception of type E that f throws, or "nothing thrown".
-template <class E, class F>
-std::string message(F f) {
+/// The complaint of f about its input, or "nothing thrown".
+template <class F>
+std::string complaint(F f) {
   try {
     f();
-  } catch (E const& e) {
+  } catch (slant::bad_input const& e) {
     return e.what();
   }
   return "nothing thrown";
 }
 
-/// The complaint of f about its input, or "nothing thrown".
-template <class F>
-std::string complaint(F f) {
-  return message<slant::bad_input>(f);
-}
+/// The complaint of one expression.
+#define SLANT_COMPLAINT(...) test::complaint([&] { static_cast<void>(__VA_ARGS__); })
 
 [[nodiscard]] inline bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;

@@ -44,9 +44,8 @@ class two_processes {
       all_here_.notify_all();
       return;
     }
-    if (!all_here_.wait_for(lock, std::chrono::seconds(20), [&] { return round_ != round; })) {
+    if (!all_here_.wait_for(lock, std::chrono::seconds(20), [&] { return round_ != round; }))
       throw std::runtime_error("the other process does something else");
-    }
   }
 
   /// f(rank) on both; whether both came to an end.

@@ -94,9 +94,8 @@ class liar : public disc {
     if (lie_ == lie::slant_indefinite) g -= 1e-6 * matrix::Identity();
     if (lie_ == lie::slant_asymmetric) g(0, 1) += 1e-9;
     if (lie_ == lie::slant_without_curvature && !disc::contains(x)) g.setZero();
-    if (lie_ == lie::slant_jumps_too_early && x.norm() > 0.9) {
+    if (lie_ == lie::slant_jumps_too_early && x.norm() > 0.9)
       g = disc::slant(1.001 * x.normalized());
-    }
     if (lie_ == lie::slant_nan) g.setConstant(quiet_nan);
     return g;
   }

@@ -16,9 +16,8 @@ using archetype::vector;
 /// Whether a breach of a law whose name begins like this is found.
 template <class A>
 bool finds(A const& a, std::string const& law) {
-  for (auto const& broken : slant::testing::operator_breaches(a)) {
+  for (auto const& broken : slant::testing::operator_breaches(a))
     if (broken.law.rfind(law, 0) == 0) return true;
-  }
   return false;
 }
 

@@ -169,9 +169,8 @@ std::string broken_laws(F const& face, V const& prototype) {
     expect(slant::local(kept)(i) != 0 || slant::local(cut)(i) == 0,
            "an infinite entry off the face is cut");
   }
-  for (slant::index i = 0; i < face.size(); ++i) {
+  for (slant::index i = 0; i < face.size(); ++i)
     expect(static_cast<unsigned>(face.state(i)) < 3, "every block is free, sliding or fixed");
-  }
   return broken;
 }
 

@@ -94,9 +94,8 @@ TEST_CASE("iteration") {
   vector const b = vector::Ones(3);
   slant::cg method{A, b};
   std::vector<double> residuals;
-  for (auto const& s : slant::iterates(method, vector(vector::Zero(3))) | ranges::views::take(4)) {
+  for (auto const& s : slant::iterates(method, vector(vector::Zero(3))) | ranges::views::take(4))
     residuals.push_back(s.residual_norm);
-  }
   CHECK(residuals.size() == 4);  // x0 and three steps, enough for three unknowns
   CHECK(residuals.back() < 1e-14 * residuals.front());
 }
