@@ -449,6 +449,33 @@ TEST_CASE("bodies that contact and friction hold: springs that end where they be
   CHECK((contact::solve(s.K, s.data, o).u * 0x1p500 - u).norm() <= 1e-7 * u.norm());
 }
 
+TEST_CASE("the springs of a body move as fast on any mesh") {
+  auto const springs = [](int k) {
+    auto const mesh = fem::make_box_mesh<2>({3 * k, k}, {3, 1});
+    auto const unknowns = fem::number_unknowns(mesh, [](Index) { return false; });
+    sparse const K = fem::stiffness<2>(mesh, unknowns, fem::lame(10, 0.3));
+    VectorXd f = VectorXd::Zero(K.rows());
+    fem::add_tractions<2>(mesh, unknowns, {{{1, true}, {0, -1}}, {{0, true}, {-0.1, 0}}}, f);
+    auto const floor = mesh.nodes_on({1, false});
+    auto const m = static_cast<Index>(floor.size());
+    sparse N(m, K.rows()), T(m, K.rows());
+    for (Index i = 0; i < m; ++i) {
+      int const first = unknowns.first[floor[static_cast<std::size_t>(i)]];
+      N.insert(i, first + 1) = -1;
+      T.insert(i, first) = 1;
+    }
+    double const share = 1 / static_cast<double>(m);
+    auto const r = contact::solve(K, {N, T, f, VectorXd::Zero(m), VectorXd::Constant(m, share)},
+                                  {.layout = contact::layout_of(mesh.nodes, unknowns.first),
+                                   .route = solution_route::iterate});
+    CHECK(r.converged());
+    return r.springs;
+  };
+  auto const few = springs(8);
+  CHECK(few >= 2);
+  CHECK(springs(48) <= few);
+}
+
 TEST_CASE("bodies that nothing holds: told by the factors, a stall without them") {
   for (auto const& s : {loose(-0.3, {0, 0, 0}, 0), loose(0.3, {-2, 0, 0}, 0)}) {
     options o{.layout = s.layout};

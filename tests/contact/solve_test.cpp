@@ -105,6 +105,41 @@ TEST_CASE("contact::solve: rows of N and T scaled over sixteen orders of magnitu
   CHECK(r.iterations <= 60);
 }
 
+TEST_CASE("contact::solve: tangents that nothing moves, in any units of force") {
+  // Contacts on a plane of symmetry: one of two rows of T is zero.
+  MatrixXd K(6, 6), N = MatrixXd::Zero(3, 6), T = MatrixXd::Zero(6, 6);
+  K.setZero();
+  for (int i = 0; i < 6; ++i) {
+    K(i, i) = i == 5 ? 40 : i == 4 ? 10 : 2;
+    if (i > 0) K(i, i - 1) = K(i - 1, i) = -1;
+  }
+  N(0, 0) = N(1, 2) = N(2, 4) = T(0, 1) = T(2, 3) = T(4, 5) = 1;
+  T(3, 4) = 0.3;
+  VectorXd const f{{1, -0.3, 0.5, 0.8, 2, -3}}, d{{0, 0.1, 0.2}}, g{{0.2, 0.4, 1}};
+  sparse const k = K.sparseView(), n = N.sparseView(), t = T.sparseView();
+  contact::data<double> const data{n, t, f, d, g};
+  auto const reference = solve(k, data, {.tolerance = 1e-12});
+  REQUIRE(reference.converged());
+  auto const found = contact::check_optimality(k, data, reference.u, reference.multipliers);
+  CHECK(found.residual() <= 1e-10);
+  for (double const unit : {1e20, 1e5, 1e-6, 1e-8, 1e-12, 1e-20}) {
+    CAPTURE(unit);
+    auto const r = solve(unit * k, {n, t, unit * f, d, unit * g});
+    CHECK(r.converged());
+    CHECK(energy_error(k, r.u, reference.u) <= 1e-8);
+  }
+  // One contact that slides along its only tangent: nothing is lost in the rounding of its gap.
+  sparse const row = MatrixXd{{1, 0}}.sparseView();
+  sparse const rows = MatrixXd{{1, 0}, {0, 0}}.sparseView();
+  for (int i = 0; i < 100; ++i) {
+    sparse const body = MatrixXd{{1 + 0.02 * i, 0.2}, {0.2, 1.7}}.sparseView();
+    auto const r =
+        solve(body, {row, rows, VectorXd{{-2, 0.9 + 0.002 * i}}, VectorXd{{0}}, VectorXd{{0.6}}});
+    CAPTURE(r.reason);
+    CHECK(r.converged());
+  }
+}
+
 TEST_CASE("contact::solve: stiffness contrast of twelve orders of magnitude") {
   auto const scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::lift});
   auto data = test::contact_data(scene);

@@ -64,6 +64,27 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("x waits in a corner of the set while the multiplier grows to what b asks for") {
+  // x₁ ≥ 0, x₁ = 0.1: until ν has grown from 0 to b₁ − 0.1 no error falls, over a hundred steps.
+  auto const a = slant::matrix<slant::self_adjoint, slant::positive_definite>(
+      MatrixXd(MatrixXd::Identity(2, 2)));
+  VectorXd const b{{-10, 0}};
+  auto const set = slant::half_lines(2);
+  slant::separable_qp const qp{a, b, set};
+  slant::equality_constraints const constraints(sparse(MatrixXd{{1, 0}}.sparseView()),
+                                                VectorXd{{0.1}});
+  auto const r = slant::solve(slant::smalse{qp, constraints}, test::zeros(2), accurate(1e-10));
+  CAPTURE(r.reason);
+  CHECK(r.converged());
+  CHECK(r.iterations() > 60);
+  CHECK((r.x() - VectorXd{{0.1, 0}}).norm() <= 1e-10);
+  // The same without a solution: told, and soon.
+  slant::equality_constraints const beyond(sparse(MatrixXd{{1, 0}}.sparseView()), VectorXd{{-0.1}});
+  auto const none = slant::solve(slant::smalse{qp, beyond}, test::zeros(2), accurate(1e-10));
+  CHECK(none.state.infeasible);
+  CHECK(none.iterations() <= 60);
+}
+
 TEST_CASE("going on from another point and multiplier") {
   known_problem const p;
   auto const qp = p.qp();

@@ -69,8 +69,8 @@ struct smalse_options {
   S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
   S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
   index inner_steps = 5000;  ///< of one inner problem at most
-  index patience = 30;  ///< outer steps without progress that mean stalled: the error does not
-                        ///< fall, nor L rise
+  index patience = 30;       ///< outer steps without progress that mean stalled: the error does not
+                             ///< fall, nor L rise
   spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
   kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
@@ -132,7 +132,7 @@ struct smalse_state {
   scalar M{1};           ///< inner problems are solved until ‖r̃‖ ≤ M ‖Q x − x̄‖
   scalar η{0};           ///< and ‖r̃‖ ≤ η
   scalar lagrangian{0};  ///< L(x, ν, ρ) of the last inner problem, in units of inner.unit
-  scalar lagrangian_noise{0};  ///< of that, from rounding
+  scalar lagrangian_noise{0};   ///< of that, from rounding
   scalar feasibility_norm{0};   ///< ‖Q x − x̄‖, distance of x from the affine space
   scalar feasibility_scale{0};  ///< max(‖x̄‖, ‖x‖)
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖ of L(·, ν, 0) with the new ν: of A x − b + ν on ker G
@@ -145,6 +145,7 @@ struct smalse_state {
 
   progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
   scalar energy_unit{1};              ///< what it is told L in
+  bool is_slow = false;               ///< the error has not fallen for `patience` steps, L may rise
   bool resumed = true;                ///< the inner method has been told of ν already
   bool comparable = false;            ///< L may be compared with that of the step before
   bool infeasible = false;            ///< no point of Λ satisfies G x = e, which has been shown
@@ -318,6 +319,7 @@ class smalse<QP, C> {
   void resume(state_type& s, vector_type const& x, vector_type const& ν) const {
     s.status = status::running;
     s.progress = {};
+    s.is_slow = false;
     s.energy_unit = s.inner.unit;
     s.M = options_.balance * s.ρ;
     slant::project(qp_.get().set(), slant::local(x), slant::local(s.inner.x));
@@ -415,6 +417,7 @@ class smalse<QP, C> {
     // In lengths, by a factor that does not change: x may be larger on the way than at its end.
     scalar const error = std::max<scalar>(s.reduced_gradient_norm / s.ρ, s.feasibility_norm);
     auto const energy = [&] {
+      s.is_slow = true;
       s.infeasible = detail::is_apart(qp_.get().set(), constraints_.get(), s.x);
       if (s.infeasible) return std::pair(detail::infinity<scalar>(), scalar(0));
       scalar const unit = s.inner.unit / s.energy_unit;
