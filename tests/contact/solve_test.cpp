@@ -107,11 +107,11 @@ TEST_CASE("contact::solve: rows of N and T scaled over sixteen orders of magnitu
 
 TEST_CASE("contact::solve: tangents that nothing moves, in any units of force") {
   // Contacts on a plane of symmetry: one of two rows of T is zero.
-  MatrixXd K(6, 6), N = MatrixXd::Zero(3, 6), T = MatrixXd::Zero(6, 6);
-  K.setZero();
+  MatrixXd K = MatrixXd::Zero(6, 6), N = MatrixXd::Zero(3, 6), T = MatrixXd::Zero(6, 6);
+  VectorXd const stiff{{1, 1, 1, 1, 5, 20}};
   for (int i = 0; i < 6; ++i) {
-    K(i, i) = i == 5 ? 40 : i == 4 ? 10 : 2;
-    if (i > 0) K(i, i - 1) = K(i - 1, i) = -1;
+    K(i, i) = 2 * stiff[i] * stiff[i];
+    if (i > 0) K(i, i - 1) = K(i - 1, i) = -stiff[i] * stiff[i - 1];
   }
   N(0, 0) = N(1, 2) = N(2, 4) = T(0, 1) = T(2, 3) = T(4, 5) = 1;
   T(3, 4) = 0.3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Passes over the entries of a dense or sparse Eigen matrix: finiteness, largest entry, symmetry;
-// and columns of the identity.
+// Checks of matrices and operators: their sizes, and passes over the entries of a dense or sparse
+// Eigen matrix: finiteness, largest entry, symmetry; and columns of the identity.
 #pragma once
 
 #include <slant/concepts/bad_input.hpp>

@@ -106,7 +106,7 @@ template <class S, class Factor>
 }
 
 /// The certificate of a contact scene; refers to K and the data. λ and u may be anything finite: λ
-/// is projected onto Λ.
+/// is projected onto Λ, and 0 where a row of T is empty.
 template <class S = double>
 class certificate {
  public:
@@ -169,9 +169,11 @@ class certificate {
                                            S const& goal, Solve const& solve) {
     slant::detail::check_size("lambda", λ.size(), m_.B.rows());
     slant::detail::check_size("u", u.size(), m_.K().rows());
-    // An empty row moves nothing: its multiplier may as well be 0, where no force is missing.
-    for (index i = 0; i < λ.size(); ++i) {
-      if (!slant::detail::is_finite(m_.stiffness(i))) λ(i) = S(0);
+    // An empty row of T moves nothing: its force may as well be 0, where none is missing.
+    for (index i = data_->nodes(); i < λ.size(); ++i) {
+      typename sparse_type::InnerIterator e(m_.rows, i);
+      while (e && e.value() == S(0)) ++e;
+      if (!e) λ(i) = S(0);
     }
     slant::project(set, λ, λ);
     outward_.setZero(λ.size());

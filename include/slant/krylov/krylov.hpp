@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// All Krylov methods, and the bound of the largest eigenvalue.
+// All Krylov methods, the bound of the largest eigenvalue, and the mean of the diagonal.
 #pragma once
 
 // IWYU pragma: begin_exports

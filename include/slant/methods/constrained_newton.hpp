@@ -521,7 +521,8 @@ class constrained_newton<QP, C, M> {
     measure(s);
     s.infeasible = other.infeasible;
     // Where it gets nowhere, μ is far away in units of ρ.
-    bool const is_far = other.status == status::stalled || other.is_slow;
+    bool const is_far =
+        other.status == status::stalled || (other.is_slow && other.status == status::running);
     if (is_far && !s.infeasible && s.penalty_factor < scalar(1e6)) {
       s.penalty_factor *= scalar(100);
       s.fallback.reset();

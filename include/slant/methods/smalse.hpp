@@ -411,7 +411,8 @@ class smalse<QP, C> {
   /// While x stays in a corner of Λ the error does not fall before ν has grown to what b asks for,
   /// and every step of that raises L. It rises for ever where the constraints are infeasible, which
   /// is recognised by a plane that separates them from Λ, and by nothing else: where the two meet at
-  /// a small angle, progress is as slow as if they did not.
+  /// a small angle, progress is as slow as if they did not. Looking for it allocates, once in
+  /// `patience` steps.
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
     // In lengths, by a factor that does not change: x may be larger on the way than at its end.
@@ -420,8 +421,11 @@ class smalse<QP, C> {
       s.is_slow = true;
       s.infeasible = detail::is_apart(qp_.get().set(), constraints_.get(), s.x);
       if (s.infeasible) return std::pair(detail::infinity<scalar>(), scalar(0));
-      scalar const unit = s.inner.unit / s.energy_unit;
-      return std::pair<scalar, scalar>(-s.lagrangian * unit, s.lagrangian_noise * unit);
+      // Half of its digits may stay the same, as those of the error.
+      using std::abs, std::sqrt;
+      scalar const unit = s.inner.unit / s.energy_unit, L = s.lagrangian * unit;
+      scalar const share = sqrt(std::numeric_limits<scalar>::epsilon()) * abs(L);
+      return std::pair<scalar, scalar>(-L, std::max<scalar>(s.lagrangian_noise * unit, share));
     };
     if (s.progress.stalled(s.iteration, error, options_.patience, energy)) {
       s.status = status::stalled;

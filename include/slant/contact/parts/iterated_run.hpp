@@ -333,7 +333,8 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
 // u, and levels of K + D. Where contact holds the bodies by a stiffness c it contracts by D/(D +
 // c), a hundredth or less on bricks; where it does not, u goes away and the run ends. On the mesh of
 // n unknowns of a body in d dimensions, K resists an even strain by some n^(−2/d) of its diagonal:
-// with δ = 2e-3 n^(−2/d), at most 1e-5, the mesh says nothing of how fast the springs are.
+// with δ = 2e-3 n^(−2/d), from 1e-7, which levels in floats see, to 1e-5, the mesh says nothing of
+// how fast the springs are.
 //
 // Error. With w = ‖u⁺ − u‖_D and r(u⁺) + v = −D(u⁺ − u), v ∈ ∂φ(u⁺), monotonicity gives
 //
@@ -357,7 +358,9 @@ class moving_springs {
     held_ = K;
     for (auto const& body : floating.free) {
       auto const n = static_cast<double>(body.unknowns.size());
-      S const δ(std::min(1e-5, 2e-3 * std::pow(n, -2.0 / static_cast<double>(dimension))));
+      double const share = 2e-3 * std::pow(n, -2.0 / static_cast<double>(dimension));
+      S const δ =
+          std::max<S>(S(std::clamp(share, 1e-7, 1e-5)), S(64) * std::numeric_limits<S>::epsilon());
       for (index const j : body.unknowns) {
         D_[j] = δ * K.coeff(j, j);
         held_.coeffRef(j, j) += D_[j];
