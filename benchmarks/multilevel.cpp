@@ -8,8 +8,9 @@
 //
 // under the loads of the brick, with Tresca's friction also by the interpolation of nested meshes
 // in place of aggregation (`press nested`, …), and `loose`, the brick without its clamp, pressed
-// onto the floor from a gap and pulled, and `bricks`, two of 3K/2 nodes along an edge; with --load
-// only the one of that name, and its nested meshes. It prints comma-separated values: friction,
+// onto the floor from a gap and pulled, `bricks`, two of 3K/2 nodes along an edge, and `plates`, two
+// in the plane of 10K × 10K/3 cells; with --load only the one of that name, and its nested meshes. It
+// prints comma-separated values: friction,
 // load, size, unknowns, Newton steps (of Coulomb's law together with problems of Tresca's), cycles,
 // products by K, processor seconds of the hierarchy, of everything from K, N, T, f, d, g and the
 // coordinates to a certified u (the hierarchy included; the least of three runs), of factoring K
@@ -28,6 +29,7 @@
 #include <fem/box_prolongations.hpp>
 #include <fem/steel_brick.hpp>
 #include <fem/two_bricks.hpp>
+#include <fem/two_plates.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +39,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,13 +65,15 @@ struct answer {
 using interpolation = std::vector<Eigen::SparseMatrix<double>>;
 
 /// Levels by aggregation if there is no interpolation.
-answer run(fem::contact_scene<3> const& s, law friction, contact::solution_route route,
+template <int D>
+answer run(fem::contact_scene<D> const& s, law friction, contact::solution_route route,
            double tolerance, interpolation const& nested = {}) {
   contact::data<double> c{s.N, s.T, s.f, s.d, s.g};
   auto const layout = contact::layout_of(s.mesh.nodes, s.unknowns.first);
   if (friction == law::coulomb) {
     vector const F = vector::Constant(c.nodes(), 0.3);
-    auto r = contact::certified_coulomb(contact::friction_disc{}, s.K, std::move(c), F,
+    using disc_or_line = std::conditional_t<D == 3, contact::friction_disc, contact::friction_line>;
+    auto r = contact::certified_coulomb(disc_or_line{}, s.K, std::move(c), F,
                                         {.tolerance = tolerance, .layout = layout, .route = route});
     return {std::move(r.u), r.error.relative(), r.converged(), r.steps, r.work};
   }
@@ -84,7 +89,8 @@ answer run(fem::contact_scene<3> const& s, law friction, contact::solution_route
   return {std::move(r.u), r.error.relative(), r.converged(), r.iterations, r.work};
 }
 
-double energy(fem::contact_scene<3> const& s, vector const& u) {
+template <int D>
+double energy(fem::contact_scene<D> const& s, vector const& u) {
   return std::sqrt(u.dot(vector(s.K * u)));
 }
 
@@ -129,10 +135,11 @@ double linear_seconds(fem::contact_scene<3> const& s, int runs) {
 }
 
 /// linear: seconds of one linear solve with the same K.
-bool measure(fem::contact_scene<3> const& scene, std::string const& load, law friction, int k,
+template <int D>
+bool measure(fem::contact_scene<D> const& scene, std::string const& load, law friction, int k,
              factors direct, double linear, interpolation const& nested = {}) {
   using contact::solution_route;
-  bool const is_loose = load == "loose", is_pair = load == "bricks";
+  bool const is_loose = load == "loose", is_pair = load == "bricks" || load == "plates";
   benchmarks::forget_peak_memory();
   answer r;
   double seconds = std::numeric_limits<double>::infinity(), memory = 0;
@@ -230,6 +237,8 @@ int main(int argc, char** argv) {
       good = measure(loose_brick(k), "loose", friction, k, direct, unknown) && good;
       good =
           measure(fem::make_two_bricks(3 * k / 2), "bricks", friction, k, direct, unknown) && good;
+      good =
+          measure(fem::make_two_plates(10 * k / 3), "plates", friction, k, direct, unknown) && good;
     }
   }
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -260,10 +260,15 @@ using plain_t = decltype(slant::like(std::declval<X const&>(), index{}));
 /// An expression such as 2 * x, or a view, refers to entries of others: a state cannot keep it.
 template <class V> concept owns_its_entries = std::is_same_v<plain_t<V>, V>;
 
+/// A row of Eigen is the transpose of a vector.
+template <class V>
+concept is_no_row = local_t<V>::RowsAtCompileTime != 1 || local_t<V>::ColsAtCompileTime == 1;
+
 /// A vector; see the top of this file.
 template <class V>
-concept vector = has_local<V> && local_is_lvalue<V> && has_like<V> && owns_its_entries<V> &&
-                 std::copyable<V> && has_inner_product<V> && scalar<scalar_t<V>>;
+concept vector =
+    has_local<V> && is_no_row<V> && local_is_lvalue<V> && has_like<V> && owns_its_entries<V> &&
+    std::copyable<V> && has_inner_product<V> && scalar<scalar_t<V>>;
 
 // --- distributed ---------------------------------------------------------------------------------
 //

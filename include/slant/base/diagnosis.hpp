@@ -219,7 +219,7 @@ struct questions_about {
 /// Of b, or x0.
 template <class V>
 struct vector_demands {
-  static_assert(vector<V>, "b must be a slant::vector; an expression or a view is none");
+  static_assert(vector<V>, "b must be a slant::vector; an expression, a view or a row is none");
   static constexpr bool told = true;
 };
 

@@ -298,10 +298,14 @@ struct energy_error {
     S const least = proven ? S(size - bound) : S(size - S(2) * bound);
     return least > S(0) ? S(bound / least) : std::numeric_limits<S>::infinity();
   }
-  /// "energy error at most 3e-10 (proven)".
+  /// "relative energy error 3e-10, proven"; where that is infinite, as where x* = 0, with both sizes.
   [[nodiscard, gnu::cold]] std::string sentence() const {
-    return "relative energy error " + detail::brief(relative()) +
-           (proven ? ", proven" : ", estimated");
+    auto said = "relative energy error " + detail::brief(relative());
+    if (!detail::is_finite(relative()) && detail::is_finite(bound)) {
+      said +=
+          " (" + detail::brief(bound) + " at a point of energy norm " + detail::brief(size) + ")";
+    }
+    return said + (proven ? ", proven" : ", estimated");
   }
 };
 

@@ -90,7 +90,7 @@ auto solver(Factorization const&&) = delete;
 template <class S, class Factor>
 [[nodiscard]] S smallest_eigenvalue_bound(Eigen::SparseMatrix<S> const& K, S const& guess,
                                           Factor const& factor) {
-  S const ε = std::numeric_limits<S>::epsilon(), n(static_cast<double>(K.rows() + 2));
+  S const ε = std::numeric_limits<S>::epsilon(), n = S(static_cast<double>(K.rows() + 2));
   if (!(guess > S(0)) || !(n * ε < S(0.1))) return S(0);
   S const lost = S(1.1) * n * ε * K.diagonal().sum();
   Eigen::SparseMatrix<S> identity(K.rows(), K.cols());

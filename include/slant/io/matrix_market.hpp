@@ -113,14 +113,14 @@ void parse_sizes(line_scanner& lines, matrix_market_header& header,
     lines.refuse(show(header.rows) + " rows and " + show(header.cols) + " columns",
                  "a square matrix, since it is symmetric");
 
-  // The shortest lines are "1 1 1", "1 1" and "1", each with its line feed.
+  // The shortest lines are "1 1 1", "1 1" and "1", each with its line feed, but for the last one.
   index const shortest = header.array ? 2 : header.pattern ? 4 : 6;
   index const rows = header.rows, cols = header.cols;
   bool const cells_overflow = rows > 0 && cols > std::numeric_limits<index>::max() / (rows + 1);
   index const cells = cells_overflow     ? std::numeric_limits<index>::max()
                       : header.symmetric ? rows * (rows + 1) / 2
                                          : rows * cols;
-  index const room = bytes / shortest;
+  index const room = (bytes + 1) / shortest;
   header.entries = header.array ? cells : parse_count(lines, 0, cells, "a number of entries");
   if (header.entries > room)
     lines.refuse(show(header.entries) + " entries", "at most " + show(room) +

@@ -31,6 +31,9 @@ template <class Method, class V, class Rule, class... Observers>
 concept solvable = iterative_method<Method, V> && stopping_rule<Rule, state_t<Method, V>> &&
                    (observer<Observers, state_t<Method, V>> && ...);
 
+/// A sparse matrix of Eigen.
+template <class V> concept sparse_entries = requires(V const& v) { v.outerIndexPtr(); };
+
 template <class Observer, class State>
 void check_observer() {
   static_assert(observer<Observer, State>, "solve: an observer must take states of this method");
@@ -100,9 +103,12 @@ template <class Method, class V, class Rule, class... Observers>
   return {std::move(state), end.how, std::move(end.why)};
 }
 
-/// Arguments that lack something end here and are told so.
+/// Arguments that lack something end here and are told so. A number in the place of the rule, where
+/// the first is no method, and a matrix in that of x0 are of another solve.
 template <class Method, class V, class Rule, class... Observers>
-  requires(!detail::solvable<Method, V, Rule, Observers...> && !scalar<V> && !scalar<Rule>)
+  requires(!detail::solvable<Method, V, Rule, Observers...> &&
+           (iterative_method<Method, V> ||
+            (!scalar<V> && !scalar<Rule> && !detail::sparse_entries<V>)))
 [[nodiscard]] auto solve(Method&&, V const&, Rule, Observers&&...) -> detail::refused_report<V> {
   static_assert(
       iterative_method<Method, V>,

@@ -451,7 +451,12 @@ class constrained_newton<QP, C, M> {
     scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,
                                         s.preconditioner_size, target, options_.inner_steps);
-    if (!note_inner(inner, s)) return;
+    if (!note_inner(inner, s)) {
+      if constexpr (declares_positive_definite<typename problem::operator_type>) return;
+      // A direction that A does not resist but for rounding; the other method knows these.
+      s.status = status::running;
+      return begin_fallback(s);
+    }
     s.gradient_at_end += s.inner.image;
     s.face.whole().add_curvature(scalar(1) / α, s.inner.t, s.gradient_at_end);
     s.face.balance(s.gradient_at_end, s.dν);

@@ -69,6 +69,10 @@ template <class QP, class C, class M>
     auto end = run_to_end(method, state, stop);
     if (end.how != status::converged) static_cast<void>(certify(state.x, state.ν));
     result.status = end.how;
+    // Only SMALSE-M finds one: on it G d = 0, as the penalty does not rise.
+    if (end.how == status::unbounded && state.fallback) {
+      result.descent = -state.fallback->inner.directions.p;
+    }
     result.reason = state.infeasible ? state.reason() : std::move(end.why);
     result.steps = state.iteration;
     result.work = state.work;
@@ -143,6 +147,9 @@ template <equality_constrained_program P>
       if (rows && rows->redundant().empty()) {
         auto result = detail::solve_constrained(qp, alike, *rows, scaled.d(), tolerance, max_steps);
         result.point = scaled.back(std::move(result.point));
+        if (result.status == status::unbounded) {
+          result.descent = scaled.back(std::move(result.descent));
+        }
         result.multipliers = c.of_unit_rows(result.multipliers);
         detail::note_scaling(result.choice);
         return result;

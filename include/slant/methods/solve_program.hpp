@@ -437,14 +437,15 @@ template <class QP, class M>
                                  detail::levels_precondition<QP>);
 }
 
-/// A program that lacks something ends here and is told so by symmetric_newton.
+/// A program that lacks something ends here and is told so by symmetric_newton; or was told before.
 template <class QP>
   requires(!symmetric_newton_problem<QP>) && requires(QP const& qp) {
     typename QP::set_type;
     qp.a(), qp.b();
   }
-auto solve(QP const&, typename QP::scalar, index = 0) -> certified_point<typename QP::vector_type> {
-  static_assert(sizeof(symmetric_newton<QP const&>) > 0);
+auto solve(QP const&, typename QP::scalar, index = 0)
+    -> certified_point<Eigen::VectorX<typename QP::scalar>> {
+  if constexpr (!detail::was_refused<QP>) static_assert(sizeof(symmetric_newton<QP const&>) > 0);
   return {};
 }
 

@@ -68,8 +68,8 @@ namespace slant {
 /// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x); or
 /// + φ(x) as envelope_newton takes it.
 template <class QP>
-concept symmetric_newton_problem =
-    envelope_newton_problem<QP> && (kprgp_problem<QP> || !quadratic_program<QP>);
+concept symmetric_newton_problem = !detail::was_refused<QP> && envelope_newton_problem<QP> &&
+                                   (kprgp_problem<QP> || !quadratic_program<QP>);
 
 // --- descent takeover ----------------------------------------------------------------------------
 //

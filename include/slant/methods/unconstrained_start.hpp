@@ -76,8 +76,8 @@ template <class A, class M, class V>
 template <class QP, class M>
   requires preconditioner_for<M, QP>
 [[nodiscard]] auto unconstrained_start(QP const& qp, M const& m,
-                                       typename QP::scalar tolerance = 0.01, index most = 40)
-    -> start_point<typename QP::vector_type> {
+                                       typename QP::scalar tolerance = typename QP::scalar(0.01),
+                                       index most = 40) -> start_point<typename QP::vector_type> {
   using V = typename QP::vector_type;
   if (!(tolerance > 0 && tolerance < 1)) {
     throw bad_input("tolerance", detail::show(tolerance), "a number in (0, 1)");
@@ -100,7 +100,8 @@ template <class QP, class M>
 
 /// Without a preconditioner.
 template <class QP>
-[[nodiscard]] auto unconstrained_start(QP const& qp, typename QP::scalar tolerance = 0.01,
+[[nodiscard]] auto unconstrained_start(QP const& qp,
+                                       typename QP::scalar tolerance = typename QP::scalar(0.01),
                                        index most = 40) {
   return unconstrained_start(qp, identity_operator(qp.size()), tolerance, most);
 }

@@ -137,6 +137,14 @@ template <linear_term A, expr::eigen_vector X>
                                         held<kept>(static_cast<kept>(std::forward<X>(x))));
 }
 
+/// Refused: a sum with a column is no operator.
+template <linear_term A, expr::eigen_vector X>
+std::remove_cvref_t<A> operator+(A&& a, X&&) {
+  static_assert(!std::same_as<A, A>,
+                "an operator and a vector cannot be added; x -> A x + c is slant::affine(A, c)");
+  return a;
+}
+
 /// y ← y + A x without a temporary, where A can add.
 template <class Y, class A, class X>
 Y& operator+=(Eigen::MatrixBase<Y>& y, expr::applied<A, X> const& ax) {

@@ -35,11 +35,27 @@ struct quadratic_function {
   held<V> b;
 };
 
-/// q(x) = ½ xᵀA x − bᵀx. Lvalues are referenced.
+namespace detail {
+
+/// b as it is kept: an expression or a view of Eigen as a vector of its own.
+template <class V>
+struct kept_term {
+  using type = kept_t<V>;
+};
+template <class V>
+  requires(!vector<std::remove_cvref_t<V>> && vector<typename std::remove_cvref_t<V>::PlainObject>)
+struct kept_term<V> {
+  using type = typename std::remove_cvref_t<V>::PlainObject;
+};
+
+}  // namespace detail
+
+/// q(x) = ½ xᵀA x − bᵀx. Lvalues are referenced; b may be an expression such as 2 * f.
 template <class A, class V>
 [[nodiscard]] auto quadratic(A&& a, V&& b) {
-  return quadratic_function<kept_t<A>, kept_t<V>>{held<kept_t<A>>(std::forward<A>(a)),
-                                                  held<kept_t<V>>(std::forward<V>(b))};
+  using term = typename detail::kept_term<V>::type;
+  return quadratic_function<kept_t<A>, term>{held<kept_t<A>>(std::forward<A>(a)),
+                                             held<term>(static_cast<term>(std::forward<V>(b)))};
 }
 
 /// min q(x) over x ∈ Λ, G x = e. Not movable, as its constraints are not.
@@ -125,6 +141,22 @@ template <class A, class V, class F>
   requires proximable<std::remove_cvref_t<F>, local_t<std::remove_cvref_t<V>>>
 [[nodiscard]] auto operator+(quadratic_function<A, V> q, F&& φ) {
   return composite_function<A, V, kept_t<F>>{std::move(q), held<kept_t<F>>(std::forward<F>(φ))};
+}
+
+/// Refused: q − φ need not be convex.
+template <class A, class V, class F>
+  requires proximable<std::remove_cvref_t<F>, local_t<std::remove_cvref_t<V>>>
+composite_function<A, V, kept_t<F>> operator-(quadratic_function<A, V> q, F&& φ) {
+  static_assert(!std::same_as<F, F>, "q - phi need not be convex: only q + phi is minimised");
+  return std::move(q) + std::forward<F>(φ);
+}
+/// Refused: the proximal map of a sum does not follow from those of its terms.
+template <class A, class V, class F, class G>
+  requires proximable<std::remove_cvref_t<G>, local_t<std::remove_cvref_t<V>>>
+composite_function<A, V, F> operator+(composite_function<A, V, F> f, G&&) {
+  static_assert(!std::same_as<G, G>,
+                "q + phi + psi: only one function is added; a separable_sum is one");
+  return f;
 }
 
 /// min q(x) + φ(x). @throws bad_input if sizes differ or b has an entry that is not finite.

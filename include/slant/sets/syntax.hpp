@@ -4,6 +4,7 @@
 //
 //     half_lines(m) * discs(g)       the product of two sets, kept flat: cartesian
 //     2.0 * Λ                        { 2 z : z ∈ Λ }: scaled
+//     2.0 * support(Λ)               the function 2 σ_Λ = σ_{2Λ}
 //     Λ + c, c + Λ, Λ - c            { z ± c : z ∈ Λ }, c a vector: shifted
 //
 // Found by argument-dependent lookup; the functions of those names do the same.
@@ -13,6 +14,7 @@
 #include <slant/concepts/member_names.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/images.hpp>
+#include <slant/sets/support.hpp>
 
 #include <boost/hana/basic_tuple.hpp>
 #include <boost/hana/unpack.hpp>
@@ -71,6 +73,13 @@ template <class S, set_term C>
   requires std::convertible_to<S, set_scalar_t<C>>
 [[nodiscard]] auto operator*(S const& c, C&& set) {
   return slant::scaled(c, std::forward<C>(set));
+}
+
+/// c σ_Λ = σ_{cΛ}. @throws bad_input unless c is a finite number > 0.
+template <class S, class C>
+  requires std::convertible_to<S, set_scalar_t<support_function<C>>>
+[[nodiscard]] auto operator*(S const& c, support_function<C> const& σ) {
+  return slant::support(slant::scaled(c, static_cast<C>(σ.part())));
 }
 
 /// Λ + c. @throws bad_input unless c has the size of Λ and finite entries.

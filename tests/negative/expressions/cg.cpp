@@ -5,11 +5,13 @@
 // case NAMELESS, clang: not self_adjoint.*as far as types tell: nam.*e both by op.*A must have the laws
 // case MINUS: -B . inverse.K. . adjoint.B.".*not positive_semidefinite: a minus stands before B . inverse.K. . adjoint.B.".*A must have the laws
 // case MINUS, clang: "-B . inverse.K. . adjoint.B.".*not positive_semidefinite: a mi.*nus stands before B.*A must have the laws
+// case COLUMN: an operator and a vector cannot be added
 // max-lines-gcc: 12
 // max-lines-clang: 20
 //
 // B K⁻¹ B where B K⁻¹ Bᵀ is meant: the first line shows the formula and the place. Two matrices that
-// happen to be one: the compiler sees two. A maximum written as a minimum.
+// happen to be one: the compiler sees two. A maximum written as a minimum. The linear term
+// added to the operator.
 #include <slant/slant.hpp>
 
 auto method(Eigen::MatrixXd const& matrix, Eigen::MatrixXd const& stiffness,
@@ -23,6 +25,8 @@ auto method(Eigen::MatrixXd const& matrix, Eigen::MatrixXd const& stiffness,
   auto const A = slant::matrix(matrix) * Kinv * adjoint(+slant::matrix(matrix));
 #elif defined(MINUS)
   auto const A = -(B * Kinv * adjoint(B));
+#elif defined(COLUMN)
+  auto const A = B * Kinv * adjoint(B) + I + b;
 #else
   auto const A = B * Kinv * adjoint(B) + I;
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // case USE=solved WITHOUT_STEP: solve: the method must have start.x0., step.state..*'has_step['<]
+// case USE=solved A_NUMBER: solve: the rule must judge states of this method
 // case USE=iterated WITHOUT_START: 'has_start['<]
 // case USE=iterated WITHOUT_START, max-lines-gcc: 25
 // case USE=observed WITHOUT_RESIDUAL: solve: an observer must take states of this method.*observer<.*progress_bar
@@ -13,7 +14,7 @@
 // max-lines-clang: 30
 //
 // A method minus its step or its start, a state minus what says how things stand, or, for a progress
-// bar, minus a measure of accuracy.
+// bar, minus a measure of accuracy. A tolerance in the place of the rule.
 #include <slant/iteration/iterates.hpp>
 #include <slant/slant.hpp>
 
@@ -45,7 +46,11 @@ void asserted(Method const&, Eigen::VectorXd const&) {
   static_assert(slant::iterative_method<Method, Eigen::VectorXd>);
 }
 auto solved(auto const& method, Eigen::VectorXd const& x0) {
+#ifdef A_NUMBER
+  return slant::solve(method, x0, 1e-8);
+#else
   return slant::solve(method, x0, slant::at_most(10));
+#endif
 }
 auto iterated(auto const& method, Eigen::VectorXd const& x0) {
   return slant::iterates(method, x0);

@@ -3,13 +3,15 @@
 // case MATRIX, clang: A must.*'has_plain_apply['<]
 // case EXPRESSION: b must be a slant::vector.*'owns_its_entries['<]
 // case EXPRESSION, max-lines-clang: 25
+// case ROW: b must be a slant::vector.*'is_no_row['<]
+// case ROW, max-lines-clang: 28
 // case WITHOUT_PROJECT: the set must.*'has_project['<]
 // case WITHOUT_PROJECT, max-lines-clang: 35
 // max-lines-gcc: 20
 // max-lines-clang: 30
 //
-// A matrix is not an operator: slant::matrix(A) makes one of it. A linear term that is an expression:
-// nothing is said of A and the set. A set minus its projection.
+// A matrix is not an operator: slant::matrix(A) makes one of it. A linear term that is an expression
+// or a row: nothing is said of A and the set. A set minus its projection.
 #include <slant/slant.hpp>
 
 struct nonnegative {
@@ -29,6 +31,8 @@ auto problem(Eigen::MatrixXd const& matrix, Eigen::VectorXd const& f) {
 #endif
 #ifdef EXPRESSION
   auto const b = 2 * f;
+#elif defined ROW
+  Eigen::RowVectorXd const b = 2 * f.transpose();
 #else
   Eigen::VectorXd const b = 2 * f;
 #endif

@@ -189,7 +189,7 @@ class spring_supports {
   [[nodiscard]] bool run_with_springs(S const& σ, bool is_soft) {
     using std::sqrt;
     S t_before = std::numeric_limits<S>::infinity();
-    S θ(0.9);  // until it is measured
+    auto θ = S(0.9);  // until it is measured
     S goal = is_soft ? S(1e-3) : S(S(0.3) * options_.tolerance);
     S tolerance = std::max<S>(goal, S(1e-3));
     int const steps = is_soft ? 3 : 100;
