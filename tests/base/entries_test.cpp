@@ -51,7 +51,6 @@ TEST_CASE("entries: parts of a long vector") {
 }
 
 TEST_CASE("entries: zeros, infinities and NaN, in vectors of fixed and other size") {
-  double const inf = std::numeric_limits<double>::infinity();
   double const nan = std::numeric_limits<double>::quiet_NaN();
   auto const check = [&](auto const& v, bool zero, bool finite, bool has_nan) {
     CHECK(entries::all_zero(v) == zero);
@@ -64,12 +63,10 @@ TEST_CASE("entries: zeros, infinities and NaN, in vectors of fixed and other siz
   };
   check(Vector3d(0, -0.0, 0), true, true, false);
   check(Vector3d(0, 5e-324, 0), false, true, false);
-  check(Vector2d(1, -inf), false, false, false);
+  check(Vector2d(1, -infinity), false, false, false);
   check(Vector2d(nan, 0), false, false, true);
   check(Eigen::Matrix<double, 0, 1>(), true, true, false);
 }
-
-using sparse = Eigen::SparseMatrix<double>;
 
 /// A chain of nodes of b unknowns each; all blocks of neighbours are full.
 sparse chain(int nodes, int b) {

@@ -220,10 +220,9 @@ TEST_CASE("relative errors: of a solution that is zero, of one about which nothi
   double const nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isnan(slant::error_bound_of_root(nan, 0.0)));
   CHECK(std::isnan(slant::error_bound_of_root(0.0, nan)));
-  double const inf = std::numeric_limits<double>::infinity();
-  CHECK(slant::error_bound_of_root(inf, inf) == inf);
-  CHECK(slant::error_bound_of_root(inf, 0.0) == inf);
-  CHECK(slant::error_bound_of_root(0.0, inf) == inf);
+  CHECK(slant::error_bound_of_root(infinity, infinity) == infinity);
+  CHECK(slant::error_bound_of_root(infinity, 0.0) == infinity);
+  CHECK(slant::error_bound_of_root(0.0, infinity) == infinity);
   CHECK(slant::error_bound_of_root(0.0, 0.0) == 0);
   CHECK(slant::error_bound_of_root(2.0, 0.0) == doctest::Approx(2));
   CHECK(slant::error_bound_of_root(0.0, 2.0) == doctest::Approx(2));

@@ -8,7 +8,6 @@ namespace normal_part_test {
 using slant::split_gradient;
 using vec1 = Eigen::Matrix<double, 1, 1>;
 using vec2 = Eigen::Vector2d;
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// sᵀx + g‖s‖ in the long type: the gap on a disc by its definition.
 long double gap_on_disc(vec2 const& x, vec2 const& s, double radius) {
@@ -37,7 +36,8 @@ TEST_CASE("half line: on the bound all of a pressing gradient is balanced, none 
   // Far off the bound nothing is balanced; without stiffness everything is.
   part = split_gradient<slant::half_line<double>, double, 1>(block, vec1(9.0), vec1(3.0), 0.5);
   CHECK(part.rest(0) == 3);
-  part = split_gradient<slant::half_line<double>, double, 1>(block, vec1(1.25), vec1(3.0), inf);
+  part =
+      split_gradient<slant::half_line<double>, double, 1>(block, vec1(1.25), vec1(3.0), infinity);
   CHECK(part.rest(0) == 0);
   CHECK(part.gap == 0.75);
 }
@@ -54,8 +54,8 @@ TEST_CASE(
   CHECK(split(block, 1.75, -3).rest(0) == -0.5);
   CHECK(split(slant::interval<double>(4, 4), 4, 5).rest(0) == 0);
   CHECK(split(slant::interval<double>(4, 4), 4, -5).rest(0) == 0);
-  CHECK(split(slant::interval<double>(-inf, inf), 4, -5).rest(0) == -5);
-  CHECK(split(slant::interval<double>(-inf, inf), 4, -5).gap == 0);
+  CHECK(split(slant::interval<double>(-infinity, infinity), 4, -5).rest(0) == -5);
+  CHECK(split(slant::interval<double>(-infinity, infinity), 4, -5).gap == 0);
 }
 
 TEST_CASE("disc: the gap is that of the definition, and no other s gives a smaller value") {
@@ -117,7 +117,7 @@ TEST_CASE("radius 0 and ∞, points, free blocks") {
   auto const none = split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(0.0), x, g, 1.0);
   CHECK(none.rest == vec2(0, 0));
   CHECK(none.gap == 0);
-  CHECK(split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(inf), x, g, 1.0).rest == g);
+  CHECK(split_gradient<slant::ball<2>, double, 2>(slant::ball<2>(infinity), x, g, 1.0).rest == g);
   CHECK(split_gradient<slant::point<2>, double, 2>(slant::point<2>(), x, g, 1.0).rest ==
         vec2(0, 0));
   CHECK(split_gradient<slant::free_space<2>, double, 2>({}, x, g, 1.0).rest == g);

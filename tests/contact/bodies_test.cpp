@@ -20,7 +20,6 @@
 
 namespace bodies_test {
 
-using sparse = Eigen::SparseMatrix<double>;
 using slant::status;
 namespace contact = slant::contact;
 

@@ -9,7 +9,6 @@ namespace contact_data_test {
 
 namespace contact = slant::contact;
 using slant::index;
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 slant::contact::data<double> good() {
   return test::contact_data(fem::make_steel_brick({.k = 1}));
@@ -25,10 +24,10 @@ std::string complaint(Change change) {
 
 TEST_CASE("data of a scene are valid, and so are infinite gaps and slip bounds") {
   CHECK(complaint([](auto&) {}) == "nothing thrown");
-  CHECK(complaint([](auto& c) { c.d(0) = inf; }) == "nothing thrown");
+  CHECK(complaint([](auto& c) { c.d(0) = infinity; }) == "nothing thrown");
   CHECK(complaint([](auto& c) { c.d(0) = -1; }) ==
         "nothing thrown");  // pressed in from the beginning
-  CHECK(complaint([](auto& c) { c.g(0) = inf; }) == "nothing thrown");
+  CHECK(complaint([](auto& c) { c.g(0) = infinity; }) == "nothing thrown");
   CHECK(complaint([](auto& c) { c.g(0) = 0; }) == "nothing thrown");
   CHECK(good().nodes() == 6);
   CHECK(good().tangents() == 2);
@@ -40,12 +39,13 @@ TEST_CASE("each number that is none is named") {
         "f[3]: got nan, expected a finite number");
   CHECK(complaint([](auto& c) { c.d(1) = std::nan(""); }) ==
         "d[1]: got nan, expected a number or +inf");
-  CHECK(complaint([](auto& c) { c.d(1) = -inf; }) == "d[1]: got -inf, expected a number or +inf");
+  CHECK(complaint([](auto& c) { c.d(1) = -infinity; }) ==
+        "d[1]: got -inf, expected a number or +inf");
   CHECK(complaint([](auto& c) { c.g(4) = -0.5; }) ==
         "g[4]: got -0.5, expected a number >= 0 or +inf");
   CHECK(complaint([](auto& c) { c.g(4) = std::nan(""); }) ==
         "g[4]: got nan, expected a number >= 0 or +inf");
-  CHECK(complaint([](auto& c) { c.N.valuePtr()[0] = inf; }).starts_with("N("));
+  CHECK(complaint([](auto& c) { c.N.valuePtr()[0] = infinity; }).starts_with("N("));
   CHECK(complaint([](auto& c) { c.T.valuePtr()[0] = std::nan(""); }).starts_with("T("));
 }
 

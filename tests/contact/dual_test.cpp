@@ -13,7 +13,6 @@
 namespace dual_test {
 
 namespace contact = slant::contact;
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// The multipliers of a dual problem, by a method that needs no settings.
 template <class Dual>
@@ -72,8 +71,8 @@ TEST_CASE("nothing can be lent by a problem that is about to go") {
 TEST_CASE("nodes that never meet the obstacle carry no force; infinite slip bounds stick") {
   auto const scene = fem::make_steel_brick({.k = 2});
   auto c = test::contact_data(scene);
-  for (Eigen::Index i = 0; i < c.d.size(); i += 3) c.d(i) = inf;
-  for (Eigen::Index i = 1; i < c.g.size(); i += 3) c.g(i) = inf;
+  for (Eigen::Index i = 0; i < c.d.size(); i += 3) c.d(i) = infinity;
+  for (Eigen::Index i = 1; i < c.g.size(); i += 3) c.g(i) = infinity;
   for (Eigen::Index i = 2; i < c.g.size(); i += 3) c.g(i) = 0;
   contact::dual const dual(contact::friction_disc{}, slant::ldlt(scene.K), c);
   VectorXd const λ = solved(dual, 1e-12), u = dual.displacement(λ);
@@ -96,7 +95,7 @@ TEST_CASE("interference without load beside infinite gaps: any length is as good
   for (double const size : {1.0, 1e-9, 1e-30, 1e30}) {
     CAPTURE(size);
     contact::data<double> const c{N, Eigen::SparseMatrix<double>(0, n), VectorXd::Zero(n),
-                                  Vector2d(-size, inf), VectorXd(0)};
+                                  Vector2d(-size, infinity), VectorXd(0)};
     contact::dual const dual(contact::frictionless{}, factor, c);
     CHECK(dual.b()(0) == size);
     CHECK(dual.b()(1) == -size / 2);
@@ -112,11 +111,11 @@ TEST_CASE("the load of an infinite gap is measured by the other gaps and slips")
   auto c = test::contact_data(scene);
   slant::ldlt const factor(scene.K);
   c.d.setConstant(1e3);  // so far away that K⁻¹f does not matter
-  c.d(0) = inf;
+  c.d(0) = infinity;
   contact::dual const gaps(contact::friction_disc{}, factor, c);
   double const m = static_cast<double>(c.nodes());
   CHECK(gaps.b()(0) == doctest::Approx(-1e3 / m));
-  c.d.setConstant(inf);
+  c.d.setConstant(infinity);
   contact::dual const slips(contact::friction_disc{}, factor, c);
   CHECK(slips.b()(0) == -slips.b().tail(c.T.rows()).cwiseAbs().maxCoeff() / m);
   CHECK((slips.b().head(c.nodes()).array() == slips.b()(0)).all());
@@ -135,7 +134,7 @@ struct fixture {
   fem::contact_scene<3> scene = fem::make_steel_brick({.k = 2, .load = fem::brick_load::pull});
   contact::data<double> c = test::contact_data(scene);
   test::counting_factor factor{scene.K};
-  fixture() { c.d(1) = c.d(7) = inf; }
+  fixture() { c.d(1) = c.d(7) = infinity; }
   [[nodiscard]] auto problem() const { return contact::dual(contact::friction_disc{}, factor, c); }
 };
 
@@ -175,7 +174,7 @@ TEST_CASE("an updated problem is the one made of the new data, to the last bit")
   check_same();
 
   t.c.g = VectorXd::LinSpaced(t.c.g.size(), 0, 5);
-  t.c.g(3) = inf;
+  t.c.g(3) = infinity;
   dual.update_bounds(t.c.g);
   CHECK(t.factor.solves == 1);
   check_same();
@@ -270,7 +269,7 @@ TEST_CASE("bad data are named and change nothing, not even the part that was goo
         "d: got 3, expected one gap per row of N, " + std::to_string(d.size()));
   CHECK(complaint(dual, {.f = f, .d = entry(d, 0, nan), .g = g}) ==
         "d[0]: got nan, expected a number or +inf");
-  CHECK(complaint(dual, {.f = f, .d = entry(d, 0, inf), .g = g}) ==
+  CHECK(complaint(dual, {.f = f, .d = entry(d, 0, infinity), .g = g}) ==
         "d[0]: got inf, expected a finite number, since this gap was finite when B was made");
   CHECK(complaint(dual, {.f = f, .d = entry(d, 1, 0), .g = g}) ==
         "d[1]: got 0, expected +inf, since this gap was infinite when B was made");

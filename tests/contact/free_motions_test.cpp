@@ -15,7 +15,6 @@ using slant::contact::factorize_stiffness;
 using slant::contact::find_free_motions;
 using slant::contact::node_layout;
 using slant::contact::rigid_body_modes;
-using sparse = Eigen::SparseMatrix<double>;
 
 /// K and its layout with these unknowns left out.
 struct body {

@@ -33,7 +33,6 @@ TEST_CASE("sizes tell the dimension") {
 }
 
 TEST_CASE("what is not valid is named") {
-  double const infinity = std::numeric_limits<double>::infinity();
   auto const refused = [](char const* part, auto change) {
     problem p = identity(6, 2);
     change(p);

@@ -18,7 +18,6 @@ namespace iterated_coulomb_test {
 namespace contact = slant::contact;
 using contact::solution_route;
 using Eigen::Index;
-using sparse = Eigen::SparseMatrix<double>;
 using options = contact::certified_coulomb_options<double>;
 
 struct scene {

@@ -26,9 +26,7 @@ namespace contact = slant::contact;
 using contact::solution_route;
 using Eigen::Index;
 using oracle::energy_error;
-using sparse = Eigen::SparseMatrix<double>;
 using options = contact::solve_options<double>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct scene {
   sparse K;

@@ -13,8 +13,6 @@ namespace plausibility_test {
 
 using Eigen::Index;
 using slant::contact::check_plausibility;
-using sparse = Eigen::SparseMatrix<double>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Contact data whose rows can be changed.
 struct model {

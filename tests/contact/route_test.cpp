@@ -67,7 +67,6 @@ struct found {
 
 TEST_CASE("the other route follows where one gets nowhere, and the nearer result is told") {
   auto const nan = std::numeric_limits<double>::quiet_NaN();
-  auto const infinity = std::numeric_limits<double>::infinity();
   struct run {
     solution_route begin;
     double first, second;  // errors; −1: refused

@@ -15,7 +15,6 @@ namespace solve_test {
 namespace contact = slant::contact;
 using oracle::energy_error;
 using slant::status;
-using sparse = Eigen::SparseMatrix<double>;
 
 contact::solution<double> solve(Eigen::SparseMatrix<double> const& K,
                                 contact::data<double> const& c,
@@ -224,7 +223,6 @@ TEST_CASE("contact::solve: bodies without supports that contact or friction hold
     Vector3d end;
     double slip, press = 1;
   };
-  double const infinity = std::numeric_limits<double>::infinity();
   // 3 is the area of the top: the pressure 1 presses with 3; 12 nodes.
   for (push const& p : {push{"contact alone", {0, 0, 0}, 0}, push{"friction", {-0.3, 0, 0}, 0.05},
                         push{"friction, nearly all of it", {-0.59, 0, 0}, 0.05},
@@ -273,7 +271,6 @@ TEST_CASE("contact::solve: bodies without supports that a gap parts from what ho
     double slip;
     bool friction = true;
   };
-  double const infinity = std::numeric_limits<double>::infinity();
   for (push const& p :
        {push{"contact alone", {0, 0, 0}, 0, false}, push{"friction", {-0.3, 0, 0}, 0.05},
         push{"sticking", {-0.3, 0.1, 0}, infinity}}) {

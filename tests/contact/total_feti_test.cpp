@@ -14,7 +14,6 @@
 
 namespace total_feti_test {
 
-using sparse = Eigen::SparseMatrix<double>;
 using slant::contact::friction_disc;
 using slant::contact::frictionless;
 using slant::contact::total_feti;

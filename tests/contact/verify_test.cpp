@@ -321,7 +321,6 @@ TEST_CASE("verify: bad input, NaN and nothing at all") {
   unmoved.W.setZero();
   unmoved.q.setZero();
   CHECK(verify(unmoved, test::numbers({1, 0.5})).unit_free_map == 0);
-  double const infinity = std::numeric_limits<double>::infinity();
   CHECK(std::isnan(verify(unmoved, test::numbers({infinity, 0})).unit_free_map));
   CHECK(std::isnan(verify(unmoved, test::numbers({infinity, 0})).relative_natural_map));
 

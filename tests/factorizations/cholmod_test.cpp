@@ -7,8 +7,6 @@
 
 namespace cholmod_test {
 
-using sparse = Eigen::SparseMatrix<double>;
-
 auto const factor = [](sparse const& k) { return slant::cholmod(k); };
 
 static_assert(slant::factorization<slant::cholmod, VectorXd>);

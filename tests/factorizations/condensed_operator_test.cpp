@@ -9,7 +9,6 @@ namespace condensed_operator_test {
 
 using namespace test::evaluated;
 using slant::index;
-using sparse = Eigen::SparseMatrix<double>;
 using exact = slant::condensed_operator<double>;
 using rounded = slant::condensed_operator<float>;
 

@@ -9,7 +9,6 @@
 namespace conjugate_projector_test {
 
 using namespace test::evaluated;
-using sparse = Eigen::SparseMatrix<double>;
 namespace archetype = slant::testing::archetype;
 
 /// Chains of springs, each of n unknowns, free at both ends: semidefinite, a body each.

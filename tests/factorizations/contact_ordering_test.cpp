@@ -50,8 +50,6 @@ TEST_CASE("marked unknowns go behind the others of their subtree, and nothing el
   CHECK(slant::detail::postponed(order, marked, {}) == order);
 }
 
-using sparse = Eigen::SparseMatrix<double>;
-
 TEST_CASE("a full matrix fills completely: n(n + 1)/2 entries, n³/3 operations") {
   sparse const full = MatrixXd::Ones(24, 24).sparseView();
   auto const e = slant::estimate_fill(full);

@@ -12,7 +12,6 @@
 namespace generalized_inverse_test {
 
 using namespace test::evaluated;
-using sparse = Eigen::SparseMatrix<double>;
 using slant::generalized_inverse;
 
 /// A steel box that nothing holds.

@@ -10,7 +10,6 @@
 
 namespace ldlt_test {
 
-using sparse = Eigen::SparseMatrix<double>;
 using multiprecision = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                                      boost::multiprecision::et_off>;
 

@@ -8,7 +8,6 @@
 
 namespace static_condensation_test {
 
-using sparse = Eigen::SparseMatrix<double>;
 using slant::index;
 using by_sweeps = std::false_type;
 using by_inverse = std::true_type;

@@ -5,8 +5,6 @@
 
 namespace decomposition_test {
 
-using sparse = Eigen::SparseMatrix<double>;
-
 auto const steel = fem::lame(2.119e5, 0.277);
 
 TEST_CASE("what is glued is the body itself") {

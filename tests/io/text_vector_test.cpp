@@ -12,8 +12,6 @@ using io_test::temporary_folder;
 using slant::parse_text_vector;
 using slant::text_vector_options;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The refusal of a text, without the name of the file.
 std::string refused(std::string_view text, text_vector_options const& options = {}) {
   std::string const message = SLANT_COMPLAINT(parse_text_vector(text, "f.txt", options));

@@ -9,8 +9,6 @@
 
 namespace nested_test {
 
-using sparse = Eigen::SparseMatrix<double>;
-
 /// −u'' on n = 2^(l+2) − 1 interior nodes of (0, 1), and linear interpolation from the level
 /// before.
 class line {

@@ -118,7 +118,6 @@ TEST_CASE("a relative step, with and without an offset") {
 
 TEST_CASE("before the first step, out of range, NaN: no success") {
   slant::step_below const rule(1e-3);
-  double const infinity = std::numeric_limits<double>::infinity();
   double const nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(rule(state{infinity, 1}) == slant::status::running);
   CHECK(rule(state{1, infinity}) == slant::status::running);

@@ -13,7 +13,6 @@ using slant::separable_sum;
 using slant::support;
 using slant::testing::check_function_laws;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 VectorXd const radii = Vector3d(1, 0.3, 0);
 
 slant::testing::set_options few(unsigned seed = 1, double size = 1) {

@@ -19,7 +19,6 @@ using slant::shifted;
 using slant::testing::check_set_laws;
 using slant::testing::set_options;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 VectorXd const radii = Vector3d(1, 0.3, 0);
 
 /// Fewer points than a client would take, for there are many sets.

@@ -9,8 +9,6 @@
 
 namespace test {
 
-using sparse = Eigen::SparseMatrix<double>;
-
 inline MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> gaussian;

@@ -41,7 +41,6 @@ TEST_CASE(
 
 /// A block of every kind, and images of some: 30 unknowns.
 auto every_kind() {
-  double const infinity = std::numeric_limits<double>::infinity();
   Eigen::Matrix2d const turn{{0.6, -0.8}, {0.8, 0.6}};
   return slant::cartesian(
       slant::half_lines(VectorXd{{0.0, -1.0, 0.5, -infinity}}), slant::interval<>(-0.1, 0.2),
@@ -209,8 +208,6 @@ TEST_CASE("forces that are too small at the start are raised") {
   // All are pushed to the end of their slit.
   for (Eigen::Index i = 0; i < bounded; ++i) CHECK(solution.x()(i) == doctest::Approx(1e-4));
 }
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Half lines, intervals, discs and two free unknowns: 12 of them, all lengths in units of t.
 struct twelve_unknowns {

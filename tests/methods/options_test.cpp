@@ -7,7 +7,6 @@
 
 namespace options_test {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Options, and how the complaint about them begins.
@@ -33,9 +32,9 @@ TEST_CASE("KPRGP and QPC") {
        {{.proportioning = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}},
        {{.proportioning = 0}, "proportioning: got 0, expected a finite number > 0"},
        {{.proportioning = nan}, "proportioning: got nan, expected a finite number > 0"},
-       {{.proportioning = inf}, "proportioning: got inf, expected a finite number > 0"},
+       {{.proportioning = infinity}, "proportioning: got inf, expected a finite number > 0"},
        {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
-       {{.step_length = inf}, "step_length: got inf, expected a finite number > 0"},
+       {{.step_length = infinity}, "step_length: got inf, expected a finite number > 0"},
        {{.step_factor = 2}, "step_factor: got 2, expected a number in (0, 2)"},
        {{.step_factor = 0}, "step_factor: got 0, expected a number in (0, 2)"},
        {{.refresh = -1}, "refresh: got -1, expected a number >= 0"},
@@ -63,7 +62,7 @@ TEST_CASE("successive approximations") {
        {{.window = 0, .growth = 1}},
        {{.window = -1}, "window: got -1, expected a number >= 0"},
        {{.growth = 0.5}, "growth: got 0.5, expected a finite number >= 1"},
-       {{.growth = inf}, "growth: got inf, expected a finite number >= 1"},
+       {{.growth = infinity}, "growth: got inf, expected a finite number >= 1"},
        {{.relaxation = 0}, "relaxation: got 0, expected a number in (0, 1]"},
        {{.relaxation = 2}, "relaxation: got 2, expected a number in (0, 1]"},
        {{.forcing = {.η_max = 2}}, "η_max: got 2"},

@@ -11,9 +11,7 @@
 
 namespace schur_contact_scenes {
 
-using sparse = Eigen::SparseMatrix<double>;
 using slant::status;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A row of springs between n points, free at both ends.
 inline MatrixXd chain(int n, double stiffness = 1) {

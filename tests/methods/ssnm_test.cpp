@@ -79,7 +79,6 @@ TEST_CASE(
 }
 
 TEST_CASE("an empty choice: bounds at −∞, circles without end") {
-  double const infinity = std::numeric_limits<double>::infinity();
   auto const w = fem::make_thesis_wire(4);
   auto const r = fem::run_wire_ssnm(w, -infinity, infinity, slant::saddle_direct{}, {});
   CHECK(r.converged());

@@ -9,8 +9,6 @@
 
 namespace symmetric_newton_test {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 TEST_CASE("the same steps as Newton's method for the natural residual") {
   test::mixture const p(100);
   auto const A = test::spd(p.A);

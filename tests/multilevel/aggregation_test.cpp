@@ -11,7 +11,6 @@
 namespace aggregation_test {
 
 using namespace test::evaluated;
-using sparse = Eigen::SparseMatrix<double>;
 using slant::aggregate;
 using slant::block_matrix;
 using test::laplacian;

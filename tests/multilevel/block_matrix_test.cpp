@@ -13,7 +13,6 @@
 namespace block_matrix_test {
 
 using namespace test::evaluated;
-using sparse = Eigen::SparseMatrix<double>;
 using slant::block_matrix;
 using test::packed;
 using test::unpacked;

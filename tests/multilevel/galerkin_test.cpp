@@ -17,7 +17,6 @@ namespace galerkin_test {
 
 using namespace test::evaluated;
 using Eigen::Matrix3d;
-using sparse = Eigen::SparseMatrix<double>;
 using slant::block_matrix;
 using slant::detail::prolongation;
 

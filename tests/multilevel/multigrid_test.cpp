@@ -21,7 +21,6 @@ namespace multigrid_test {
 
 using namespace test::evaluated;
 using Eigen::Matrix3d;
-using sparse = Eigen::SparseMatrix<double>;
 using multigrid = slant::multigrid<double>;
 using exact_multigrid = slant::multigrid<double, double>;
 using test::laplacian;
@@ -511,7 +510,6 @@ TEST_CASE("everything held, nodes held, all but one node held") {
 TEST_CASE("contact of the brick by symmetric Newton, K never factored") {
   auto const s = fem::make_steel_brick({.k = 4, .load = fem::brick_load::lift});
   auto const n = s.f.size();
-  double const infinity = std::numeric_limits<double>::infinity();
   VectorXd lower = VectorXd::Constant(n, -infinity);  // N u ≤ d, N of −1 at normal displacements
   for (int j = 0; j < n; ++j)
     for (sparse::InnerIterator e(s.N, j); e; ++e) lower[j] = s.d[e.row()] / e.value();

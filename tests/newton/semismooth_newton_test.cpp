@@ -300,7 +300,6 @@ TEST_CASE("bad starts: far away, infeasible, random") {
 TEST_CASE("slip bounds of zero and infinity: points and free pairs") {
   newton_scene::data const d(4);
   auto const A = d.definite();
-  double const infinity = std::numeric_limits<double>::infinity();
   auto const set =
       slant::cartesian(slant::power(slant::half_line<>{}, 4),
                        slant::power(slant::ball<2>{}, VectorXd{{0.0, infinity, 0.5, 0.0}}));

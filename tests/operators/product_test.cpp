@@ -109,7 +109,6 @@ TEST_CASE("the factor of an inverse is rounded in the scalar of the vector") {
 
 TEST_CASE("the factor must be a number, and positive if that is claimed") {
   double const nan = std::numeric_limits<double>::quiet_NaN();
-  double const infinity = std::numeric_limits<double>::infinity();
   CHECK(SLANT_COMPLAINT(slant::scaled(infinity, slant::identity(1))) ==
         "c: got inf, expected a finite number");
   static_assert(!std::is_aggregate_v<slant::positive_factor<double>>);

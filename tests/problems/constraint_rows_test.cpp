@@ -7,8 +7,6 @@
 
 namespace constraint_rows_test {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 slant::constraint_rows<double> rows_of(MatrixXd const& b, VectorXd const& c) {
   return {b.sparseView(), c};
 }

@@ -9,7 +9,6 @@
 namespace cut_face_test {
 
 using namespace test::evaluated;
-using sparse = Eigen::SparseMatrix<double>;
 
 MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, unsigned seed) {
   std::mt19937 generator(seed);

@@ -8,7 +8,6 @@
 namespace equality_constraints_test {
 
 using namespace test::evaluated;
-using sparse = Eigen::SparseMatrix<double>;
 
 MatrixXd rows() {
   MatrixXd G(3, 6);

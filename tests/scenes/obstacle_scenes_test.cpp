@@ -20,7 +20,6 @@ namespace obstacle_scenes_test {
 
 using scenes::make_set;
 using scenes::scene;
-using sparse = Eigen::SparseMatrix<double>;
 
 /// A matrix that somebody else keeps, as an operator.
 [[nodiscard]] auto spd(sparse const& A) {

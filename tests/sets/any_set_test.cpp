@@ -8,17 +8,16 @@ namespace any_set_test {
 
 using slant::any_set;
 
-double const inf = std::numeric_limits<double>::infinity();
-
 /// One run of every kind.
 auto all_kinds() {
   return slant::cartesian(
-      slant::half_lines(2), slant::half_lines(VectorXd{{-1.0, 0.5, -inf}}),
-      slant::intervals(VectorXd{{-1.0, 0.0}}, VectorXd{{1.0, inf}}),
+      slant::half_lines(2), slant::half_lines(VectorXd{{-1.0, 0.5, -infinity}}),
+      slant::intervals(VectorXd{{-1.0, 0.0}}, VectorXd{{1.0, infinity}}),
       slant::intervals(VectorXd{{1.0, 0.0}}), slant::free_components(2),
-      slant::discs(VectorXd{{1.0, 0.0, inf}}), slant::discs<slant::planar>(VectorXd{{1.0, 0.3}}),
-      slant::power(slant::ball<3>{2.0}, 2), slant::power(slant::ellipse<>{2.0, 0.5}, 2),
-      slant::friction_cones<2>(VectorXd{{0.3, 1.0}}), slant::friction_cones<3>(VectorXd{{0.3}}));
+      slant::discs(VectorXd{{1.0, 0.0, infinity}}),
+      slant::discs<slant::planar>(VectorXd{{1.0, 0.3}}), slant::power(slant::ball<3>{2.0}, 2),
+      slant::power(slant::ellipse<>{2.0, 0.5}, 2), slant::friction_cones<2>(VectorXd{{0.3, 1.0}}),
+      slant::friction_cones<3>(VectorXd{{0.3}}));
 }
 
 static_assert(!std::is_constructible_v<any_set<>, slant::ball<2, float>>);

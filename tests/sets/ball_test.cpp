@@ -12,7 +12,6 @@ using slant::ball;
 using slant::block_state;
 using vec2 = Eigen::Vector2d;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
 TEST_CASE_TEMPLATE("ball: known answers", S, float, float_50) {
@@ -36,7 +35,7 @@ TEST_CASE_TEMPLATE("ball: known answers", S, float, float_50) {
 TEST_CASE("ball: the projection takes any expression, and one number for N = 1") {
   CHECK(slant::disc<>(5.0).project(2.0 * vec2(3, 4)) == vec2(3, 4));
   CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(-7.0))(0) == -2.0);
-  CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(inf))(0) == 2.0);
+  CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(infinity))(0) == 2.0);
 }
 
 TEST_CASE("ball: state and membership within a few ulp of the sphere") {
@@ -51,7 +50,7 @@ TEST_CASE("ball: state and membership within a few ulp of the sphere") {
 }
 
 TEST_CASE("ball: radius 0 and infinity") {
-  slant::disc<> const none(0.0), plane(inf);
+  slant::disc<> const none(0.0), plane(infinity);
   vec2 const zero(0, 0), x(1e200, -3), y(2, 0);
   CHECK(none.project(x) == zero);
   CHECK(none.contains(zero));
@@ -64,10 +63,10 @@ TEST_CASE("ball: radius 0 and infinity") {
   CHECK(plane.contains(x));
   CHECK(plane.state(x) == block_state::free);
   CHECK(plane.slant(x) == Eigen::Matrix2d::Identity());
-  CHECK(plane.step_to_boundary(x, y) == inf);
-  CHECK(plane.support(y) == inf);
+  CHECK(plane.step_to_boundary(x, y) == infinity);
+  CHECK(plane.support(y) == infinity);
   CHECK(plane.support(zero) == 0.0);
-  CHECK(plane.inequality(y)(0) == -inf);
+  CHECK(plane.inequality(y)(0) == -infinity);
 }
 
 TEST_CASE("ball: slanting function, off the kink and on it [K (50), (51)]") {

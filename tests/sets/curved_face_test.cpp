@@ -88,7 +88,6 @@ TEST_CASE("blocks that are inside or fixed are told by a mask, and ∞ stays whe
   slant::curved_face<> face(set);
   face.assign(set, VectorXd{{1.0, -1.0, 0.1, 0.1, 5.0, 5.0}}, 1.0);
   CHECK(face.curved_count() == 0);
-  double const infinity = std::numeric_limits<double>::infinity();
   VectorXd y(6);
   face.keep(VectorXd{{1.0, infinity, 2.0, 3.0, infinity, infinity}}, y);
   CHECK(y == VectorXd{{1.0, 0.0, 2.0, 3.0, 0.0, 0.0}});

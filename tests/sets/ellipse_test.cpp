@@ -12,7 +12,6 @@ using slant::block_state;
 using slant::ellipse;
 using vec2 = Eigen::Vector2d;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
 TEST_CASE_TEMPLATE("ellipse: known answers", S, float, float_50) {
@@ -119,13 +118,13 @@ TEST_CASE("ellipse: an axis 0 makes a segment or a point") {
   CHECK(single.slant(vec2(0, 0)) == Eigen::Matrix2d::Zero());
   CHECK(segment.step_to_boundary(vec2(1, 0), vec2(2, 0)) == 1.0);
   CHECK(segment.step_to_boundary(vec2(1, 0), vec2(2, 1)) == 0.0);
-  CHECK(single.step_to_boundary(vec2(0, 0), vec2(0, 0)) == inf);
+  CHECK(single.step_to_boundary(vec2(0, 0), vec2(0, 0)) == infinity);
   CHECK(single.step_to_boundary(vec2(0, 0), vec2(1, 0)) == 0.0);
   CHECK(segment.support(vec2(-2, 9)) == 6.0);
 }
 
 TEST_CASE("ellipse: an infinite axis makes a strip or the plane") {
-  ellipse<> const strip(inf, 2), plane(inf, inf), line(0, inf);
+  ellipse<> const strip(infinity, 2), plane(infinity, infinity), line(0, infinity);
   CHECK(strip.project(vec2(1e300, 7)) == vec2(1e300, 2));
   CHECK(plane.project(vec2(1e300, 7)) == vec2(1e300, 7));
   CHECK(line.project(vec2(1e300, 7)) == vec2(0, 7));
@@ -136,11 +135,11 @@ TEST_CASE("ellipse: an infinite axis makes a strip or the plane") {
   CHECK(line.state(vec2(0, 1)) == block_state::sliding);
   CHECK(strip.slant(vec2(9, 5)) == vec2(1, 0).asDiagonal().toDenseMatrix());
   CHECK(plane.slant(vec2(9, 5)) == Eigen::Matrix2d::Identity());
-  CHECK(strip.step_to_boundary(vec2(5, 1), vec2(1, 0)) == inf);
+  CHECK(strip.step_to_boundary(vec2(5, 1), vec2(1, 0)) == infinity);
   CHECK(strip.step_to_boundary(vec2(5, 1), vec2(1, 2)) == 0.5);
-  CHECK(plane.step_to_boundary(vec2(5, 1), vec2(1, 2)) == inf);
+  CHECK(plane.step_to_boundary(vec2(5, 1), vec2(1, 2)) == infinity);
   CHECK(strip.support(vec2(0, 3)) == 6.0);
-  CHECK(strip.support(vec2(1, 3)) == inf);
+  CHECK(strip.support(vec2(1, 3)) == infinity);
   CHECK(strip.inequality(vec2(5, 1))(0) == -0.75);
 }
 

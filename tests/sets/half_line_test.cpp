@@ -14,8 +14,6 @@ vec<S> at(S const& value) {
   return vec<S>::Constant(value);
 }
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 TEST_CASE_TEMPLATE("half line: known answers", S, float, oracle::float_50) {
   slant::half_line<S> const positive;
   CHECK(positive.lower() == S(0));
@@ -58,18 +56,18 @@ TEST_CASE("half line: steps start on the bound where rounding left them below") 
   slant::half_line<double> const set(3.0);
   double const below = std::nextafter(3.0, 0.0);
   CHECK(set.step_to_boundary(at(below), at(-1.0)) == 0.0);
-  CHECK(set.step_to_boundary(at(below), at(1.0)) == inf);
+  CHECK(set.step_to_boundary(at(below), at(1.0)) == infinity);
   CHECK(slant::half_line<double>(-1e308).step_to_boundary(at(1.5e308), at(-1e308)) ==
         doctest::Approx(2.5));
-  CHECK(slant::half_line<double>(-inf).step_to_boundary(at(1.0), at(-1.0)) == inf);
+  CHECK(slant::half_line<double>(-infinity).step_to_boundary(at(1.0), at(-1.0)) == infinity);
 }
 
 TEST_CASE("half line: an infinite bound") {
-  slant::half_line<double> const line(-inf);
+  slant::half_line<double> const line(-infinity);
   CHECK(line.project(at(-1e308))(0) == -1e308);
   CHECK(line.contains(at(-1e308)));
   CHECK(line.state(at(-1e308)) == slant::block_state::free);
-  CHECK(line.support(at(-1.0)) == inf);
+  CHECK(line.support(at(-1.0)) == infinity);
   CHECK(line.support(at(0.0)) == 0.0);
 }
 

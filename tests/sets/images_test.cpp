@@ -138,7 +138,6 @@ TEST_CASE("image of a product: images of images, in place and without allocation
 }
 
 TEST_CASE("image of a product: infinite bounds stay infinite") {
-  double const infinity = std::numeric_limits<double>::infinity();
   auto const set = shifted(slant::half_lines(vec<>(Vector2d(-infinity, 0))), vec<>(Vector2d(5, 5)));
   vec<> const x = Vector2d(-1e300, -1);
   CHECK(slant::project(set, x) == Vector2d(-1e300, 5));
@@ -151,7 +150,6 @@ TEST_CASE("rounding_reach: membership within a distance") {
   CHECK(contains_within(disc, Vector2d(1.0005, 0), 1e-3));
   CHECK(!contains_within(disc, Vector2d(1.002, 0), 1e-3));
   CHECK(contains_within(disc, Vector2d(0.5, 0), 0.0));
-  double const infinity = std::numeric_limits<double>::infinity();
   CHECK(!contains_within(disc, Vector2d(infinity, 0), infinity));
   CHECK(!contains_within(disc, Vector2d(std::numeric_limits<double>::quiet_NaN(), 0), 1.0));
 }
@@ -282,7 +280,6 @@ TEST_CASE("shifted: far away the last digits of x and c count, not those of the 
 
 TEST_CASE("shifted: points that are not finite are not members") {
   auto const set = shifted(slant::ball<2>{2.0}, Vector2d(1, 1));
-  double const infinity = std::numeric_limits<double>::infinity();
   CHECK(!set.contains(Vector2d(infinity, 0)));
   CHECK(!set.contains(Vector2d(std::numeric_limits<double>::quiet_NaN(), 0)));
   auto const line = shifted(slant::half_line<>{}, Eigen::Matrix<double, 1, 1>(1.0));

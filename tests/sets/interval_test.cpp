@@ -6,8 +6,6 @@
 
 namespace interval_test {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
 template <class S>
 using vec = Eigen::Matrix<S, 1, 1>;
 
@@ -69,13 +67,13 @@ TEST_CASE("interval: steps at, beyond and far from the bounds") {
 }
 
 TEST_CASE("interval: infinite ends") {
-  slant::interval<double> const line(-inf, inf);
+  slant::interval<double> const line(-infinity, infinity);
   CHECK(line.project(at(-1e308))(0) == -1e308);
   CHECK(line.state(at(1e308)) == slant::block_state::free);
   CHECK(line.slant(at(1e308))(0, 0) == 1.0);
-  CHECK(line.step_to_boundary(at(0.0), at(1.0)) == inf);
-  CHECK(line.support(at(1.0)) == inf);
-  CHECK(line.support(at(-1.0)) == inf);
+  CHECK(line.step_to_boundary(at(0.0), at(1.0)) == infinity);
+  CHECK(line.support(at(1.0)) == infinity);
+  CHECK(line.support(at(-1.0)) == infinity);
   CHECK(line.support(at(0.0)) == 0.0);
 }
 

@@ -10,7 +10,6 @@ namespace power_test {
 using namespace products;
 using slant::planar;
 using slant::power;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST_CASE("power: the step stops early, and then still tells that a step would leave the set") {
   vec<> const g = vec<>::Ones(100);

@@ -16,7 +16,6 @@ using oracle::float_50;
 using source = oracle::number_source<double>;
 using cone = slant::second_order_cone<3>;
 using S = slant::testing::archetype::scalar;
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
@@ -185,10 +184,10 @@ TEST_CASE("NaN stays NaN") {
   check_nan(slant::half_line<>{}, number(1.0));
   check_nan(slant::interval<>{}, number(0.5));
   check_nan(slant::interval<>(0.0, 0.0), zero);
-  for (double g : {0.0, 1.0, inf}) check_nan(slant::disc<>(g), origin, g == 1);
+  for (double g : {0.0, 1.0, infinity}) check_nan(slant::disc<>(g), origin, g == 1);
   for (slant::ellipse<> const& set :
-       {slant::ellipse<>(2, 1), slant::ellipse<>(2, 0), slant::ellipse<>(inf, 1),
-        slant::ellipse<>(0, 0), slant::ellipse<>(inf, inf)}) {
+       {slant::ellipse<>(2, 1), slant::ellipse<>(2, 0), slant::ellipse<>(infinity, 1),
+        slant::ellipse<>(0, 0), slant::ellipse<>(infinity, infinity)}) {
     check_nan(set, origin);
   }
   for (double μ : {0.0, 1.0, 1e200}) check_nan(cone(μ), Vector3d(1, 0, 0));
@@ -196,10 +195,10 @@ TEST_CASE("NaN stays NaN") {
   check_nan(slant::free_space<2>{}, origin, false);
   CHECK(std::isnan(slant::half_line<>{}.inequality(number(quiet_nan))(0)));
   // Infinity has no nearest point on a curve.
-  CHECK(slant::disc<>(1.0).project(Vector2d(inf, 1)).array().isNaN().all());
-  CHECK(slant::ellipse<>(2, 1).project(Vector2d(inf, 1)).hasNaN());
-  CHECK(slant::ellipse<>(2, 1).slant(Vector2d(inf, 1)).hasNaN());
-  CHECK(cone(1.0).project(Vector3d(inf, 1, 0)).hasNaN());
+  CHECK(slant::disc<>(1.0).project(Vector2d(infinity, 1)).array().isNaN().all());
+  CHECK(slant::ellipse<>(2, 1).project(Vector2d(infinity, 1)).hasNaN());
+  CHECK(slant::ellipse<>(2, 1).slant(Vector2d(infinity, 1)).hasNaN());
+  CHECK(cone(1.0).project(Vector3d(infinity, 1, 0)).hasNaN());
 }
 
 TEST_CASE("bad parameters are named") {
@@ -207,22 +206,22 @@ TEST_CASE("bad parameters are named") {
     return test::complaint([=] { (void)slant::half_line<>().with(l); });
   };
   CHECK(half_line(quiet_nan) == "l: got nan, expected a number less than infinity");
-  CHECK(half_line(inf) == "l: got inf, expected a number less than infinity");
+  CHECK(half_line(infinity) == "l: got inf, expected a number less than infinity");
   auto const interval = [](double l, double u) {
     return test::complaint([=] { (void)slant::interval<>().with(l, u); });
   };
   CHECK(interval(2.0, 1.0) == "l: got 2, expected a number <= u = 1");
   CHECK(interval(quiet_nan, 1.0) == "l: got nan, expected a number less than infinity");
-  CHECK(interval(inf, inf) == "l: got inf, expected a number less than infinity");
+  CHECK(interval(infinity, infinity) == "l: got inf, expected a number less than infinity");
   CHECK(interval(0.0, quiet_nan) == "u: got nan, expected a number greater than -infinity");
-  CHECK(interval(-inf, -inf) == "u: got -inf, expected a number greater than -infinity");
-  CHECK(interval(-inf, inf) == "nothing thrown");
+  CHECK(interval(-infinity, -infinity) == "u: got -inf, expected a number greater than -infinity");
+  CHECK(interval(-infinity, infinity) == "nothing thrown");
   auto const disc = [](double g) {
     return test::complaint([=] { (void)slant::disc<>().with(g); });
   };
   CHECK(disc(-1) == "radius: got -1, expected a number >= 0");
   CHECK(disc(quiet_nan) == "radius: got nan, expected a number >= 0");
-  CHECK(disc(inf) == "nothing thrown");
+  CHECK(disc(infinity) == "nothing thrown");
   auto const ellipse = [](double a, double b) {
     return test::complaint([=] { (void)slant::ellipse<>().with(a, b); });
   };
@@ -230,17 +229,17 @@ TEST_CASE("bad parameters are named") {
   CHECK(ellipse(1, -2) == "b: got -2, expected a number >= 0");
   CHECK(ellipse(quiet_nan, 2) == "a: got nan, expected a number >= 0");
   CHECK(ellipse(1, quiet_nan) == "b: got nan, expected a number >= 0");
-  CHECK(ellipse(0, inf) == "nothing thrown");
+  CHECK(ellipse(0, infinity) == "nothing thrown");
   auto const of_cone = [](double μ) { return test::complaint([=] { (void)cone().with(μ); }); };
   CHECK(of_cone(-1) == "mu: got -1, expected a finite number >= 0");
-  CHECK(of_cone(inf) == "mu: got inf, expected a finite number >= 0");
+  CHECK(of_cone(infinity) == "mu: got inf, expected a finite number >= 0");
   CHECK(of_cone(quiet_nan) == "mu: got nan, expected a finite number >= 0");
   CHECK(of_cone(0) == "nothing thrown");
   auto const point = [](double a, double b) {
     return test::complaint([=] { (void)slant::point<2>(Vector2d(a, b)); });
   };
   CHECK(point(1.0, quiet_nan) == "p(1): got nan, expected a finite number");
-  CHECK(point(-inf, 0.0) == "p(0): got -inf, expected a finite number");
+  CHECK(point(-infinity, 0.0) == "p(0): got -inf, expected a finite number");
   CHECK(point(1.0, 2.0) == "nothing thrown");
 }
 

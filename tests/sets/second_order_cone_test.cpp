@@ -14,7 +14,6 @@ using slant::block_state;
 using cone = slant::second_order_cone<3>;
 using vec3 = Eigen::Vector3d;
 using plane = slant::plane_cone<>;
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
 TEST_CASE_TEMPLATE("cone: known answers", S, float, float_50) {
@@ -67,7 +66,7 @@ TEST_CASE("cone: μ = 0 is the ray, and a huge μ nearly the half space") {
   CHECK(ray.slant(vec3(-2, 3, 4)) == Eigen::Matrix3d::Zero());
   CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(-1, 0, 0)) == 2.0);
   CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(-1, 1, 0)) == 0.0);
-  CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(1, 0, 0)) == inf);
+  CHECK(ray.step_to_boundary(vec3(2, 0, 0), vec3(1, 0, 0)) == infinity);
   CHECK(wide.project(vec3(1, 3, 4)) == vec3(1, 3, 4));
   CHECK(wide.project(vec3(-1, 3e100, 4e100)).tail<2>() == vec3(0, 3e100, 4e100).tail<2>());
   CHECK(wide.project(vec3(-1, 0, 0)) == zero);
@@ -103,9 +102,9 @@ TEST_CASE("cone: steps along generators, through the apex and from outside by ro
   cone const set(2.0);
   vec3 const x(5, 6, 8), zero(0, 0, 0);
   CHECK(set.step_to_boundary(x, -x) == 1.0);
-  CHECK(set.step_to_boundary(x, x) == inf);
-  CHECK(set.step_to_boundary(x, zero) == inf);
-  CHECK(set.step_to_boundary(zero, x) == inf);
+  CHECK(set.step_to_boundary(x, x) == infinity);
+  CHECK(set.step_to_boundary(x, zero) == infinity);
+  CHECK(set.step_to_boundary(zero, x) == infinity);
   CHECK(set.step_to_boundary(zero, -x) == 0.0);
   CHECK(set.step_to_boundary(zero, vec3(1, 3, 0)) == 0.0);
   vec3 const outside(5 * (1 - 4 * ε), 6, 8);
@@ -121,7 +120,7 @@ TEST_CASE("cone: steps along generators, through the apex and from outside by ro
     vec3 const d = source.any_size() * source.direction<3>();
     double const α = random.step_to_boundary(p, d);
     CHECK(α >= 0);
-    if (α < inf) CHECK((p + α * d)(0) >= -16 * ε * p(0));
+    if (α < infinity) CHECK((p + α * d)(0) >= -16 * ε * p(0));
   }
 }
 

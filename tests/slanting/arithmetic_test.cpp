@@ -124,7 +124,6 @@ TEST_CASE("sizes that do not fit, and numbers that are none or not positive, are
   MatrixXd const wide = MatrixXd::Ones(3, 4);
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::subtract(p, slant::linear(wide))),
                        "g.cols(): got 4, expected 3 (f.cols())", slant::bad_input);
-  double const infinity = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::scale(infinity, p)),
                        "c: got inf, expected a finite number", slant::bad_input);
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::scale(0, p)),

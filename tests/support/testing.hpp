@@ -38,6 +38,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using sparse = Eigen::SparseMatrix<double>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 namespace test {
 
