@@ -124,7 +124,7 @@ bool compare(fem::contact_scene<D> const& s, std::string const& name, int k, dou
   double const difference = local_error(exact(de_saxce));
   // The law alone is the check: the certificate would count its own products.
   contact::coulomb_check const check(problem, μ);
-  auto const by_default = contact::detail::solve_by_newton_or_radii(
+  auto const by_default = contact::detail::solve_by_all_methods(
       problem, μ, {.tolerance = 1e-10},
       [&](vector const& forces, vector const& u) { return check(forces, u).relative; });
   outcome automatic{by_default.work.operator_applications + by_default.work.setup_applications,

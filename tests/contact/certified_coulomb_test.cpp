@@ -51,6 +51,34 @@ TEST_CASE("certified_coulomb: a brick by every method, the same solution") {
   }
 }
 
+TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fail") {
+  MatrixXd const I = MatrixXd::Identity(9, 9);
+  for (unsigned const seed : {98U, 272U, 1221U, 1611U, 2308U}) {
+    CAPTURE(seed);
+    std::mt19937_64 bits(seed);
+    auto const fill = [&](auto&& numbers, double from, double to) {
+      for (double& x : numbers) x = from + (to - from) * std::ldexp(double(bits() >> 11), -53);
+    };
+    MatrixXd Q(9, 9);
+    VectorXd f(9), F(3);
+    fill(Q.reshaped(), -1, 1);
+    fill(f, -2, 2);
+    fill(F, 0, 20);
+    sparse const K = MatrixXd(Q * Q.transpose() + 0.3 * I).sparseView();
+    contact::data<double> const c{.N = I.topRows(3).sparseView(),
+                                  .T = I.bottomRows(6).sparseView(),
+                                  .f = f,
+                                  .d = VectorXd::Zero(3),
+                                  .g = {}};
+    auto const r = solve(K, c, F);
+    CAPTURE(r.reason);
+    CHECK(r.converged());
+    CHECK(r.method == "solve_friction");
+    CHECK(kkt(K, c, F, r) <= 1e-7);
+    CHECK(test::natural_map(test::dense_dual(K, c), F, r.λ) <= 1e-7);
+  }
+}
+
 TEST_CASE("certified_coulomb: thin, slender and nearly floating bodies, no wrong verdict" *
           doctest::skip(!test::is_optimised)) {
   auto const judge = [](Eigen::SparseMatrix<double> const& K, contact::data<double> const& c,
@@ -171,7 +199,7 @@ TEST_CASE("certified_coulomb: a body without supports is refused by the name of 
 template <class Dual>
 auto solve(Dual& problem, VectorXd const& F, contact::detail::coulomb_limits const& limits) {
   contact::coulomb_check const check(problem, F);
-  return contact::detail::solve_by_newton_or_radii(
+  return contact::detail::solve_by_all_methods(
       problem, F, limits,
       [&](VectorXd const& λ, VectorXd const& u) { return check(λ, u).relative; });
 }
@@ -243,7 +271,8 @@ TEST_CASE("neither is given time: the better answer is kept, whichever it is") {
   double const ρ = contact::residual_step(contact::coulomb_cones(problem, F)).length;
   auto const run = [&](slant::index newton, slant::index outer) {
     factor.solves = 0;
-    auto r = solve(problem, F, {.tolerance = 1e-12, .newton_steps = newton, .outer_steps = outer});
+    auto r = solve(problem, F,
+                   {.tolerance = 1e-12, .newton_steps = newton, .outer_steps = outer, .forces = 0});
     CHECK_FALSE(r.converged());
     CHECK(factor.solves == r.work.operator_applications + r.work.setup_applications);
     return r;
@@ -324,7 +353,7 @@ TEST_CASE("a check that nothing satisfies: the run stalls and says what it finds
   contact::dual problem(contact::friction_line{}, factor, s.contact);
   VectorXd const F = VectorXd::Constant(s.contact.d.size(), 0.3);
   int asked = 0;
-  auto const r = contact::detail::solve_by_newton_or_radii(
+  auto const r = contact::detail::solve_by_all_methods(
       problem, F, {}, [&](VectorXd const& λ, VectorXd const& u) {
         ++asked;
         CHECK((u - problem.displacement(λ)).norm() == 0);
@@ -335,7 +364,7 @@ TEST_CASE("a check that nothing satisfies: the run stalls and says what it finds
   CHECK(r.law.relative <= 1e-8);
   CHECK(r.reason.starts_with("the check finds 0.5, more than 1e-08, largest at contact "));
   CHECK(asked >= 2);
-  auto const none = contact::detail::solve_by_newton_or_radii(
+  auto const none = contact::detail::solve_by_all_methods(
       problem, F, {},
       [](VectorXd const&, VectorXd const&) { return std::numeric_limits<double>::quiet_NaN(); });
   CHECK(none.status == slant::status::stalled);

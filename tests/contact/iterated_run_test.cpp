@@ -561,6 +561,7 @@ TEST_CASE("what factors do not bring to an end is iterated after all") {
 TEST_CASE("thin bodies over a foundation with uneven gaps") {
   // Newton's steps are cut to 1e-4 and less where a part that is set free is far from stiff.
   for (Eigen::Vector3d const& size : {Eigen::Vector3d(5, 0.4, 0.08), {6, 10, 0.06}}) {
+    if (size.y() > 1 && !test::is_optimised) continue;
     for (auto const load : fem::brick_loads) {
       scene s = scene_of<3>(fem::make_steel_brick({.k = 3, .load = load, .size = size}));
       VectorXd& d = s.data.d;
@@ -577,6 +578,7 @@ TEST_CASE("thin bodies over a foundation with uneven gaps") {
 
 TEST_CASE("thin bodies, any tolerance: what is certified is never just short of it") {
   for (double const thickness : {0.1, 0.02, 0.003}) {
+    if (thickness < 0.1 && !test::is_optimised) continue;
     for (auto const load : fem::brick_loads) {
       scene const s =
           scene_of<3>(fem::make_steel_brick({.k = 2, .load = load, .size = {3, 1, thickness}}));

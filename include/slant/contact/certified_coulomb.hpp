@@ -9,7 +9,8 @@
 //     factor      K                                                     factorizations/factorize
 //     scale       contacts so that each is about equally stiff: one power of two for the rows of N
 //                 and T of a contact, which keeps its cone; not at all where they are alike already
-//     solve       Newton's method, and radii where that fails, or cones   solve_by_newton_or_radii
+//     solve       Newton's method, radii where that fails, then solve_friction
+//                                                                             solve_by_all_methods
 //     certify     Coulomb's law at (λ, u) contact by contact, and in the energy norm the problem
 //                 of Tresca with the slip bounds F λ_ν     contact/coulomb/coulomb_certificate
 //
@@ -32,6 +33,7 @@
 #include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
+#include <slant/contact/solve_friction.hpp>
 #include <slant/contact/solve_options.hpp>
 #include <slant/iteration/solve.hpp>
 #include <slant/iteration/stopping.hpp>
@@ -50,7 +52,7 @@ namespace slant::contact {
 
 /// What certified_coulomb solves with.
 enum class coulomb_method {
-  automatic,  ///< Newton's method, and radii where that fails
+  automatic,  ///< Newton's method, radii where that fails, solve_friction where both do
   newton,     ///< of Alart and Curnier's residual
   radii,      ///< successive approximations, coulomb_radii
   cones       ///< successive approximations, coulomb_cones
@@ -89,7 +91,7 @@ struct certified_coulomb_result {
   coulomb_error<scalar_t<V>> error{};  ///< of (λ, u)
   slant::status status = status::running;
   std::string reason{};  ///< the status as a sentence
-  /// "Newton", "successive approximations", "cones"; without factors "slip bounds and Newton", or
+  /// "Newton", "successive approximations", "solve_friction", "cones"; without factors "slip bounds and Newton", or
   /// "successive slip bounds" alone.
   std::string_view method{};
   index steps = 0;              ///< of that method; of slip bounds each of Tresca's problems is one
@@ -130,7 +132,8 @@ void clear_slip_bounds(data<S>& c) {
 // The methods for a dual problem under the control of a check. Newton's method for the residual of
 // Alart and Curnier costs no more than a problem of Tresca's; where it ends without a solution
 // (much friction, a bad start) successive approximations over Tresca's problems follow, each of
-// which is convex. The answer is the one that has converged; if none has, that with the smaller
+// which is convex, and where these do as well, and forces are not too many for a dense matrix,
+// solve_friction. The answer is the one that has converged; if none has, that with the smaller
 // error, or, if one was not even checked, the smaller residual ‖λ − P(λ − ρ (A λ − b))‖. The work
 // is that of all.
 //
@@ -144,6 +147,7 @@ struct coulomb_limits {
   double tolerance = 1e-10;
   index newton_steps = 60;  ///< of Newton's method at most; 0: none, if the others are some
   index outer_steps = 300;  ///< of successive approximations at most; 0: none, if the others are
+  index forces = 1500;  ///< with more than so many there is no solve_friction; nor after one method
 };
 
 /// What a run by these methods found.
@@ -155,7 +159,7 @@ struct coulomb_result {
   scalar_t<V> error{};                     ///< of (λ, u), by the check
   slant::status status = status::running;  ///< converged, or how the last method ended
   std::string reason{};                    ///< the same as a sentence
-  std::string_view method{};               ///< "Newton", "successive approximations", or "cones"
+  std::string_view method{};               ///< its name
   index steps = 0;                         ///< of that method
   slant::work work{};                      ///< of all
 
@@ -234,11 +238,43 @@ void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance
   }
 }
 
-/// By Newton's method, and by radii where that fails; the slip bounds of the dual problem have no
-/// meaning here. F has a coefficient for every contact node; check(λ, u) → a relative error.
+/// By solve_friction, whose methods take A as a matrix: a product by A for each column.
+template <class Dual, class V, class Check>
+[[nodiscard]] coulomb_result<V> solve_by_matrix(Dual& problem, V const& F, double tolerance,
+                                                Check const& check) {
+  using S = scalar_t<V>;
+  coulomb_result<V> r{problem.zero()};
+  coulomb_cones const cones(problem, F);
+  auto const& A = cones.qp().a();
+  index const n = A.rows();
+  Eigen::MatrixX<S> W(n, n);
+  V column(n);
+  auto w = workspace(A, column);
+  for (index j = 0; j < n; ++j) {
+    slant::apply(A, V(V::Unit(n, j)), column, w);
+    W.col(j) = column;
+  }
+  r.work.setup_applications = n;
+  friction_problem<S> const condensed{
+      .W = Eigen::MatrixX<S>((W + W.transpose()) / S(2)).sparseView(), .q = cones.q(), .mu = F};
+  S const floor = S(64) * std::numeric_limits<S>::epsilon();
+  auto found = solve_friction(condensed, {.tolerance = std::max<S>(S(tolerance), floor)});
+  r.λ = cones.by_directions(found.r);
+  r.method = "solve_friction";
+  r.steps = found.work.newton_steps;
+  judge(problem, F, check, r);
+  bool const is_enough = r.error <= S(100) * S(tolerance);
+  r.status = is_enough ? slant::status::converged : slant::status::stalled;
+  r.reason = std::move(found.reason) + "; the check finds " + slant::detail::brief(r.error);
+  return r;
+}
+
+/// By Newton's method, by radii where that fails, by solve_friction where both do and forces are
+/// few; the slip bounds of the dual problem have no meaning here. F has a coefficient for every
+/// contact node; check(λ, u) → a relative error.
 template <class Dual, class Check>
-[[nodiscard]] auto solve_by_newton_or_radii(Dual& problem, typename Dual::vector_type const& F,
-                                            coulomb_limits const& o, Check const& check)
+[[nodiscard]] auto solve_by_all_methods(Dual& problem, typename Dual::vector_type const& F,
+                                        coulomb_limits const& o, Check const& check)
     -> coulomb_result<typename Dual::vector_type> {
   using vector_type = typename Dual::vector_type;
   using S = scalar_t<vector_type>;
@@ -288,6 +324,11 @@ template <class Dual, class Check>
     if (better) r = std::move(other);
   }
   if (r.u.size() == 0) judged(r);
+  if (r.converged() || o.outer_steps == 0 || r.λ.size() > o.forces) return r;
+  auto last = solve_by_matrix(problem, F, o.tolerance, check);
+  last.work += r.work;
+  if (last.converged() || last.error < r.error) return last;
+  r.work = last.work;
   return r;
 }
 
@@ -371,7 +412,7 @@ template <class Friction, class S>
       o.method == coulomb_method::automatic || o.method == coulomb_method::newton;
   auto r = o.method == coulomb_method::cones
                ? detail::solve_by_cones(problem, F, asked, o.outer_steps, check)
-               : detail::solve_by_newton_or_radii(
+               : detail::solve_by_all_methods(
                      problem, F,
                      {.tolerance = asked,
                       .newton_steps = by_newton ? o.newton_steps : 0,
