@@ -51,7 +51,6 @@ TEST_CASE("entries: parts of a long vector") {
 }
 
 TEST_CASE("entries: zeros, infinities and NaN, in vectors of fixed and other size") {
-  double const nan = std::numeric_limits<double>::quiet_NaN();
   auto const check = [&](auto const& v, bool zero, bool finite, bool has_nan) {
     CHECK(entries::all_zero(v) == zero);
     CHECK(entries::all_finite(v) == finite);
@@ -64,7 +63,7 @@ TEST_CASE("entries: zeros, infinities and NaN, in vectors of fixed and other siz
   check(Vector3d(0, -0.0, 0), true, true, false);
   check(Vector3d(0, 5e-324, 0), false, true, false);
   check(Vector2d(1, -infinity), false, false, false);
-  check(Vector2d(nan, 0), false, false, true);
+  check(Vector2d(quiet_nan, 0), false, false, true);
   check(Eigen::Matrix<double, 0, 1>(), true, true, false);
 }
 

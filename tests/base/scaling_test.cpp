@@ -45,7 +45,6 @@ TEST_CASE("scaled norm: the error does not grow with the dimension") {
 TEST_CASE("scaled norm: extremes") {
   using vec = Eigen::Vector2d;
   using slant::detail::scaled_norm;
-  double const quiet_nan = std::numeric_limits<double>::quiet_NaN();
   double const max = std::numeric_limits<double>::max();
   CHECK(scaled_norm<double, 2>(vec(0, 0)).value == 0.0);
   CHECK(scaled_norm<double, 2>(vec(infinity, 1)).value == infinity);

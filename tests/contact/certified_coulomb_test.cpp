@@ -51,9 +51,11 @@ TEST_CASE("certified_coulomb: a brick by every method, the same solution") {
   }
 }
 
-TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fail") {
+TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fail now and then") {
   MatrixXd const I = MatrixXd::Identity(9, 9);
-  for (unsigned const seed : {98U, 272U, 1221U, 1611U, 2308U}) {
+  unsigned const problems = test::effort(4000U, 100U);
+  int by_matrix = 0;
+  for (unsigned seed = 0; seed < problems; ++seed) {
     CAPTURE(seed);
     std::mt19937_64 bits(seed);
     auto const fill = [&](auto&& numbers, double from, double to) {
@@ -64,19 +66,17 @@ TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fa
     fill(Q.reshaped(), -1, 1);
     fill(f, -2, 2);
     fill(F, 0, 20);
-    sparse const K = MatrixXd(Q * Q.transpose() + 0.3 * I).sparseView();
-    contact::data<double> const c{.N = I.topRows(3).sparseView(),
-                                  .T = I.bottomRows(6).sparseView(),
-                                  .f = f,
-                                  .d = VectorXd::Zero(3),
-                                  .g = {}};
+    sparse const K = MatrixXd(Q * Q.transpose() + 0.3 * I).sparseView(), N = I.sparseView();
+    contact::data<double> const c{N.topRows(3), N.bottomRows(6), f, VectorXd::Zero(3), {}};
     auto const r = solve(K, c, F);
     CAPTURE(r.reason);
-    CHECK(r.converged());
-    CHECK(r.method == "solve_friction");
-    CHECK(kkt(K, c, F, r) <= 1e-7);
+    // Where everything sticks u* = 0, and no error is small beside that.
+    CHECK((r.converged() || r.u.norm() <= 1e-8));
+    if (r.method != "solve_friction") continue;
+    ++by_matrix;
     CHECK(test::natural_map(test::dense_dual(K, c), F, r.λ) <= 1e-7);
   }
+  CHECK((by_matrix > 0 && by_matrix < int(problems / 25)));
 }
 
 TEST_CASE("certified_coulomb: thin, slender and nearly floating bodies, no wrong verdict" *

@@ -260,14 +260,13 @@ TEST_CASE("bad data are named and change nothing, not even the part that was goo
     return v;
   };
   VectorXd const f = 2 * t.c.f, d = 2 * t.c.d, g = 2 * t.c.g;
-  double const nan = std::nan("");
   CHECK(complaint(dual, {.f = f.head(3), .d = d, .g = g}) ==
         "f: got 3, expected one load per unknown, " + std::to_string(f.size()));
-  CHECK(complaint(dual, {.f = entry(f, 3, nan), .d = d, .g = g}) ==
+  CHECK(complaint(dual, {.f = entry(f, 3, quiet_nan), .d = d, .g = g}) ==
         "f[3]: got nan, expected a finite number");
   CHECK(complaint(dual, {.f = f, .d = d.head(3), .g = g}) ==
         "d: got 3, expected one gap per row of N, " + std::to_string(d.size()));
-  CHECK(complaint(dual, {.f = f, .d = entry(d, 0, nan), .g = g}) ==
+  CHECK(complaint(dual, {.f = f, .d = entry(d, 0, quiet_nan), .g = g}) ==
         "d[0]: got nan, expected a number or +inf");
   CHECK(complaint(dual, {.f = f, .d = entry(d, 0, infinity), .g = g}) ==
         "d[0]: got inf, expected a finite number, since this gap was finite when B was made");

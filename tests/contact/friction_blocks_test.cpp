@@ -122,10 +122,10 @@ TEST_CASE("blocks: penetration counts however large μ is, and rounding is no sl
 }
 
 TEST_CASE("blocks: a NaN in an error is not hidden") {
-  double const nan = std::nan("");
   using error = slant::contact::friction_error<double>;
-  for (auto const& e : {error{nan, 0, 0, 0}, error{0, nan, 0, 0}, error{0, nan, nan, 0},
-                        error{0, 0, 0, nan}, error{nan, 1, 0, 1}}) {
+  for (auto const& e :
+       {error{quiet_nan, 0, 0, 0}, error{0, quiet_nan, 0, 0}, error{0, quiet_nan, quiet_nan, 0},
+        error{0, 0, 0, quiet_nan}, error{quiet_nan, 1, 0, 1}}) {
     CHECK(std::isnan(e.worst()));
     CHECK(!e.at_most(1));
   }

@@ -17,7 +17,6 @@ namespace iterated_coulomb_test {
 
 namespace contact = slant::contact;
 using contact::solution_route;
-using Eigen::Index;
 using options = contact::certified_coulomb_options<double>;
 
 struct scene {

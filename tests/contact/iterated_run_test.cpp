@@ -24,7 +24,6 @@ namespace iterated_run_test {
 
 namespace contact = slant::contact;
 using contact::solution_route;
-using Eigen::Index;
 using oracle::energy_error;
 using options = contact::solve_options<double>;
 

@@ -11,7 +11,6 @@
 
 namespace plausibility_test {
 
-using Eigen::Index;
 using slant::contact::check_plausibility;
 
 /// Contact data whose rows can be changed.

@@ -66,7 +66,6 @@ struct found {
 };
 
 TEST_CASE("the other route follows where one gets nowhere, and the nearer result is told") {
-  auto const nan = std::numeric_limits<double>::quiet_NaN();
   struct run {
     solution_route begin;
     double first, second;  // errors; −1: refused
@@ -80,7 +79,7 @@ TEST_CASE("the other route follows where one gets nowhere, and the nearer result
            {factor, 1, 1e-9, 1e-9, "why; iterated after all: first"},
            {factor, 1, 0.5, 0.5, "why; iterated after all: first"},
            {factor, 1, 2, 1, "why; iterated in vain: second"},
-           {factor, 1, nan, 1, "why; iterated in vain: second"},
+           {factor, 1, quiet_nan, 1, "why; iterated in vain: second"},
            {factor, 1, -1, 1, "why; iterated in vain"},
            {factor, infinity, 0, infinity, "why"},  // unbounded
            {iterate, 1, infinity, infinity, "why; factored after all: first"},

@@ -306,10 +306,9 @@ TEST_CASE("verify: bad input, NaN and nothing at all") {
   wrong.mu[0] = -1;
   CHECK_THROWS_AS((void)verify(wrong, test::numbers({1, 0})), slant::bad_input);
 
-  double const nan = std::numeric_limits<double>::quiet_NaN();
   random_case const c(1, 3, 4);
   VectorXd r = c.r;
-  r[4] = nan;
+  r[4] = quiet_nan;
   auto const check = verify(c.p, r);
   CHECK(std::isnan(check.natural_map));
   CHECK(std::isnan(check.outside_cone.value));

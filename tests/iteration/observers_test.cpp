@@ -128,8 +128,8 @@ TEST_CASE("a disabled bar prints nothing, a rare one prints rarely") {
 }
 
 TEST_CASE("an error that is no number, or meets no scale, does not look like success") {
-  double const nan = std::numeric_limits<double>::quiet_NaN();
-  for (auto const& text : {drawn_at(nan, 1), drawn_at(1, nan), drawn_at(0, nan), drawn_at(1, 0)}) {
+  for (auto const& text :
+       {drawn_at(quiet_nan, 1), drawn_at(1, quiet_nan), drawn_at(0, quiet_nan), drawn_at(1, 0)}) {
     CAPTURE(text);
     CHECK(text.find('#') == std::string::npos);
     CHECK(text.find("[..............................]") != std::string::npos);

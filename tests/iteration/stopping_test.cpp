@@ -118,11 +118,10 @@ TEST_CASE("a relative step, with and without an offset") {
 
 TEST_CASE("before the first step, out of range, NaN: no success") {
   slant::step_below const rule(1e-3);
-  double const nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(rule(state{infinity, 1}) == slant::status::running);
   CHECK(rule(state{1, infinity}) == slant::status::running);
-  CHECK(rule(state{nan, 1}) == slant::status::running);
-  CHECK(rule(state{1, nan}) == slant::status::running);
+  CHECK(rule(state{quiet_nan, 1}) == slant::status::running);
+  CHECK(rule(state{1, quiet_nan}) == slant::status::running);
 }
 
 TEST_CASE("bad input is named") {

@@ -11,7 +11,6 @@
 
 namespace composite_test {
 
-using Eigen::Index;
 using slant::support;
 
 /// 24 unknowns: a box, discs (one of radius 0), balls in space, a half line, which bounds from above.

@@ -7,8 +7,6 @@
 
 namespace options_test {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Options, and how the complaint about them begins.
 template <class Options>
 struct row {
@@ -31,7 +29,7 @@ TEST_CASE("KPRGP and QPC") {
       {{{}},
        {{.proportioning = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}},
        {{.proportioning = 0}, "proportioning: got 0, expected a finite number > 0"},
-       {{.proportioning = nan}, "proportioning: got nan, expected a finite number > 0"},
+       {{.proportioning = quiet_nan}, "proportioning: got nan, expected a finite number > 0"},
        {{.proportioning = infinity}, "proportioning: got inf, expected a finite number > 0"},
        {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
        {{.step_length = infinity}, "step_length: got inf, expected a finite number > 0"},
@@ -52,7 +50,7 @@ TEST_CASE("MSSN and IMSSN") {
       {{{.forcing = {.r_tol = 1}}, "r_tol: got 1, expected a number in (0, 1)"},
        {{.forcing = {.c_fact = 0}}, "c_fact: got 0"},
        {{.step_length = -1}, "step_length: got -1, expected a finite number > 0"},
-       {{.step_factor = nan}, "step_factor: got nan"},
+       {{.step_factor = quiet_nan}, "step_factor: got nan"},
        {{.max_inner = 0}, "max_inner: got 0, expected a number >= 1"}});
 }
 
@@ -74,7 +72,7 @@ TEST_CASE("the symmetric Newton method") {
   check<slant::symmetric_newton_options<double>>(
       {{{}},
        {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
-       {{.step_factor = nan}, "step_factor: got nan"},
+       {{.step_factor = quiet_nan}, "step_factor: got nan"},
        {{.inner_steps = 0}, "inner_steps: got 0"},
        {{.sufficient = 1.0}, "sufficient: got 1"}});
 }
@@ -84,7 +82,7 @@ TEST_CASE("interior points") {
       {{{}},
        {{.step_length = -1.0}, "step_length: got -1"},
        {{.start_length = 0.0}, "start_length: got 0"},
-       {{.start_force = nan}, "start_force: got nan"},
+       {{.start_force = quiet_nan}, "start_force: got nan"},
        {{.centring_least = 0.6}, "centring_least: got 0.6"},
        {{.inner_share = 1}, "inner_share: got 1"},
        {{.inner_steps = 0}, "inner_steps: got 0"}});

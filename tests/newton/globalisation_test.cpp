@@ -29,11 +29,9 @@ std::vector<double> lengths(G const& g, std::vector<double> const& residuals) {
   return tried;
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 TEST_CASE("a full step is taken wherever F is finite") {
   CHECK(lengths(slant::full_step{}, {1e6}) == std::vector<double>{1});
-  CHECK(lengths(slant::full_step{}, {nan}) == std::vector<double>{1, 0});
+  CHECK(lengths(slant::full_step{}, {quiet_nan}) == std::vector<double>{1, 0});
   CHECK(lengths(slant::multiple_root{.multiplicity = 3}, {5}) == std::vector<double>{3});
   CHECK(lengths(slant::multiple_root{}, {std::numeric_limits<double>::infinity()}) ==
         std::vector<double>{2, 0});
@@ -43,7 +41,7 @@ TEST_CASE("halving ends at a sufficient decrease") {
   slant::halving_line_search const search{.sufficient = 0.1, .max_halvings = 3};
   CHECK(lengths(search, {0.9}) == std::vector<double>{1});
   CHECK(lengths(search, {0.91, 0.95}) == std::vector<double>{1, 0.5});
-  CHECK(lengths(search, {nan, 2, 0.97}) == std::vector<double>{1, 0.5, 0.25});
+  CHECK(lengths(search, {quiet_nan, 2, 0.97}) == std::vector<double>{1, 0.5, 0.25});
   CHECK(lengths(search, {2, 2, 2, 1}) == std::vector<double>{1, 0.5, 0.25, 0.125, 0});
 }
 

@@ -108,7 +108,6 @@ TEST_CASE("the factor of an inverse is rounded in the scalar of the vector") {
 }
 
 TEST_CASE("the factor must be a number, and positive if that is claimed") {
-  double const nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(SLANT_COMPLAINT(slant::scaled(infinity, slant::identity(1))) ==
         "c: got inf, expected a finite number");
   static_assert(!std::is_aggregate_v<slant::positive_factor<double>>);
@@ -118,7 +117,7 @@ TEST_CASE("the factor must be a number, and positive if that is claimed") {
   auto const positive = [](auto c) { return test::complaint([c] { (void)slant::positive(c); }); };
   CHECK(positive(0.0) == "c: got 0, expected a finite number > 0");
   CHECK(positive(-1) == "c: got -1, expected a finite number > 0");
-  CHECK(positive(nan) == "c: got nan, expected a finite number > 0");
+  CHECK(positive(quiet_nan) == "c: got nan, expected a finite number > 0");
   CHECK(positive(infinity) == "c: got inf, expected a finite number > 0");
 }
 

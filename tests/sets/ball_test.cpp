@@ -10,7 +10,6 @@ namespace ball_test {
 using oracle::float_50;
 using slant::ball;
 using slant::block_state;
-using vec2 = Eigen::Vector2d;
 
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
@@ -33,25 +32,25 @@ TEST_CASE_TEMPLATE("ball: known answers", S, float, float_50) {
 }
 
 TEST_CASE("ball: the projection takes any expression, and one number for N = 1") {
-  CHECK(slant::disc<>(5.0).project(2.0 * vec2(3, 4)) == vec2(3, 4));
+  CHECK(slant::disc<>(5.0).project(2.0 * Vector2d(3, 4)) == Vector2d(3, 4));
   CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(-7.0))(0) == -2.0);
   CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(infinity))(0) == 2.0);
 }
 
 TEST_CASE("ball: state and membership within a few ulp of the sphere") {
   slant::disc<> const disc(5.0);
-  CHECK(disc.state(vec2(3, 4)) == block_state::sliding);
-  CHECK(disc.state((1 - 4 * ε) * vec2(3, 4)) == block_state::sliding);
-  CHECK(disc.state((1 - 40 * ε) * vec2(3, 4)) == block_state::free);
-  CHECK(disc.contains((1 + 4 * ε) * vec2(3, 4)));
-  CHECK_FALSE(disc.contains((1 + 40 * ε) * vec2(3, 4)));
+  CHECK(disc.state(Vector2d(3, 4)) == block_state::sliding);
+  CHECK(disc.state((1 - 4 * ε) * Vector2d(3, 4)) == block_state::sliding);
+  CHECK(disc.state((1 - 40 * ε) * Vector2d(3, 4)) == block_state::free);
+  CHECK(disc.contains((1 + 4 * ε) * Vector2d(3, 4)));
+  CHECK_FALSE(disc.contains((1 + 40 * ε) * Vector2d(3, 4)));
   CHECK(ball<1>(2.0).state(Eigen::Matrix<double, 1, 1>(2.0)) == block_state::fixed);
   CHECK(ball<1>(2.0).state(Eigen::Matrix<double, 1, 1>(1.0)) == block_state::free);
 }
 
 TEST_CASE("ball: radius 0 and infinity") {
   slant::disc<> const none(0.0), plane(infinity);
-  vec2 const zero(0, 0), x(1e200, -3), y(2, 0);
+  Vector2d const zero(0, 0), x(1e200, -3), y(2, 0);
   CHECK(none.project(x) == zero);
   CHECK(none.contains(zero));
   CHECK(none.state(zero) == block_state::fixed);
@@ -81,26 +80,26 @@ TEST_CASE("ball: slanting function, off the kink and on it [K (50), (51)]") {
     oracle::check_slant(ball<3>(g), x, naive_project, 1e-13 * g, 4);
     if (x.norm() > g) CHECK((ball<3>(g).slant(x) * x).norm() <= 4 * ε * g);
   }
-  CHECK(slant::disc<>(5.0).slant(vec2(3, 4)) == Eigen::Matrix2d::Identity());
+  CHECK(slant::disc<>(5.0).slant(Vector2d(3, 4)) == Eigen::Matrix2d::Identity());
   for (double s : {1e-170, 1e170}) {
-    Eigen::Matrix2d const G = slant::disc<>(5 * s).slant(vec2(6 * s, 8 * s));
-    CHECK((G - slant::disc<>(5.0).slant(vec2(6, 8))).norm() <= 4 * ε);
+    Eigen::Matrix2d const G = slant::disc<>(5 * s).slant(Vector2d(6 * s, 8 * s));
+    CHECK((G - slant::disc<>(5.0).slant(Vector2d(6, 8))).norm() <= 4 * ε);
   }
-  CHECK(slant::disc<>(1e-200).slant(vec2(1e200, 0)).norm() == 0.0);
+  CHECK(slant::disc<>(1e-200).slant(Vector2d(1e200, 0)).norm() == 0.0);
 }
 
 TEST_CASE("ball: support is the largest inner product") {
   oracle::number_source<double> source(13);
   for (int i = 0; i < 200; ++i) {
     double const g = source.positive_of_size(-150, 150);
-    vec2 const y = source.of_size(-150, 150) * source.direction<2>();
+    Vector2d const y = source.of_size(-150, 150) * source.direction<2>();
     float_50 const exact = float_50(g) * oracle::widen<float_50>(y).norm();
     CHECK(oracle::ulp_distance<double>(slant::disc<>(g).support(y), exact) <= 4);
   }
 }
 
 TEST_CASE("ball: next to the sphere all digits of ‖x‖² − g² cancel, the difference is right") {
-  vec2 const x(0.6 * (1 + 3 * ε), 0.8);
+  Vector2d const x(0.6 * (1 + 3 * ε), 0.8);
   float_50 const exact = oracle::widen<float_50>(x).squaredNorm() - 1;
   CHECK(oracle::ulp_distance<double>(slant::disc<>(1.0).inequality(x)(0), exact) <= 1);
 }
@@ -111,7 +110,7 @@ TEST_CASE("ball: the ends of the exponent range") {
   for (double g : {least, 3 * least, 1e-310, 1e-300, 1e300, max}) {
     for (double size : {least, 1e-320, 1e-300, 1.0, 1e300, max}) {
       slant::disc<> const disc(g);
-      vec2 const x(size, -size);
+      Vector2d const x(size, -size);
       auto const p = disc.project(x);
       CHECK(disc.contains(p));
       if (!disc.contains(x))

@@ -70,7 +70,6 @@ TEST_CASE("blocks: a set that is no product is its own only block") {
 }
 
 TEST_CASE("blocks: the smallest of several steps") {
-  constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
   slant::detail::smallest_step<double> all(0.0);
   CHECK(all.value() == infinity);
   CHECK(!all(3.0));

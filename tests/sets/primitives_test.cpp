@@ -16,7 +16,6 @@ using oracle::float_50;
 using source = oracle::number_source<double>;
 using cone = slant::second_order_cone<3>;
 using S = slant::testing::archetype::scalar;
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double ε = std::numeric_limits<double>::epsilon();
 
 TEST_CASE("projections at random and adversarial points: within some ulp of 50 digits") {

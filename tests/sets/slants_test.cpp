@@ -14,7 +14,6 @@ using namespace products;
 using slant::block_diagonal_slant;
 using bounds = slant::block_diagonal_slant<double, 1>;
 using whole = slant::block_diagonal_slant<double, 1, slant::consecutive, true>;
-constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Two blocks that are easy to tell apart, in a given layout.
 template <class Layout>

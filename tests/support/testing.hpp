@@ -34,6 +34,7 @@
 #include <utility>
 #include <vector>
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -41,6 +42,7 @@ using Eigen::VectorXd;
 using sparse = Eigen::SparseMatrix<double>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double quiet_nan = std::numeric_limits<double>::quiet_NaN();
 
 namespace test {
 
