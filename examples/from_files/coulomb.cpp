@@ -25,7 +25,8 @@ namespace contact = slant::contact;
 }
 
 [[nodiscard]] std::string name_of(std::string_view method) {
-  return method == "Newton" ? "newton" : method == "cones" ? "cones" : "radii";
+  if (method == "cones" || method == "solve_friction") return std::string(method);
+  return method == "Newton" ? "newton" : "radii";
 }
 
 template <class Friction>

@@ -19,7 +19,7 @@ struct coulomb_settings {
   slant::contact::node_layout<double> layout{};  ///< where the unknowns are; may be unknown
 };
 
-/// `automatic` is the default of the library, `newton` and `radii` are its two parts.
+/// `automatic` is the default of the library, `newton` and `radii` are its first two parts.
 enum class coulomb_kind { automatic, newton, radii, cones };
 
 struct coulomb_method {
@@ -29,7 +29,8 @@ struct coulomb_method {
 };
 
 inline constexpr std::array coulomb_methods{
-    coulomb_method{"coulomb", "newton, and radii where that fails.", coulomb_kind::automatic},
+    coulomb_method{"coulomb", "newton, radii where that fails, then solve_friction.",
+                   coulomb_kind::automatic},
     coulomb_method{"newton", "Semismooth Newton for the equations of Alart and Curnier, GMRES.",
                    coulomb_kind::newton},
     coulomb_method{"radii", "Fixed points: Tresca's problems with the slip bounds F lambda_n.",

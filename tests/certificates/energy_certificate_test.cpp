@@ -217,6 +217,8 @@ TEST_CASE("relative errors: of a solution that is zero, of one about which nothi
   // An estimate just below the size at a point 1e13 solutions away: nothing is known.
   CHECK(std::isinf(slant::energy_error<double>{.bound = 1 - 1e-6, .size = 1}.relative()));
   CHECK(std::isinf(slant::energy_error<double>{}.relative()));
+  CHECK(slant::energy_error<double>{.bound = 2, .size = 1}.sentence() ==
+        "relative energy error inf (2 at a point of energy norm 1), estimated");
   CHECK(std::isnan(slant::error_bound_of_root(quiet_nan, 0.0)));
   CHECK(std::isnan(slant::error_bound_of_root(0.0, quiet_nan)));
   CHECK(slant::error_bound_of_root(infinity, infinity) == infinity);

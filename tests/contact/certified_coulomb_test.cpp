@@ -52,8 +52,7 @@ TEST_CASE("certified_coulomb: a brick by every method, the same solution") {
 }
 
 TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fail now and then") {
-  MatrixXd const I = MatrixXd::Identity(9, 9);
-  unsigned const problems = test::effort(4000U, 100U);
+  unsigned const problems = test::effort(4000U, 300U);
   int by_matrix = 0;
   for (unsigned seed = 0; seed < problems; ++seed) {
     CAPTURE(seed);
@@ -61,7 +60,7 @@ TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fa
     auto const fill = [&](auto&& numbers, double from, double to) {
       for (double& x : numbers) x = from + (to - from) * std::ldexp(double(bits() >> 11), -53);
     };
-    MatrixXd Q(9, 9);
+    MatrixXd Q(9, 9), I = MatrixXd::Identity(9, 9);
     VectorXd f(9), F(3);
     fill(Q.reshaped(), -1, 1);
     fill(f, -2, 2);
@@ -70,8 +69,7 @@ TEST_CASE("certified_coulomb: so much friction that Newton's method and radii fa
     contact::data<double> const c{N.topRows(3), N.bottomRows(6), f, VectorXd::Zero(3), {}};
     auto const r = solve(K, c, F);
     CAPTURE(r.reason);
-    // Where everything sticks u* = 0, and no error is small beside that.
-    CHECK((r.converged() || r.u.norm() <= 1e-8));
+    CHECK((r.converged() || r.u.norm() <= 1e-8));  // the latter where everything sticks, u* = 0
     if (r.method != "solve_friction") continue;
     ++by_matrix;
     CHECK(test::natural_map(test::dense_dual(K, c), F, r.λ) <= 1e-7);

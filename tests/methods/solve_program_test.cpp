@@ -155,6 +155,7 @@ TEST_CASE("solve(program with equations, tolerance): unbounded, with the directi
     CAPTURE(run.reason);
     CHECK(run.status == slant::status::unbounded);
     REQUIRE(run.descent.size() == 4);
+    CHECK(run.choice.starts_with("blocks scaled") == (stiffness < 1));
     VectorXd const d = run.descent.normalized();
     CHECK(d.minCoeff() >= 0);
     CHECK((K * d).norm() + (G * d).norm() <= 1e-12);

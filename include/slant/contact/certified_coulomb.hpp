@@ -91,8 +91,8 @@ struct certified_coulomb_result {
   coulomb_error<scalar_t<V>> error{};  ///< of (λ, u)
   slant::status status = status::running;
   std::string reason{};  ///< the status as a sentence
-  /// "Newton", "successive approximations", "solve_friction", "cones"; without factors "slip bounds and Newton", or
-  /// "successive slip bounds" alone.
+  /// "Newton", "successive approximations", "solve_friction", "cones"; without factors "slip bounds
+  /// and Newton", or "successive slip bounds" alone.
   std::string_view method{};
   index steps = 0;              ///< of that method; of slip bounds each of Tresca's problems is one
   slant::work work{};           ///< of all methods and the certificate
@@ -147,7 +147,7 @@ struct coulomb_limits {
   double tolerance = 1e-10;
   index newton_steps = 60;  ///< of Newton's method at most; 0: none, if the others are some
   index outer_steps = 300;  ///< of successive approximations at most; 0: none, if the others are
-  index forces = 1500;  ///< with more than so many there is no solve_friction; nor after one method
+  index forces = 1500;      ///< up to which solve_friction may follow, where both methods may run
 };
 
 /// What a run by these methods found.
@@ -261,7 +261,7 @@ template <class Dual, class V, class Check>
   auto found = solve_friction(condensed, {.tolerance = std::max<S>(S(tolerance), floor)});
   r.λ = cones.by_directions(found.r);
   r.method = "solve_friction";
-  r.steps = found.work.newton_steps;
+  r.steps = found.work.sweeps + found.work.newton_steps;
   judge(problem, F, check, r);
   bool const is_enough = r.error <= S(100) * S(tolerance);
   r.status = is_enough ? slant::status::converged : slant::status::stalled;
@@ -308,10 +308,12 @@ template <class Dual, class Check>
       },
       [&](vector_type const& x) { return cones.by_directions(x); });
   if (r.converged()) return r;
+  bool stuck = false;
   if (o.outer_steps > 0) {
     coulomb_result<vector_type> other{problem.zero()};
     other.work = r.work;
     approximate(other);
+    stuck = other.status != status::iteration_limit || other.steps >= 100;
     bool better = other.converged();
     if (!better && r.u.size() > 0 && other.u.size() > 0) {
       better = other.error < r.error;
@@ -324,11 +326,18 @@ template <class Dual, class Check>
     if (better) r = std::move(other);
   }
   if (r.u.size() == 0) judged(r);
-  if (r.converged() || o.outer_steps == 0 || r.λ.size() > o.forces) return r;
-  auto last = solve_by_matrix(problem, F, o.tolerance, check);
-  last.work += r.work;
-  if (last.converged() || last.error < r.error) return last;
-  r.work = last.work;
+  // Near, it is a matter of digits; at a limit of few steps nobody wants more.
+  using std::sqrt;
+  bool const is_near = r.error <= sqrt(std::numeric_limits<S>::epsilon());
+  bool const is_open = !r.converged() && !is_near && stuck && r.λ.size() <= o.forces;
+  if (!is_open) return r;
+  try {
+    auto last = solve_by_matrix(problem, F, o.tolerance, check);
+    last.work += r.work;
+    if (last.converged() || !(r.error <= last.error)) return last;
+    r.work = last.work;
+  } catch (bad_input const&) {  // numbers of the matrix are out of range
+  }
   return r;
 }
 

@@ -23,8 +23,8 @@
 // applied in the cut face, as P W M W P with P onto range(Π) ∩ ker N
 // (methods/parts/curved_minimum.hpp).
 //
-// Where equations depend on others on the face (N Π Nᵀ is singular) and do not agree there, or no β
-// is accepted, SMALSE-M takes over from x and ν until θ(x, ν) is a
+// Where equations depend on others on the face (N Π Nᵀ is singular) and do not agree there, no β is
+// accepted, or A resists a step by rounding only, SMALSE-M takes over from x and ν until θ(x, ν) is a
 // tenth below its value at the failure. It converges from everywhere, so this takes finitely many
 // steps, and from failure to failure θ falls by a factor. Where it gets nowhere, because the
 // multiplier is far away in units of its penalty, the penalty grows.
@@ -453,6 +453,7 @@ class constrained_newton<QP, C, M> {
                                         s.preconditioner_size, target, options_.inner_steps);
     if (!note_inner(inner, s)) {
       if constexpr (declares_positive_definite<typename problem::operator_type>) return;
+      if (inner.iterations < 2) return;
       // A direction that A does not resist but for rounding; the other method knows these.
       s.status = status::running;
       return begin_fallback(s);

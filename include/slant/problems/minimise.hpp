@@ -50,7 +50,8 @@ struct kept_term<V> {
 
 }  // namespace detail
 
-/// q(x) = ½ xᵀA x − bᵀx. Lvalues are referenced; b may be an expression such as 2 * f.
+/// q(x) = ½ xᵀA x − bᵀx. Lvalues are referenced; an expression or a view in the
+/// place of b, such as 2 * f, is evaluated.
 template <class A, class V>
 [[nodiscard]] auto quadratic(A&& a, V&& b) {
   using term = typename detail::kept_term<V>::type;

@@ -4,7 +4,6 @@
 //
 //     half_lines(m) * discs(g)       the product of two sets, kept flat: cartesian
 //     2.0 * Λ                        { 2 z : z ∈ Λ }: scaled
-//     2.0 * support(Λ)               the function 2 σ_Λ = σ_{2Λ}
 //     Λ + c, c + Λ, Λ - c            { z ± c : z ∈ Λ }, c a vector: shifted
 //
 // Found by argument-dependent lookup; the functions of those names do the same.
@@ -75,11 +74,13 @@ template <class S, set_term C>
   return slant::scaled(c, std::forward<C>(set));
 }
 
-/// c σ_Λ = σ_{cΛ}. @throws bad_input unless c is a finite number > 0.
+/// Refused: the set says it better, and its zeros stay exact.
 template <class S, class C>
   requires std::convertible_to<S, set_scalar_t<support_function<C>>>
-[[nodiscard]] auto operator*(S const& c, support_function<C> const& σ) {
-  return slant::support(slant::scaled(c, static_cast<C>(σ.part())));
+support_function<C> operator*(S const&, support_function<C> σ) {
+  static_assert(!std::same_as<S, S>,
+                "c * support(set): give the set its size, as in support(discs(c * g))");
+  return σ;
 }
 
 /// Λ + c. @throws bad_input unless c has the size of Λ and finite entries.
