@@ -9,8 +9,6 @@
 
 namespace constrained_certificate_test {
 
-using test::sparse;
-
 /// A program that is made from its solution, with random equations that hold there.
 struct constrained_program : test::made_program {
   sparse G;

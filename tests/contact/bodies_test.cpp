@@ -21,7 +21,6 @@
 namespace bodies_test {
 
 using slant::status;
-namespace contact = slant::contact;
 
 struct answer {
   VectorXd u;

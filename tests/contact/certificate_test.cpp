@@ -11,8 +11,6 @@
 
 namespace certificate_test {
 
-namespace contact = slant::contact;
-
 /// Throws if K is not positive definite.
 constexpr auto be_definite = [](auto const& K) { (void)slant::factorize(K); };
 

@@ -13,7 +13,6 @@
 namespace certified_coulomb_test {
 
 using slant::status;
-namespace contact = slant::contact;
 
 constexpr contact::coulomb_method methods[] = {
     contact::coulomb_method::automatic, contact::coulomb_method::newton,

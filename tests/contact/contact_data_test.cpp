@@ -7,7 +7,6 @@
 
 namespace contact_data_test {
 
-namespace contact = slant::contact;
 using slant::index;
 
 slant::contact::data<double> good() {

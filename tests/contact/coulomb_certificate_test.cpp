@@ -11,8 +11,6 @@
 
 namespace coulomb_certificate_test {
 
-namespace contact = slant::contact;
-
 /// A scene, its certificate, and an oracle for Tresca's problem with any slip bounds.
 struct scene {
   Eigen::SparseMatrix<double> K;

@@ -12,7 +12,6 @@
 namespace coulomb_families_test {
 
 using namespace test::evaluated;
-namespace contact = slant::contact;
 constexpr double tolerance = 1e-11;
 
 /// What a run leaves of a state, so that one type of test serves all coefficients.

@@ -14,8 +14,6 @@
 
 namespace coulomb_newton_test {
 
-namespace contact = slant::contact;
-
 auto stop(double tolerance) {
   return slant::residual_below(tolerance) || slant::at_most(100);
 }

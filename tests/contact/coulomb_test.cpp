@@ -12,8 +12,6 @@
 
 namespace coulomb_test {
 
-namespace contact = slant::contact;
-
 auto stop(double tolerance) {
   return slant::reduced_gradient_below(tolerance) || slant::at_most(200);
 }

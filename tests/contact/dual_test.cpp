@@ -12,8 +12,6 @@
 
 namespace dual_test {
 
-namespace contact = slant::contact;
-
 /// The multipliers of a dual problem, by a method that needs no settings.
 template <class Dual>
 VectorXd solved(Dual const& dual, double tolerance) {

@@ -6,8 +6,6 @@
 
 namespace extension_test {
 
-namespace contact = slant::contact;
-
 /// ‖d‖_{A⁻¹} of a brick by dense linear algebra, A = B K⁻¹Bᵀ.
 struct brick {
   fem::contact_scene<3> scene = fem::make_steel_brick({.k = 3, .load = fem::brick_load::lift});

@@ -5,7 +5,6 @@
 
 namespace friction_problem_test {
 
-namespace contact = slant::contact;
 using namespace test::evaluated;
 using problem = slant::contact::friction_problem<double>;
 using slant::contact::asymmetry;

@@ -15,7 +15,6 @@
 
 namespace iterated_coulomb_test {
 
-namespace contact = slant::contact;
 using contact::solution_route;
 using options = contact::certified_coulomb_options<double>;
 

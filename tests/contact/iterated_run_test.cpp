@@ -22,7 +22,6 @@
 
 namespace iterated_run_test {
 
-namespace contact = slant::contact;
 using contact::solution_route;
 using oracle::energy_error;
 using options = contact::solve_options<double>;

@@ -11,7 +11,6 @@
 
 namespace load_stepper_test {
 
-namespace contact = slant::contact;
 using step = contact::load_step<double>;
 
 struct fixture {

@@ -13,7 +13,6 @@
 
 namespace load_steps_test {
 
-namespace contact = slant::contact;
 using step = contact::load_step<double>;
 
 struct fixture {

@@ -15,7 +15,6 @@
 namespace primal_dual_test {
 
 using namespace test::evaluated;
-namespace contact = slant::contact;
 using slanting_support::dense_slant;
 using slanting_support::random_vector;
 

@@ -16,7 +16,6 @@
 
 namespace primal_stepper_test {
 
-namespace contact = slant::contact;
 using step = contact::load_step<double>;
 using options = contact::solve_options<double>;
 using coulomb_options = contact::certified_coulomb_options<double>;

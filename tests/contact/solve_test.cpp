@@ -12,7 +12,6 @@
 
 namespace solve_test {
 
-namespace contact = slant::contact;
 using oracle::energy_error;
 using slant::status;
 

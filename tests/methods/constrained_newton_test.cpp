@@ -95,7 +95,7 @@ TEST_CASE("equations that agree on the face, where they are one: Newton's step, 
     CAPTURE(θ);
     double const s = std::sin(θ), c = std::cos(θ);
     MatrixXd const G{{s, c, 0.0}, {s, 0.0, c}};  // the same for x₁ = x₂ = 0
-    slant::equality_constraints const constraints(test::sparse(G.sparseView()), VectorXd{{s, s}});
+    slant::equality_constraints const constraints(sparse(G.sparseView()), VectorXd{{s, s}});
     auto const r =
         slant::solve(slant::constrained_newton{qp, constraints}, test::zeros(3), accurate(1e-10));
     CHECK(r.converged());
@@ -115,8 +115,7 @@ TEST_CASE("a multiplier that is far away in units of the fallback's penalty is f
     slant::separable_qp const qp{
         slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(p.A), b,
         slant::cartesian(slant::free_components(0), slant::half_lines(2), slant::discs(p.g))};
-    slant::equality_constraints const constraints(test::sparse(G.sparseView()),
-                                                  VectorXd(G * p.solution));
+    slant::equality_constraints const constraints(sparse(G.sparseView()), VectorXd(G * p.solution));
     auto const r =
         slant::solve(slant::constrained_newton{qp, constraints}, test::zeros(6), accurate(1e-9));
     CAPTURE(r.reason);

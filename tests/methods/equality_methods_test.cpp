@@ -11,7 +11,6 @@ namespace equality_methods_test {
 
 using test::accurate;
 using test::known_problem;
-using test::sparse;
 
 /// make(program, constraints) is the method.
 auto const smalse = [](auto const& qp, auto const& c) { return slant::smalse(qp, c); };

@@ -10,7 +10,6 @@ namespace smalse_test {
 using slant::status;
 using test::accurate;
 using test::known_problem;
-using test::sparse;
 
 TEST_CASE("the known solution with its multipliers, in any units and lengths") {
   for (auto const& [unit, length] :

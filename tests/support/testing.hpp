@@ -34,6 +34,9 @@
 #include <utility>
 #include <vector>
 
+namespace slant::contact {}
+namespace contact = slant::contact;
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
