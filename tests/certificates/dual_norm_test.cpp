@@ -27,12 +27,6 @@ TEST_CASE("dual norm of a diagonal operator, from below by the limit of steps, f
   auto const estimate = slant::dual_norm(A, M, d, 60, false, wa, w);
   CHECK(estimate.value == doctest::Approx(exact).epsilon(0.3));
   CHECK(estimate.applications < 30);
-  // Where steps are fast, what is enough takes three of them.
-  VectorXd const near = (1.1 * a.array() + 1).inverse();
-  auto const all = slant::dual_norm(A, spd(near), d, 60, false, wa, w);
-  auto const few = slant::dual_norm(A, spd(near), d, 60, false, wa, w, {}, 4 * exact);
-  CHECK((few.applications == 3 && all.applications > 5));
-  CHECK((few.value >= exact && few.value <= 4 * exact));
 }
 
 TEST_CASE(

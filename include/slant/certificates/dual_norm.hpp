@@ -15,7 +15,7 @@
 // A p.
 //
 // Cost: one application of A and one of M a step, until the remainder is a tenth or the limit is
-// met; or where the value, remainder and all, is `enough` and the terms fall fast.
+// met.
 #pragma once
 
 #include <slant/base/scaling.hpp>
@@ -57,12 +57,10 @@ struct gradient_size {
 
 /// ‖d‖_{A⁻¹} in at most `most` steps. `dominates`: M ⪰ A⁻¹. Infinite where A or M shows no curvature
 /// along what is left of d; with `sizes`, for a semidefinite A, only if that is more than rounding.
-/// An estimate of at most `enough` is not made sharper once a step adds no more than a hundredth.
 template <class A, class M, class V, class WA>
 [[nodiscard]] auto dual_norm(A const& a, M const& m, V const& d, index most, bool dominates,
                              WA& of_a, dual_norm_workspace<V, M>& w,
-                             std::optional<gradient_size<scalar_t<V>>> sizes = {},
-                             scalar_t<V> const& enough = scalar_t<V>(0))
+                             std::optional<gradient_size<scalar_t<V>>> sizes = {})
     -> dual_norm_result<scalar_t<V>> {
   using S = scalar_t<V>;
   using std::sqrt;
@@ -110,11 +108,8 @@ template <class A, class M, class V, class WA>
     }
     if (noise >= S(0)) {
       if (slant::norm(w.r) <= noise / S(10)) break;
-    } else if (dominates) {
-      if (S(100) * rz < energy) break;
-    } else if (k > 2 && S(100) * term < energy) {
-      if (k > 4 && S(100) * recent < energy) break;
-      if (unit * (sqrt(energy) + sqrt(recent)) <= enough) break;
+    } else if (dominates ? S(100) * rz < energy : k > 4 && S(100) * recent < energy) {
+      break;
     }
   }
   // M vanishes along what is left of d, or is not semidefinite, or d is not finite: nothing is

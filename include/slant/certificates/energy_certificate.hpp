@@ -61,9 +61,7 @@ class energy_certificate {
       : energy_certificate(qp, *m.inverse, true) {}
   energy_certificate(QP const&&, M const&) = delete;
 
-  /// An estimate below an eighth of the relative error `goal` is not made sharper.
-  [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0,
-                                                scalar const& goal = scalar(0)) {
+  [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {
     if constexpr (quadratic_program<QP>) {
       slant::project(qp_->set(), slant::local(x0), slant::local(x_));
     } else {
@@ -73,7 +71,6 @@ class energy_certificate {
     ++applications_;
     energy_error<scalar> e;
     e.size = detail::root_of_product(x_, g_);
-    enough_ = goal * e.size / scalar(8);
     vectors::subtract(qp_->b(), g_);
     if (dominates_) {
       auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
@@ -143,8 +140,8 @@ class energy_certificate {
 
   [[nodiscard]] scalar norm_of(vector_type const& d) {
     if (!(slant::norm(d) > scalar(0))) return slant::norm(d);
-    auto const e = dual_norm(qp_->a(), preconditioner(), d, most_, false, a_workspace_, norm_,
-                             sizes(), enough_);
+    auto const e =
+        dual_norm(qp_->a(), preconditioner(), d, most_, false, a_workspace_, norm_, sizes());
     applications_ += e.applications;
     return e.value;
   }
@@ -179,7 +176,6 @@ class energy_certificate {
   dual_norm_workspace<vector_type, preconditioner_type> norm_;
   newton_type newton_;
   scalar typical_{1};  ///< 1/mean(diag A)
-  scalar enough_{0};   ///< of ‖·‖_{A⁻¹}, as dual_norm takes it
 };
 
 template <class QP>

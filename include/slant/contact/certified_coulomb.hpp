@@ -334,7 +334,8 @@ template <class Dual, class Check>
   try {
     auto last = solve_by_matrix(problem, F, o.tolerance, check);
     last.work += r.work;
-    if (last.converged() || !(r.error <= last.error)) return last;
+    bool const is_nearer = last.error < r.error || !slant::detail::is_finite(r.error);
+    if (last.converged() || is_nearer) return last;
     r.work = last.work;
   } catch (bad_input const&) {  // numbers of the matrix are out of range
   }

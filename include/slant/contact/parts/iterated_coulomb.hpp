@@ -124,7 +124,7 @@ template <class Friction, class S, class Certificate>
     result.λ = run.problem().multipliers(state.x);
     vector_type const g = F.cwiseProduct(result.λ.head(nodes).cwiseMax(S(0)));
     slant::project(feasible_set(law, nodes, g), result.λ, result.λ);
-    result.error = {check(result.λ, result.u), frozen(state.x, springs.empty() ? tolerance : S(0))};
+    result.error = {check(result.λ, result.u), frozen(state.x)};
     if (run.problem().offset().size() > 0) result.error.frozen.size = run.size();
     if (!springs.empty()) {
       springs.measure(result.u, goal());

@@ -298,7 +298,7 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
       run.step(share * run.size());
       if (state.status != status::iteration_limit) tell_progress(o, state);
     }
-    result.error = certificate(state.x, o.tolerance);
+    result.error = certificate(state.x);
     if (run.problem().offset().size() > 0) result.error.size = run.size();
     S const error = result.error.relative();
     bool const is_enough = error <= o.tolerance;
