@@ -334,7 +334,7 @@ template <class Dual, class Check>
   try {
     auto last = solve_by_matrix(problem, F, o.tolerance, check);
     last.work += r.work;
-    bool const is_nearer = last.error < r.error || !slant::detail::is_finite(r.error);
+    bool const is_nearer = last.error < r.error || r.error != r.error;
     if (last.converged() || is_nearer) return last;
     r.work = last.work;
   } catch (bad_input const&) {  // numbers of the matrix are out of range
