@@ -137,6 +137,7 @@ template <class Factor>
     add_work(start, result.run);
   }
   result.error = s.error_of(result.run.λ);
+  result.run.work.operator_applications += by_newton.applications();
   result.u = u;
   result.run.λ = λ;
   // Whatever a method says of itself: the certificate is right.

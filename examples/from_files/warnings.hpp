@@ -26,13 +26,13 @@ using warning_list = std::vector<slant::contact::plausibility_warning>;
 [[nodiscard]] inline slant::contact::node_layout<double> read_layout(arguments const& a,
                                                                      problem const& p) {
   if (a.coordinates.empty()) return {};
-  Eigen::MatrixXd const x = slant::read_matrix_market(a.coordinates);
+  Eigen::SparseMatrix<double> const x = slant::read_matrix_market(a.coordinates);
   std::string const name = slant::detail::printable(a.coordinates);
   if (x.rows() != 2 && x.rows() != 3)
     throw slant::bad_input("rows of " + name, slant::detail::show(x.rows()), "2 or 3 coordinates");
-  slant::detail::check_size("entries of " + name, x.size(), p.K.rows(),
+  slant::detail::check_size("entries of " + name, x.rows() * x.cols(), p.K.rows(),
                             "the coordinates of a node for each of its unknowns,");
-  return slant::contact::interleaved_layout(x);
+  return slant::contact::interleaved_layout(Eigen::MatrixXd(x));
 }
 
 /// With --strict the first warning is a refusal.

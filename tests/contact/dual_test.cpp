@@ -217,6 +217,11 @@ TEST_CASE("loads on the line through two others need no solve") {
   load(other, 1);  // nearly is not enough
   load(1e-300 * other, 0);
   load(1e-300 * VectorXd::LinSpaced(first.size(), 3, 1).cwiseSqrt(), 1);
+  // A small difference of two loads would be left with the errors of both.
+  load(first, 1);
+  VectorXd const little = 1e-6 * second;
+  load(first + little, 1);
+  load(((first + little) - first) * 30, 1);
 }
 
 /// What update says of a step that brings more than what is wrong with it; after it everything must

@@ -203,6 +203,10 @@ TEST_CASE("the choice, and what ends without a solution") {
   auto const few = solve(locked, {.outer_steps = 1, .route = solution_route::iterate});
   CHECK(few.status == slant::status::iteration_limit);
   CHECK(few.reason.find("no more problems of Tresca's were allowed") != std::string::npos);
+  options const once{.tolerance = 0, .outer_steps = 1, .route = solution_route::iterate};
+  CHECK(solve(s, once).status == slant::status::iteration_limit);
+  auto const any = std::numeric_limits<Index>::max();
+  CHECK(solve(s, {.outer_steps = any, .route = solution_route::iterate}).converged());
   auto const after = solve(locked, {.outer_steps = 1, .costs = costs});
   CHECK(after.converged());
   CHECK(after.choice.route == solution_route::factor);

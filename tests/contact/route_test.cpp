@@ -62,13 +62,14 @@ struct found {
   slant::status status = slant::status::stalled;
   slant::work work{.operator_applications = 10};
   double condition = 0;
+  slant::index solves = 1;
   [[nodiscard]] bool converged() const { return error.value <= 1e-8; }
 };
 
 TEST_CASE("the other route follows where one gets nowhere, and the nearer result is told") {
   struct run {
     solution_route begin;
-    double first, second;  // errors; −1: refused
+    double first, second;  // errors; −1: refused, −2: no memory
     double expected;
     char const* reason;
   };
@@ -86,12 +87,16 @@ TEST_CASE("the other route follows where one gets nowhere, and the nearer result
            {iterate, 1e-9, 0, 1e-9, "why"},
            {iterate, 1e-8 * 1.1, 0, 0, "why; factored after all: first"},
            {iterate, 1, 2, 1, "why; factored in vain: second"},
+           {iterate, 1, -2, 1, "why; factored in vain"},
+           {factor, -2, 2, 2, "why; iterated after all: no memory"},
            {iterate, -1, 2, 2, "why; factored after all: K: got first, expected another"}}) {
     slant::contact::route_choice choice{.route = r.begin, .reason = "why"};
     auto const attempt = [&](double error, std::string name) {
       if (error == -1) throw slant::bad_input("K", name, "another");
-      return found{
-          {error}, name, error == infinity ? slant::status::unbounded : slant::status::stalled};
+      if (error == -2) throw std::bad_alloc();
+      found f{{error}, name, error == infinity ? slant::status::unbounded : slant::status::stalled};
+      f.condition = name == "second" ? 7 : 0;
+      return f;
     };
     int calls = 0;
     auto const result = slant::contact::detail::by_routes(
@@ -105,8 +110,10 @@ TEST_CASE("the other route follows where one gets nowhere, and the nearer result
     CHECK(result.error.value == r.expected);
     CHECK(choice.reason == r.reason);
     CHECK((choice.route == r.begin) == (r.expected == r.first));
-    CHECK(result.work.operator_applications ==
-          (calls == 1 && r.first >= 0 && !(r.second == -1) ? 20 : 10));
+    bool const is_sum = calls == 1 && r.first >= 0 && !(r.second < 0);
+    CHECK(result.work.operator_applications == (is_sum ? 20 : 10));
+    CHECK(result.solves == (is_sum ? 2 : 1));
+    CHECK((result.condition == 7) == (calls == 1 && !(r.second < 0)));
   }
   // Not asked for, or refused everywhere.
   slant::contact::route_choice choice{.route = iterate, .reason = {}};

@@ -46,6 +46,11 @@ TEST_CASE("overlap of x and y and wrong sizes are refused") {
   CHECK_THROWS_AS(two.tail(n) = S * two.segment(1, n), slant::bad_input);
   CHECK(two == VectorXd::Ones(2 * n));
   CHECK_THROWS_AS((void)(S * two), slant::bad_input);
+  // Rows of a matrix by columns lie between each other and share nothing.
+  MatrixXd rows = MatrixXd::Ones(2, n);
+  rows.row(0).transpose() = S * rows.row(1).transpose();
+  CHECK(rows.row(0).transpose() == VectorXd(S * VectorXd::Ones(n)));
+  CHECK_THROWS_AS((rows.row(1).transpose() = S * rows.row(1).transpose()), slant::bad_input);
 }
 
 /// Three neighbouring components of seven.

@@ -144,6 +144,9 @@ TEST_CASE("sizes of a Schur complement must fit") {
   CHECK(
       SLANT_COMPLAINT(slant::schur_complement(kinv, slant::full_row_rank(b), slant::identity(3))) ==
       "D: got 3 x 3, expected 2 x 2 (the rows of B)");
+  CHECK(SLANT_COMPLAINT(slant::schur_complement(slant::matrix(b), MatrixXd(b.leftCols(2)),
+                                                slant::identity(2))) ==
+        "K: got 2 x 4, expected a square operator");
 }
 
 }  // namespace block_test

@@ -99,12 +99,16 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK(SLANT_COMPLAINT(std::nan("") * G) == "c: got nan, expected a finite number");
   CHECK(SLANT_COMPLAINT(1e-200 * (1e-200 * S))
             .starts_with("c: got 1e-200 * 1e-200, expected numbers whose product is in the range"));
+  CHECK(SLANT_COMPLAINT((1e160 * S) / 1e-160).starts_with("c: got 1e+160 * 1e+160, expected"));
+  CHECK(SLANT_COMPLAINT(1e-200 * G / 1e200).starts_with("c: got 1e-200 * 1e-200, expected"));
   CHECK(SLANT_COMPLAINT(S / 0.0) == "c: got 0, expected a number with a finite reciprocal");
   CHECK(SLANT_COMPLAINT(B * S * B) == "B: got 4 x 7, expected 7 rows (the columns of B S)");
   CHECK(SLANT_COMPLAINT(B + S) == "S: got 7 x 7, expected 4 x 7 (the size of B)");
   CHECK(SLANT_COMPLAINT(S * identity(3)) == "I: got 3 x 3, expected 7 rows (the columns of S)");
   CHECK(SLANT_COMPLAINT(full_row_rank(adjoint(B))) ==
         "B: got 7 x 4, expected at most as many rows as columns (independent rows)");
+  CHECK(SLANT_COMPLAINT(full_column_rank(B)) ==
+        "B: got 4 x 7, expected at most as many columns as rows");
 }
 
 std::string text(auto const& a) {
@@ -183,6 +187,8 @@ TEST_CASE("describe") {
   CHECK(describe(G * Kinv * G).find("│  not self_adjoint: G at the end is not adjoint(G)\n") !=
         std::string::npos);
   CHECK(describe(op<"W">(S + P)).find("└─ S + P   7 × 7, spd") != std::string::npos);
+  auto const many = slant::sum(std::vector{slant::distinct(Kc), slant::distinct(Kc)});
+  CHECK(describe(many).find("workspace 0 bytes") == std::string::npos);
   CHECK(y.isApprox(o.B * o.K.inverse() * o.B.transpose() * x - x, 1e-12));
 }
 

@@ -67,6 +67,15 @@ TEST_CASE("redundant rows in any units are named and left out; contradictions ar
   CHECK(complaint(0, std::numeric_limits<double>::infinity()) ==
         "e[0]: got inf, expected a finite number");
   CHECK_THROWS_AS(slant::equality_constraints(sparse_G, VectorXd(5)), slant::bad_input);
+  auto const one_row = [](double entry, double value) {
+    sparse const row = MatrixXd::Constant(1, 2, entry).sparseView(1, 0);
+    return test::complaint(
+        [&] { slant::equality_constraints const of_row(row, VectorXd{{value}}); });
+  };
+  CHECK(one_row(1.5e308, 1) ==
+        "length of row 0 of G: got inf, expected a finite number with a finite reciprocal");
+  CHECK(one_row(1e-309, 0).starts_with("length of row 0 of G: got 1.4"));
+  CHECK(one_row(1e-160, 1e160).starts_with("e over the length of its row of G[0]: got inf"));
 }
 
 TEST_CASE("rows next to each other are refused by name, not dropped; agreement is judged by row") {

@@ -35,6 +35,7 @@ TEST_CASE("ball: the projection takes any expression, and one number for N = 1")
   CHECK(slant::disc<>(5.0).project(2.0 * Vector2d(3, 4)) == Vector2d(3, 4));
   CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(-7.0))(0) == -2.0);
   CHECK(ball<1>(2.0).project(Eigen::Matrix<double, 1, 1>(infinity))(0) == 2.0);
+  CHECK(ball<1>(2.0).slant(Eigen::Matrix<double, 1, 1>(infinity))(0) == 0.0);
 }
 
 TEST_CASE("ball: state and membership within a few ulp of the sphere") {
@@ -66,6 +67,7 @@ TEST_CASE("ball: radius 0 and infinity") {
   CHECK(plane.support(y) == infinity);
   CHECK(plane.support(zero) == 0.0);
   CHECK(plane.inequality(y)(0) == -infinity);
+  CHECK(slant::disc<>(1e160).inequality(y)(0) == -infinity);
 }
 
 TEST_CASE("ball: slanting function, off the kink and on it [K (50), (51)]") {

@@ -51,6 +51,7 @@ TEST_CASE("ellipse: aspect ratios beyond all use stay sane") {
   CHECK(needle.project(Vector2d(3e155, 1e-155)) == Vector2d(1e155, 0));
   CHECK(needle.project(Vector2d(1e100, 1e-156)) == Vector2d(1e100, 1e-156));
   CHECK(needle.project(Vector2d(0, 1)) == Vector2d(0, 1e-155));
+  CHECK(ellipse<>(1.0, 2.1e-292).project(Vector2d(1e17, 0)) == Vector2d(1, 0));
 }
 
 TEST_CASE("ellipse: slanting function off the curve, on it and inside") {

@@ -83,6 +83,21 @@ TEST_CASE("power: sizes that do not match are not members") {
   auto const set = power(slant::half_line<>{}, 3);
   CHECK(set.contains(vec<>(vec<>::Ones(3))));
   CHECK(!set.contains(vec<>(vec<>::Ones(2))));
+  // Nor points, directions, or forces.
+  VectorXd const x = VectorXd::Ones(3), few = VectorXd::Ones(2);
+  auto const product = slant::cartesian(set, slant::half_lines(2));
+  slant::any_set<double> const any(product);
+  auto const refused = [](auto const& of, VectorXd const& five, VectorXd const& other) {
+    CHECK_THROWS_AS((void)of.step_to_boundary(other, five), slant::bad_input);
+    CHECK_THROWS_AS((void)of.step_to_boundary(five, other), slant::bad_input);
+    CHECK_THROWS_AS((void)of.support(other), slant::bad_input);
+    CHECK_THROWS_AS((void)of.slant(other), slant::bad_input);
+    CHECK_THROWS_AS((void)slant::face(of, other), slant::bad_input);
+    CHECK(SLANT_COMPLAINT(slant::function_value(slant::support(of), other)).starts_with("x: got"));
+  };
+  refused(set, x, few);
+  refused(product, VectorXd::Ones(5), x);
+  refused(any, VectorXd::Ones(5), x);
 }
 
 TEST_CASE("power: expressions and vectors that are no Eigen vectors") {

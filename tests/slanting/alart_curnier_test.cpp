@@ -103,7 +103,13 @@ TEST_CASE("Alart–Curnier: bad input is named") {
   CHECK(made(0.5, 1, 1) == "nothing thrown");
   CHECK(made(-1, 1, 1) == "mu[0]: got -1, expected a finite number >= 0");
   CHECK(made(0.5, 1, 2) == "rho[2]: got 2, expected 1 as for the other tangent of its contact");
-  CHECK(made(0.5, 0, 1) != "nothing thrown");
+  CHECK(made(0.5, 0, 1) == "rho[0]: got 0, expected a finite number > 0");
+  CHECK(made(0.5, quiet_nan, 1) == "rho[0]: got nan, expected a finite number > 0");
+  auto const of = [&](VectorXd const& load) {
+    return SLANT_COMPLAINT(slant::alart_curnier<3>(W, load, VectorXd{{0.5}}, VectorXd::Ones(3)));
+  };
+  CHECK(of(VectorXd{{0, quiet_nan, 0}}) == "q[1]: got nan, expected a finite number");
+  CHECK(of(VectorXd::Zero(2)).starts_with("q: got 2, expected the components of all contacts, 3"));
 }
 
 }  // namespace alart_curnier_test

@@ -100,6 +100,7 @@ struct prox_fn {
 struct function_value_fn {
   template <class F, class X>
   [[nodiscard]] scalar_t<X> operator()(F const& φ, X const& x) const {
+    check_rows("x", x, index(slant::dimension_of(φ)), "the dimension of the function");
     if constexpr (has_function_value<F, X>) {
       return φ.value(x);
     } else {

@@ -91,8 +91,9 @@ template <class S, class Factor>
 [[nodiscard]] S smallest_eigenvalue_bound(Eigen::SparseMatrix<S> const& K, S const& guess,
                                           Factor const& factor) {
   S const ε = std::numeric_limits<S>::epsilon(), n = S(static_cast<double>(K.rows() + 2));
-  if (!(guess > S(0)) || !(n * ε < S(0.1))) return S(0);
   S const lost = S(1.1) * n * ε * K.diagonal().sum();
+  bool const is_usable = guess > S(0) && slant::detail::is_finite(guess) && lost > S(0);
+  if (!is_usable || !(n * ε < S(0.1))) return S(0);
   Eigen::SparseMatrix<S> identity(K.rows(), K.cols());
   identity.setIdentity();
   for (S c = guess / S(4); c > S(2) * lost; c /= S(16)) {

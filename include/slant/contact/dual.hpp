@@ -53,7 +53,8 @@ class known_loads {
   }
 
   /// After `add`: u = K⁻¹f if f is such a combination up to rounding in each component; else
-  /// false. Coefficients beyond 64, which would multiply the errors of the displacements, are none.
+  /// false. Coefficients beyond 64, or parts of 64 times the size of f, whose errors the sum would be
+  /// left with, are none.
   [[nodiscard]] bool combine(V const& f, V& u) const {
     scalar α(0), β(0);
     auto const& [f1, u1] = pairs_.front();
@@ -72,7 +73,10 @@ class known_loads {
       rest = f - α * f1 - β * f2;
     }
     using std::abs;
-    if (!(abs(α) + abs(β) <= scalar(64))) return false;  // also if it is a NaN
+    scalar const most(64);  // of a NaN nothing holds
+    if (!(abs(α) + abs(β) <= most)) return false;
+    scalar const parts = abs(α) * f1.stableNorm() + abs(β) * f2.stableNorm();
+    if (!(parts <= most * f.stableNorm())) return false;
     // Component by component: beside a large one, such as that of a penalty, others matter too.
     scalar const rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
     for (Eigen::Index i = 0; i < f.size(); ++i) {

@@ -245,7 +245,7 @@ class primal_coulomb_stepper {
                          certified_coulomb_options<S> options = {})
       : F_(std::move(F)),
         options_(checked(std::move(options), K, c, F_)),
-        steps_(K, std::move(c), options_, detail::steps_for_bounds * (options_.outer_steps + 1)) {}
+        steps_(K, std::move(c), options_, detail::steps_for_problems(options_.outer_steps)) {}
 
   /// Solves the next step, as primal_stepper::advance; the report is that of certified_coulomb. A
   /// step has no slip bounds g: bad_input.

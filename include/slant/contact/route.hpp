@@ -109,7 +109,8 @@ namespace detail {
 
 /// What first() finds on the route of the choice, or, if that gets nowhere and `may_change`, what
 /// second() → std::optional finds on the other one, nothing if it is refused there: of two results
-/// the nearer, with the work of both. What first() throws without factors counts as nowhere.
+/// the nearer, with the work of both. Nowhere is also a lack of memory, and without factors what
+/// first() throws.
 template <class First, class Second>
 [[nodiscard]] auto by_routes(route_choice& choice, bool may_change, First&& first, Second&& second)
     -> decltype(first()) {
@@ -121,6 +122,11 @@ template <class First, class Second>
   auto const is_verdict = [](auto const& of) {
     return of.converged() || of.status == status::unbounded;
   };
+  auto const passes = [&](char const* refusal) {
+    thrown = std::current_exception();
+    why = refusal;
+    return may_change;
+  };
   try {
     found = first();
     auto const error = found->error.relative();
@@ -130,27 +136,26 @@ template <class First, class Second>
     if (!may_change || is_verdict(*found) || is_near) return *std::move(found);
     why = found->reason;
   } catch (bad_input const& refusal) {
-    if (!may_change || !iterates) throw;
-    thrown = std::current_exception();
-    why = refusal.what();
+    if (!iterates || !passes(refusal.what())) throw;
+  } catch (std::bad_alloc const&) {
+    if (!passes("no memory")) throw;
   }
   std::string const way = iterates ? "; factored " : "; iterated ";
   std::string const before = choice.reason;
   choice.reason += way + "after all: " + why;
   auto other = second();
   if (!found && !other) std::rethrow_exception(thrown);
+  bool const is_nearer =
+      other && (!found || is_verdict(*other) || other->error.relative() < found->error.relative());
   if (found && other) {
-    other->work += found->work;
-    if constexpr (requires { found->solves; }) other->solves += found->solves;
-    other->condition = std::max(other->condition, found->condition);
+    auto& best = is_nearer ? *other : *found;
+    auto const& rest = is_nearer ? *found : *other;
+    best.work += rest.work;
+    if constexpr (requires { best.solves; }) best.solves += rest.solves;
+    best.condition = std::max(best.condition, rest.condition);
   }
-  if (!other ||
-      (found && !is_verdict(*other) && !(other->error.relative() < found->error.relative()))) {
-    choice.reason = before + way + "in vain";
-    if (other) {
-      choice.reason += ": " + other->reason;
-      found->work = other->work;
-    }
+  if (!is_nearer) {
+    choice.reason = before + way + "in vain" + (other ? ": " + other->reason : std::string());
     return *std::move(found);
   }
   choice.route = iterates ? solution_route::factor : solution_route::iterate;

@@ -262,28 +262,27 @@ template <class Friction, class S>
   if (o.start && !asked && !outlook.refusal) outlook.refusal = "forces to start from are given";
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
-  auto const factor = [&] { return run(friction, K, c, o).solve(); };
-  bool const automatic = o.route == solution_route::automatic;
-  free_motions<S> motions;
-  try {
-    auto found =
-        choice.route == solution_route::iterate
-            ? detail::by_routes(choice, automatic, iterate, [&] { return std::optional(factor()); })
-            : detail::by_routes(
-                  choice, automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0,
-                  factor, [&] { return detail::unless_refused(iterate); });
-    found.choice = std::move(choice);
-    return found;
-  } catch (bad_input const& refusal) {
-    if (asked) throw;
-    motions = motions_behind(refusal, K, o.layout);
-    if (motions.free.empty()) throw;
-    choice.route = solution_route::factor;
-  }
-  auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
-    return std::make_unique<run>(friction, held, scene, options);
+  auto const factor = [&] {
+    free_motions<S> motions;
+    try {
+      return run(friction, K, c, o).solve();
+    } catch (bad_input const& refusal) {
+      motions = motions_behind(refusal, K, o.layout);
+      if (motions.free.empty()) throw;
+    }
+    auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
+      return std::make_unique<run>(friction, held, scene, options);
+    };
+    return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
   };
-  auto found = detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
+  bool const automatic = o.route == solution_route::automatic;
+  bool const may_iterate =
+      automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0;
+  auto found = choice.route == solution_route::iterate
+                   ? detail::by_routes(choice, automatic, iterate,
+                                       [&] { return detail::unless_refused(factor); })
+                   : detail::by_routes(choice, may_iterate, factor,
+                                       [&] { return detail::unless_refused(iterate); });
   found.choice = std::move(choice);
   return found;
 }

@@ -54,8 +54,7 @@ struct solve_options {
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    slant::detail::checked_tolerance(tolerance);
-    if (max_steps < 0) throw bad_input("max_steps", slant::detail::show(max_steps), "at least 0");
+    slant::detail::check_limits(tolerance, max_steps);
     multigrid.validate();
     condensation.validate();
   }

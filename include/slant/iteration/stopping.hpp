@@ -33,6 +33,13 @@ S checked_tolerance(S tolerance) {
   return tolerance;
 }
 
+/// What the doors take: a tolerance, and steps to a limit.
+template <class S>
+void check_limits(S const& tolerance, index max_steps) {
+  checked_tolerance(tolerance);
+  if (max_steps < 0) throw bad_input("max_steps", show(max_steps), "at least 0");
+}
+
 /// converged if size ≤ tolerance · scale; never against a scale that has overflowed.
 template <class N, class S>
 status is_below(N const& size, S const& tolerance, N const& scale) {

@@ -131,6 +131,7 @@ template <equality_constrained_program P>
   using QP = typename P::program_type;
   using S = typename P::scalar;
   using V = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  detail::check_limits(tolerance, max_steps);
   QP const& qp = p.qp();
   auto const& c = p.constraints();
   if constexpr (detail::scales_blocks<QP> && requires { c.unit_values(); }) {

@@ -394,7 +394,7 @@ template <class QP>
 [[nodiscard]] auto solve(QP const& qp, typename QP::vector_type const& x0,
                          typename QP::scalar tolerance, index max_steps = 5000) {
   using A = typename QP::operator_type;
-  detail::checked_tolerance(tolerance);
+  detail::check_limits(tolerance, max_steps);
   detail::check_start_in_set(x0, qp.b());
   if constexpr (detail::scales_blocks<QP>) {
     auto d = detail::block_factors_if_needed(qp);
@@ -432,7 +432,7 @@ template <class QP, class M>
   requires symmetric_newton_problem<QP> && preconditioner_for<M, QP>
 [[nodiscard]] auto solve(QP const& qp, M const& m, typename QP::scalar tolerance,
                          index max_steps = 5000) {
-  detail::checked_tolerance(tolerance);
+  detail::check_limits(tolerance, max_steps);
   return detail::solve_certified(qp, m, detail::zero_of(qp), tolerance, max_steps,
                                  detail::levels_precondition<QP>);
 }

@@ -32,12 +32,19 @@ struct traits<slant::expr::applied<A, X, W>> {
 
 namespace slant::expr {
 
-/// Throws bad_input if y and x share memory, as far as both have any that can be seen.
+/// Throws bad_input if y and x share memory, as far as both have any that can be seen: rows of a
+/// matrix by columns lie in each other's gaps.
 void refuse_overlap(auto const& x, auto const& y) {
   if constexpr (requires { x.data(), y.data(), x.innerStride(), y.innerStride(); }) {
     auto const end = [](auto const& v) { return v.data() + (v.size() - 1) * v.innerStride() + 1; };
     std::less<void const*> const before{};
-    if (x.size() > 0 && y.size() > 0 && before(x.data(), end(y)) && before(y.data(), end(x))) {
+    bool is_apart = false;
+    if constexpr (requires { x.data() - y.data(); }) {
+      auto const step = x.innerStride();
+      is_apart = step > 1 && step == y.innerStride() && (x.data() - y.data()) % step != 0;
+    }
+    if (!is_apart && x.size() > 0 && y.size() > 0 && before(x.data(), end(y)) &&
+        before(y.data(), end(x))) {
       throw bad_input("y = A * x", "a y that shares memory with x", "two different vectors");
     }
   }
@@ -124,6 +131,13 @@ template <class X>
 using kept_vector_t = std::conditional_t<slant::detail::is_stored_matrix<X>, kept_t<X>,
                                          typename std::remove_cvref_t<X>::PlainObject>;
 
+template <class A>
+std::remove_cvref_t<A> refuse_column(A&& a) {
+  static_assert(!std::same_as<A, A>,
+                "an operator and a vector cannot be added; x -> A x + c is slant::affine(A, c)");
+  return a;
+}
+
 }  // namespace slant::expr
 
 namespace slant {
@@ -137,12 +151,22 @@ template <linear_term A, expr::eigen_vector X>
                                         held<kept>(static_cast<kept>(std::forward<X>(x))));
 }
 
-/// Refused: a sum with a column is no operator.
+/// Refused: a sum or a difference with a column is no operator.
 template <linear_term A, expr::eigen_vector X>
-std::remove_cvref_t<A> operator+(A&& a, X&&) {
-  static_assert(!std::same_as<A, A>,
-                "an operator and a vector cannot be added; x -> A x + c is slant::affine(A, c)");
-  return a;
+auto operator+(A&& a, X&&) {
+  return expr::refuse_column(a);
+}
+template <linear_term A, expr::eigen_vector X>
+auto operator-(A&& a, X&&) {
+  return expr::refuse_column(a);
+}
+template <linear_term A, expr::eigen_vector X>
+auto operator+(X&&, A&& a) {
+  return expr::refuse_column(a);
+}
+template <linear_term A, expr::eigen_vector X>
+auto operator-(X&&, A&& a) {
+  return expr::refuse_column(a);
 }
 
 /// y ← y + A x without a temporary, where A can add.

@@ -332,6 +332,7 @@ template <class K>
   if constexpr (factorization_like<std::remove_cvref_t<K>>) {
     return slant::inverse(std::forward<K>(k));
   } else {
+    require_square("K", k);
     return slant::as_operator(std::forward<K>(k));
   }
 }

@@ -26,6 +26,7 @@ class decorator {
  public:
   static constexpr law_set laws = laws_of<A>;
   static constexpr bool is_decorator = true;
+  static constexpr bool full_row_rank = declares_full_row_rank<part>;
 
   explicit decorator(held<A> a) : a_(std::move(a)) {}
   /// With the probe of another one.
@@ -76,6 +77,11 @@ class decorator {
     requires has_diagonal<part, D>
   void diagonal(D& d) const {
     a_.get().diagonal(d);
+  }
+  template <class D>
+    requires(may_have_diagonal<part, D> && !has_diagonal<part, D>)
+  [[nodiscard]] bool diagonal_if_known(D& d) const {
+    return a_.get().diagonal_if_known(d);
   }
   template <class Y>
     requires has_columns<part, Y>

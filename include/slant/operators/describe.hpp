@@ -8,6 +8,7 @@
 
 #include <boost/hana/for_each.hpp>
 
+#include <ranges>
 #include <string>
 #include <tuple>
 
@@ -30,8 +31,8 @@ inline constexpr bool is_hana_tuple = false;
 template <class... T>
 inline constexpr bool is_hana_tuple<hana::tuple<T...>> = true;
 
-/// Bytes of the vectors that a workspace holds, however deep: of aggregates of up to eight members; 0 of
-/// larger ones.
+/// Bytes of the vectors that a workspace holds, however deep: of ranges, and of aggregates of up to
+/// eight members; 0 of larger ones, and of what any_operator hides.
 template <class W>
 [[nodiscard]] std::size_t bytes_of(W const& w) {
   auto const all = [](auto const&... part) {
@@ -43,6 +44,10 @@ template <class W>
     return expr::bytes_of(w.local());
   } else if constexpr (is_hana_tuple<W>) {
     return hana::unpack(w, all);
+  } else if constexpr (std::ranges::range<W const>) {
+    std::size_t sum = 0;
+    for (auto const& part : w) sum += expr::bytes_of(part);
+    return sum;
   } else if constexpr (requires { std::tuple_size<W>::value; }) {
     return std::apply(all, w);
   } else if constexpr (std::is_empty_v<W> || !std::is_aggregate_v<W>) {

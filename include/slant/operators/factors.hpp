@@ -130,10 +130,11 @@ template <class C, class D>
     using S = common_number<decltype(c.value), decltype(d.value)>;
     number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
                                          S(S(c.divisor) * S(d.divisor))};
-    bool const lost = p.value == S(0) && S(c.value) != S(0) && S(d.value) != S(0);
-    if (lost || p.divisor == S(0) || !slant::detail::is_finite(p.value) ||
-        !slant::detail::is_finite(p.divisor)) {
-      throw bad_input("c", slant::detail::show(c.value) + " * " + slant::detail::show(d.value),
+    S const quotient = p.value / p.divisor;
+    bool const lost = quotient == S(0) && S(c.value) != S(0) && S(d.value) != S(0);
+    if (lost || !slant::detail::is_finite(quotient) || !slant::detail::is_finite(p.divisor)) {
+      auto const text = [](auto const& of) { return slant::detail::show(of.value / of.divisor); };
+      throw bad_input("c", text(c) + " * " + text(d),
                       "numbers whose product is in the range of the scalar");
     }
     return p;

@@ -7,7 +7,7 @@
 //     (c A) (d B)           (c d) A B
 //     A I, I A              A
 //     (A B)ᵀ, (A B)⁻¹       reverse and transform
-//     D₁ D₂                 one diagonal, of those without a name
+//     D₁ D₂                 one diagonal with entries of its own, of those without a name
 //
 // product(A, B), scaled(c, A) are A * B, c * A under the names that generic code looks for.
 // congruence(B, A) is B * A * adjoint(B) whether B has a name or not.

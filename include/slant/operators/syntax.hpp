@@ -84,6 +84,10 @@ template <linear_term A, expr::number_in_front S>
 template <adjoint_operand B>
   requires(expr::is_letter<std::remove_cvref_t<B>>)
 [[nodiscard]] auto full_column_rank(B&& b) {
+  if (b.cols() > b.rows()) {
+    throw bad_input("B", detail::show(b.rows()) + " x " + detail::show(b.cols()),
+                    "at most as many columns as rows");
+  }
   return full_row_rank(b.adjoint()).adjoint();
 }
 

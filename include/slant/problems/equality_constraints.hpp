@@ -103,6 +103,7 @@ class equality_constraints {
         kernel_projector_(detail::complement_of(range_projector_)),
         nearest_(G.cols()) {
     vector_type const unit_e = e.cwiseQuotient(lengths_);
+    detail::check_finite("e over the length of its row of G", unit_e);
     unit_values_ = unit_e(kept_);
     vector_type weights(G_.rows());
     slant::apply(slant::inverse(factors_), unit_values_, weights);
@@ -184,6 +185,10 @@ class equality_constraints {
     });
     for (index i = 0; i < G.rows(); ++i) {
       if (squares[i] > S(0)) largest[i] *= sqrt(squares[i]);
+      if (!detail::is_finite(largest[i]) || !detail::is_finite(S(1) / largest[i])) {
+        throw bad_input("length of row " + detail::show(i) + " of G", detail::show(largest[i]),
+                        "a finite number with a finite reciprocal");
+      }
     }
     return largest;
   }

@@ -267,6 +267,8 @@ class any_set {
   template <class X, class D, class T = scalar_t<X>>
   [[nodiscard]] T step_to_boundary(X const& x, D const& d,
                                    std::type_identity_t<T> const& enough = T(0)) const {
+    detail::check_rows("x", x, size(), "the dimension of the set");
+    detail::check_rows("d", d, size(), "the dimension of the set");
     detail::smallest_step<T> smallest(enough);
     bool more = true;
     each_run([&](auto const& run, auto const& p) {
@@ -277,6 +279,7 @@ class any_set {
   /// sup{yᵀz : z ∈ Λ}, ∞ allowed.
   template <class Y>
   [[nodiscard]] scalar_t<Y> support(Y const& y) const {
+    detail::check_rows("y", y, size(), "the dimension of the set");
     scalar_t<Y> sum(0);
     each_run([&](auto const& run, auto const& p) { sum += run.support(p.in(y)); });
     return sum;
@@ -284,6 +287,7 @@ class any_set {
   /// The slanting operator of the projection at x; allocates.
   template <class X>
   [[nodiscard]] any_set_slant<S> slant(X const& x) const {
+    detail::check_rows("x", x, size(), "the dimension of the set");
     any_set_slant<S> g;
     g.size_ = size_;
     each_run([&](auto const& run, auto const& p) { g.runs_.emplace_back(run.slant(p.in(x))); });
@@ -292,6 +296,7 @@ class any_set {
   /// The same into an operator that slant(x) made earlier; does not allocate.
   template <class X>
   void slant(X const& x, any_set_slant<S>& g) const {
+    detail::check_rows("x", x, size(), "the dimension of the set");
     eigen_assert(g.runs_.size() == runs_.size());
     auto next = g.runs_.begin();
     each_run([&](auto const& run, auto const& p) {

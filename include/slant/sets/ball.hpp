@@ -89,6 +89,7 @@ class ball {
       if (radius_ > S(0)) result.setIdentity();
       return result;
     }
+    if (N == 1 && !detail::has_nan(v)) return matrix_type::Zero();
     vector_type const e = direction(v, length);
     if (detail::has_nan(e)) return matrix_type::Constant(detail::not_a_number<S>());
     S const factor = g / length.value;
@@ -137,9 +138,10 @@ class ball {
   /// f(x) = ‖x‖² − g² <= 0, in units of x²; accurate to the last digits also near the sphere.
   [[nodiscard]] Eigen::Matrix<S, 1, 1> inequality(auto const& x) const {
     vector_type const v = x;
-    S const f = detail::is_finite(radius_)
+    S const square = radius_ * radius_;
+    S const f = detail::is_finite(square)
                     ? (detail::precise_dot<S>(v, v) - detail::exact_product(radius_, radius_)).hi
-                    : S(v.squaredNorm() - radius_);
+                    : S(v.squaredNorm() - square);
     return Eigen::Matrix<S, 1, 1>::Constant(f);
   }
 

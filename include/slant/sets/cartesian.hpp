@@ -153,6 +153,8 @@ class cartesian_base : public part_sequence<Parts...> {
   static constexpr bool all_support =
       (has_support<std::remove_cvref_t<Parts>, point_t<Parts>> && ...);
 
+  [[nodiscard]] index components() const { return this->template offset<sizeof...(Parts)>(); }
+
  public:
   using part_sequence<Parts...>::part_sequence;
 
@@ -165,7 +167,7 @@ class cartesian_base : public part_sequence<Parts...> {
   /// x ∈ Λ, up to rounding.
   template <class X>
   [[nodiscard]] bool contains(X const& x) const {
-    if (slant::local(x).size() != this->template offset<sizeof...(Parts)>()) return false;
+    if (slant::local(x).size() != components()) return false;
     return this->all_parts(
         [&](auto const& part, auto const& p) { return part.contains(argument_of(part, p, x)); });
   }
@@ -177,6 +179,8 @@ class cartesian_base : public part_sequence<Parts...> {
                                    std::type_identity_t<S> const& enough = S(0)) const
     requires all_step
   {
+    check_rows("x", x, components(), "the dimension of the set");
+    check_rows("d", d, components(), "the dimension of the set");
     smallest_step<S> smallest(enough);
     this->all_parts([&](auto const& part, auto const& p) {
       return !smallest(step_of(part, argument_of(part, p, x), argument_of(part, p, d), enough));
@@ -189,6 +193,7 @@ class cartesian_base : public part_sequence<Parts...> {
   [[nodiscard]] scalar_t<Y> support(Y const& y) const
     requires all_support
   {
+    check_rows("y", y, components(), "the dimension of the set");
     scalar_t<Y> sum(0);
     this->for_each_part(
         [&](auto const& part, auto const& p) { sum += part.support(argument_of(part, p, y)); });
@@ -363,6 +368,7 @@ class cartesian_product : public detail::cartesian_base<Parts...> {
   [[nodiscard]] auto slant(X const& x) const
     requires base::all_slant
   {
+    detail::check_rows("x", x, size(), "the dimension of the set");
     return this->slants_at(x, [](auto const& part) -> auto const& { return part; });
   }
 
@@ -371,6 +377,7 @@ class cartesian_product : public detail::cartesian_base<Parts...> {
   void slant(X const& x, direct_sum_slant<Slants...>& g) const
     requires base::all_slant
   {
+    detail::check_rows("x", x, size(), "the dimension of the set");
     this->renew_slants(x, g, [](auto const& part) -> auto const& { return part; });
   }
 };

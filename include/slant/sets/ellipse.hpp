@@ -186,7 +186,10 @@ template <class S>
   S const as = times_power_of_two<S>(a, -e), bs = times_power_of_two<S>(b, -e);
   S const xs = times_power_of_two<S>(x, -e), ys = times_power_of_two<S>(y, -e);
   S const ε = std::numeric_limits<S>::epsilon();
-  if (bs < (std::numeric_limits<S>::min)() / ε) return thin_ellipse_foot<S>(a, b, x, y, e);
+  // 2 xs/bs is finite otherwise.
+  if (bs < S(32) * (std::numeric_limits<S>::min)() / ε) {
+    return thin_ellipse_foot<S>(a, b, x, y, e);
+  }
   if (xs >= S(16) / ε || bs * ys >= S(16) / ε) {  // then a/(bτ) is below ε/8
     return far_ellipse_foot<S>(a, b, x, y, e);
   }

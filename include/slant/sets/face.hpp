@@ -57,6 +57,7 @@ class face {
   /// Becomes the face of x ∈ set; true if anything changed.
   template <class C, class X>
   bool assign(C const& set, X const& x) {
+    detail::check_rows("x", x, slant::dimension_of(set), "the dimension of the set");
     bool changed = reshape(slant::block_count(set), slant::dimension_of(set));
     counts_ = {};
     slant::visit_blocks(set, [&](auto const& block, auto const& p) {

@@ -145,6 +145,8 @@ class power_product : public detail::equal_parts<Block, Layout, Blocks> {
                                    std::type_identity_t<S> const& enough = S(0)) const
     requires has_step_to_boundary<Block, vector_type>
   {
+    detail::check_rows("x", x, size(), "the dimension of the set");
+    detail::check_rows("d", d, size(), "the dimension of the set");
     detail::smallest_step<S> smallest(enough);
     if constexpr (!whole_space<Block>) {
       auto const blocks = blocks_.view();
@@ -161,6 +163,7 @@ class power_product : public detail::equal_parts<Block, Layout, Blocks> {
   [[nodiscard]] scalar_t<Y> support(Y const& y) const
     requires has_support<Block, vector_type>
   {
+    detail::check_rows("y", y, size(), "the dimension of the set");
     scalar_t<Y> sum(0);
     auto const blocks = blocks_.view();
     for (index i = 0; i < blocks_.size(); ++i) sum += blocks[i].support(at(i).value(y));
@@ -182,6 +185,7 @@ class power_product : public detail::equal_parts<Block, Layout, Blocks> {
   void slant(X const& x, detail::power_slant<scalar_t<X>, Block, Layout>& g) const
     requires has_slant<Block, vector_type>
   {
+    detail::check_rows("x", x, size(), "the dimension of the set");
     eigen_assert(g.block_count() == blocks_.size());
     if constexpr (!whole_space<Block>) {
       auto const blocks = blocks_.view();

@@ -197,10 +197,16 @@ template <int N, operand A, class Q, detail::parameter_list M, class R>
   auto projection = slant::alart_curnier_projection<N>(mu);
   index const n = projection.rows();
   detail::check_size("rho", index(slant::local(rho).size()), n, "the components of all contacts,");
+  detail::check_size("q", index(slant::local(q).size()), n, "the components of all contacts,");
+  detail::check_finite("q", q);
   for (index i = 0; i < n; ++i) {
     auto const& first = slant::local(rho)[i - i % N + (i % N > 0 ? 1 : 0)];
-    if (slant::local(rho)[i] != first) {
-      throw bad_input("rho[" + std::to_string(i) + "]", detail::show(slant::local(rho)[i]),
+    auto const& own = slant::local(rho)[i];
+    if (!(own > 0) || !detail::is_finite(own)) {
+      throw bad_input("rho[" + std::to_string(i) + "]", detail::show(own), "a finite number > 0");
+    }
+    if (own != first) {
+      throw bad_input("rho[" + std::to_string(i) + "]", detail::show(own),
                       detail::show(first) + " as for the other tangent of its contact");
     }
   }

@@ -68,8 +68,11 @@ class checked_rows {
   vector_type b_;
 };
 
-/// Of Newton's method at most, for each problem of Tresca's.
+/// Of Newton's method at most, for each problem of Tresca's; and for so many after the first.
 constexpr index steps_for_bounds = 40;
+[[nodiscard]] constexpr index steps_for_problems(index problems) {
+  return steps_for_bounds * (std::min(problems, std::numeric_limits<index>::max() / 64) + 1);
+}
 
 /// What a run of iterated_coulomb found.
 template <class S>
@@ -95,6 +98,7 @@ template <class Friction, class S, class Certificate>
     Eigen::VectorX<S> const& F, S const& tolerance, index most) {
   using vector_type = Eigen::VectorX<S>;
   constexpr index patience = 15, rounds = 12, newton_steps = 12;
+  constexpr char const* no_more = "no more problems of Tresca's were allowed";
   iterated_coulomb_result<S> result;
   result.levels = run.levels().description();
   index const before = frozen.applications();
@@ -163,7 +167,7 @@ template <class Friction, class S, class Certificate>
                       : since >= patience               ? status::stalled
                                                         : status::iteration_limit;
       result.reason = state.status == status::breakdown ? state.reason()
-                      : since < patience ? "no more problems of Tresca's were allowed"
+                      : since < patience                ? no_more
                       : !springs.empty() && !(springs.contraction() < S(0.5))
                           ? "contact hardly holds bodies without supports"
                           : "neither successive slip bounds nor Newton's steps get nearer";
@@ -180,11 +184,13 @@ template <class Friction, class S, class Certificate>
     // The bound of a problem may be loose where that of the next is not, and none at all far away.
     bool const is_known = slant::detail::is_finite(error);
     idle = error < best / S(2) || !is_known ? 0 : idle + 1;
-    bool const goes_on = state.status == status::converged && idle < 2 &&
-                         state.reduced_gradient_norm > S(0) && ++round < rounds;
-    if (!goes_on) {
-      result.status = state.status == status::converged ? status::stalled : state.status;
-      result.reason = state.reason();
+    bool const may_go_on = state.status == status::converged && idle < 2 &&
+                           state.reduced_gradient_norm > S(0) && ++round < rounds;
+    if (!may_go_on || result.bounds >= most) {
+      result.status = may_go_on                           ? status::iteration_limit
+                      : state.status == status::converged ? status::stalled
+                                                          : state.status;
+      result.reason = may_go_on ? no_more : state.reason();
       break;
     }
     best = std::min<S>(best, error);
@@ -210,7 +216,7 @@ template <class Friction, class S>
     S const& tolerance, index most) {
   c.g = Eigen::VectorX<S>::Zero(c.nodes());
   moving_springs<S> springs(K, floating, layout.dimension());
-  primal_run<S> run(springs.held(), c, layout, levels, (most + 1) * steps_for_bounds);
+  primal_run<S> run(springs.held(), c, layout, levels, steps_for_problems(most));
   energy_certificate frozen(run.qp(), run.levels());
   std::optional<alart_curnier_steps<S>> newton;
   return run_coulomb_to_certified(law, run, newton, springs, frozen, checked_rows<S>(c, {}), F,

@@ -307,8 +307,9 @@ class spring_supports {
       return λ_.segment(m + k * node, k).stableNorm() < (S(1) - S(1e-9)) * original_->g(node);
     };
     slant::detail::for_each_entry(B, [&](index i, index j, S const& value) {
+      if (!(squares(i) > S(0)) || !holds(i)) return;
       S const part = value / squares(i);
-      if (holds(i)) κ(i) += part * part * K_->coeff(j, j);
+      κ(i) += part * part * K_->coeff(j, j);
     });
     sparse_type const BR = B * R_;
     sparse_type const weighted = κ.asDiagonal() * BR;
