@@ -9,10 +9,6 @@ TEST_CASE("bad_input: argument, value, expectation") {
   slant::bad_input const e("radius", "-1", "a number >= 0");
   CHECK(std::string(e.what()) == "radius: got -1, expected a number >= 0");
   CHECK_THROWS_AS(throw e, std::invalid_argument);
-}
-
-TEST_CASE("bad_input: the same complaint about an entry of a list") {
-  slant::bad_input const e("radius", "-1", "a number >= 0");
   CHECK(std::string(e.at(3).what()) == "radius[3]: got -1, expected a number >= 0");
   CHECK(std::string(e.at(3).at(4).what()) == "radius[3][4]: got -1, expected a number >= 0");
 }

@@ -186,8 +186,7 @@ TEST_CASE("nothing is called proven that is not: dependent rows, sets by project
 
   for (double const guess : {0.0, infinity, quiet_nan})
     CHECK(contact::smallest_eigenvalue_bound(scene.K, guess, [](auto const&) {}) == 0);
-  sparse const negative = -scene.K;
-  CHECK(contact::smallest_eigenvalue_bound(negative, 1.0, be_definite) == 0);
+  CHECK(contact::smallest_eigenvalue_bound(sparse(-scene.K), 1.0, be_definite) == 0);
   // A guess that is too large is made smaller until the matrix is definite.
   double const bound =
       contact::smallest_eigenvalue_bound(scene.K, 1e3 * scene.K.diagonal().maxCoeff(), be_definite);

@@ -219,7 +219,7 @@ TEST_CASE("loads on the line through two others need no solve") {
   load(1e-300 * VectorXd::LinSpaced(first.size(), 3, 1).cwiseSqrt(), 1);
   // A small difference of two loads would be left with the errors of both.
   load(first, 1);
-  VectorXd const little = 1e-3 * second;
+  VectorXd const little = 1e-4 * second;
   load(first + little, 1);
   load(((first + little) - first) * 30, 1);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "contact/friction_scenes.hpp"
 
+#include <random>
+
 namespace test {
 
 friction_problem random_friction(slant::index contacts, slant::index dimension, double mu,

@@ -10,8 +10,6 @@
 #include <slant/contact/solve_friction.hpp>
 
 #include <Eigen/Core>
-#include <cmath>
-#include <random>
 #include <vector>
 
 namespace test {

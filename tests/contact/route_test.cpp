@@ -5,7 +5,6 @@
 #include <fem/steel_brick.hpp>
 
 #include <initializer_list>
-#include <limits>
 #include <support/testing.hpp>
 
 namespace route_test {

@@ -5,17 +5,11 @@
 
 #include <slant/operators/matrix.hpp>
 
-#include <Eigen/Dense>
+#include <operators/dense_oracle.hpp>
 
-#include <random>
 #include <utility>
 
 namespace test {
-
-template <class S>
-using dense = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
-template <class S>
-using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
 /// Q diag(eigenvalues) Qᵀ with a random orthogonal Q, symmetric to the last bit.
 Eigen::MatrixXd with_spectrum(Eigen::VectorXd const& eigenvalues, unsigned seed = 1);

@@ -5,9 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 namespace oracle {

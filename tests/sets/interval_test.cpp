@@ -14,6 +14,63 @@ vec<S> at(S const& value) {
   return vec<S>::Constant(value);
 }
 
+TEST_CASE_TEMPLATE("half line: known answers", S, float, oracle::float_50) {
+  slant::half_line<S> const positive;
+  CHECK(positive.lower() == S(0));
+  CHECK(positive.project(at(S(-2)))(0) == S(0));
+  CHECK(positive.project(at(S(3)))(0) == S(3));
+  auto const shifted = positive.with(S(-1.5));
+  CHECK(shifted.project(at(S(-2)))(0) == S(-1.5));
+  CHECK(shifted.step_to_boundary(at(S(0.5)), at(S(-4))) == S(0.5));
+  CHECK(shifted.step_to_boundary(at(S(0.5)), at(S(4))) == std::numeric_limits<S>::infinity());
+  CHECK(shifted.step_to_boundary(at(S(0.5)), at(S(0))) == std::numeric_limits<S>::infinity());
+  CHECK(shifted.support(at(S(-2))) == S(3));
+  CHECK(shifted.support(at(S(0))) == S(0));
+  CHECK(shifted.support(at(S(2))) == std::numeric_limits<S>::infinity());
+  CHECK(shifted.inequality(at(S(2)))(0) == S(-3.5));
+}
+
+TEST_CASE("half line: membership and state know a band of a few ulp, none at 0") {
+  slant::half_line<double> const set(3.0);
+  double const ε = std::numeric_limits<double>::epsilon();
+  CHECK(set.contains(at(3.0 * (1 - 4 * ε))));
+  CHECK_FALSE(set.contains(at(3.0 * (1 - 40 * ε))));
+  CHECK(set.state(at(3.0)) == slant::block_state::fixed);
+  CHECK(set.state(at(3.0 * (1 + 4 * ε))) == slant::block_state::fixed);
+  CHECK(set.state(at(3.0 * (1 + 40 * ε))) == slant::block_state::free);
+  slant::half_line<double> const positive;
+  CHECK(positive.contains(at(-0.0)));
+  CHECK_FALSE(positive.contains(at(-1e-300)));
+  CHECK(positive.state(at(0.0)) == slant::block_state::fixed);
+  CHECK(positive.state(at(1e-300)) == slant::block_state::free);
+}
+
+TEST_CASE("half line: slanting function [K (49)]") {
+  slant::half_line<double> const set(2.0);
+  CHECK(set.slant(at(2.0))(0, 0) == 1.0);
+  CHECK(set.slant(at(1.0))(0, 0) == 0.0);
+  CHECK(set.slant(at(7.0))(0, 0) == 1.0);
+}
+
+TEST_CASE("half line: steps start on the bound where rounding left them below") {
+  slant::half_line<double> const set(3.0);
+  double const below = std::nextafter(3.0, 0.0);
+  CHECK(set.step_to_boundary(at(below), at(-1.0)) == 0.0);
+  CHECK(set.step_to_boundary(at(below), at(1.0)) == infinity);
+  CHECK(slant::half_line<double>(-1e308).step_to_boundary(at(1.5e308), at(-1e308)) ==
+        doctest::Approx(2.5));
+  CHECK(slant::half_line<double>(-infinity).step_to_boundary(at(1.0), at(-1.0)) == infinity);
+}
+
+TEST_CASE("half line: an infinite bound") {
+  slant::half_line<double> const line(-infinity);
+  CHECK(line.project(at(-1e308))(0) == -1e308);
+  CHECK(line.contains(at(-1e308)));
+  CHECK(line.state(at(-1e308)) == slant::block_state::free);
+  CHECK(line.support(at(-1.0)) == infinity);
+  CHECK(line.support(at(0.0)) == 0.0);
+}
+
 TEST_CASE_TEMPLATE("interval: known answers", S, float, oracle::float_50) {
   slant::interval<S> const unit;
   CHECK(unit.lower() == S(-1));

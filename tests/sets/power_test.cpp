@@ -4,6 +4,7 @@
 
 #include <support/testing.hpp>
 #include "counting_disc.hpp"
+#include "oracle/precise.hpp"
 
 namespace power_test {
 
@@ -84,20 +85,19 @@ TEST_CASE("power: sizes that do not match are not members") {
   CHECK(set.contains(vec<>(vec<>::Ones(3))));
   CHECK(!set.contains(vec<>(vec<>::Ones(2))));
   // Nor points, directions, or forces.
-  VectorXd const x = VectorXd::Ones(3), few = VectorXd::Ones(2);
   auto const product = slant::cartesian(set, slant::half_lines(2));
-  slant::any_set<double> const any(product);
-  auto const refused = [](auto const& of, VectorXd const& five, VectorXd const& other) {
-    CHECK_THROWS_AS((void)of.step_to_boundary(other, five), slant::bad_input);
-    CHECK_THROWS_AS((void)of.step_to_boundary(five, other), slant::bad_input);
-    CHECK_THROWS_AS((void)of.support(other), slant::bad_input);
-    CHECK_THROWS_AS((void)of.slant(other), slant::bad_input);
-    CHECK_THROWS_AS((void)slant::face(of, other), slant::bad_input);
-    CHECK(SLANT_COMPLAINT(slant::function_value(slant::support(of), other)).starts_with("x: got"));
+  VectorXd const few = VectorXd::Ones(4), x = VectorXd::Ones(5);
+  auto const refuses = [&](auto const& Λ) {
+    CHECK_THROWS_AS((void)Λ.step_to_boundary(few, x), slant::bad_input);
+    CHECK_THROWS_AS((void)Λ.step_to_boundary(x, few), slant::bad_input);
+    CHECK_THROWS_AS((void)Λ.slant(few), slant::bad_input);
+    CHECK_THROWS_AS((void)slant::face(Λ, few), slant::bad_input);
+    CHECK(SLANT_COMPLAINT(slant::function_value(slant::support(Λ), few)) ==
+          "x: got 4 rows, expected 5 (the dimension of the function)");
   };
-  refused(set, x, few);
-  refused(product, VectorXd::Ones(5), x);
-  refused(any, VectorXd::Ones(5), x);
+  refuses(power(slant::half_line<>{}, 5));
+  refuses(product);
+  refuses(slant::any_set<double>(product));
 }
 
 TEST_CASE("power: expressions and vectors that are no Eigen vectors") {
@@ -215,6 +215,25 @@ TEST_CASE("power: bad parameters are named with their block, and change nothing"
         "number of parameters: got 3, expected 5, the number of blocks");
   CHECK(SLANT_COMPLAINT(power(slant::half_line<>{}, -1)) ==
         "number of blocks: got -1, expected a number >= 0");
+}
+
+TEST_CASE_TEMPLATE("contact_sets: the scalar is that of the data", S, float, oracle::float_50) {
+  vec<S> const g = vec<S>::Constant(3, S(2));
+  vec<S> const x = vec<S>::Constant(3, S(-9));
+  CHECK(slant::project(slant::half_lines<S>(3), x) == vec<S>::Zero(3));
+  CHECK(slant::project(slant::half_lines(g), x) == g);
+  CHECK(slant::project(slant::intervals(g), x) == vec<S>(-g));
+  CHECK(slant::project(slant::intervals(vec<S>(-g), g), x) == vec<S>(-g));
+  CHECK(slant::project(slant::free_components<S>(3), x) == x);
+  static_assert(std::is_same_v<typename decltype(slant::discs(g))::scalar, S>);
+}
+
+TEST_CASE("contact_sets: bad data is named") {
+  vec<> const g = Vector2d(1, -2);
+  CHECK(SLANT_COMPLAINT(slant::discs(g)) == "radius[1]: got -2, expected a number >= 0");
+  CHECK(SLANT_COMPLAINT(slant::intervals(g)) == "radius[1]: got -2, expected a number >= 0");
+  CHECK(SLANT_COMPLAINT(slant::intervals(g, vec<>(-g))) ==
+        "l[0]: got 1, expected a number <= u = -1");
 }
 
 }  // namespace power_test

@@ -3,11 +3,8 @@
 
 #include <Eigen/SparseCore>
 #include <cmath>
-#include <cstdlib>
 #include <fem/steel_brick.hpp>
-#include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace stability {
 

@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 #include <initializer_list>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace test {

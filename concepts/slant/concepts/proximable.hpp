@@ -115,7 +115,7 @@ struct function_value_fn {
 /// Throws bad_input if z or x has a wrong size.
 inline constexpr detail::prox_fn prox{};
 
-/// φ(x); of a set 0 or ∞.
+/// φ(x); of a set 0 or ∞. Throws bad_input if x has a wrong size.
 inline constexpr detail::function_value_fn function_value{};
 
 }  // namespace slant

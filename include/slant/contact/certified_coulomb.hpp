@@ -470,10 +470,12 @@ template <class Friction, class S>
   };
   auto const factor = [&] { return detail::factored_coulomb(friction, K, c, F, o); };
   bool const may_iterate = automatic && outlook.is_possible && o.tolerance > 0;
-  // What seems to float may be only slender: factors come after all.
+  // What seems to float may be only slender.
+  auto const factor_after = [&] {
+    return needs_none ? detail::unless_refused(factor) : detail::unless_no_memory(factor);
+  };
   auto found = choice.route == solution_route::iterate
-                   ? detail::by_routes(choice, automatic, iterate,
-                                       [&] { return detail::unless_refused(factor); })
+                   ? detail::by_routes(choice, automatic, iterate, factor_after)
                    : detail::by_routes(choice, may_iterate, factor,
                                        [&] { return detail::unless_refused(iterate); });
   found.choice = std::move(choice);

@@ -36,7 +36,7 @@ namespace slant::contact::detail {
 //
 // Displacements under loads that are combinations of loads solved before: K⁻¹(α f₁ + β f₂) is
 // α K⁻¹f₁ + β K⁻¹f₂. Load steps on a line, such as a constant load and one that grows, need two
-// solves however many they are.
+// solves however many they are, unless one is a small difference of the two.
 
 /// The last two loads that a solve was spent on, with their displacements.
 template <class V>
@@ -52,9 +52,9 @@ class known_loads {
     pairs_.emplace_back(std::move(f), std::move(u));
   }
 
-  /// After `add`: u = K⁻¹f if f is such a combination up to rounding in each component; else
-  /// false. Coefficients beyond 64, or parts of 64 times the size of f, whose errors the sum would be
-  /// left with, are none.
+  /// After `add`: u = K⁻¹f if f is such a combination up to rounding in each component; else false.
+  /// Coefficients beyond 64, which would multiply the errors of the displacements, are none, nor is
+  /// a small difference of the two, which would be left with their errors.
   [[nodiscard]] bool combine(V const& f, V& u) const {
     scalar α(0), β(0);
     auto const& [f1, u1] = pairs_.front();
@@ -73,10 +73,8 @@ class known_loads {
       rest = f - α * f1 - β * f2;
     }
     using std::abs;
-    scalar const most(64);  // of a NaN nothing holds
-    if (!(abs(α) + abs(β) <= most)) return false;
-    scalar const parts = abs(α) * f1.stableNorm() + abs(β) * f2.stableNorm();
-    if (!(parts <= most * f.stableNorm())) return false;
+    scalar const most(64);
+    if (!(abs(α) + abs(β) <= most)) return false;  // also if it is a NaN
     // Component by component: beside a large one, such as that of a penalty, others matter too.
     scalar const rounding = scalar(8) * std::numeric_limits<scalar>::epsilon();
     for (Eigen::Index i = 0; i < f.size(); ++i) {
@@ -84,7 +82,7 @@ class known_loads {
       if (!(abs(rest[i]) <= rounding * size)) return false;
     }
     u = α * u1 + β * u2;
-    return true;
+    return abs(α) * u1.stableNorm() + abs(β) * u2.stableNorm() <= most * u.stableNorm();
   }
 
  private:
@@ -186,10 +184,10 @@ class dual {
   }
 
   /// New data; nothing is factored again. One solve with K if the step brings a load, none if that
-  /// is a combination of the last two that were solved for, none without one. What qp() gave and
-  /// what was made of that sees the new b and Λ; a method's state has to be told, by resume(state,
-  /// x). Throws bad_input, as the constructor does, and is then unchanged; also if a gap becomes
-  /// infinite or ceases to be, because B depends on that.
+  /// is a combination of the last two that were solved for, and no small difference of them, none
+  /// without one. What qp() gave and what was made of that sees the new b and Λ; a method's state
+  /// has to be told, by resume(state, x). Throws bad_input, as the constructor does, and is then
+  /// unchanged; also if a gap becomes infinite or ceases to be, because B depends on that.
   void update(load_step<S> step) {
     detail::check_step(step, f_.size(), d_, B_);
     vector_type displacement(0), b(0);

@@ -107,13 +107,13 @@ template <class S>
 
 namespace detail {
 
-/// What first() finds on the route of the choice, or, if that gets nowhere and `may_change`, what
+/// What first() finds on the route of the choice, or, if that gets nowhere and then `may_change`, what
 /// second() → std::optional finds on the other one, nothing if it is refused there: of two results
 /// the nearer, with the work of both. Nowhere is also a lack of memory, and without factors what
 /// first() throws.
 template <class First, class Second>
-[[nodiscard]] auto by_routes(route_choice& choice, bool may_change, First&& first, Second&& second)
-    -> decltype(first()) {
+[[nodiscard]] auto by_routes(route_choice& choice, bool const& may_change, First&& first,
+                             Second&& second) -> decltype(first()) {
   using std::sqrt;
   bool const iterates = choice.route == solution_route::iterate;
   std::optional<decltype(first())> found;
@@ -161,15 +161,23 @@ template <class First, class Second>
   choice.route = iterates ? solution_route::factor : solution_route::iterate;
   return *std::move(other);
 }
-/// run(), nothing where that refuses its data or has no memory.
+/// run(), nothing where that has no memory.
+template <class Run>
+[[nodiscard]] auto unless_no_memory(Run&& run) -> std::optional<decltype(run())> {
+  try {
+    return run();
+  } catch (std::bad_alloc const&) {
+    return std::nullopt;
+  }
+}
+/// The same, and nothing where it refuses its data.
 template <class Run>
 [[nodiscard]] auto unless_refused(Run&& run) -> std::optional<decltype(run())> {
   try {
-    return run();
+    return detail::unless_no_memory(run);
   } catch (bad_input const&) {
-  } catch (std::bad_alloc const&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 }  // namespace detail

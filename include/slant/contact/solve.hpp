@@ -262,6 +262,8 @@ template <class Friction, class S>
   if (o.start && !asked && !outlook.refusal) outlook.refusal = "forces to start from are given";
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
+  bool const automatic = o.route == solution_route::automatic;
+  bool may_iterate = automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0;
   auto const factor = [&] {
     free_motions<S> motions;
     try {
@@ -270,17 +272,16 @@ template <class Friction, class S>
       motions = motions_behind(refusal, K, o.layout);
       if (motions.free.empty()) throw;
     }
+    // Without springs that move, multigrid would take K for definite.
+    may_iterate = may_iterate && !outlook.floating.free.empty();
     auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
       return std::make_unique<run>(friction, held, scene, options);
     };
     return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
   };
-  bool const automatic = o.route == solution_route::automatic;
-  bool const may_iterate =
-      automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0;
   auto found = choice.route == solution_route::iterate
                    ? detail::by_routes(choice, automatic, iterate,
-                                       [&] { return detail::unless_refused(factor); })
+                                       [&] { return detail::unless_no_memory(factor); })
                    : detail::by_routes(choice, may_iterate, factor,
                                        [&] { return detail::unless_refused(iterate); });
   found.choice = std::move(choice);

@@ -86,7 +86,8 @@ class equality_constraints {
   using dense_type = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
   /// Throws bad_input if sizes do not match, an entry is not finite, a redundant row contradicts
-  /// the others (argument "e"), or a row is too close to the span of others (argument "G").
+  /// the others (argument "e"), a row is too close to the span of others (argument "G"), or the
+  /// length of a row, or e over it, leaves the range of the scalar.
   equality_constraints(sparse_type const& G, vector_type const& e)
       : equality_constraints(G, e, vector_type::Zero(G.rows())) {}
   /// The same for e with errors of the given size, one for each row: redundant rows agree with

@@ -141,7 +141,9 @@ class ball {
     S const square = radius_ * radius_;
     S const f = detail::is_finite(square)
                     ? (detail::precise_dot<S>(v, v) - detail::exact_product(radius_, radius_)).hi
-                    : S(v.squaredNorm() - square);
+                : detail::has_nan(v) ? detail::not_a_number<S>()
+                : contains(v)        ? S(-detail::infinity<S>())
+                                     : detail::infinity<S>();
     return Eigen::Matrix<S, 1, 1>::Constant(f);
   }
 

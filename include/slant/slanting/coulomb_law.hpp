@@ -191,7 +191,7 @@ template <int N, detail::parameter_list M>
 
 /// r ↦ r − A(r − ρ (W r + q)), ρ a vector with one factor > 0 for each component, in units of 1/W,
 /// the same for the tangential components of a contact. W is referenced if it is an lvalue.
-/// @throws bad_input naming mu, rho or the size that is wrong.
+/// @throws bad_input naming mu, rho, q or the size that is wrong.
 template <int N, operand A, class Q, detail::parameter_list M, class R>
 [[nodiscard]] auto alart_curnier(A&& w, Q const& q, M const& mu, R const& rho) {
   auto projection = slant::alart_curnier_projection<N>(mu);
@@ -202,7 +202,7 @@ template <int N, operand A, class Q, detail::parameter_list M, class R>
   for (index i = 0; i < n; ++i) {
     auto const& first = slant::local(rho)[i - i % N + (i % N > 0 ? 1 : 0)];
     auto const& own = slant::local(rho)[i];
-    if (!(own > 0) || !detail::is_finite(own)) {
+    if (!(own > scalar_t<R>(0)) || !detail::is_finite(own)) {
       throw bad_input("rho[" + std::to_string(i) + "]", detail::show(own), "a finite number > 0");
     }
     if (own != first) {

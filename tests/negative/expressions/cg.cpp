@@ -26,7 +26,7 @@ auto method(Eigen::MatrixXd const& matrix, Eigen::MatrixXd const& stiffness,
 #elif defined(MINUS)
   auto const A = -(B * Kinv * adjoint(B));
 #elif defined(COLUMN)
-  auto const A = b - (B * Kinv * adjoint(B) + I + b);
+  auto const A = b - (B * Kinv * adjoint(B) + I);
 #else
   auto const A = B * Kinv * adjoint(B) + I;
 #endif
