@@ -208,7 +208,14 @@ TEST_CASE("the spectrum on the whole space and on faces, by dense algebra") {
     check(exact_multigrid(s.K, o), 1e-12);
     check(multigrid(s.K, o), 1e-5);
   }
-  check(multigrid(s.K, {.prolongations = interpolation(2), .coarsest = 60}), 1e-5);
+  for (slant::index const degree : {0, 2, 4}) {
+    CAPTURE(degree);
+    check(multigrid(s.K, {.prolongations = interpolation(2), .coarsest = 60, .chebyshev = degree}),
+          1e-5);
+    check(exact_multigrid(
+              s.K, {.coordinates = test::moving_nodes(s), .coarsest = 20, .chebyshev = degree}),
+          1e-12);
+  }
   check(multigrid(s.K), 1e-5);  // one level
 }
 
@@ -236,6 +243,7 @@ TEST_CASE("steps of conjugate gradients do not grow with the mesh, on any face")
     CHECK(aggregated.complexity() <= 2);
     CHECK(aggregated.sizes().size() >= 2);
     check(multigrid(s.K, {.prolongations = interpolation(k)}), 18);
+    check(multigrid(s.K, {.prolongations = interpolation(k), .chebyshev = 2}), 18);
   }
   for (int const n : {20, 40, 80}) {
     sparse const K = laplacian(n, n);
@@ -733,6 +741,8 @@ TEST_CASE("options out of range are named") {
                        slant::bad_input);
   for (slant::index const b : {-1, 4})
     CHECK_THROWS_AS(options{.block_size = b}.validate(), slant::bad_input);
+  CHECK_THROWS_WITH_AS(options{.chebyshev = 5}.validate(),
+                       "chebyshev: got 5, expected a degree from 0 to 4", slant::bad_input);
   CHECK_THROWS_WITH_AS(options{.block_size = -1}.validate(),
                        "block_size: got -1, expected a number from 0 to 3", slant::bad_input);
   for (double const c : {1.0, quiet_nan})

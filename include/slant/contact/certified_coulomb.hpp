@@ -377,14 +377,13 @@ template <class S>
 
 // --- with factors --------------------------------------------------------------------------------
 
-/// From valid data without slip bounds.
-template <class Friction, class S>
+/// From valid data without slip bounds, and factors of K.
+template <class Friction, class S, class Factor>
 [[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> factored_coulomb(
-    Friction friction, Eigen::SparseMatrix<S> const& K, data<S> c, Eigen::VectorX<S> const& F,
-    certified_coulomb_options<S> const& o) {
+    Friction friction, Eigen::SparseMatrix<S> const& K, Factor const& factor, data<S> c,
+    Eigen::VectorX<S> const& F, certified_coulomb_options<S> const& o) {
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
-  auto const factor = factorize_stiffness(K, o.layout);
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);
   coulomb_certificate certificate(given, factor, K, c, F, S(o.tolerance));
@@ -468,8 +467,14 @@ template <class Friction, class S>
                                                      o.multigrid, S(o.tolerance), o.outer_steps),
                             o);
   };
-  auto const factor = [&] { return detail::factored_coulomb(friction, K, c, F, o); };
-  bool const may_iterate = automatic && outlook.is_possible && o.tolerance > 0;
+  bool const can_follow = automatic && outlook.is_possible && o.tolerance > 0;
+  // Multigrid takes K for definite where neither coordinates nor factors have told.
+  bool may_iterate = can_follow && o.layout.is_known();
+  auto const factor = [&] {
+    auto const factors = factorize_stiffness(K, o.layout);
+    may_iterate = can_follow;
+    return detail::factored_coulomb(friction, K, factors, c, F, o);
+  };
   // What seems to float may be only slender.
   auto const factor_after = [&] {
     return needs_none ? detail::unless_refused(factor) : detail::unless_no_memory(factor);

@@ -263,16 +263,19 @@ template <class Friction, class S>
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
   auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
   bool const automatic = o.route == solution_route::automatic;
-  bool may_iterate = automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0;
+  bool const can_follow = automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0;
+  // Multigrid takes K for definite where neither coordinates nor factors have told.
+  bool may_iterate = can_follow && o.layout.is_known();
   auto const factor = [&] {
     free_motions<S> motions;
     try {
-      return run(friction, K, c, o).solve();
+      run supported(friction, K, c, o);
+      may_iterate = can_follow;
+      return supported.solve();
     } catch (bad_input const& refusal) {
       motions = motions_behind(refusal, K, o.layout);
       if (motions.free.empty()) throw;
     }
-    // Without springs that move, multigrid would take K for definite.
     may_iterate = may_iterate && !outlook.floating.free.empty();
     auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
       return std::make_unique<run>(friction, held, scene, options);

@@ -251,7 +251,7 @@ template <int N, int M, class T>
 }
 
 /// λ_max(D⁻¹A) within a few percent, by the power method and the quotient of Rayleigh; D given by
-/// its inverses as for the sweeps. A value too small costs convergence, never definiteness.
+/// its inverses as for the sweeps. At least 1, the mean of the eigenvalues.
 template <int N, class T>
 [[nodiscard]] T largest_jacobi_eigenvalue(block_matrix<N, T> const& A, T const* inverses) {
   constexpr int stride = block_matrix<N, T>::stride;
@@ -280,7 +280,7 @@ template <int N, class T>
     double const xDx = step == 0 ? 0.0 : dot();
     A.multiply(x.data(), y.data());
     double const xAx = dot();
-    if (step > 0 && xDx > 0) λ = T(xAx / xDx);
+    if (step > 0 && xDx > 0) λ = std::max<T>(T(1), T(xAx / xDx));
     if (!(xAx > 0)) return λ;
     T const scale = T(1 / std::sqrt(xAx));
     for (int i = 0; i < A.nodes(); ++i) {

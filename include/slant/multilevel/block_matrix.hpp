@@ -159,6 +159,19 @@ class block_matrix {
       above.store_padded(r + at<stride>(i));
     }
   }
+  /// z ← α z + β D⁻¹r and x ← x + z, with inverses as for the sweeps: a step of two terms by Jacobi.
+  void step(T const* inverses, T const* r, T const& α, T const& β, T* z, T* x) const {
+    for (int i = 0; i < nodes(); ++i) {
+      std::size_t const k = at<stride>(i);
+      columns const own = inverse_times(inverses, i, columns::load(r + k));
+      columns next = columns::zero(), sum = columns::load(x + k);
+      next.add(own, β);
+      next.add(z + k, α);
+      sum += next;
+      next.store_padded(z + k);
+      sum.store_padded(x + k);
+    }
+  }
   /// r = A x from r = Lᵀx, by half of the matrix.
   void complete_product(T const* x, T* r) const {
     for (int i = 0; i < nodes(); ++i) {
@@ -287,13 +300,18 @@ class block_matrix {
     a += b;
     return a;
   }
-  /// x_i = D_i⁻¹ s.
-  [[gnu::always_inline]] static void relax(T const* inverses, int i, columns const& s, T* x) {
+  /// D_i⁻¹ s.
+  [[nodiscard, gnu::always_inline]] static columns inverse_times(T const* inverses, int i,
+                                                                 columns const& s) {
     columns y = columns::zero();
     T const* const inverse = inverses + at<stride>(i) * N;
     detail::unrolled<N>([&](auto c)
                             __attribute__((always_inline)) { y.add(inverse + stride * c, s[c]); });
-    y.store_padded(x + at<stride>(i));
+    return y;
+  }
+  /// x_i = D_i⁻¹ s.
+  [[gnu::always_inline]] static void relax(T const* inverses, int i, columns const& s, T* x) {
+    inverse_times(inverses, i, s).store_padded(x + at<stride>(i));
   }
 
   /// The measure of require_symmetric_entries, in one pass. False also for patterns that are not

@@ -60,6 +60,9 @@ struct multigrid_options {
   /// its share is coarsened along weaker couplings, θ/2, θ/4, …, 0; where that is not enough, its P
   /// is not smoothed, which costs up to twice the cycles.
   double complexity = 2;
+  /// Levels are smoothed by polynomials of Chebyshev of this degree, 1 to 4 (parts/cycle.hpp); 0: by
+  /// sweeps of block Gauss–Seidel, which take less time where one thread does all.
+  index chebyshev = 0;
 
   /// A last level with so many unknowns is factored.
   [[nodiscard]] index most_factored() const { return std::max<index>(2 * coarsest, 1200); }
@@ -82,6 +85,9 @@ struct multigrid_options {
     if (coarsest < 1) throw bad_input("coarsest", show(coarsest), "at least 1");
     if (levels < 1) throw bad_input("levels", show(levels), "at least 1");
     if (!(complexity > 1)) throw bad_input("complexity", show(complexity), "a number > 1");
+    if (chebyshev < 0 || chebyshev > 4) {
+      throw bad_input("chebyshev", show(chebyshev), "a degree from 0 to 4");
+    }
   }
 };
 
@@ -121,6 +127,11 @@ struct multigrid_level {
   std::size_t longest = 0;     // of the rows of A P
   aggregation aggregates{};    // of its nodes, if nodes of the next level stand for them
   near_kernel<M, M> kernel{};  // of the next level, in that case
+  T largest = 0;               // eigenvalue of D⁻¹A, about; 0 where it was not asked for
+
+  void find_largest() {
+    if (largest == T(0)) largest = largest_jacobi_eigenvalue(A, inverses.data());
+  }
 };
 
 /// Constants, one for each unknown of a node.
@@ -150,6 +161,7 @@ class hierarchy {
   bool factored = false;             // whether there is such a factor
   index most_factored = 0;           // a last level with more unknowns is not
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
+  index degree = 0;                  // of polynomials in place of sweeps
 
   [[nodiscard]] std::vector<index> sizes() const {
     std::vector<index> list{fine.A.rows()};
@@ -238,9 +250,15 @@ class hierarchy {
     factored = finer.factored;  // where it is not, finish() finds the same
   }
 
-  /// Factors the last level, once. Throws bad_input if K is found not to be semidefinite.
-  void finish(index most) {
+  /// Factors the last level, once, and bounds spectra for polynomials. Throws bad_input if K is found
+  /// not to be semidefinite.
+  void finish(index most, index chebyshev) {
     most_factored = most;
+    degree = chebyshev;
+    if (degree > 0) {
+      fine.find_largest();
+      for (auto& l : coarse) l.find_largest();
+    }
     if (factored) return;
     auto const factor = [&](auto& to, auto const& A) {
       // A level that would not become smaller has few couplings, and sweeps solve it well enough.
@@ -319,9 +337,9 @@ class hierarchy {
                                                 multigrid_options const& o) {
     // A level may have so many of the numbers of the one above that all have what the limit allows.
     double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
-    T const λ = largest_jacobi_eigenvalue(above.A, above.inverses.data());
+    above.find_largest();
     double θ = o.strength;
-    bool smooth = λ > T(0);
+    bool smooth = true;
     while (true) {
       aggregation a = aggregate(above.A, θ);
       if (a.count == 0 || 10 * a.count > 9 * index(above.A.nodes())) {
@@ -331,7 +349,7 @@ class hierarchy {
       }
       near_kernel<M, M> next;
       auto const Q = orthonormal_candidates<F, M, T>(a, B, next);
-      T const ω = smooth ? T(o.damping) / λ : T(0);
+      T const ω = smooth ? T(o.damping) / above.largest : T(0);
       auto P = smoothed_prolongation<F, M, T>(above.A, above.inverses.data(), a, Q, ω);
       auto C = galerkin_pattern(above.A, P, above.longest);
       if (smooth && double(C.blocks()) * (M * M) > most) {

@@ -258,7 +258,7 @@ class multigrid {
   void build(index b, index candidates, multigrid_options const& o, F fill) {
     with_levels(b, candidates > b && o.prolongations.empty(), [&](auto& h) {
       fill(h);
-      h.finish(o.most_factored());
+      h.finish(o.most_factored(), o.chebyshev);
     });
     note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), candidates, o);
   }
@@ -485,7 +485,7 @@ multigrid<S, T> multigrid<S, T>::coarser(sparse_view const& k,
         auto all = std::make_shared<all_levels>(std::in_place_type<levels<node, M>>);
         auto& own = std::get<levels<node, M>>(*all);
         own.take_below(h, k, factor_, G);
-        own.finish(h.most_factored);
+        own.finish(h.most_factored, h.degree);
         c.levels_ = std::move(all);
         c.description_ = "from level 1 on: " + c.levels_text();
         return c;
@@ -510,7 +510,8 @@ void multigrid<S, T>::run(S const* x, S* y, workspace_type& w, bool on_face) con
     bool const faced = on_face && v.on_face.has_value();
     detail::cycle(h, v, faced);
     lengthen<N>(v.fine.x, w.unit * factor_, y, rows_);
-    w.is_short = !faced || !v.on_face->face.complete(x, y, factor_);
+    bool const held = faced && v.on_face->face.complete(x, y, factor_);
+    w.is_short = !held && h.degree == 0;  // sweeps have found half of the image
   });
 }
 

@@ -11,6 +11,17 @@
 // blocks, and a semidefinite rest, however inexact the coarse levels are. No bound of a spectrum is
 // needed that would have to be right. On a singular K, of bodies that float, M is definite as well.
 //
+// Chebyshev. In place of a sweep m steps of the polynomial of the fourth kind [Lottes 2023, (9)] in
+// D⁻¹K, whose spectrum is in (0, λ],
+//
+//     z ← (2k − 3)/(2k + 1) z + (8k − 4)/(2k + 1) D⁻¹r/λ,    x ← x + z,    k = 1, …, m.
+//
+// Nothing but products by K, in no order of the nodes; 2m of them instead of two. An error e becomes
+// w(D⁻¹K) e with |w| < 1 on (0, λ] and some way beyond, to 1.5 λ, 1.25 λ, 1.15 λ, 1.09 λ for m = 1
+// to 4: M is definite as long as the spectrum ends before that. λ is 1.2 times what the power method
+// finds. It holds on every face of level 0, as Π and C only lower the spectrum, and is found anew on
+// coarse levels where they have followed a face.
+//
 // Faces. On a face H = Π K Π + C takes the place of K (node_face.hpp): the inverses of the diagonal
 // blocks at the surface are all that the sweeps know of it, and P is truncated by Π. In the rows of
 // the coarse levels that come from nodes where the face has changed, and no others, the change is
@@ -26,6 +37,7 @@
 #include <slant/multilevel/parts/galerkin.hpp>
 #include <slant/multilevel/parts/node_face.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -33,12 +45,13 @@
 
 namespace slant::detail {
 
-/// Block vectors of a level.
+/// Block vectors of a level; z is for polynomials.
 template <class T>
 struct level_vectors {
-  std::vector<T> x, b, r;
+  std::vector<T> x, b, r, z;
 
-  explicit level_vectors(std::size_t n) : x(n, T(0)), b(n, T(0)), r(n, T(0)) {}
+  level_vectors(std::size_t n, index degree)
+      : x(n, T(0)), b(n, T(0)), r(n, T(0)), z(degree > 0 ? n : 0, T(0)) {}
 };
 
 /// What belongs to a face: copies of the coarse levels whose rows follow it, and as much again for
@@ -49,6 +62,7 @@ struct levels_on_face {
   std::vector<block_matrix<M, T>> A;  // of coarse levels
   std::vector<block_matrix<M, T>> D;  // what the last face has changed of them
   std::vector<std::vector<T>> inverses;
+  std::vector<T> largest;
   int changes = 0;  // of A since it was that of no face: each leaves some rounding
   dense_factor<N, T> only;
   dense_factor<M, T> last;
@@ -66,6 +80,7 @@ struct levels_on_face {
       A.push_back(h.coarse[l].A);
       D.push_back(h.coarse[l].A.of_same_pattern());
       inverses.push_back(h.coarse[l].inverses);
+      largest.push_back(h.coarse[l].largest);
       scratch.emplace_back();
       if (l + 1 < h.coarse.size()) scratch.back() = {h.coarse[l].P, h.coarse[l].longest};
     }
@@ -79,8 +94,49 @@ struct cycle_workspace {
   std::vector<level_vectors<T>> coarse;
   std::optional<levels_on_face<N, M, T>> on_face;
 
-  explicit cycle_workspace(hierarchy<N, M, T> const& h) : fine(h.fine.A.padded_size()) {
-    for (auto const& l : h.coarse) coarse.emplace_back(l.A.padded_size());
+  explicit cycle_workspace(hierarchy<N, M, T> const& h) : fine(h.fine.A.padded_size(), h.degree) {
+    for (auto const& l : h.coarse) coarse.emplace_back(l.A.padded_size(), h.degree);
+  }
+};
+
+/// What smooths a level before the coarse correction, from 0, after which r = b − A x, and after it.
+/// Degree 0: sweeps.
+template <int N, class T>
+struct smoother {
+  block_matrix<N, T> const& A;
+  T const* inverses;
+  T largest;  // eigenvalue of D⁻¹A, about
+  index degree;
+  node_face<N, T> const* face;  // on level 0: C in A + C, of which sweeps know by the inverses
+
+  void before(level_vectors<T>& v) const {
+    if (degree == 0) return A.forwards_from_zero(inverses, v.b.data(), v.x.data(), v.r.data());
+    std::fill(v.x.begin(), v.x.end(), T(0));
+    v.r = v.b;
+    polynomial(v);
+    residual(v);
+  }
+  void after(level_vectors<T>& v) const {
+    if (degree == 0) return A.backwards(inverses, v.b.data(), v.x.data(), v.r.data());
+    residual(v);
+    polynomial(v);
+  }
+
+ private:
+  void residual(level_vectors<T>& v) const {
+    A.multiply(v.x.data(), v.r.data());
+    for (std::size_t k = 0; k < v.r.size(); ++k) v.r[k] = v.b[k] - v.r[k];
+    if (face) face->subtract_curvature(v.x.data(), v.r.data());
+  }
+  void polynomial(level_vectors<T>& v) const {
+    constexpr double margin = 1.2;
+    std::fill(v.z.begin(), v.z.end(), T(0));
+    for (index k = 1; k <= degree; ++k) {
+      if (k > 1) residual(v);
+      double const n = static_cast<double>(2 * k + 1);
+      double const α = (n - 4) / n, β = (4 * n - 8) / (n * margin);
+      A.step(inverses, v.r.data(), T(α), T(β) / largest, v.z.data(), v.x.data());
+    }
   }
 };
 
@@ -96,14 +152,16 @@ void coarse_cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool
     (on_face ? w.on_face->last : h.last).solve(v.b.data(), v.x.data());
     return;
   }
-  A.forwards_from_zero(inverses.data(), v.b.data(), v.x.data(), v.r.data());
+  smoother<M, T> const smooth{
+      A, inverses.data(), on_face ? w.on_face->largest[l] : h.coarse[l].largest, h.degree, nullptr};
+  smooth.before(v);
   if (!last) {
     auto const& P = h.coarse[l].P;
     P.restrict_to(v.r.data(), w.coarse[l + 1].b.data());
     coarse_cycle(h, w, on_face, l + 1);
     P.add_to(w.coarse[l + 1].x.data(), v.x.data());
   }
-  A.backwards(inverses.data(), v.b.data(), v.x.data(), v.r.data());
+  smooth.after(v);
 }
 
 /// x = cycle(b) on all levels.
@@ -111,9 +169,10 @@ template <int N, int M, class T>
 void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_face) {
   auto& v = w.fine;
   auto* const face = on_face ? &w.on_face->face : nullptr;
-  T const* const inverses = face ? face->inverses() : h.fine.inverses.data();
+  smoother<N, T> const smooth{h.fine.A, face ? face->inverses() : h.fine.inverses.data(),
+                              h.fine.largest, h.degree, face};
   // r = b − A x, or at a surface what Π makes of it.
-  h.fine.A.forwards_from_zero(inverses, v.b.data(), v.x.data(), v.r.data());
+  smooth.before(v);
   if (!h.coarse.empty() || h.factored) {
     if (face) {
       face->project(v.r.data());
@@ -129,7 +188,7 @@ void cycle(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w, bool on_fac
     }
     if (face) face->project_change(v.x.data());
   }
-  h.fine.A.backwards(inverses, v.b.data(), v.x.data(), v.r.data());
+  smooth.after(v);
 }
 
 /// The coarse levels follow a face of which w.on_face->moved are the nodes that have changed. Returns
@@ -163,6 +222,9 @@ index follow_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w) {
     }
     for (int const i : f.parents) {
       invert_diagonal(f.A[l], h.coarse[l].A, i, f.inverses[l].data());
+    }
+    if (h.degree > 0 && !f.parents.empty()) {
+      f.largest[l] = largest_jacobi_eigenvalue(f.A[l], f.inverses[l].data());
     }
     rows += static_cast<index>(f.parents.size());
     std::swap(f.moved, f.parents);

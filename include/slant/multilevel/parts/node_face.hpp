@@ -124,6 +124,17 @@ class node_face {
     };
   }
 
+  /// r ← r − C'x.
+  void subtract_curvature(T const* x, T* r) const {
+    for (node const& here : surface_) {
+      std::size_t const k = offset(here.i);
+      for (int c = 0; c < N; ++c) {
+        for (int q = 0; q < N; ++q) {
+          r[k + std::size_t(q)] -= T(here.level.curvature(q, c)) * x[k + std::size_t(c)];
+        }
+      }
+    }
+  }
   /// r ← Π'r.
   void project(T* r) const {
     for (node const& here : surface_) project_at(here, r + offset(here.i));
