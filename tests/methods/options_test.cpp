@@ -57,8 +57,7 @@ TEST_CASE("MSSN and IMSSN") {
 TEST_CASE("successive approximations") {
   check<slant::successive_options<double>>(
       {{{}},
-       {{.window = 0, .growth = 1}},
-       {{.window = -1}, "window: got -1, expected a number >= 0"},
+       {{.secant = false, .growth = 1}},
        {{.growth = 0.5}, "growth: got 0.5, expected a finite number >= 1"},
        {{.growth = infinity}, "growth: got inf, expected a finite number >= 1"},
        {{.relaxation = 0}, "relaxation: got 0, expected a number in (0, 1]"},

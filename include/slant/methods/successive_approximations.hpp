@@ -13,7 +13,7 @@
 //
 //     solve       min q_p over Λ_p from the last x, until ‖r̃‖ ≤ η R
 //     look        P(x), R
-//     mix         p ← Anderson's combination of the last p and Ψ(p); where R has grown: p ← P(x)
+//     mix         p ← a secant step from the last p and Ψ(p); where R has grown: p ← P(x)
 //
 // The convergence is linear, of rate κ say: inner problems solved by a factor η ~ κ ask conjugate
 // gradients for the digits of one problem in portions, each of which begins anew; measured for
@@ -39,113 +39,69 @@
 #include <slant/newton/forcing.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace slant {
 
-// --- anderson mixing -----------------------------------------------------------------------------
-//
-// Anderson's acceleration of a fixed point iteration p ← Ψ(p) [Anderson 1965; Walker, Ni 2011,
-// "type II"]. With f_k = Ψ(p_k) − p_k and the last few differences Δp_j, Δf_j
-//
-//     γ = argmin ‖f_k − Σ γ_j Δf_j‖,      p_{k+1} = p_k + ω f_k − Σ γ_j (Δp_j + ω Δf_j),
-//
-// a secant method in as many directions as there are differences: GMRES, if Ψ is affine. It costs
-// no evaluation of Ψ.
-//
-// Values of Ψ that are known to a few digits only make differences of old, small steps noise. So
-// the least squares are solved from the newest difference to the oldest, and one that is nearly a
-// combination of newer ones is left out.
+// --- secant steps --------------------------------------------------------------------------------
 
-/// The last differences of a fixed point iteration, at most as many as there is room for.
+/// Acceleration of a fixed point iteration p ← Ψ(p) by its last difference, Anderson's with a window
+/// of one [Anderson 1965; Walker, Ni 2011, "type II"]: with f = Ψ(p) − p and Δp, Δf since the last
+/// call
+///
+///     p ← p + ω f − γ (Δp + ω Δf),      γ = argmin ‖f − γ Δf‖.
+///
+/// It costs no evaluation of Ψ. More differences see the errors of inexact solves: on the bricks of
+/// benchmarks/coulomb.cpp five took up to a quarter more products than one.
 template <class V>
-class anderson_mixing {
+class secant_mixing {
  public:
   using scalar = scalar_t<V>;
 
-  anderson_mixing() = default;
-  /// Room for `window` >= 0 differences of vectors with n entries. Allocates; nothing later does.
-  anderson_mixing(V const& prototype, index n, index window)
-      : last_p_(like(prototype, n)), last_f_(like(prototype, n)) {
-    for (index i = 0; i < window; ++i) {
-      differences_.push_back(
-          {like(prototype, n), like(prototype, n), like(prototype, n), like(prototype, n)});
-    }
-  }
+  secant_mixing() = default;
+  /// For vectors of n entries. Allocates; nothing later does.
+  secant_mixing(V const& prototype, index n)
+      : p_(like(prototype, n)),
+        f_(like(prototype, n)),
+        Δp_(like(prototype, n)),
+        Δf_(like(prototype, n)) {}
 
-  /// Forgets everything: the next step is a plain one.
-  void forget() {
-    count_ = 0;
-    begun_ = false;
-  }
+  /// The next step is a plain one.
+  void forget() { begun_ = false; }
 
-  /// next ← p_{k+1} from p_k and f_k = Ψ(p_k) − p_k, which are remembered. Whether a difference was
-  /// used. `next` must not alias the others.
+  /// next ← the next p, from p and f, which are remembered. Whether a difference was used. `next`
+  /// must not alias the others.
   bool mix(V const& p, V const& f, scalar const& ω, V& next) {
-    if (begun_) record(p, f);
-    vectors::copy(p, last_p_);
-    vectors::copy(f, last_f_);
-    begun_ = true;
-    // Gram and Schmidt, the newest difference first; `rest` is what γ leaves of f.
-    vectors::copy(p, next);
     bool used = false;
-    auto& rest = last_f_;  // restored below
-    for (std::size_t j = 0; j < count_; ++j) {
-      auto& d = newest(j);
-      vectors::copy(d.step, d.p);
-      vectors::copy(d.change, d.f);
-      scalar const whole = norm(d.f);
-      for (std::size_t i = 0; i < j; ++i) {
-        auto const& e = newest(i);
-        if (!e.used) continue;
-        scalar const c = inner_product(e.f, d.f);
-        vectors::axpy(-c, e.f, d.f);
-        vectors::axpy(-c, e.p, d.p);
+    scalar γ(0);
+    if (begun_) {
+      vectors::difference(p, p_, Δp_);
+      vectors::difference(f, f_, Δf_);
+      scalar const length = norm(Δf_);
+      used = length > scalar(0) && detail::is_finite(length);
+      if (used) {
+        vectors::divide(length, Δf_);
+        vectors::divide(length, Δp_);
+        γ = inner_product(Δf_, f);
       }
-      scalar const length = norm(d.f);
-      d.used = length > scalar(independent_) * whole && detail::is_finite(length);
-      if (!d.used) continue;
-      vectors::divide(length, d.f);
-      vectors::divide(length, d.p);
-      scalar const γ = inner_product(d.f, rest);
-      vectors::axpy(-γ, d.f, rest);
-      vectors::axpy(-γ, d.p, next);
-      used = true;
     }
-    vectors::axpy(ω, rest, next);
-    vectors::copy(f, last_f_);
+    vectors::copy(p, p_);
+    vectors::copy(f, f_);
+    begun_ = true;
+    vectors::copy(p, next);
+    if (used) {
+      vectors::axpy(-γ, Δf_, f_);
+      vectors::axpy(-γ, Δp_, next);
+    }
+    vectors::axpy(ω, f_, next);
+    vectors::copy(f, f_);
     return used;
   }
 
  private:
-  static constexpr double independent_ = 0.05;  // of a difference has to be new
-
-  struct difference {
-    V step, change;  // Δp, Δf
-    V p, f;          // the same, f orthonormal to newer ones
-    bool used = false;
-  };
-  /// The j-th newest.
-  difference& newest(std::size_t j) {
-    return differences_[(head_ + differences_.size() - 1 - j) % differences_.size()];
-  }
-  void record(V const& p, V const& f) {
-    if (differences_.empty()) return;
-    auto& d = differences_[head_];
-    vectors::difference(p, last_p_, d.step);
-    vectors::difference(f, last_f_, d.change);
-    head_ = (head_ + 1) % differences_.size();
-    if (count_ < differences_.size()) ++count_;
-  }
-
-  V last_p_{}, last_f_{};
-  std::vector<difference> differences_{};
-  std::size_t head_ = 0;
-  std::size_t count_ = 0;
+  V p_{}, f_{}, Δp_{}, Δf_{};
   bool begun_ = false;
 };
 
@@ -158,16 +114,13 @@ struct successive_options {
   /// the last problem is not solved too well. Measured for Coulomb friction on bricks (k = 6): the
   /// products for 0.5 … 0.1 differ by a fifth at most, 0.02 takes up to a half more.
   eisenstat_walker forcing{.γ = 1, .exponent = 1.001, .η_max = 0.3, .η_first = 0.3};
-  /// Differences that Anderson's acceleration keeps; 0: none. One is a secant rule. More of them
-  /// see errors of inexact solves: on the same bricks 5 took up to a quarter more products than 1.
-  index window = 1;
+  bool secant = true;   ///< whether steps are accelerated
   S growth = S(2);      ///< >= 1: the residual may grow so much in a step before it is a failure
   S relaxation = S(1);  ///< ω in (0, 1]: p ← p + ω (Ψ(p) − p) for a plain step
   index inner_steps = 200;  ///< of the inner method in one outer step at most
   index patience = 30;      ///< outer steps in which the residual does not fall that mean stalled
 
   [[gnu::cold]] void validate() const {
-    if (window < 0) throw bad_input("window", detail::show(window), "a number >= 0");
     detail::check_option("growth", growth, growth >= S(1) && detail::is_finite(growth),
                          "a finite number >= 1");
     detail::check_option("relaxation", relaxation, relaxation > S(0) && relaxation <= S(1),
@@ -197,12 +150,12 @@ struct successive_state {
   V projected;   ///< scratch
   Inner inner;   ///< state of the inner method
 
-  anderson_mixing<V> mixing;          ///< differences of p and Ψ(p) − p
+  secant_mixing<V> mixing;            ///< differences of p and Ψ(p) − p
   forcing_history<scalar> forcing{};  ///< residuals and inner tolerances so far
   progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
   scalar relaxation{1};               ///< ω; smaller after plain steps that have failed
   bool solved_once = false;           ///< x is a solution at p, up to η R, and no start
-  bool accelerated = false;           ///< the last p is one of Anderson's
+  bool accelerated = false;           ///< the last p is a secant step
   scalar unit{1};                     ///< of r and r̃, a power of two: that of the inner method
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖ at x for the problem at Ψ(p): 0 at a fixed point
   scalar gradient_scale{0};         ///< that of the inner problem
@@ -265,17 +218,7 @@ class successive_approximations {
     family_->guess(x0, p);
     family_->assign(p);
     auto const one = [&] { return like(x0, index(slant::local(x0).size())); };
-    state_type s{x0,
-                 p,
-                 p,
-                 p,
-                 p,
-                 one(),
-                 one(),
-                 one(),
-                 one(),
-                 make_(scalar(0.5)).start(x0),
-                 {p, n, options_.window}};
+    state_type s{x0, p, p, p, p, one(), one(), one(), one(), make_(scalar(0.5)).start(x0), {p, n}};
     begin(s);
     s.work = s.inner.work;
     return s;
@@ -350,6 +293,7 @@ class successive_approximations {
     if (!moves) {
       vectors::copy(s.parameters, s.next);
     } else if (s.solved_once) {
+      if (!options_.secant) s.mixing.forget();
       s.accelerated = s.mixing.mix(s.parameters, s.change, s.relaxation, s.next);
     } else {
       vectors::copy(s.image, s.next);
@@ -406,7 +350,7 @@ class successive_approximations {
     }
   }
 
-  /// Where the residual has grown: no more of Anderson's steps from what is known, or shorter ones.
+  /// Where the residual has grown: no secant step from what is known, or shorter ones.
   void guard(state_type& s, scalar const& before) const {
     if (s.status != status::running) return;
     if (s.reduced_gradient_norm > options_.growth * before) {
