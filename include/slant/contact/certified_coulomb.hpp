@@ -383,7 +383,6 @@ template <class Friction, class S, class Factor>
     Friction friction, Eigen::SparseMatrix<S> const& K, Factor const& factor, data<S> c,
     Eigen::VectorX<S> const& F, certified_coulomb_options<S> const& o) {
   using vector_type = Eigen::VectorX<S>;
-  using sparse_type = Eigen::SparseMatrix<S>;
   using dual_type = decltype(dual(friction, factor, c));
   dual_type given(friction, factor, c);
   coulomb_certificate certificate(given, factor, K, c, F, S(o.tolerance));
@@ -395,9 +394,7 @@ template <class Friction, class S, class Factor>
   result.scaled = d.size() > 0;
   std::optional<dual_type> scaled;
   if (result.scaled) {
-    c.N = sparse_type(d.head(c.nodes()).asDiagonal() * c.N);
-    c.T = sparse_type(d.tail(c.T.rows()).asDiagonal() * c.T);
-    c.d = c.d.cwiseProduct(d.head(c.nodes()));
+    c = with_units(std::move(c), d);
     scaled.emplace(friction, factor, c);
   }
   dual_type& problem = result.scaled ? *scaled : given;
@@ -453,6 +450,16 @@ template <class Friction, class S>
   detail::clear_slip_bounds(c);
   detail::validated(friction, c, K.rows());
   detail::check_coefficients("F", detail::one_per_contact(Eigen::VectorX<S>(F), c.nodes()));
+  if (auto const U = detail::row_units(c); U.size() > 0) {
+    Eigen::VectorX<S> own = F;
+    for (index i = 0; i < own.size(); ++i) {
+      S const ratio = U[i] / U[c.nodes() + i * c.tangents()];
+      own[i] = std::min<S>(own[i] * ratio, std::numeric_limits<S>::max());
+    }
+    auto run = certified_coulomb(friction, K, detail::with_units(std::move(c), U), own, o);
+    run.λ = run.λ.cwiseProduct(U);
+    return run;
+  }
   auto const outlook = o.method == coulomb_method::automatic
                            ? detail::outlook_of_iteration(K, c, o)
                            : detail::iteration_outlook<S>{"the method works on forces"};

@@ -4,11 +4,14 @@
 #pragma once
 
 #include <slant/base/matrix_entries.hpp>
+#include <slant/base/scaling.hpp>
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -166,6 +169,48 @@ template <class S>
   Eigen::SparseMatrix<S> N = c.N;
   N.prune([&](index i, index, S const&) { return slant::detail::is_finite(c.d(i)); });
   return stacked(N, c.T);
+}
+
+// --- units of rows -------------------------------------------------------------------------------
+//
+// Gaps, slip bounds and forces are in units of their rows of N and T. Where entries of these are far
+// from 1 their squares are no numbers, and the problem is solved for rows U (N, T) and forces
+// λ' = U⁻¹λ: the same one, bit for bit in its displacements as far as powers of two go.
+
+/// U: powers of two that make the largest entry of each row of (N, T) about 1, one for the tangents
+/// of a contact. Empty where none is beyond 2^±64.
+template <class S>
+[[nodiscard]] Eigen::VectorX<S> row_units(data<S> const& c) {
+  index const m = c.nodes(), per = c.tangents();
+  Eigen::VectorX<S> U = Eigen::VectorX<S>::Zero(m + c.T.rows());
+  auto const note = [&](index i, S const& value) {
+    using std::abs;
+    U[i] = std::max<S>(U[i], abs(value));
+  };
+  slant::detail::for_each_entry(c.N, [&](index i, index, S const& v) { note(i, v); });
+  slant::detail::for_each_entry(c.T,
+                                [&](index i, index, S const& v) { note(m + i / per * per, v); });
+  bool moderate = true;
+  for (index i = 0; i < U.size(); ++i) {
+    if (i > m && (i - m) % per != 0) {
+      U[i] = U[i - 1];
+      continue;
+    }
+    S const unit = unit_near(U[i]);
+    moderate = moderate && unit <= S(0x1p64) && unit >= S(0x1p-64);
+    U[i] = S(1) / unit;
+  }
+  return moderate ? Eigen::VectorX<S>() : U;
+}
+/// The data in these units.
+template <class S>
+[[nodiscard]] data<S> with_units(data<S> c, Eigen::VectorX<S> const& U) {
+  index const m = c.nodes();
+  c.N = Eigen::SparseMatrix<S>(U.head(m).asDiagonal() * c.N);
+  c.T = Eigen::SparseMatrix<S>(U.tail(c.T.rows()).asDiagonal() * c.T);
+  c.d = c.d.cwiseProduct(U.head(m));
+  for (index i = 0; i < c.g.size(); ++i) c.g[i] /= U[m + i * c.tangents()];
+  return c;
 }
 
 /// ‖row‖² of each row of B.

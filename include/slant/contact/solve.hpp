@@ -256,6 +256,16 @@ template <class Friction, class S>
   using run = detail::certified_run<Friction, S>;
   o.validate();
   detail::validated(friction, c, K.rows());
+  if (auto const U = detail::row_units(c); U.size() > 0) {
+    auto own = o;
+    if (o.start) {
+      slant::detail::check_size("start", o.start->size(), U.size());
+      own.start = o.start->cwiseQuotient(U);
+    }
+    auto found = solve(friction, K, detail::with_units(c, U), own);
+    found.multipliers = found.multipliers.cwiseProduct(U);
+    return found;
+  }
   bool const asked = o.route == solution_route::iterate;
   auto outlook = o.prove ? detail::iteration_outlook<S>{"the proof of a bound takes factors"}
                          : detail::outlook_of_iteration(K, c, o);
