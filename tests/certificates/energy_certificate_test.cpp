@@ -195,6 +195,19 @@ TEST_CASE("in any units, also where energies leave the range of the numbers") {
   }
 }
 
+TEST_CASE("a disc that is all but a point hides nothing of the others") {
+  std::mt19937 random(3);
+  test::made_program p = test::make_program(3, 2, random);
+  auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
+  for (double const g : {0.0, 1e-150, 1e-160, 1e-250}) {
+    p.g(1) = g;
+    auto const qp = test::program(p);
+    slant::energy_certificate bound(qp, slant::dominates_inverse(M));
+    auto const r = test::minimise(slant::symmetric_newton{qp}, VectorXd(p.b), 1e-12, 100);
+    CHECK(bound(r.x()).relative() <= 1e-8);
+  }
+}
+
 TEST_CASE("numbers that can do no more than the concept of a scalar asks for") {
   using S = slant::testing::archetype::scalar;
   using vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;

@@ -392,6 +392,48 @@ TEST_CASE("no minimum along unknowns without constraint: the direction at which 
   CHECK(d.sum() > 0);
 }
 
+TEST_CASE("no minimum: beside constraints, whatever else the direction of the steps leads out of") {
+  for (bool const free : {false, true}) {
+    MatrixXd H = MatrixXd::Zero(3, 3);
+    H(free ? 1 : 0, free ? 1 : 0) = free ? 4 : 1;
+    VectorXd const b = free ? VectorXd{{-2, 1, 2}} : VectorXd{{2, -3, 3}};
+    auto const some = slant::cartesian(slant::half_lines(1), slant::free_components(2));
+    auto const bound = slant::half_lines(3);
+    auto const judge = [&](auto const& set) {
+      auto const qp = semidefinite(H, b, set);
+      auto const r = test::minimise(slant::interior_point{qp}, test::zeros(3), 1e-10, 30);
+      CHECK(r.status == slant::status::unbounded);
+      CHECK(r.state.step.dot(b) > 0);
+      CHECK((H * r.state.step).norm() <= 1e-12 * r.state.step.norm());
+    };
+    free ? judge(some) : judge(bound);
+  }
+}
+
+TEST_CASE("programs of any rank with discs and cones: solved where Newton's method does") {
+  std::mt19937 random(21);
+  std::normal_distribution<double> normal;
+  auto const number = [&] { return normal(random); };
+  int open = 0;
+  for (int k = 0; k < test::effort(400, 60); ++k) {
+    constexpr int n = 12;
+    int const rank = 1 + int(random() % n);
+    MatrixXd const B = MatrixXd::NullaryExpr(n, rank, number), H = B * B.transpose();
+    VectorXd const b = 3 * B * VectorXd::NullaryExpr(rank, number);
+    VectorXd const radii = VectorXd::NullaryExpr(
+        3, [&] { return random() % 5 == 0 ? 0.0 : std::pow(10.0, double(random() % 7) - 3); });
+    VectorXd const μ = VectorXd::NullaryExpr(2, [&] { return 0.1 + double(random() % 10); });
+    auto const set = slant::cartesian(slant::discs(radii), slant::friction_cones<3>(μ));
+    auto const qp = semidefinite(H, b, set);
+    auto const r = test::minimise(slant::interior_point{qp}, test::zeros(n), 1e-8, 200);
+    CAPTURE(k);
+    CHECK(r.status != slant::status::breakdown);
+    if (r.converged()) continue;
+    open += test::minimise(slant::symmetric_newton{qp}, test::zeros(n), 1e-8, 2000).converged();
+  }
+  CHECK(open <= 1);
+}
+
 TEST_CASE("no minimum over a large kernel, seen through rounding") {
   MatrixXd B(40, 5);
   for (int j = 0; j < 5; ++j) B.col(j) = test::random_vector(40, 30U + static_cast<unsigned>(j));

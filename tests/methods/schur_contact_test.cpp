@@ -309,6 +309,14 @@ TEST_CASE("starts out of the set, sets without points, loads without a state of 
   CHECK_THROWS_WITH_AS(solve(p, {}, [](body_list const&, report_type const&) {}),
                        "c: got bounds that exclude each other, expected a u with B u <= c",
                        slant::bad_input);
+  // Far from where four planes through zero meet.
+  MatrixXd planes(4, 3);
+  planes << 2, 1, 0, 1, -2, -2, -1, 0, 0, -2, 0, 2;
+  small_problem const corner{chain(3), VectorXd::Zero(3), planes, VectorXd::Zero(4)};
+  body_list const bodies{corner};
+  auto const from_far = minimise(bodies.qp(), VectorXd{{-6.1, 3.5, -7}}, {});
+  CHECK(from_far.converged());
+  CHECK(from_far.x().norm() <= 1e-12);
   // Pulled away from the wall.
   compare({chain(3), VectorXd{{-1, 0, 0.5}}, MatrixXd(VectorXd::Unit(3, 0).transpose()),
            VectorXd{{0}}});

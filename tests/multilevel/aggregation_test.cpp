@@ -31,6 +31,13 @@ TEST_CASE("every node is in one aggregate, and none is empty") {
   CHECK(a.count <= 63 / 3);
 }
 
+TEST_CASE("aggregates do not depend on units") {
+  auto const of = [](double unit) {
+    return aggregate(block_matrix<1, float>(laplacian(8, 6, 1e-4), unit), 0.1).of;
+  };
+  for (double const unit : {1e-22, 1e22}) CHECK(of(unit) == of(1));
+}
+
 TEST_CASE("weak couplings do not join: aggregates lie along the strong direction") {
   // Across columns of the grid the coupling is 1e-4 of that along them.
   auto const a = aggregate(block_matrix<1, float>(laplacian(8, 6, 1e-4)), 0.1);

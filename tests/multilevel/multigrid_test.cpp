@@ -7,6 +7,7 @@
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/multilevel/multigrid.hpp>
+#include <slant/operators/applied.hpp>
 #include <slant/operators/matrix.hpp>
 #include <slant/problems/separable_qp.hpp>
 #include <slant/sets/contact_sets.hpp>
@@ -753,8 +754,23 @@ TEST_CASE("options out of range are named") {
                   slant::bad_input);
 }
 
+TEST_CASE("rows of a matrix as vectors") {
+  multigrid const m(laplacian(10, 4), {.coarsest = 10});
+  VectorXd const x = VectorXd::LinSpaced(40, -1, 2), y = m * x;
+  MatrixXd both = MatrixXd::Ones(2, 40);
+  both.row(0) = x.transpose();
+  CHECK((VectorXd(m * both.row(0).transpose()) - y).norm() == 0);
+  both.row(0).transpose() = m * x;
+  CHECK((both.row(0).transpose() - y).norm() == 0);
+  CHECK(both.row(1) == MatrixXd::Ones(1, 40));
+}
+
 TEST_CASE("what cannot be used is named") {
   sparse K = laplacian(10, 10);
+  multigrid const levels(K, {.coarsest = 30});
+  CHECK_THROWS_AS(static_cast<void>(levels.restricted(VectorXd::Ones(400))), slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(levels.prolonged(VectorXd::Ones(3))), slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(multigrid(K).coarse_matrix()), slant::bad_input);
   CHECK_THROWS_AS(multigrid(sparse(3, 4)), slant::bad_input);
   CHECK_THROWS_WITH_AS(multigrid(K, {.block_size = 3}),
                        "block_size: got 3, expected a divisor of 100", slant::bad_input);

@@ -41,9 +41,9 @@
 
 namespace slant {
 
-/// certificate(x, ν) → energy_error of P_Λ(x), an estimate. Refers to the problem, the constraints
-/// and M ≈ A⁻¹, which preconditions; without M that is diag(A)⁻¹ as in energy_certificate. Some 15
-/// applications of A. Infinite, that is unknown, where A has no curvature along what is left of the
+/// certificate(x, ν) → energy_error of P_Λ(x), an estimate. Refers to the problem and the
+/// constraints; M ≈ A⁻¹, of which it keeps a copy, preconditions, without M diag(A)⁻¹ as in
+/// energy_certificate. Some 15 applications of A. Infinite, that is unknown, where A has no curvature along what is left of the
 /// gradient, and where no step on the face of x meets the equations: that is not the face of x*.
 template <class QP, affine_space_with_rows<typename QP::vector_type> C, class M = identity_operator>
 class constrained_certificate {
@@ -86,12 +86,15 @@ class constrained_certificate {
   }
   constrained_certificate(QP const&&, C const&) = delete;
   constrained_certificate(QP const&&, C const&, M const&) = delete;
+  constrained_certificate(QP const&, C const&&) = delete;
+  constrained_certificate(QP const&, C const&&, M const&) = delete;
   constrained_certificate(constrained_certificate const&) = delete;
   constrained_certificate& operator=(constrained_certificate const&) = delete;
 
   /// ν ∈ range Gᵀ as the states of constrained_newton and smalse have it: the gradient is
   /// P (A x − b) + ν. No allocation, unless equations depend on others on the face.
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x, vector_type const& ν) {
+    detail::check_size("ν", index(slant::local(ν).size()), qp_->size(), "the size of b,");
     slant::project(qp_->set(), x, x_);
     slant::apply(constraints_->range_projector(), x_, offset_, of_Q_);
     offset_ -= constraints_->nearest();

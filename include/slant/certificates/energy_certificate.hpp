@@ -42,10 +42,11 @@ template <class M>
 dominating_inverse<M> dominates_inverse(M const&&) = delete;
 
 /// certificate(x) → energy_error of P_Λ(x), with a function of x as it is, where φ is finite. Refers
-/// to the problem and to M. One application of A and one of M with `dominates_inverse(M)`, which
-/// gives a bound up to rounding; else some 10 of each, for conjugate gradients preconditioned by M,
-/// and an estimate. Without M they are preconditioned by diag(A)⁻¹ where A gives its diagonal or has no more than 64 rows, for as many
-/// applications: unknowns in units of their own would else hide the error from the estimate.
+/// to the problem and keeps a copy of M. One application of A and one of M with
+/// `dominates_inverse(M)`, which gives a bound up to rounding; else some 10 of each, for conjugate
+/// gradients preconditioned by M, and an estimate. Without M they are preconditioned by diag(A)⁻¹
+/// where A gives its diagonal or has no more than 64 rows, for as many applications: unknowns in
+/// units of their own would else hide the error from the estimate.
 template <class QP, class M = identity_operator>
 class energy_certificate {
  public:
@@ -59,6 +60,7 @@ class energy_certificate {
   energy_certificate(QP const& qp, M const& m) : energy_certificate(qp, m, false) {}
   energy_certificate(QP const& qp, dominating_inverse<M> m)
       : energy_certificate(qp, *m.inverse, true) {}
+  explicit energy_certificate(QP const&&) = delete;
   energy_certificate(QP const&&, M const&) = delete;
 
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {

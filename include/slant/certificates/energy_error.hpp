@@ -148,7 +148,8 @@ template <class S, int N>
   if (!(size > S(1)) || !is_finite(size)) return part;
   // t = ‖z‖ − 1 from ‖z‖² − 1 = (‖n‖² − 1) − 2 nᵀh + ‖h‖².
   S const inner = on_sphere ? S(0) : S((length - S(1)) * (length + S(1)));
-  S const t = (inner - S(2) * n.dot(h) + h.squaredNorm()) / (size + S(1));
+  S const t =
+      size > S(4) ? S(size - S(1)) : S((inner - S(2) * n.dot(h) + h.squaredNorm()) / (size + S(1)));
   if (!(t > S(0))) return part;
   point const direction = z / size;  // −s = (R/ρ) t direction
   part.rest = (R / ρ) * (h + t * direction);

@@ -197,7 +197,7 @@ void find_large_displacements(Eigen::SparseMatrix<S> const& K, node_layout<S> co
       largest = abs(u[j]);
       at = j;
     }
-    S const length = (high - low).norm();
+    S const length = (high - low).stableNorm();
     if (!(largest > length && length > S(0))) continue;
     s.add(index(b), [&] {
       return "unknown " + slant::detail::show(at) + " of body " + slant::detail::show(index(b)) +

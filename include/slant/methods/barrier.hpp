@@ -286,7 +286,8 @@ class barrier_minimum {
       add_stiffness(barrier, direction, direction_image, z_);
       scalar const bend = inner_product(direction, z_);
       finite = finite && detail::is_finite(bend);
-      if (!(bend > scalar(0))) {  // a direction without curvature: the step ends here
+      // A direction without curvature: the step ends here.
+      if (!(bend > (declares_positive_definite<A> ? scalar(0) : flatness(direction, trace)))) {
         // W is semidefinite up to rounding; is A?
         flat = true;
         finite = finite && -inner_product(direction, direction_image) <=

@@ -505,9 +505,22 @@ class interior_point_steps {
   }
   bool is_endless(state_type& s, vector_type const& d, vector_type const& image) const {
     constexpr index most_products = 100;
-    if (!(inner_product(d, s.r) < scalar(0)) || way_out(s, d) < infinity) return false;
+    if (!(inner_product(d, s.r) < scalar(0))) return false;
     vectors::copy(d, s.trial);
     vectors::copy(image, s.rhs);
+    if (way_out(s, d) < infinity) {
+      // What of d leads out of Λ is left away: (P_Λ(x + τ d) − x)/τ for a long τ.
+      scalar const long_way =
+          unit_near(norm(s.x)) / (std::numeric_limits<scalar>::epsilon() * norm(d));
+      if (!detail::is_finite(long_way)) return false;
+      vectors::waxpy(long_way, d, s.x, s.trial);
+      slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.trial));
+      vectors::difference(s.trial, s.x, s.trial);
+      vectors::scale(scalar(1) / long_way, s.trial);
+      if (!(inner_product(s.trial, s.r) < scalar(0))) return false;
+      slant::apply(qp_.get().a(), s.trial, s.rhs, s.a_workspace);
+      ++s.work.operator_applications;
+    }
     scalar const σ = s.trace / scalar(slant::global_size(s.x));
     auto const keep = [&](vector_type const& x, vector_type& y) {
       vectors::copy(x, y);

@@ -45,27 +45,27 @@ struct aggregation {
 template <int N, class T>
 [[nodiscard]] aggregation aggregate(block_matrix<N, T> const& A, double θ) {
   auto const n = static_cast<std::size_t>(A.nodes());
+  // In double: bodies may be 1e-20 times as stiff as others.
   auto const square = [](T const* block) {
-    T s(0);
-    for (int k = 0; k < N * N; ++k) s += block[k] * block[k];
+    double s = 0;
+    for (int k = 0; k < N * N; ++k)
+      s += static_cast<double>(block[k]) * static_cast<double>(block[k]);
     return s;
   };
-  std::vector<T> size(n);
+  std::vector<double> size(n);
   for (int i = 0; i < A.nodes(); ++i) {
-    using std::sqrt;
-    size[static_cast<std::size_t>(i)] = T(sqrt(square(A.diagonal(i))));
+    size[static_cast<std::size_t>(i)] = std::sqrt(square(A.diagonal(i)));
   }
   // Strong neighbours and ‖A_ij‖²/‖A_jj‖.
   std::vector<int> first{0}, neighbour;
-  std::vector<T> strength;
+  std::vector<double> strength;
   neighbour.reserve(static_cast<std::size_t>(A.blocks()));
   strength.reserve(static_cast<std::size_t>(A.blocks()));
   for (int i = 0; i < A.nodes(); ++i) {
     auto const gather = [&](double least) {
-      T const limit = T(least) * T(least) * size[static_cast<std::size_t>(i)];
+      double const limit = least * least * size[static_cast<std::size_t>(i)];
       A.for_each_in_row(i, [&](int j, T const* block) {
-        T const other = size[static_cast<std::size_t>(j)];
-        T const s = square(block);
+        double const other = size[static_cast<std::size_t>(j)], s = square(block);
         if (j == i || !(s > limit * other)) return;
         neighbour.push_back(j);
         strength.push_back(s / other);
@@ -84,7 +84,7 @@ template <int N, class T>
   aggregation a{std::vector<int>(n, -1), 0};
   auto const open = [&](std::size_t i) {
     a.of[i] = static_cast<int>(a.count);
-    neighbours(i, [&](int j, T) {
+    neighbours(i, [&](int j, double) {
       int& of = a.of[static_cast<std::size_t>(j)];
       if (of < 0) of = static_cast<int>(a.count);
     });
@@ -100,8 +100,8 @@ template <int N, class T>
   std::vector<int> const seeds = a.of;
   for (std::size_t i = 0; i < n; ++i) {
     if (a.of[i] >= 0) continue;
-    T strongest(0);
-    neighbours(i, [&](int j, T s) {
+    double strongest = 0;
+    neighbours(i, [&](int j, double s) {
       int const there = seeds[static_cast<std::size_t>(j)];
       if (there < 0 || !(s > strongest)) return;
       strongest = s;

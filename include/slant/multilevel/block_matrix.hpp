@@ -61,6 +61,16 @@ struct block_triangle {
   }
 };
 
+namespace detail {
+
+/// A vector of numbers T side by side, as a row of a matrix is not.
+template <class X, class T>
+concept contiguous_column =
+    std::same_as<scalar_t<X>, T> && int(local_t<X>::ColsAtCompileTime) == 1 &&
+    requires { requires int(local_t<X>::InnerStrideAtCompileTime) == 1; };
+
+}  // namespace detail
+
 /// A symmetric matrix of N × N blocks of scalars T. An operator on vectors of scalars T.
 template <int N, class T = double>
 class block_matrix {
@@ -111,7 +121,7 @@ class block_matrix {
 
   /// y = A x, for vectors of rows() scalars.
   template <class X, class Y>
-    requires(std::same_as<scalar_t<X>, T> && int(local_t<X>::ColsAtCompileTime) == 1)
+    requires(detail::contiguous_column<X, T> && detail::contiguous_column<Y, T>)
   void apply(X const& x, Y& y) const {
     multiply<N>(slant::local(x).data(), slant::local(y).data());
   }

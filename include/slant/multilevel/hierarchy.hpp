@@ -55,7 +55,7 @@ struct multigrid_options {
   /// A level with so few unknowns is factored, >= 1. A last level with more, where there is none
   /// that is smaller, is factored up to twice as many (or 1200), else smoothed.
   index coarsest = 500;
-  index levels = 20;  ///< at most so many, >= 1
+  index levels = 20;  ///< at most so many by aggregation, >= 1
   /// > 1: numbers of the matrices of all levels over those of the finest. A level that would exceed
   /// its share is coarsened along weaker couplings, θ/2, θ/4, …, 0; where that is not enough, its P
   /// is not smoothed, which costs up to twice the cycles.
@@ -65,7 +65,10 @@ struct multigrid_options {
   index chebyshev = 0;
 
   /// A last level with so many unknowns is factored.
-  [[nodiscard]] index most_factored() const { return std::max<index>(2 * coarsest, 1200); }
+  [[nodiscard]] index most_factored() const {
+    return coarsest > std::numeric_limits<index>::max() / 2 ? coarsest
+                                                            : std::max<index>(2 * coarsest, 1200);
+  }
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
     using detail::show;
@@ -163,6 +166,11 @@ class hierarchy {
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
   index degree = 0;                  // of polynomials in place of sweeps
 
+  /// Level 1. Throws bad_input if there is none.
+  [[nodiscard]] coarse_level const& first_coarse() const {
+    if (coarse.empty()) throw bad_input("levels", "1", "a level 1 to begin with");
+    return coarse.front();
+  }
   [[nodiscard]] std::vector<index> sizes() const {
     std::vector<index> list{fine.A.rows()};
     for (auto const& l : coarse) list.push_back(l.A.rows());
@@ -219,7 +227,7 @@ class hierarchy {
       auto kernel = constants<M, M>(P.coarse_nodes);
       append_by(above, std::move(P), std::move(nodes), std::move(kernel));
     }
-    if (coarse.back().A.rows() > 2 * o.coarsest) aggregate_rest(o);
+    if (coarse.back().A.rows() / 2 > o.coarsest) aggregate_rest(o);
   }
   /// Level 0 for factor · k = G⁻ᵀA G⁻¹, where A is level 1 of `finer` and G of unknowns or without
   /// rows for the identity; its other levels, formed anew if G couples what A does not.

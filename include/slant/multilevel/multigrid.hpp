@@ -111,7 +111,8 @@ class multigrid {
   /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing. With
   /// prolongations of the user R = I, for constants as candidates.
   [[nodiscard]] matrix_type coarse_kernel() const;
-  /// PᵀK P, of full blocks.
+  /// PᵀK P, of full blocks. As for the next three, there has to be a level 1: bad_input otherwise,
+  /// and for an x that is not of the size of its level.
   [[nodiscard]] Eigen::SparseMatrix<S> coarse_matrix() const;
   /// Pᵀx.
   [[nodiscard]] vector_type restricted(vector_type const& x) const;
@@ -143,7 +144,7 @@ class multigrid {
 
   /// y = M x.
   template <class X, class Y>
-    requires column<X>
+    requires(detail::contiguous_column<X, S> && detail::contiguous_column<Y, S>)
   void apply(X const& x, Y& y, workspace_type& w) const {
     run(slant::local(x).data(), slant::local(y).data(), w, false);
   }
@@ -151,13 +152,13 @@ class multigrid {
   /// y ≈ K x by the finest level, in numbers T.
   static constexpr S roughness = S(std::numeric_limits<T>::epsilon());
   template <class X, class Y>
-    requires column<X>
+    requires(detail::contiguous_column<X, S> && detail::contiguous_column<Y, S>)
   void multiply_roughly(X const& x, Y& y, workspace_type& w) const {
     rough(slant::local(x).data(), slant::local(y).data(), w);
   }
   /// The same for the x that apply or apply_on_face has found last, by half of the level.
   template <class X, class Y>
-    requires column<X>
+    requires(detail::contiguous_column<X, S> && detail::contiguous_column<Y, S>)
   void multiply_last_roughly(X const& x, Y& y, workspace_type& w) const {
     rough_last(slant::local(x).data(), slant::local(y).data(), w);
   }
@@ -185,7 +186,7 @@ class multigrid {
   }
   /// y ≈ H⁻¹x on the face entered last, 0 off it.
   template <class X, class Y>
-    requires column<X>
+    requires(detail::contiguous_column<X, S> && detail::contiguous_column<Y, S>)
   void apply_on_face(X const& x, Y& y, workspace_type& w) const {
     run(slant::local(x).data(), slant::local(y).data(), w, true);
   }
@@ -378,6 +379,7 @@ multigrid<S, T>::multigrid(sparse_view const& K, mixed_unknowns<S> const* mixed,
     detail::check_size("columns of K", mixed->K.cols(), rows_, "the size of k,");
     detail::check_size("rows of G", mixed->G.rows(), rows_, "the size of k,");
     detail::check_size("columns of G", mixed->G.cols(), rows_, "the size of k,");
+    detail::require_finite_entries("G", mixed->G);
   }
   matrix_type const modes = candidates_for(std::move(candidates), o);
   sparse_view const given = mixed ? sparse_view(mixed->K) : sparse_view(K);
@@ -414,7 +416,7 @@ template <class S, class T>
 Eigen::SparseMatrix<S> multigrid<S, T>::coarse_matrix() const {
   return std::visit(
       [&]<int N, int M>(levels<N, M> const& h) {
-        auto const& A = h.coarse.front().A;
+        auto const& A = h.first_coarse().A;
         Eigen::SparseMatrix<S> C(A.rows(), A.rows());
         C.resizeNonZeros(A.blocks() * M * M);
         index at = 0;
@@ -439,7 +441,8 @@ template <class S, class T>
 auto multigrid<S, T>::restricted(vector_type const& x) const -> vector_type {
   return std::visit(
       [&]<int N, int M>(levels<N, M> const& h) {
-        auto const& A = h.coarse.front().A;
+        auto const& A = h.first_coarse().A;
+        detail::check_size("x", x.size(), rows_, "the size of K,");
         std::vector<T> from(h.fine.A.padded_size(), T(0)), to(A.padded_size(), T(0));
         vector_type y(A.rows());
         S const unit = shorten<N>(x.data(), x.size(), from);
@@ -454,7 +457,8 @@ template <class S, class T>
 auto multigrid<S, T>::prolonged(vector_type const& x) const -> vector_type {
   return std::visit(
       [&]<int N, int M>(levels<N, M> const& h) {
-        auto const& A = h.coarse.front().A;
+        auto const& A = h.first_coarse().A;
+        detail::check_size("x", x.size(), A.rows(), "the unknowns of level 1,");
         std::vector<T> from(A.padded_size(), T(0)), to(h.fine.A.padded_size(), T(0));
         vector_type y(rows_);
         S const unit = shorten<M>(x.data(), x.size(), from);
@@ -471,13 +475,13 @@ multigrid<S, T> multigrid<S, T>::coarser(sparse_view const& k,
   return std::visit(
       [&]<int N, int M>(levels<N, M> const& h) {
         constexpr int node = M == 6 ? 3 : M;
-        if (h.coarse.empty()) throw bad_input("levels", "1", "a level 1 to begin with");
-        index const n = h.coarse.front().A.rows();
+        index const n = h.first_coarse().A.rows();
         detail::check_size("rows of k", k.rows(), n, "the unknowns of level 1,");
         detail::check_size("columns of k", k.cols(), n, "the unknowns of level 1,");
         if (G.rows() > 0) {
           detail::check_size("rows of G", G.rows(), n, "the unknowns of level 1,");
           detail::check_size("columns of G", G.cols(), n, "the unknowns of level 1,");
+          detail::require_finite_entries("G", G);
         }
         multigrid c;
         c.rows_ = n;

@@ -159,18 +159,20 @@ class lorentz_pairs {
     constexpr int n = static_dimension_of<Block>, M = At::M;
     auto const T = block.lorentz_matrix();
     auto const w = of(at, frame_);
-    S const factor = root_y_[at.number] / root_p_[at.number];
+    using std::sqrt;
+    S const root = sqrt(S(root_y_[at.number] / root_p_[at.number]));
     Eigen::Matrix<S, n, 1> along;  // Tᵀ J w̄
     for (int j = 0; j < n; ++j) {
-      along[j] = detail::sum_of<M>(
-          [&](int i) -> S { return i == 0 ? S(T(i, j) * w[i]) : S(-T(i, j) * w[i]); });
+      along[j] = detail::sum_of<M>([&](int i) -> S {
+        return i == 0 ? S((root * T(i, j)) * w[i]) : S(-((root * T(i, j)) * w[i]));
+      });
     }
     return detail::from_entries<Eigen::Matrix<S, n, n>>([&](int i, int j) -> S {
       S const JTT = detail::sum_of<M>([&](int k) -> S {
-        S const product = T(k, i) * T(k, j);
+        S const product = (root * T(k, i)) * (root * T(k, j));
         return k == 0 ? product : S(-product);
       });
-      return factor * (S(2) * along[i] * along[j] - JTT);
+      return S(2) * along[i] * along[j] - JTT;
     });
   }
 
@@ -246,7 +248,7 @@ class lorentz_pairs {
       S const a = sqrt(det_p);
       S const b = sqrt(det_λ) * sqrt(S(root_y_[at.number] / root_p_[at.number]));
       trial_root_[at.number] = b;
-      auto const y = detail::combination(S(1), of(at, y_), α, force_step(at));
+      auto const y = unscaled(at, λ);
       S const pairing = algebra::pairing(over(block.lorentz_point(here), a), over(y, b));
       S const most =
           sqrt(S((pairing + S(1)) / S(2))) + sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
@@ -261,7 +263,7 @@ class lorentz_pairs {
   void subtract_forces(C const& set, S const& α, V& lagrangian) const {
     visit_bound(set, [&](auto const& block, auto const& place, auto const& at) {
       auto y = of(at, y_);
-      if (α > S(0)) y = detail::combination(S(1), y, α, force_step(at));
+      if (α > S(0)) y = unscaled(at, detail::combination(S(1), of(at, λ_), α, of(at, dy_)));
       subtract(block, place, y, lagrangian);
     });
   }
@@ -270,8 +272,8 @@ class lorentz_pairs {
   template <class C>
   void accept(C const& set, S const& α) {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
-      auto const Δy = force_step(at);
-      for (int i = 0; i < at.M; ++i) y_[at.first + std::size_t(i)] += α * Δy[i];
+      detail::put_entries(unscaled(at, detail::combination(S(1), of(at, λ_), α, of(at, dy_))),
+                          &y_[at.first]);
     });
     root_y_ = trial_root_;
   }

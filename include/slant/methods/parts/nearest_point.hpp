@@ -150,7 +150,7 @@ struct nearest_point {
     for (index round = 0; round <= 20 * (e.cols() + 1); ++round) {
       index const q = worst(e);
       if (q < 0) return true;
-      if (!add(e, q)) return false;
+      if (!add(e, q)) return worst(e, S(256)) < 0;
     }
     // Rounding errors send rows in circles, as they do where rows are all but dependent: x may be
     // near the set all the same, with more of them than a row that was met leaves.
@@ -160,7 +160,7 @@ struct nearest_point {
  private:
   /// What counts as zero in e_iᵀx − s_i.
   [[nodiscard]] S noise(matrix_type const& e, index i) const {
-    S const size = e.col(i).cwiseAbs().dot(start_.cwiseAbs().cwiseMax(x.cwiseAbs()));
+    S const size = e.col(i).norm() * std::max<S>(start_.stableNorm(), x.stableNorm());
     using std::abs;
     return S(16) * std::numeric_limits<S>::epsilon() * (size + abs(bounds[i]));
   }

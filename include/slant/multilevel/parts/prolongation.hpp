@@ -174,7 +174,12 @@ template <int N, int F, int M, class T>
 template <int N, class T, class S, int Order>
 [[nodiscard]] prolongation<N, N, T> prolongation_from(Eigen::SparseMatrix<S, Order> const& given,
                                                       int nodes, std::string const& name) {
-  require_finite_entries(name, given);
+  for_each_entry(given, [&](index i, index j, S const& value) {
+    using std::abs;
+    if (!(abs(value) <= S(0x1p20))) {
+      throw bad_input(entry_text(name, i, j), show(value), "a weight of at most 2^20");
+    }
+  });
   bool const of_nodes = given.rows() == nodes;
   if (!of_nodes && given.rows() != N * index(nodes)) {
     throw bad_input("rows of " + name, show(given.rows()),
