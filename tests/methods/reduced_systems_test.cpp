@@ -34,7 +34,7 @@ TEST_CASE("both systems and their preconditioners: the spectra of [K Theorems 3 
     // The matrices of the next step: those at s.x.
     auto barrier = s.barrier;
     barrier.assemble(set, s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
-    auto const d22 = slant::complementarity_diagonal(s.multipliers, s.slacks, s.unit);
+    VectorXd const d22 = s.slacks.cwiseQuotient(s.multipliers) / s.unit;
     MatrixXd const J_SC = dense_of(slant::schur_system(A, barrier));
     MatrixXd const P_SC_inverse = dense_of(barrier.preconditioner());
     MatrixXd const G = dense_of(barrier.jacobian()).transpose();
@@ -54,8 +54,7 @@ TEST_CASE("both systems and their preconditioners: the spectra of [K Theorems 3 
     worst_without = std::max(worst_without, plain.eigenvalues()(15) / plain.eigenvalues()(0));
 
     MatrixXd const J_AM = dense_of(slant::augmented_system(A, barrier, d22));
-    slant::augmented_preconditioner const P_AM(barrier, d22);
-    MatrixXd const P_AM_inverse = dense_of(P_AM);
+    MatrixXd const P_AM_inverse = dense_of(slant::augmented_preconditioner(barrier, d22));
     auto const m = d22.size();
     MatrixXd J(16 + m, 16 + m);
     J << M + H, G, G.transpose(), -MatrixXd(d22.asDiagonal());

@@ -24,6 +24,7 @@
 #include <slant/methods/parts/lorentz_pairs.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/operators/block.hpp>
+#include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/declare.hpp>
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
@@ -384,14 +385,7 @@ template <class A, class S>
 template <class A, class S>
 void schur_system(A&& a, barrier<S> const&& b) = delete;
 
-/// D₂₂ = N⁻¹Z for multipliers > 0; `unit` is theirs.
-template <class M, class Z, class S>
-[[nodiscard]] auto complementarity_diagonal(M const& ν, Z const& z, S const& unit) {
-  using column = typename barrier<S>::column;
-  return column((slant::local(z).array() / slant::local(ν).array() / unit).matrix());
-}
-
-/// J_AM for D₂₂; refers to the barrier, and to A if it is an lvalue.
+/// J_AM for D₂₂, the quotients of slacks and multipliers; refers to the barrier, and to A if it is an lvalue.
 template <class A, class S>
 [[nodiscard]] auto augmented_system(A&& a, barrier<S> const& b,
                                     typename barrier<S>::column const& d22) {
@@ -404,46 +398,18 @@ template <class A, class S>
 template <class A, class S>
 void augmented_system(A&& a, barrier<S> const&& b, typename barrier<S>::column const& d22) = delete;
 
-/// P_AM⁻¹ by elimination of the second row: x = P_SC⁻¹ (r₁ + G D₂₂⁻¹ r₂), ν = D₂₂⁻¹ (Gᵀ x − r₂).
+/// P_AM⁻¹ = U [P_SC⁻¹, −D₂₂⁻¹] Uᵀ, U = [I, 0; D₂₂⁻¹Gᵀ, I]; refers to the barrier.
 template <class S>
-class augmented_preconditioner {
- public:
+[[nodiscard]] auto augmented_preconditioner(barrier<S> const& b,
+                                            typename barrier<S>::column const& d22) {
   using column = typename barrier<S>::column;
-  static constexpr law_set laws = slant::laws<self_adjoint>;
-
-  struct temporaries {
-    column head, tail, gradient;
-  };
-
-  /// Refers to the barrier.
-  augmented_preconditioner(barrier<S> const& b, column d22) : barrier_(&b), d22_(std::move(d22)) {}
-  augmented_preconditioner(barrier<S> const&& b, column d22) = delete;
-
-  [[nodiscard]] index rows() const { return barrier_->stiffness().rows() + barrier_->rows(); }
-  [[nodiscard]] index cols() const { return rows(); }
-
-  template <class X>
-  [[nodiscard]] temporaries workspace(X const&) const {
-    index const n = barrier_->stiffness().rows();
-    return {column(n), column(barrier_->rows()), column(n)};
-  }
-  template <class X, class Y>
-  void apply(X const& x, Y& y, temporaries& w) const {
-    auto const& from = slant::local(x);
-    auto& to = slant::local(y);
-    index const n = w.head.size(), m = w.tail.size();
-    w.gradient = from.head(n);
-    w.tail = from.tail(m).cwiseQuotient(d22_);
-    barrier_->jacobian().apply_adjoint_add(S(1), w.tail, w.gradient);
-    barrier_->preconditioner().apply(w.gradient, w.head);
-    barrier_->jacobian().apply(w.head, w.tail);
-    to.head(n) = w.head;
-    to.tail(m) = (w.tail - from.tail(m)).cwiseQuotient(d22_);
-  }
-
- private:
-  barrier<S> const* barrier_;
-  column d22_;
-};
+  column const inverse = d22.cwiseInverse();
+  return congruence(
+      block(block_row(identity(b.stiffness().rows()), zero(b.stiffness().rows(), b.rows())),
+            block_row(product(slant::diagonal(column(inverse)), b.jacobian()), identity(b.rows()))),
+      block_diagonal(b.preconditioner(), slant::diagonal(column(-inverse))));
+}
+template <class S>
+void augmented_preconditioner(barrier<S> const&& b, typename barrier<S>::column const&) = delete;
 
 }  // namespace slant
