@@ -7,7 +7,8 @@
 // nearly incompressible, of long and of flat cells, of two materials in a chequerboard, with slip
 // bounds from 0 to a million times the pressure, with contact of a few nodes; and bodies of meshes
 // of tetrahedra by Gmsh (MSH 2.2, text), fixed where x is least, on a floor where z is least, under
-// a body force (holed_brick.geo). Levels by aggregation, and by interpolation where meshes are nested.
+// a body force (holed_brick.geo). Levels by aggregation, and by interpolation where meshes are
+// nested; smoothed by sweeps, and once by polynomials.
 //
 // It prints comma-separated values: scene, load, levels, unknowns, Newton steps, cycles, processor
 // seconds, status, the relative error in the energy norm as certified, and against the dual method
@@ -43,6 +44,7 @@ struct scene {
   contact::data<double> data;
   contact::node_layout<double> layout;
   std::vector<sparse> prolongations{};
+  slant::index chebyshev = 0;  // degree of polynomials in place of sweeps
 };
 
 contact::solution<double> run(scene const& s, contact::solution_route route, double tolerance,
@@ -51,6 +53,7 @@ contact::solution<double> run(scene const& s, contact::solution_route route, dou
   o.layout = s.layout;
   o.route = route;
   if (nested) o.multigrid.prolongations = s.prolongations;
+  o.multigrid.chebyshev = s.chebyshev;
   return contact::solve(s.K, s.data, o);
 }
 
@@ -190,7 +193,10 @@ int main(int argc, char** argv) {
     }
     good = measure(brick("cells 10:1:1", {.k = k, .load = load, .size = {30, 1, 1}})) && good;
     good = measure(brick("cells 1:10:10", {.k = k, .load = load, .size = {0.3, 1, 1}})) && good;
-    scene s = brick("materials 1:1e-4", {.k = k, .load = load});
+    scene s = brick("brick, Chebyshev of degree 2", {.k = k, .load = load});
+    s.chebyshev = 2;
+    good = measure(s) && good;
+    s = brick("materials 1:1e-4", {.k = k, .load = load});
     s.K = test::chequered_stiffness(k, 1e-4);
     good = measure(s) && good;
     for (double const factor : {0.0, 1e-6, 1e6}) {

@@ -96,6 +96,24 @@ TEST_CASE("any inner method whose states keep the gradient") {
   CHECK((r.x() - family.by_relaxation()).norm() <= 1e-9);
 }
 
+TEST_CASE("a secant step: exact for one unknown at any scale, none without a difference") {
+  for (double const unit : {1.0, 1e-150, 1e150}) {
+    for (double const rate : {0.8, -3.0}) {
+      slant::secant_mixing<VectorXd> mixing(VectorXd(1), 1);
+      auto const f = [&](VectorXd const& p) { return VectorXd((rate - 1) * (p.array() - unit)); };
+      VectorXd const zero = test::zeros(1);
+      VectorXd p(1), next(1);
+      CHECK_FALSE(mixing.mix(zero, f(zero), 0.5, p));
+      CHECK(p == 0.5 * f(zero));
+      CHECK(mixing.mix(p, f(p), 0.5, next));
+      CHECK(std::abs(next[0] - unit) <= 1e-14 * unit);
+      CHECK_FALSE(mixing.mix(zero, f(p), 1.0, next));  // Δf = 0
+      mixing.forget();
+      CHECK_FALSE(mixing.mix(zero, f(zero), 1.0, next));
+    }
+  }
+}
+
 TEST_CASE("acceleration: no more steps than the plain iteration") {
   for (double const rate : {0.7, -0.8}) {
     CAPTURE(rate);

@@ -41,15 +41,8 @@ TEST_CASE("aggregates do not depend on units") {
 TEST_CASE("weak couplings do not join: aggregates lie along the strong direction") {
   // Across columns of the grid the coupling is 1e-4 of that along them.
   auto const a = aggregate(block_matrix<1, float>(laplacian(8, 6, 1e-4)), 0.1);
-  for (int column = 0; column < 6; ++column) {
-    for (int other = 0; other < column; ++other) {
-      for (int i = 0; i < 8; ++i) {
-        for (int j = 0; j < 8; ++j) {
-          CHECK(a.of[static_cast<std::size_t>(8 * column + i)] !=
-                a.of[static_cast<std::size_t>(8 * other + j)]);
-        }
-      }
-    }
+  for (std::size_t i = 0; i < a.of.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) CHECK((i / 8 == j / 8 || a.of[i] != a.of[j]));
   }
 }
 

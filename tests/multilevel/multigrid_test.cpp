@@ -732,26 +732,24 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
 TEST_CASE("options out of range are named") {
   using options = slant::multigrid_options;
   CHECK_NOTHROW(options{}.validate());
-  for (double const θ : {-0.1, 1.0, quiet_nan})
-    CHECK_THROWS_AS(options{.strength = θ}.validate(), slant::bad_input);
-  for (double const ω : {0.0, 2.0, quiet_nan})
-    CHECK_THROWS_AS(options{.damping = ω}.validate(), slant::bad_input);
-  CHECK_THROWS_WITH_AS(options{.coarsest = 0}.validate(), "coarsest: got 0, expected at least 1",
-                       slant::bad_input);
-  CHECK_THROWS_WITH_AS(options{.levels = 0}.validate(), "levels: got 0, expected at least 1",
-                       slant::bad_input);
-  for (slant::index const b : {-1, 4})
-    CHECK_THROWS_AS(options{.block_size = b}.validate(), slant::bad_input);
-  CHECK_THROWS_WITH_AS(options{.chebyshev = 5}.validate(),
-                       "chebyshev: got 5, expected a degree from 0 to 4", slant::bad_input);
-  CHECK_THROWS_WITH_AS(options{.block_size = -1}.validate(),
-                       "block_size: got -1, expected a number from 0 to 3", slant::bad_input);
-  for (double const c : {1.0, quiet_nan})
-    CHECK_THROWS_AS(options{.complexity = c}.validate(), slant::bad_input);
-  CHECK_THROWS_WITH_AS(options{.coordinates = MatrixXd::Zero(4, 2)}.validate(),
-                       "rows of coordinates: got 4, expected 2 or 3", slant::bad_input);
-  CHECK_THROWS_AS(options{.coordinates = MatrixXd::Constant(3, 2, quiet_nan)}.validate(),
-                  slant::bad_input);
+  for (auto const& [o, complaint] : std::vector<std::pair<options, std::string>>{
+           {{.coordinates = MatrixXd::Zero(4, 2)}, "rows of coordinates: got 4, expected 2 or 3"},
+           {{.coordinates = MatrixXd::Constant(3, 2, quiet_nan)}, "coordinates(0, 0): got nan"},
+           {{.block_size = -1}, "block_size: got -1, expected a number from 0 to 3"},
+           {{.block_size = 4}, "block_size: got 4"},
+           {{.strength = -0.1}, "strength: got -0.1"},
+           {{.strength = 1}, "strength: got 1"},
+           {{.strength = quiet_nan}, "strength: got nan"},
+           {{.damping = 0}, "damping: got 0"},
+           {{.damping = 2}, "damping: got 2"},
+           {{.damping = quiet_nan}, "damping: got nan"},
+           {{.coarsest = 0}, "coarsest: got 0, expected at least 1"},
+           {{.levels = 0}, "levels: got 0, expected at least 1"},
+           {{.complexity = 1}, "complexity: got 1"},
+           {{.complexity = quiet_nan}, "complexity: got nan"},
+           {{.chebyshev = 5}, "chebyshev: got 5, expected a degree from 0 to 4"}}) {
+    CHECK_THROWS_WITH_AS(o.validate(), doctest::Contains(complaint.c_str()), slant::bad_input);
+  }
 }
 
 TEST_CASE("rows of a matrix as vectors") {
@@ -782,10 +780,8 @@ TEST_CASE("what cannot be used is named") {
   CHECK_THROWS_AS(multigrid(K, {.prolongations = {sparse(99, 50)}}), slant::bad_input);
   sparse negative = K;
   negative.coeffRef(7, 7) = -4;
-  CHECK_THROWS_WITH_AS(
-      multigrid{negative},
-      "K: got diagonal entry 7 = -4, expected a symmetric positive definite matrix",
-      slant::bad_input);
+  CHECK(SLANT_COMPLAINT(multigrid{negative}) ==
+        "K: got diagonal entry 7 = -4, expected a symmetric positive definite matrix");
   sparse shifted = K;
   for (int i = 0; i < 100; ++i) shifted.coeffRef(i, i) -= 1;  // a negative eigenvalue, smooth
   CHECK_THROWS_AS(multigrid(shifted, {.coarsest = 20}), slant::bad_input);

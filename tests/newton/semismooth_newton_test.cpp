@@ -226,8 +226,7 @@ TEST_CASE("bad input is named") {
                        slant::bad_input);
   auto const F = curve();
   slant::semismooth_newton const method{F};
-  CHECK_THROWS_WITH_AS(static_cast<void>(method.start(test::zeros(3))),
-                       "x0: got 3, expected F.cols() 2", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(method.start(test::zeros(3))) == "x0: got 3, expected F.cols() 2");
   CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd{{std::nan(""), 0.0}})), slant::bad_input);
   auto const pole = equation([](double y) { return 1 / y; }, [](double y) { return -1 / (y * y); });
   CHECK_THROWS_AS(static_cast<void>(slant::semismooth_newton{pole}.start(number(0))),

@@ -98,10 +98,8 @@ TEST_CASE("a product passes the segment of a slice on; nothing allocates") {
 }
 
 TEST_CASE("slices that reach too far are refused") {
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::slice(5, 6, 0)),
-                       "first: got 6, expected a number in [0, 5]", slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::slice(5, 2, 4)),
-                       "count: got 4, expected a number in [0, 3]", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::slice(5, 6, 0)) == "first: got 6, expected a number in [0, 5]");
+  CHECK(SLANT_COMPLAINT(slant::slice(5, 2, 4)) == "count: got 4, expected a number in [0, 3]");
   CHECK_THROWS_AS(static_cast<void>(slant::slice(-1, 0, 0)), slant::bad_input);
 }
 

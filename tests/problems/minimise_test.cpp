@@ -18,9 +18,8 @@ TEST_CASE("a program as on paper is separable_qp, with parts kept by the same ru
   auto const owner =
       slant::minimise(slant::quadratic(slant::identity(3), 2 * b)).over(slant::half_lines(3));
   CHECK(owner.b() == VectorXd(2 * b));
-  CHECK_THROWS_WITH_AS(
-      static_cast<void>(slant::minimise(slant::quadratic(A, b)).over(slant::half_lines(2))),
-      "dimension of the set: got 2, expected the size of b, 3", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::minimise(slant::quadratic(A, b)).over(slant::half_lines(2))) ==
+        "dimension of the set: got 2, expected the size of b, 3");
 }
 
 /// min ½ xᵀA x − bᵀx over x ≥ 0, x₀ + x₁ + x₂ = 3, A = diag(1, 2, 4): the solution is (0, 1, 2) with
@@ -79,10 +78,9 @@ TEST_CASE("equations of another size are refused") {
         .over(slant::half_lines(3))
         .subject_to(G, e);
   };
-  CHECK_THROWS_WITH_AS(static_cast<void>(with(MatrixXd::Ones(1, 2).sparseView(), p.e)),
-                       "columns of G: got 2, expected the size of b, 3", slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(with(p.G, VectorXd::Ones(2))),
-                       "e: got 2, expected the rows of G, 1", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(with(MatrixXd::Ones(1, 2).sparseView(), p.e)) ==
+        "columns of G: got 2, expected the size of b, 3");
+  CHECK(SLANT_COMPLAINT(with(p.G, VectorXd::Ones(2))) == "e: got 2, expected the rows of G, 1");
   CHECK_THROWS_AS(static_cast<void>(with(p.G, VectorXd::Constant(1, NAN))), slant::bad_input);
 }
 

@@ -144,8 +144,7 @@ TEST_CASE_TEMPLATE("symmetric_interval: an interval with one parameter", S, floa
   CHECK(set.with(S(0)).state(vec(S(0))) == slant::block_state::fixed);
   CHECK(set.with(S(0)).slant(vec(S(0)))(0) == S(0));
   CHECK(set.with(std::numeric_limits<S>::infinity()).contains(vec(S(1000))));
-  CHECK_THROWS_WITH_AS(static_cast<void>(set.with(S(-1))), "radius: got -1, expected a number >= 0",
-                       slant::bad_input);
+  CHECK(SLANT_COMPLAINT(set.with(S(-1))) == "radius: got -1, expected a number >= 0");
   CHECK_THROWS_AS(static_cast<void>(set.with(std::numeric_limits<S>::quiet_NaN())),
                   slant::bad_input);
 }

@@ -54,13 +54,11 @@ TEST_CASE("archetype operator and vector") {
 
 TEST_CASE("bad input") {
   MatrixXd const a = MatrixXd::Identity(3, 3);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::affine(a, VectorXd::Ones(2))),
-                       "c.size(): got 2, expected 3 (the number of rows of the operator)",
-                       slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::affine(a, VectorXd::Ones(2))) ==
+        "c.size(): got 2, expected 3 (the number of rows of the operator)");
   VectorXd c = VectorXd::Ones(3);
   c[1] = std::numeric_limits<double>::infinity();
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::affine(a, c)),
-                       "c[1]: got inf, expected a finite number", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::affine(a, c)) == "c[1]: got inf, expected a finite number");
 }
 
 TEST_CASE("the identity") {
@@ -138,8 +136,8 @@ TEST_CASE("a derivative full of NaN is the method's to report") {
 TEST_CASE("bad input of smooth maps") {
   auto const value = [](auto const&, auto&) {};
   auto const derivative = [](auto const&) { return Eigen::Matrix2d(); };
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::smooth(-1, 2, value, derivative)),
-                       "rows, cols: got -1, 2, expected sizes >= 0", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::smooth(-1, 2, value, derivative)) ==
+        "rows, cols: got -1, 2, expected sizes >= 0");
 }
 
 }  // namespace affine_test

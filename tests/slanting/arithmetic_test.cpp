@@ -119,17 +119,15 @@ TEST_CASE("value and renewal allocate nothing") {
 
 TEST_CASE("sizes that do not fit, and numbers that are none or not positive, are refused") {
   auto const p = slant::positive_part(3);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::add(p, slant::positive_part(2))),
-                       "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::add(p, slant::positive_part(2))) ==
+        "g.rows(): got 2, expected 3 (f.rows())");
   MatrixXd const wide = MatrixXd::Ones(3, 4);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::subtract(p, slant::linear(wide))),
-                       "g.cols(): got 4, expected 3 (f.cols())", slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::scale(infinity, p)),
-                       "c: got inf, expected a finite number", slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::scale(0, p)),
-                       "c: got 0, expected a number > 0 in front of a function; for others write "
-                       "-(c * f) or any_sign(c) * f",
-                       slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::subtract(p, slant::linear(wide))) ==
+        "g.cols(): got 4, expected 3 (f.cols())");
+  CHECK(SLANT_COMPLAINT(slant::scale(infinity, p)) == "c: got inf, expected a finite number");
+  CHECK(SLANT_COMPLAINT(slant::scale(0, p)) ==
+        "c: got 0, expected a number > 0 in front of a function; for others write "
+        "-(c * f) or any_sign(c) * f");
 }
 
 // A function with all members but without the mark: factories take it, operators do not.

@@ -67,9 +67,8 @@ TEST_CASE("parts of which nothing is known but the concept") {
 }
 
 TEST_CASE("bad input") {
-  CHECK_THROWS_WITH_AS(
-      static_cast<void>(slant::compose(slant::positive_part(3), slant::positive_part(2))),
-      "g.rows(): got 2, expected 3 (f.cols())", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::compose(slant::positive_part(3), slant::positive_part(2))) ==
+        "g.rows(): got 2, expected 3 (f.cols())");
 }
 
 TEST_CASE("functions of the same argument, one above the other") {
@@ -112,9 +111,8 @@ TEST_CASE("archetypes") {
 }
 
 TEST_CASE("bad input of stacks") {
-  CHECK_THROWS_WITH_AS(
-      static_cast<void>(slant::stack(slant::positive_part(3), slant::positive_part(2))),
-      "f2.cols(): got 2, expected 3 (f1.cols())", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::stack(slant::positive_part(3), slant::positive_part(2))) ==
+        "f2.cols(): got 2, expected 3 (f1.cols())");
 }
 
 }  // namespace composition_test

@@ -136,8 +136,8 @@ TEST_CASE("bad input") {
   VectorXd const b = VectorXd::Zero(12);
   CHECK_THROWS_WITH_AS(static_cast<void>(slant::kkt(p.wire.A, VectorXd(b.head(5)), set, 1.0)),
                        doctest::Contains("b.size(): got 5, expected 12"), slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::kkt(p.wire.A, b, set, 0.0)),
-                       "rho: got 0, expected a finite number > 0", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::kkt(p.wire.A, b, set, 0.0)) ==
+        "rho: got 0, expected a finite number > 0");
 }
 
 TEST_CASE("F and F° for one bound, one free unknown and one circle, in another scalar") {

@@ -64,11 +64,9 @@ TEST_CASE("parts of which nothing is known but the concept") {
 }
 
 TEST_CASE("bad input") {
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::positive_part(-1)),
-                       "n: got -1, expected a size >= 0", slant::bad_input);
-  CHECK_THROWS_WITH_AS(
-      static_cast<void>(slant::max(slant::positive_part(3), slant::positive_part(2))),
-      "g.rows(): got 2, expected 3 (f.rows())", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::positive_part(-1)) == "n: got -1, expected a size >= 0");
+  CHECK(SLANT_COMPLAINT(slant::max(slant::positive_part(3), slant::positive_part(2))) ==
+        "g.rows(): got 2, expected 3 (f.rows())");
 }
 
 TEST_CASE("min(F, G): the row of G at a tie") {

@@ -110,18 +110,17 @@ TEST_CASE("bad input is named") {
   MatrixXd const m = slanting_support::random_spd(6, 1);
   VectorXd b = slanting_support::random_vector(6, 2);
   auto const set = contact_set();
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m.topRows(5), b, set, 1.0)),
-                       "A: got 5 x 6, expected 6 x 6 (the dimension of the set)", slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b.head(5), set, 1.0)),
-                       "b.size(): got 5, expected 6 (the number of rows of the operator)",
-                       slant::bad_input);
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b, set, 0.0)),
-                       "rho: got 0, expected a finite number > 0", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::natural_residual(m.topRows(5), b, set, 1.0)) ==
+        "A: got 5 x 6, expected 6 x 6 (the dimension of the set)");
+  CHECK(SLANT_COMPLAINT(slant::natural_residual(m, b.head(5), set, 1.0)) ==
+        "b.size(): got 5, expected 6 (the number of rows of the operator)");
+  CHECK(SLANT_COMPLAINT(slant::natural_residual(m, b, set, 0.0)) ==
+        "rho: got 0, expected a finite number > 0");
   CHECK_THROWS_AS(static_cast<void>(slant::natural_residual(m, b, set, std::nan(""))),
                   slant::bad_input);
   b[4] = std::nan("");
-  CHECK_THROWS_WITH_AS(static_cast<void>(slant::natural_residual(m, b, set, 1.0)),
-                       "b[4]: got nan, expected a finite number", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(slant::natural_residual(m, b, set, 1.0)) ==
+        "b[4]: got nan, expected a finite number");
 }
 
 TEST_CASE("multiprecision") {
