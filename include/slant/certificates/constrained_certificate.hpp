@@ -21,7 +21,6 @@
 //         slant::energy_error_below(1e-8, std::ref(certificate)) || slant::at_most(500));
 #pragma once
 
-#include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/newton_estimate.hpp>
@@ -33,7 +32,6 @@
 #include <slant/problems/cut_face.hpp>
 #include <slant/problems/separable_qp.hpp>
 
-#include <cmath>
 #include <concepts>
 #include <optional>
 #include <type_traits>

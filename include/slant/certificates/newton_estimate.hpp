@@ -24,12 +24,10 @@
 #include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/dual_norm.hpp>
 #include <slant/certificates/energy_error.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
 #include <slant/problems/quadratic_program.hpp>
-#include <slant/sets/block_queries.hpp>
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/proximal_step.hpp>
 

@@ -21,7 +21,6 @@
 #include <slant/contact/friction_law.hpp>
 #include <slant/contact/load_stepper.hpp>
 #include <slant/operators/inverse.hpp>
-#include <slant/operators/matrix.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/problems/separable_qp.hpp>
 

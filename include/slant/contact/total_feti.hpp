@@ -24,7 +24,6 @@
 #include <slant/contact/friction_law.hpp>
 #include <slant/factorizations/generalized_inverse.hpp>
 #include <slant/operators/block_diagonal.hpp>
-#include <slant/operators/matrix.hpp>
 #include <slant/operators/product.hpp>
 #include <slant/problems/equality_constraints.hpp>
 #include <slant/problems/separable_qp.hpp>

@@ -12,7 +12,6 @@
 
 #include <slant/base/vector_algebra.hpp>
 #include <slant/concepts/convex_set.hpp>
-#include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/sets/blocks.hpp>
 

@@ -13,7 +13,6 @@
 
 #include <slant/base/vector_algebra.hpp>
 #include <slant/certificates/constrained_certificate.hpp>
-#include <slant/concepts/linear_operator.hpp>
 #include <slant/methods/constrained_newton.hpp>
 #include <slant/methods/solve_program.hpp>
 

@@ -26,7 +26,6 @@
 
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/iterative_method.hpp>
-#include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 
 #include <concepts>

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
-#include <slant/concepts/member_names.hpp>
 #include <slant/sets/cartesian.hpp>
 #include <slant/sets/images.hpp>
 #include <slant/sets/support.hpp>

@@ -21,7 +21,6 @@
 #include <Eigen/Core>
 
 #include <string>
-#include <type_traits>
 #include <utility>
 
 namespace slant {

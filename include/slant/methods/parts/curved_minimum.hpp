@@ -15,7 +15,6 @@
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/iterative_method.hpp>
 #include <slant/concepts/linear_operator.hpp>

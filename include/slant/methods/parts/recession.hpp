@@ -11,7 +11,6 @@
 
 #include <slant/base/scaling.hpp>
 #include <slant/base/vector_algebra.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/flat_direction.hpp>
