@@ -251,12 +251,13 @@ template <int N, int M, class T>
 }
 
 /// λ_max(D⁻¹A) within a few percent, by the power method and the quotient of Rayleigh; D given by
-/// its inverses as for the sweeps. At least 1, the mean of the eigenvalues.
+/// its inverses as for the sweeps. At least 1, the mean of the eigenvalues. x, y: scratch, block
+/// vectors.
 template <int N, class T>
-[[nodiscard]] T largest_jacobi_eigenvalue(block_matrix<N, T> const& A, T const* inverses) {
+[[nodiscard]] T largest_jacobi_eigenvalue(block_matrix<N, T> const& A, T const* inverses,
+                                          std::vector<T>& x, std::vector<T>& y) {
   constexpr int stride = block_matrix<N, T>::stride;
   constexpr int steps = 8;
-  std::vector<T> x(A.padded_size(), T(0)), y(x.size(), T(0));
   unsigned random = 1;
   for (std::size_t k = 0; k < x.size(); ++k) {
     random = random * 1664525u + 1013904223u;  // [Knuth 1997, 3.3.4, table 1]

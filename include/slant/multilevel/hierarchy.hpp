@@ -133,7 +133,9 @@ struct multigrid_level {
   T largest = 0;               // eigenvalue of D⁻¹A, about; 0 where it was not asked for
 
   void find_largest() {
-    if (largest == T(0)) largest = largest_jacobi_eigenvalue(A, inverses.data());
+    if (largest != T(0)) return;
+    std::vector<T> x(A.padded_size()), y(x.size());
+    largest = largest_jacobi_eigenvalue(A, inverses.data(), x, y);
   }
 };
 

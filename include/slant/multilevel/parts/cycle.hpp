@@ -224,7 +224,8 @@ index follow_face(hierarchy<N, M, T> const& h, cycle_workspace<N, M, T>& w) {
       invert_diagonal(f.A[l], h.coarse[l].A, i, f.inverses[l].data());
     }
     if (h.degree > 0 && !f.parents.empty()) {
-      f.largest[l] = largest_jacobi_eigenvalue(f.A[l], f.inverses[l].data());
+      f.largest[l] =
+          largest_jacobi_eigenvalue(f.A[l], f.inverses[l].data(), w.coarse[l].x, w.coarse[l].r);
     }
     rows += static_cast<index>(f.parents.size());
     std::swap(f.moved, f.parents);
