@@ -41,8 +41,9 @@ namespace slant {
 
 /// certificate(x, ν) → energy_error of P_Λ(x), an estimate. Refers to the problem and the
 /// constraints; M ≈ A⁻¹, of which it keeps a copy, preconditions, without M diag(A)⁻¹ as in
-/// energy_certificate. Some 15 applications of A. Infinite, that is unknown, where A has no curvature along what is left of the
-/// gradient, and where no step on the face of x meets the equations: that is not the face of x*.
+/// energy_certificate. Some 15 applications of A. Infinite, that is unknown, where A has no
+/// curvature along what is left of the gradient, and where no step on the face of x meets the
+/// equations: that is not the face of x*.
 template <class QP, affine_space_with_rows<typename QP::vector_type> C, class M = identity_operator>
 class constrained_certificate {
  public:

@@ -173,9 +173,9 @@ template <class S>
 
 // --- units of rows -------------------------------------------------------------------------------
 //
-// Gaps, slip bounds and forces are in units of their rows of N and T. Where entries of these are far
-// from 1 their squares are no numbers, and the problem is solved for rows U (N, T) and forces
-// λ' = U⁻¹λ: the same one, bit for bit in its displacements as far as powers of two go.
+// Gaps, slip bounds and forces are in units of their rows of N and T. Where entries of these are
+// far from 1 their squares are no numbers, and the problem is solved for rows U (N, T) and forces
+// λ' = U⁻¹λ: the same one, as U consists of powers of two.
 
 /// U: powers of two that make the largest entry of each row of (N, T) about 1, one for the tangents
 /// of a contact. Empty where none is beyond 2^±64.

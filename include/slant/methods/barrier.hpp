@@ -385,7 +385,7 @@ template <class A, class S>
 template <class A, class S>
 void schur_system(A&& a, barrier<S> const&& b) = delete;
 
-/// J_AM for D₂₂, the quotients of slacks and multipliers; refers to the barrier, and to A if it is an lvalue.
+/// J_AM for D₂₂, slacks over multipliers; refers to the barrier, and to A if it is an lvalue.
 template <class A, class S>
 [[nodiscard]] auto augmented_system(A&& a, barrier<S> const& b,
                                     typename barrier<S>::column const& d22) {

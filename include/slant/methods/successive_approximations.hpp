@@ -47,9 +47,9 @@ namespace slant {
 
 // --- secant steps --------------------------------------------------------------------------------
 
-/// Acceleration of a fixed point iteration p ← Ψ(p) by its last difference, Anderson's with a window
-/// of one [Anderson 1965; Walker, Ni 2011, "type II"]: with f = Ψ(p) − p and Δp, Δf since the last
-/// call
+/// Acceleration of a fixed point iteration p ← Ψ(p) by its last difference, Anderson's with a
+/// window of one [Anderson 1965; Walker, Ni 2011, "type II"]: with f = Ψ(p) − p and Δp, Δf since
+/// the last call
 ///
 ///     p ← p + ω f − γ (Δp + ω Δf),      γ = argmin ‖f − γ Δf‖.
 ///

@@ -169,7 +169,7 @@ class block_matrix {
       above.store_padded(r + at<stride>(i));
     }
   }
-  /// z ← α z + β D⁻¹r and x ← x + z, with inverses as for the sweeps: a step of two terms by Jacobi.
+  /// z ← α z + β D⁻¹r and x ← x + z, with inverses as for the sweeps.
   void step(T const* inverses, T const* r, T const& α, T const& β, T* z, T* x) const {
     for (int i = 0; i < nodes(); ++i) {
       std::size_t const k = at<stride>(i);

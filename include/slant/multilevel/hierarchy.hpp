@@ -60,7 +60,7 @@ struct multigrid_options {
   /// its share is coarsened along weaker couplings, θ/2, θ/4, …, 0; where that is not enough, its P
   /// is not smoothed, which costs up to twice the cycles.
   double complexity = 2;
-  /// Levels are smoothed by polynomials of Chebyshev of this degree, 1 to 4 (parts/cycle.hpp); 0: by
+  /// Levels are smoothed by Chebyshev polynomials of this degree, 1 to 4 (parts/cycle.hpp); 0: by
   /// sweeps of block Gauss–Seidel, which take less time where one thread does all.
   index chebyshev = 0;
 
@@ -260,8 +260,8 @@ class hierarchy {
     factored = finer.factored;  // where it is not, finish() finds the same
   }
 
-  /// Factors the last level, once, and bounds spectra for polynomials. Throws bad_input if K is found
-  /// not to be semidefinite.
+  /// Factors the last level, once, and bounds spectra for polynomials. Throws bad_input if K is
+  /// found not to be semidefinite.
   void finish(index most, index chebyshev) {
     most_factored = most;
     degree = chebyshev;

@@ -11,16 +11,16 @@
 // blocks, and a semidefinite rest, however inexact the coarse levels are. No bound of a spectrum is
 // needed that would have to be right. On a singular K, of bodies that float, M is definite as well.
 //
-// Chebyshev. In place of a sweep m steps of the polynomial of the fourth kind [Lottes 2023, (9)] in
+// Chebyshev. In place of a sweep m steps of the polynomial of the fourth kind [Lottes 2023] in
 // D⁻¹K, whose spectrum is in (0, λ],
 //
 //     z ← (2k − 3)/(2k + 1) z + (8k − 4)/(2k + 1) D⁻¹r/λ,    x ← x + z,    k = 1, …, m.
 //
-// Nothing but products by K, in no order of the nodes; 2m of them instead of two. An error e becomes
-// w(D⁻¹K) e with |w| < 1 on (0, λ] and some way beyond, to 1.5 λ, 1.25 λ, 1.15 λ, 1.09 λ for m = 1
-// to 4: M is definite as long as the spectrum ends before that. λ is 1.2 times what the power method
-// finds. It holds on every face of level 0, as Π and C only lower the spectrum, and is found anew on
-// coarse levels where they have followed a face.
+// Nothing but products by K, in no order of the nodes; 2m of them instead of two. An error e
+// becomes w(D⁻¹K) e with |w| < 1 on (0, λ] and some way beyond, to 1.5 λ, 1.25 λ, 1.15 λ, 1.09 λ
+// for m = 1 to 4: M is definite as long as the spectrum ends before that. λ is 1.2 times what the
+// power method finds. It holds on every face of level 0, as Π and C only lower the spectrum, and is
+// found anew on coarse levels where they have followed a face.
 //
 // Faces. On a face H = Π K Π + C takes the place of K (node_face.hpp): the inverses of the diagonal
 // blocks at the surface are all that the sweeps know of it, and P is truncated by Π. In the rows of
@@ -99,7 +99,7 @@ struct cycle_workspace {
   }
 };
 
-/// What smooths a level before the coarse correction, from 0, after which r = b − A x, and after it.
+/// What smooths a level before the coarse correction, from 0, then r = b − A x, and after it.
 /// Degree 0: sweeps.
 template <int N, class T>
 struct smoother {
