@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
     }
     good = measure(brick("cells 10:1:1", {.k = k, .load = load, .size = {30, 1, 1}})) && good;
     good = measure(brick("cells 1:10:10", {.k = k, .load = load, .size = {0.3, 1, 1}})) && good;
-    scene s = brick("brick, Chebyshev of degree 2", {.k = k, .load = load});
+    scene s = brick("brick by Chebyshev polynomials", {.k = k, .load = load});
     s.chebyshev = 2;
     good = measure(s) && good;
     s = brick("materials 1:1e-4", {.k = k, .load = load});

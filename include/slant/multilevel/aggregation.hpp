@@ -45,27 +45,34 @@ struct aggregation {
 template <int N, class T>
 [[nodiscard]] aggregation aggregate(block_matrix<N, T> const& A, double θ) {
   auto const n = static_cast<std::size_t>(A.nodes());
-  // In double: bodies may be 1e-20 times as stiff as others.
-  auto const square = [](T const* block) {
-    double s = 0;
-    for (int k = 0; k < N * N; ++k)
-      s += static_cast<double>(block[k]) * static_cast<double>(block[k]);
+  // In units of the row: bodies may be 1e-20 times as stiff as others.
+  auto const square = [](T const* block, T const& unit) {
+    T s(0);
+    for (int k = 0; k < N * N; ++k) s += (block[k] * unit) * (block[k] * unit);
     return s;
   };
-  std::vector<double> size(n);
+  std::vector<T> unit(n), size(n);  // 1/‖A_ii‖, about; ‖A_ii‖
   for (int i = 0; i < A.nodes(); ++i) {
-    size[static_cast<std::size_t>(i)] = std::sqrt(square(A.diagonal(i)));
+    auto const at = static_cast<std::size_t>(i);
+    T const* const D = A.diagonal(i);
+    T most(0);
+    for (int c = 0; c < N; ++c) most = std::max<T>(most, D[(N + 1) * c]);
+    using std::sqrt;
+    unit[at] = T(1) / unit_near(most);
+    size[at] = T(sqrt(square(D, unit[at]))) / unit[at];
   }
-  // Strong neighbours and ‖A_ij‖²/‖A_jj‖.
+  // Strong neighbours and ‖A_ij‖²/‖A_jj‖, in that unit.
   std::vector<int> first{0}, neighbour;
-  std::vector<double> strength;
+  std::vector<T> strength;
   neighbour.reserve(static_cast<std::size_t>(A.blocks()));
   strength.reserve(static_cast<std::size_t>(A.blocks()));
   for (int i = 0; i < A.nodes(); ++i) {
     auto const gather = [&](double least) {
-      double const limit = least * least * size[static_cast<std::size_t>(i)];
+      T const u = unit[static_cast<std::size_t>(i)];
+      T const limit = T(least) * T(least) * (size[static_cast<std::size_t>(i)] * u);
       A.for_each_in_row(i, [&](int j, T const* block) {
-        double const other = size[static_cast<std::size_t>(j)], s = square(block);
+        T const other = size[static_cast<std::size_t>(j)] * u;
+        T const s = square(block, u);
         if (j == i || !(s > limit * other)) return;
         neighbour.push_back(j);
         strength.push_back(s / other);
@@ -84,7 +91,7 @@ template <int N, class T>
   aggregation a{std::vector<int>(n, -1), 0};
   auto const open = [&](std::size_t i) {
     a.of[i] = static_cast<int>(a.count);
-    neighbours(i, [&](int j, double) {
+    neighbours(i, [&](int j, T) {
       int& of = a.of[static_cast<std::size_t>(j)];
       if (of < 0) of = static_cast<int>(a.count);
     });
@@ -100,8 +107,8 @@ template <int N, class T>
   std::vector<int> const seeds = a.of;
   for (std::size_t i = 0; i < n; ++i) {
     if (a.of[i] >= 0) continue;
-    double strongest = 0;
-    neighbours(i, [&](int j, double s) {
+    T strongest(0);
+    neighbours(i, [&](int j, T s) {
       int const there = seeds[static_cast<std::size_t>(j)];
       if (there < 0 || !(s > strongest)) return;
       strongest = s;
