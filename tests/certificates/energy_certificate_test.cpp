@@ -197,7 +197,7 @@ TEST_CASE("in any units, also where energies leave the range of the numbers") {
 
 TEST_CASE("a disc that is all but a point hides nothing of the others") {
   std::mt19937 random(3);
-  test::made_program p = test::make_program(3, 2, random);
+  auto p = test::make_program(3, 2, random);
   auto const M = slant::matrix<slant::self_adjoint, slant::positive_definite>(p.inverse);
   for (double const g : {0.0, 1e-150, 1e-160, 1e-250}) {
     p.g(1) = g;

@@ -142,16 +142,17 @@ TEST_CASE("certified_coulomb: rows of a contact in any units, the cone unchanged
   // Rows of N and T apart, beyond where their squares are numbers: F is in units of both.
   VectorXd other = F;
   for (slant::index i = 0; i < c.nodes(); ++i) {
-    double const n = i % 2 == 0 ? 0x1p450 : 0x1p-400;
-    other(i) *= n / 0x1p500;
+    double const n = i % 2 == 0 ? 0x1p450 : 0x1p-515;
+    other(i) *= n / 0x1p515;
     c.d(i) = given.d(i) * n;
     rows(i) = n;
   }
   c.N = Eigen::SparseMatrix<double>(rows.asDiagonal() * given.N);
-  c.T = 0x1p500 * given.T;
+  c.T = 0x1p515 * given.T;
   auto const far = solve(s.K, c, other);
   CHECK(far.converged());
   CHECK((far.u - reference.u).norm() <= 1e-6 * reference.u.norm());
+  CHECK(solve(s.K, c, VectorXd::Zero(F.size())).converged());
 }
 
 TEST_CASE("certified_coulomb: any units of stiffness and load") {

@@ -132,8 +132,7 @@ TEST_CASE("data that do not fit: nothing has happened") {
                                 slant::reduced_gradient_below(1e-9) || slant::at_most(100));
   VectorXd const λ = stepper.advance({}).x(), b = problem.b();
   step const bad{.f = t.scene.f, .g = VectorXd::Constant(t.c.g.size(), -1)};
-  CHECK_THROWS_WITH_AS(static_cast<void>(stepper.advance(bad)),
-                       "g[0]: got -1, expected a number >= 0 or +inf", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(stepper.advance(bad)) == "g[0]: got -1, expected a number >= 0 or +inf");
   CHECK(problem.b() == b);
   auto const& report = stepper.advance({});
   CHECK(report.number == 2);

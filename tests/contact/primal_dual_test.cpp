@@ -123,8 +123,7 @@ TEST_CASE("bad input") {
   auto const scene = fem::make_steel_brick({.k = 1});
   auto const c = test::contact_data(scene);
   contact::primal_dual const problem(contact::friction_disc{}, scene.K, c);
-  CHECK_THROWS_WITH_AS(static_cast<void>(problem.function(-1)),
-                       "rho: got -1, expected a finite number > 0", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(problem.function(-1)) == "rho: got -1, expected a finite number > 0");
   CHECK_THROWS_AS((contact::primal_dual(contact::friction_line{}, scene.K, c)), slant::bad_input);
   CHECK_THROWS_AS(static_cast<void>(problem.displacement(VectorXd::Zero(3))), slant::bad_input);
 }

@@ -99,7 +99,7 @@ TEST_CASE("contact::solve: rows of N and T scaled over sixteen or 270 orders of 
     other.T = Eigen::SparseMatrix<double>(pairs.asDiagonal() * data.T);
     auto const r = solve(scene.K, other);
     CHECK(r.converged());
-    CHECK(r.scaled == (most < 64));
+    CHECK(r.scaled);
     CHECK(energy_error(scene.K, r.u, reference.u) <= 1e-8);
     CHECK(r.iterations <= 60);
     auto const again = solve(scene.K, other, {.start = r.multipliers});

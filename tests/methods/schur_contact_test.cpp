@@ -309,7 +309,6 @@ TEST_CASE("starts out of the set, sets without points, loads without a state of 
   CHECK_THROWS_WITH_AS(solve(p, {}, [](body_list const&, report_type const&) {}),
                        "c: got bounds that exclude each other, expected a u with B u <= c",
                        slant::bad_input);
-  // Far from where four planes through zero meet.
   MatrixXd planes(4, 3);
   planes << 2, 1, 0, 1, -2, -2, -1, 0, 0, -2, 0, 2;
   small_problem const corner{chain(3), VectorXd::Zero(3), planes, VectorXd::Zero(4)};

@@ -132,8 +132,7 @@ TEST_CASE("a right-hand side of zero is solved by zero, and bad starts are named
     CHECK_THROWS_AS(static_cast<void>(method.start(VectorXd::Zero(19))), slant::bad_input);
     VectorXd x0 = VectorXd::Zero(20);
     x0(7) = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_WITH_AS(static_cast<void>(method.start(x0)),
-                         "x0[7]: got inf, expected a finite number", slant::bad_input);
+    CHECK(SLANT_COMPLAINT(method.start(x0)) == "x0[7]: got inf, expected a finite number");
   });
   slant::interior_point const inside{slant::separable_qp{A, b, set}};
   CHECK_THROWS_AS(static_cast<void>(inside.start(VectorXd::Zero(19))), slant::bad_input);

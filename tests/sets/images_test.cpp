@@ -233,8 +233,8 @@ TEST_CASE_TEMPLATE("rotated: other scalars, and powers", S, float, oracle::float
 }
 
 TEST_CASE("rotated: a matrix that is not orthogonal is refused") {
-  CHECK_THROWS_WITH_AS(static_cast<void>(rotated(slant::ball<2>{}, 2 * Matrix2d::Identity())),
-                       "Q: got max |QᵀQ − I| = 3, expected an orthogonal matrix", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(rotated(slant::ball<2>{}, 2 * Matrix2d::Identity())) ==
+        "Q: got max |QᵀQ − I| = 3, expected an orthogonal matrix");
   Matrix2d q = turn(1.0);
   q(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(static_cast<void>(rotated(slant::ball<2>{}, q)), slant::bad_input);
@@ -381,8 +381,7 @@ TEST_CASE("scaled: operators and sets") {
 }
 
 TEST_CASE("scaled: bad factors are named") {
-  CHECK_THROWS_WITH_AS(static_cast<void>(scaled(0.0, slant::ball<2>{})),
-                       "c: got 0, expected a finite number > 0", slant::bad_input);
+  CHECK(SLANT_COMPLAINT(scaled(0.0, slant::ball<2>{})) == "c: got 0, expected a finite number > 0");
   CHECK_THROWS_AS(static_cast<void>(scaled(-2.0, slant::ball<2>{})), slant::bad_input);
   CHECK_THROWS_AS(
       static_cast<void>(scaled(std::numeric_limits<double>::infinity(), slant::ball<2>{})),

@@ -65,7 +65,7 @@ struct certified_coulomb_options {
   coulomb_method method = coulomb_method::automatic;
   index newton_steps = 60;  ///< of Newton's method at most
   index outer_steps = 300;  ///< of successive approximations at most
-  bool scale = true;        ///< whether rows of B may be scaled
+  bool scale = true;        ///< as in solve_options
   /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored first,
   /// unless `route` says otherwise: bodies without supports are not known as such then.
   node_layout<S> layout{};
@@ -453,11 +453,13 @@ template <class Friction, class S>
   if (auto const U = detail::row_units(c); U.size() > 0) {
     Eigen::VectorX<S> own = F;
     for (index i = 0; i < own.size(); ++i) {
-      S const ratio = U[i] / U[c.nodes() + i * c.tangents()];
-      own[i] = std::min<S>(own[i] * ratio, std::numeric_limits<S>::max());
+      S const n = U[i], t = U[c.nodes() + i * c.tangents()];
+      own[i] = n < S(1) ? S(F[i] / t * n) : S(F[i] * n / t);  // n/t may be no number
+      own[i] = std::min<S>(own[i], std::numeric_limits<S>::max());
     }
     auto run = certified_coulomb(friction, K, detail::with_units(std::move(c), U), own, o);
     run.λ = run.λ.cwiseProduct(U);
+    run.scaled = true;
     return run;
   }
   auto const outlook = o.method == coulomb_method::automatic

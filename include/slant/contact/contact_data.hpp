@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace slant::contact::detail {
@@ -202,14 +203,25 @@ template <class S>
   }
   return moderate ? Eigen::VectorX<S>() : U;
 }
+/// x, its entries within the range of the numbers where those of `before` are.
+template <class S>
+[[nodiscard]] Eigen::VectorX<S> kept_finite(Eigen::VectorX<S> x, Eigen::VectorX<S> const& before) {
+  constexpr S most = std::numeric_limits<S>::max();
+  for (index i = 0; i < x.size(); ++i) {
+    if (slant::detail::is_finite(before[i])) x[i] = std::clamp<S>(x[i], -most, most);
+  }
+  return x;
+}
 /// The data in these units.
 template <class S>
 [[nodiscard]] data<S> with_units(data<S> c, Eigen::VectorX<S> const& U) {
   index const m = c.nodes();
   c.N = Eigen::SparseMatrix<S>(U.head(m).asDiagonal() * c.N);
   c.T = Eigen::SparseMatrix<S>(U.tail(c.T.rows()).asDiagonal() * c.T);
-  c.d = c.d.cwiseProduct(U.head(m));
-  for (index i = 0; i < c.g.size(); ++i) c.g[i] /= U[m + i * c.tangents()];
+  c.d = kept_finite<S>(c.d.cwiseProduct(U.head(m)), c.d);
+  Eigen::VectorX<S> g = c.g;
+  for (index i = 0; i < g.size(); ++i) g[i] /= U[m + i * c.tangents()];
+  c.g = kept_finite<S>(std::move(g), c.g);
   return c;
 }
 

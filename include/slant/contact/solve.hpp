@@ -260,10 +260,12 @@ template <class Friction, class S>
     auto own = o;
     if (o.start) {
       slant::detail::check_size("start", o.start->size(), U.size());
-      own.start = o.start->cwiseQuotient(U);
+      slant::detail::check_finite("start", *o.start);
+      own.start = detail::kept_finite<S>(o.start->cwiseQuotient(U), *o.start);
     }
     auto found = solve(friction, K, detail::with_units(c, U), own);
     found.multipliers = found.multipliers.cwiseProduct(U);
+    found.scaled = true;
     return found;
   }
   bool const asked = o.route == solution_route::iterate;

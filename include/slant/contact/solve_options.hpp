@@ -36,7 +36,7 @@ struct solve_options {
   S tolerance = S(1e-8);   ///< relative error in the energy norm, in [0, 1); 0: as far as possible
   bool prove = false;      ///< prove the bound: one more factorisation of the size of K
   index max_steps = 5000;  ///< of each method that is tried
-  bool scale = true;       ///< whether rows of B may be scaled
+  bool scale = true;       ///< rows of B for equal stiffness; beyond 2^±64 they are in any case
   condensation_options condensation{};
   /// λ to start from, by factors of K; none: conjugate gradients without the constraints.
   std::optional<Eigen::VectorX<S>> start{};

@@ -29,6 +29,7 @@
 #include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/letter.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/small_blocks.hpp>
 #include <slant/operators/sum.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
@@ -259,6 +260,30 @@ class barrier_minimum {
   inner_result<scalar> solve(A const& a, WA& a_workspace, M const& m, B const& barrier, V const& d,
                              V const& g0, scalar const& target, scalar const& share, index most,
                              bool warm, scalar const& trace) {
+    auto const end_where = [&](auto const& is_flat, bool from_last) {
+      return iterate(a, a_workspace, m, barrier, d, g0, target, share, most, from_last, trace,
+                     is_flat);
+    };
+    auto found = end_where([](scalar const& bend) { return !(bend > scalar(0)); }, warm);
+    if constexpr (!declares_positive_definite<A>) {
+      if (found.finite) return found;
+      // Directions of the kernel whose curvature is that of rounding errors grow without bound.
+      index const before = found.iterations;
+      forget();
+      found = end_where([&](scalar const& bend) { return !(bend > flatness(direction, trace)); },
+                        false);
+      found.iterations += before;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
+
+  template <class A, class WA, class B, class Flat>
+  inner_result<scalar> iterate(A const& a, WA& a_workspace, M const& m, B const& barrier,
+                               V const& d, V const& g0, scalar const& target, scalar const& share,
+                               index most, bool warm, scalar const& trace, Flat const& is_flat) {
     vectors::copy(g0, g_);
     barrier.keep_fixed(g_);
     if (warm && known_) {
@@ -287,8 +312,7 @@ class barrier_minimum {
       add_stiffness(barrier, direction, direction_image, z_);
       scalar const bend = inner_product(direction, z_);
       finite = finite && detail::is_finite(bend);
-      // A direction without curvature: the step ends here.
-      if (!(bend > (declares_positive_definite<A> ? scalar(0) : flatness(direction, trace)))) {
+      if (is_flat(bend)) {  // a direction without curvature: the step ends here
         // W is semidefinite up to rounding; is A?
         flat = true;
         finite = finite && -inner_product(direction, direction_image) <=
@@ -308,9 +332,6 @@ class barrier_minimum {
     }
     return {k, size, finite && detail::is_finite(size)};
   }
-
- private:
-  static constexpr bool preconditioned = !std::is_same_v<M, identity_operator>;
 
   /// z = P⁻¹ g.
   template <class B>

@@ -39,6 +39,7 @@
 #include <slant/newton/forcing.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <string>
 #include <type_traits>
 #include <utility>

@@ -258,17 +258,23 @@ template <int N, int M, class T>
 }
 
 /// λ_max(D⁻¹A) within a few percent, by the power method and the quotient of Rayleigh; D given by
-/// its inverses as for the sweeps. At least 1, the mean of the eigenvalues. x, y: scratch, block
-/// vectors.
+/// its inverses as for the sweeps. At least 1, the mean of the eigenvalues. The start is random as a
+/// vector; in_any_units: about as random in √D x, so that soft bodies are seen beside stiff ones. x,
+/// y: scratch, block vectors.
 template <int N, class T>
 [[nodiscard]] T largest_jacobi_eigenvalue(block_matrix<N, T> const& A, T const* inverses,
-                                          std::vector<T>& x, std::vector<T>& y) {
+                                          std::vector<T>& x, std::vector<T>& y, bool in_any_units) {
   constexpr int stride = block_matrix<N, T>::stride;
   constexpr int steps = 8;
   unsigned random = 1;
   for (std::size_t k = 0; k < x.size(); ++k) {
     random = random * 1664525u + 1013904223u;  // [Knuth 1997, 3.3.4, table 1]
     x[k] = static_cast<int>(k % stride) < N ? T(random >> 8) / T(1 << 23) - T(1) : T(0);
+  }
+  for (std::size_t i = 0; in_any_units && i < x.size(); i += stride) {
+    for (std::size_t c = 0; c < N; ++c) {
+      x[i + c] *= T(std::sqrt(static_cast<double>(inverses[i * N + stride * c + c])));
+    }
   }
   T λ(1);
   for (int step = 0; step < steps; ++step) {

@@ -132,10 +132,9 @@ struct multigrid_level {
   near_kernel<M, M> kernel{};  // of the next level, in that case
   T largest = 0;               // eigenvalue of D⁻¹A, about; 0 where it was not asked for
 
-  void find_largest() {
-    if (largest != T(0)) return;
+  [[nodiscard]] T find_largest(bool in_any_units) const {
     std::vector<T> x(A.padded_size()), y(x.size());
-    largest = largest_jacobi_eigenvalue(A, inverses.data(), x, y);
+    return largest_jacobi_eigenvalue(A, inverses.data(), x, y, in_any_units);
   }
 };
 
@@ -266,8 +265,8 @@ class hierarchy {
     most_factored = most;
     degree = chebyshev;
     if (degree > 0) {
-      fine.find_largest();
-      for (auto& l : coarse) l.find_largest();
+      fine.largest = fine.find_largest(true);
+      for (auto& l : coarse) l.largest = l.find_largest(true);
     }
     if (factored) return;
     auto const factor = [&](auto& to, auto const& A) {
@@ -347,7 +346,7 @@ class hierarchy {
                                                 multigrid_options const& o) {
     // A level may have so many of the numbers of the one above that all have what the limit allows.
     double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
-    above.find_largest();
+    T const λ = above.find_largest(false);
     double θ = o.strength;
     bool smooth = true;
     while (true) {
@@ -359,7 +358,7 @@ class hierarchy {
       }
       near_kernel<M, M> next;
       auto const Q = orthonormal_candidates<F, M, T>(a, B, next);
-      T const ω = smooth ? T(o.damping) / above.largest : T(0);
+      T const ω = smooth ? T(o.damping) / λ : T(0);
       auto P = smoothed_prolongation<F, M, T>(above.A, above.inverses.data(), a, Q, ω);
       auto C = galerkin_pattern(above.A, P, above.longest);
       if (smooth && double(C.blocks()) * (M * M) > most) {
