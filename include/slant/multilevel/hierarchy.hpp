@@ -18,7 +18,7 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/multilevel/aggregation.hpp>
 #include <slant/multilevel/block_matrix.hpp>
-#include <slant/multilevel/parts/dense_factor.hpp>
+#include <slant/multilevel/parts/envelope_factor.hpp>
 #include <slant/multilevel/parts/galerkin.hpp>
 #include <slant/multilevel/parts/prolongation.hpp>
 
@@ -46,14 +46,15 @@ struct multigrid_options {
   /// otherwise, or constants.
   Eigen::MatrixXd coordinates{};
   /// P of yours in place of aggregation, the one from level 1 to level 0 first, as interpolation on
-  /// nested meshes: weights of nodes (nodes × coarse nodes) or matrices of unknowns. If they end at a
-  /// level with more than twice `coarsest` unknowns, aggregation continues.
+  /// nested meshes: weights of nodes (nodes × coarse nodes) or matrices of unknowns. Aggregation
+  /// continues from a level with more than twice `coarsest` unknowns, unless its factors are cheap.
   std::vector<Eigen::SparseMatrix<double>> prolongations{};
   index block_size = 0;  ///< unknowns of a node, consecutive; 0: from the pattern of K, 1 to 3
   double strength = 0.02;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
   double damping = 4.0 / 3;  ///< ω λ_max(D⁻¹K) in (0, 2): the smoothing of the prolongation
   /// A level with so few unknowns is factored, >= 1. A last level with more, where there is none
-  /// that is smaller, is factored up to twice as many (or 1200), else smoothed.
+  /// that is smaller, is factored if that costs no more than a dense matrix of twice as many (or of
+  /// 1200), else smoothed.
   index coarsest = 500;
   index levels = 20;  ///< at most so many by aggregation, >= 1
   /// > 1: numbers of the matrices of all levels over those of the finest. A level that would exceed
@@ -64,10 +65,10 @@ struct multigrid_options {
   /// sweeps of block Gauss–Seidel, which take less time where one thread does all.
   index chebyshev = 0;
 
-  /// A last level with so many unknowns is factored.
-  [[nodiscard]] index most_factored() const {
-    return coarsest > std::numeric_limits<index>::max() / 2 ? coarsest
-                                                            : std::max<index>(2 * coarsest, 1200);
+  /// Multiplications: a last level whose factors take no more is factored.
+  [[nodiscard]] double most_work() const {
+    double const n = std::max(2.0 * static_cast<double>(coarsest), 1200.0);
+    return n * n * n / 6;
   }
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
@@ -160,10 +161,10 @@ class hierarchy {
   fine_level fine;
   std::vector<double> diagonal;      // D of level 0, N² numbers each
   std::vector<coarse_level> coarse;  // the last one without P
-  dense_factor<N, T> only;           // of level 0 if there is no other
-  dense_factor<M, T> last;           // of the last level
+  envelope_factor<N, T> only;        // of level 0 if there is no other
+  envelope_factor<M, T> last;        // of the last level
   bool factored = false;             // whether there is such a factor
-  index most_factored = 0;           // a last level with more unknowns is not
+  double most_work = 0;              // where factors of the last level take more, there are none
   bool smoothed = true;              // all P by smoothing, none above the limit of complexity
   index degree = 0;                  // of polynomials in place of sweeps
 
@@ -228,7 +229,11 @@ class hierarchy {
       auto kernel = constants<M, M>(P.coarse_nodes);
       append_by(above, std::move(P), std::move(nodes), std::move(kernel));
     }
-    if (coarse.back().A.rows() / 2 > o.coarsest) aggregate_rest(o);
+    // Aggregates would know translations only, which takes two or three times the cycles: factors
+    // for every face are better while they cost no more than four products with level 0.
+    double const most = std::min(o.most_work(), 4.0 * double(fine.A.blocks()) * (N * N));
+    auto const& A = coarse.back().A;
+    if (A.rows() / 2 > o.coarsest && envelope(A).work(M) > most) aggregate_rest(o);
   }
   /// Level 0 for factor · k = G⁻ᵀA G⁻¹, where A is level 1 of `finer` and G of unknowns or without
   /// rows for the identity; its other levels, formed anew if G couples what A does not.
@@ -261,18 +266,19 @@ class hierarchy {
 
   /// Factors the last level, once, and bounds spectra for polynomials. Throws bad_input if K is
   /// found not to be semidefinite.
-  void finish(index most, index chebyshev) {
-    most_factored = most;
+  void finish(double most, index chebyshev) {
+    most_work = most;
     degree = chebyshev;
     if (degree > 0) {
       fine.largest = fine.find_largest(true);
       for (auto& l : coarse) l.largest = l.find_largest(true);
     }
     if (factored) return;
-    auto const factor = [&](auto& to, auto const& A) {
+    auto const factor = [&]<int B>(envelope_factor<B, T>& to, block_matrix<B, T> const& A) {
       // A level that would not become smaller has few couplings, and sweeps solve it well enough.
-      if (A.rows() > most_factored) return;
-      to = std::remove_reference_t<decltype(to)>(A.nodes());
+      envelope e(A);
+      if (e.work(B) > most_work) return;
+      to = envelope_factor<B, T>(std::move(e));
       double const lowest = to.factor(A, A, whole_blocks{});
       // Less is what rounding leaves of pivots of slender bodies, level after level.
       if (lowest < -64 * std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()))) {

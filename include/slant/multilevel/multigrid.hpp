@@ -84,6 +84,10 @@ class multigrid {
       : multigrid(sparse_view(k.derived()), &mixed, matrix_type(candidates.derived()), o) {}
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
+  /// Whether the last level is factored; else it is smoothed.
+  [[nodiscard]] bool factors_last_level() const {
+    return std::visit([](auto const& h) { return h.factored; }, *levels_);
+  }
   /// Unknowns of each level, the finest first.
   [[nodiscard]] std::vector<index> sizes() const {
     return std::visit([](auto const& h) { return h.sizes(); }, *levels_);
@@ -259,7 +263,7 @@ class multigrid {
   void build(index b, index candidates, multigrid_options const& o, F fill) {
     with_levels(b, candidates > b && o.prolongations.empty(), [&](auto& h) {
       fill(h);
-      h.finish(o.most_factored(), o.chebyshev);
+      h.finish(o.most_work(), o.chebyshev);
     });
     note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), candidates, o);
   }
@@ -489,7 +493,7 @@ multigrid<S, T> multigrid<S, T>::coarser(sparse_view const& k,
         auto all = std::make_shared<all_levels>(std::in_place_type<levels<node, M>>);
         auto& own = std::get<levels<node, M>>(*all);
         own.take_below(h, k, factor_, G);
-        own.finish(h.most_factored, h.degree);
+        own.finish(h.most_work, h.degree);
         c.levels_ = std::move(all);
         c.description_ = "from level 1 on: " + c.levels_text();
         return c;

@@ -63,8 +63,7 @@ class nested_start {
       : φ_(&φ), tangents_(tangents) {
     aggregation const& a = M.aggregates();
     if (a.count == 0 || f.size() < smallest || candidates.cols() == 0) return;
-    auto const sizes = M.sizes();
-    if (sizes.size() == 2 && sizes[1] > o.most_factored()) return;  // there is no level below
+    if (M.sizes().size() == 2 && !M.factors_last_level()) return;  // there is no level below
     matrix_type R = M.coarse_kernel();
     width_ = R.cols();
     if (R.rows() != a.count * width_ || width_ < 1 + tangents) return;

@@ -33,7 +33,7 @@
 #include <slant/concepts/scalar.hpp>
 #include <slant/multilevel/block_matrix.hpp>
 #include <slant/multilevel/hierarchy.hpp>
-#include <slant/multilevel/parts/dense_factor.hpp>
+#include <slant/multilevel/parts/envelope_factor.hpp>
 #include <slant/multilevel/parts/galerkin.hpp>
 #include <slant/multilevel/parts/node_face.hpp>
 
@@ -64,8 +64,8 @@ struct levels_on_face {
   std::vector<std::vector<T>> inverses;
   std::vector<T> largest;
   int changes = 0;  // of A since it was that of no face: each leaves some rounding
-  dense_factor<N, T> only;
-  dense_factor<M, T> last;
+  envelope_factor<N, T> only;
+  envelope_factor<M, T> last;
   galerkin_scratch<N, M, T> first_scratch;
   std::vector<galerkin_scratch<M, M, T>> scratch;
   std::vector<int> moved, parents;

@@ -20,7 +20,7 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/scalar.hpp>
 #include <slant/multilevel/block_matrix.hpp>
-#include <slant/multilevel/parts/dense_factor.hpp>
+#include <slant/multilevel/parts/envelope_factor.hpp>
 #include <slant/multilevel/parts/lanes.hpp>
 
 #include <Eigen/Core>
