@@ -144,13 +144,15 @@ class equality_constraints {
   [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
   vector_type const& nearest() const&& = delete;
 
-  /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of x.
+  /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of what it shares
+  /// unknowns with.
   [[nodiscard]] bool meets(vector_type const& x, S const& tolerance) const {
     S const rounding = S(64) * std::numeric_limits<S>::epsilon();
-    vector_type const terms = G_.cwiseAbs() * x.cwiseAbs() + unit_values_.cwiseAbs();
+    sparse_type const sizes = G_.cwiseAbs();
+    vector_type const terms = sizes * x.cwiseAbs() + unit_values_.cwiseAbs();
+    vector_type const shared = sizes * vector_type(sizes.transpose() * terms);
     vector_type const rest = (G_ * x - unit_values_).cwiseAbs();
-    S const floor = rounding * x.norm();
-    return (rest.array() <= (tolerance + rounding) * terms.array() + floor).all();
+    return (rest.array() <= tolerance * terms.array() + rounding * shared.array()).all();
   }
 
   /// μ with Gᵀμ = Q v, as many as G has rows; 0 for redundant ones.
