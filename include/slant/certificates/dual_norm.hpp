@@ -124,8 +124,6 @@ template <class A, class M, class V, class WA>
 
 namespace slant::detail {
 
-// --- sizes ---------------------------------------------------------------------------------------
-
 /// √(xᵀy) for a product that is ≥ 0 but for rounding.
 template <class V>
 [[nodiscard]] auto root_of_product(V const& x, V const& y) {

@@ -281,8 +281,6 @@ template <class Block, class S, int N>
   }
 }
 
-// --- energy error --------------------------------------------------------------------------------
-
 /// What is known of ‖x − x*‖_A.
 template <class S>
 struct energy_error {

@@ -181,8 +181,6 @@ class face_correction {
   workspace_t<M, V> m_workspace_;
 };
 
-// --- newton estimate -----------------------------------------------------------------------------
-
 /// Where x is, and what the estimate may use.
 template <class V>
 struct estimated_point {

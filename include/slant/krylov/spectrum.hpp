@@ -204,8 +204,6 @@ template <class A, class V>
   return {length, bound.ritz, bound.applications};
 }
 
-// --- mean of the diagonal ------------------------------------------------------------------------
-
 /// Result of mean_diagonal.
 template <class S>
 struct diagonal_mean {

@@ -43,8 +43,6 @@
 
 namespace slant {
 
-// --- barrier -------------------------------------------------------------------------------------
-
 /// The inequalities of a set with their derivatives at a point. Rows: one per inequality, in the
 /// order of the blocks.
 template <scalar S = double>

@@ -59,14 +59,10 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for symmetric_newton, and rows.
 template <class QP, class C>
 concept constrained_newton_problem =
     symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
 template <scalar S = double>
@@ -93,8 +89,6 @@ struct constrained_newton_options {
     fallback.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -179,8 +173,6 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   }
 };
 
-// --- refusal -------------------------------------------------------------------------------------
-
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C, class M>
 class constrained_newton : public detail::refused_program<QP> {
@@ -204,8 +196,6 @@ constrained_newton(QP&&, C&&, constrained_newton_options<detail::program_scalar_
 template <class QP, class C, class M>
 constrained_newton(QP&&, C&&, M&&, constrained_newton_options<detail::program_scalar_t<QP>> = {})
     -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(constrained_newton{qp, constraints}, x0,
 /// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); a preconditioner

@@ -61,16 +61,12 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx + φ(x), A symmetric positive semidefinite, φ of blocks with slant(ρ, z); or over
 /// a set of blocks with slant(x).
 template <class QP>
 concept envelope_newton_problem =
     composite_problem<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
     has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of envelope_newton: x = prox_{ρφ}(z) with its gradient r, computed from x, and its reduced
 /// gradient (x − prox_{ρφ}(x − ρ r))/ρ; ρ is step_length.
@@ -134,8 +130,6 @@ struct envelope_newton_state : gradient_point<QP> {
     }
   }
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(envelope_newton{qp}, x0, reduced_gradient_below(1e-8) ||
 /// at_most(100)); envelope_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Begins at

@@ -34,14 +34,10 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx + φ(x), A symmetric positive semidefinite, φ with a proximal map or a set.
 template <class QP>
 concept forward_backward_problem =
     composite_problem<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of forward_backward.
 template <class S>
@@ -57,8 +53,6 @@ struct forward_backward_options {
     spectrum.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of forward_backward: x with its gradient r and r̃ = (x − prox_{αφ}(x − α r))/α.
 template <class QP>
@@ -82,8 +76,6 @@ struct forward_backward_state : gradient_point<QP> {
         status, {.stalled = "the reduced gradient has not fallen any more: " + this->accuracy()});
   }
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP>

@@ -61,8 +61,6 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// A product of blocks with smooth inequalities in which a step to the boundary is known.
 template <class C, class V>
 concept interior_point_domain =
@@ -119,8 +117,6 @@ interior_point(QP&&, interior_point_options<detail::program_scalar_t<QP>> = {})
 template <class QP, class M>
 interior_point(QP&&, M&&, interior_point_options<detail::program_scalar_t<QP>> = {})
     -> interior_point<kept_t<QP>, kept_t<M>>;
-
-// --- method --------------------------------------------------------------------------------------
 
 namespace detail {
 

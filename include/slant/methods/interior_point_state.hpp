@@ -29,8 +29,6 @@
 
 namespace slant {
 
-// --- state ---------------------------------------------------------------------------------------
-
 /// State of interior_point for a separable_qp of type QP with the preconditioner M. x in the
 /// interior of Λ with its gradient r and its reduced gradient are those of gradient_point. Vectors
 /// of multipliers have one entry per inequality of the set, those of unknowns qp.size().
@@ -109,8 +107,6 @@ struct interior_point_state : gradient_point<QP> {
                  .breakdown = "a number left the range of the scalar, or A is not semidefinite"});
   }
 };
-
-// --- options -------------------------------------------------------------------------------------
 
 namespace detail {
 

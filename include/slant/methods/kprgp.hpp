@@ -47,8 +47,6 @@
 
 namespace slant {
 
-// --- qpc options ---------------------------------------------------------------------------------
-
 /// Options of qpc: those of kprgp with another rule.
 template <class S>
 struct qpc_options {
@@ -215,8 +213,6 @@ struct face_minimum_release : kkt_release {
     return s.βr == S(0) || s.φr > o.face_accuracy * o.face_accuracy * scale;
   }
 };
-
-// --- kprgp ---------------------------------------------------------------------------------------
 
 /// KPRGP for a separable_qp: solve(kprgp{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// Requires: psd_operator (A symmetric positive semidefinite) and separable_set with

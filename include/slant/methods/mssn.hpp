@@ -144,8 +144,6 @@ template <class Forcing, class S>
   return η * (std::is_same_v<Forcing, adaptive_precision> ? h.first_error : h.error);
 }
 
-// --- options -------------------------------------------------------------------------------------
-
 /// Options of mssn, imssn and gimssn. Forcing is a rule of newton/forcing.hpp.
 template <class S, class Forcing>
 struct modified_newton_options {
@@ -168,8 +166,6 @@ struct modified_newton_options {
     spectrum.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// An iterate λ that has left Λ: the state's x is then P_Λ(λ).
 template <class V>
@@ -238,8 +234,6 @@ struct modified_newton_state : gradient_point<QP> {
   }
 };
 
-// --- problem -------------------------------------------------------------------------------------
-
 namespace detail {
 
 template <class Inner, class Forcing>
@@ -260,8 +254,6 @@ class modified_newton : public detail::refused_program<
  public:
   using modified_newton::refused_method::refused_method;
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The frame of mssn, imssn and gimssn. Start and Inner are of the kinds above,
 /// Forcing is a rule of newton/forcing.hpp. Requires: psd_operator (A positive definite on the

@@ -31,8 +31,6 @@
 
 namespace slant {
 
-// --- options -------------------------------------------------------------------------------------
-
 /// Which blocks count as free when a face is chosen.
 enum class active_set_rule : unsigned char {
   boundary,  ///< those in which x is not on the boundary: f_i < 0 [K §3.1.1]
@@ -60,8 +58,6 @@ struct kprgp_options {
     spectrum.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// The three steps of KPRGP, QPQ and QPC.
 enum class kprgp_step : unsigned char { conjugate_gradient, expansion, proportioning };
@@ -102,16 +98,12 @@ struct kprgp_state : gradient_point<QP> {
   }
 };
 
-// --- refusal -------------------------------------------------------------------------------------
-
 /// A problem that lacks something ends here; kprgp, qpq and qpc say what it is.
 template <class QP, class Rule>
 class proportioning : public detail::refused_program<QP, kprgp_state, Rule::template options> {
  public:
   using proportioning::refused_method::refused_method;
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 namespace detail {
 

@@ -62,8 +62,6 @@
 
 namespace slant {
 
-// --- options -------------------------------------------------------------------------------------
-
 /// Options of schur_contact.
 template <scalar S = double>
 struct schur_contact_options {
@@ -88,8 +86,6 @@ struct schur_contact_options {
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// What the last step did: a conjugate gradient step to the minimum along q, one to the first
 /// constraint, or one beyond it along the boundary. Rows may have been released before it.
@@ -355,8 +351,6 @@ template <class P>
   }
   return false;
 }
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(schur_contact{problem}, u0, residual_below(1e-10) ||
 /// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d

@@ -49,13 +49,9 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for kprgp, and an affine space.
 template <class QP, class C>
 concept smalse_problem = kprgp_problem<QP> && affine_space<C, typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of smalse.
 template <class S = double>
@@ -85,8 +81,6 @@ struct smalse_options {
     inner.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -154,8 +148,6 @@ struct smalse_state {
     return detail::reason_with_equalities(status, infeasible);
   }
 };
-
-// --- refusal -------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C>
@@ -246,8 +238,6 @@ template <class Set, class C, class V>
 }
 
 }  // namespace detail
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(smalse{qp, constraints}, x0,
 /// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); options last.

@@ -42,8 +42,6 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// F of [T (2.11)] for a quadratic program, of which it refers to A and the set.
 template <quadratic_program QP>
 using ssnm_function = kkt_function<typename QP::operator_type const&, typename QP::vector_type,
@@ -55,8 +53,6 @@ concept ssnm_parts =
     quadratic_program<QP> && !detail::was_refused<QP> &&
     direction_solver<LinearSolver, slant_operator_t<ssnm_function<QP>, typename QP::vector_type>,
                      typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Where the multipliers of SSNM begin.
 enum class ssnm_multipliers : unsigned char {
@@ -86,8 +82,6 @@ struct ssnm_options {
                          inner_tolerance >= S(0) && inner_tolerance < S(1), "a number in [0, 1)");
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of ssnm for the function F, vectors V and a linear solver.
 template <class F, class V, class Solver>
@@ -132,8 +126,6 @@ struct ssnm_state {
                       "it, or an active gradient vanishes or depends on others"});
   }
 };
-
-// --- refusal -------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class LinearSolver = schur_bicgstab>
@@ -189,8 +181,6 @@ void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
         }
       });
 }
-
-// --- method --------------------------------------------------------------------------------------
 
 /// SSNM: solve(ssnm{qp, solver, options}, x0, step_below(tol, 1.0) || at_most(1000)); step_below
 /// with the offset 1 is the rule of [T], in which 1 has the unit of x.

@@ -46,8 +46,6 @@
 
 namespace slant {
 
-// --- secant steps --------------------------------------------------------------------------------
-
 /// Acceleration of a fixed point iteration p ← Ψ(p) by its last difference, Anderson's with a
 /// window of one [Anderson 1965; Walker, Ni 2011, "type II"]: with f = Ψ(p) − p and Δp, Δf since
 /// the last call
@@ -106,8 +104,6 @@ class secant_mixing {
   bool begun_ = false;
 };
 
-// --- options -------------------------------------------------------------------------------------
-
 /// Options of successive_approximations.
 template <class S = double>
 struct successive_options {
@@ -131,8 +127,6 @@ struct successive_options {
     forcing.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of successive_approximations with an inner method of states Inner, for vectors V.
 template <class Inner, class V>
@@ -172,8 +166,6 @@ struct successive_state {
     return "the inner method reports: " + std::string(to_string(inner_status));
   }
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// A family of quadratic programs with parameters; see the top of this file.
 template <class F, class V = typename F::vector_type>

@@ -63,8 +63,6 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x); or
 /// + φ(x) as envelope_newton takes it.
 template <class QP>
@@ -237,8 +235,6 @@ class rounded_products<A, V> {
   workspace_t<twin, V> workspace_;
 };
 
-// --- state ---------------------------------------------------------------------------------------
-
 /// The steps of symmetric_newton.
 enum class symmetric_newton_step : unsigned char { none, full, damped, descent };
 
@@ -287,8 +283,6 @@ std::string symmetric_newton_state<QP, M>::reason() const {
        .breakdown = "a number left the range of the scalar, or A is not semidefinite"});
 }
 
-// --- refusal -------------------------------------------------------------------------------------
-
 namespace detail {
 
 template <class QP>
@@ -333,8 +327,6 @@ symmetric_newton(QP&&, symmetric_newton_options<detail::program_scalar_t<QP>> = 
 template <class QP, class M>
 symmetric_newton(QP&&, M&&, symmetric_newton_options<detail::program_scalar_t<QP>> = {})
     -> symmetric_newton<kept_t<QP>, kept_t<M>>;
-
-// --- method --------------------------------------------------------------------------------------
 
 namespace detail {
 

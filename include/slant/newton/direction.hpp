@@ -95,8 +95,6 @@ using chosen_solver_t = typename detail::chosen_solver<D, G, V>::type;
 
 namespace slant::detail {
 
-// --- iteration limit -----------------------------------------------------------------------------
-
 /// Throws bad_input unless it is a number of iterations, or 0 for "choose".
 inline void check_iteration_limit(index max_iterations) {
   if (max_iterations < 0) {

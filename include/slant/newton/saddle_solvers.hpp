@@ -173,8 +173,6 @@ class factored_inverse {
   index n_;
 };
 
-// --- schur reduction -----------------------------------------------------------------------------
-
 template <class G>
 concept has_hessian_matrix = is_kkt_operator<G> && requires(G const& g) {
   requires eigen_matrix<decltype(g.hessian().get())>;

@@ -67,8 +67,6 @@ struct by_laws {
   }
 };
 
-// --- options -------------------------------------------------------------------------------------
-
 /// Options of semismooth_newton.
 struct newton_options {
   index patience = 100;  ///< steps without a new smallest ‖F‖ that mean stalled
@@ -77,8 +75,6 @@ struct newton_options {
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// What ended a run of semismooth_newton, beside success.
 enum class newton_failure : unsigned char {
@@ -239,8 +235,6 @@ class semismooth_newton : public detail::refused {
   template <class State>
   void step(State& s) const;
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// Newton's method: solve(semismooth_newton{F}, y0, residual_below(1e-10) || at_most(100)), or
 /// semismooth_newton{F, linear solver, globalisation, forcing rule, options}.

@@ -189,8 +189,6 @@ class constraint_rows {
 template <class M, class V>
 constraint_rows(Eigen::SparseMatrixBase<M> const&, V const&) -> constraint_rows<typename M::Scalar>;
 
-// --- polyhedral qp -------------------------------------------------------------------------------
-
 /// What polyhedral_qp asks of K, f and Q.
 template <class K, class V, class Q>
 concept polyhedral_qp_parts = vector<V> && psd_operator<K, V> && conjugate_projector_for<Q, V>;

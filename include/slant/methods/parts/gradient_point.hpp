@@ -56,8 +56,6 @@ template <class V>
   return product > bound + noise ? product : bound;
 }
 
-// --- gradient point ------------------------------------------------------------------------------
-
 namespace detail {
 
 /// The status of a state with r̃: converged where it vanishes, breakdown where it is no number.

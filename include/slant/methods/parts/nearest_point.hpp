@@ -114,8 +114,6 @@ class row_basis {
   std::vector<index> members_;
 };
 
-// --- nearest point -------------------------------------------------------------------------------
-
 /// The working room of nearest_point for an E with these sizes; keeps the rows in use from one call
 /// to the next.
 template <class S>
