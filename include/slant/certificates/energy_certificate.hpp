@@ -101,9 +101,6 @@ class energy_certificate {
         m_(m),
         dominates_(dominates),
         most_(qp.size() < 200 ? qp.size() + 8 : index(200)),
-        x_(like(qp.b(), qp.size())),
-        g_(like(qp.b(), qp.size())),
-        stiffness_(like(qp.b(), qp.size())),
         a_workspace_(workspace(qp.a(), qp.b())),
         norm_(preconditioner(), qp.b()),
         newton_(qp, preconditioner()) {
@@ -173,7 +170,7 @@ class energy_certificate {
   bool dominates_;
   index most_;
   index applications_ = 0;
-  vector_type x_, g_, stiffness_;
+  vector_type x_ = qp_->b(), g_ = x_, stiffness_ = x_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   dual_norm_workspace<vector_type, preconditioner_type> norm_;
   newton_type newton_;

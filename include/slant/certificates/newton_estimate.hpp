@@ -60,23 +60,15 @@ class face_correction {
   using scalar = scalar_t<V>;
 
   V t;                 ///< the step
-  V image;             ///< A t
-  V remainder;         ///< Π g + H t
+  V image = t;         ///< A t
+  V remainder = t;     ///< Π g + H t
   scalar energy{0};    ///< ‖t‖_A
   scalar bend{0};      ///< ‖t‖_{C/ρ}, from the curvature of the blocks
   scalar missing{0};   ///< estimate of the energy norm that more iterations would add to t
   bool found = false;  ///< false: along what is left of g the face has no curvature, or M vanishes
 
   face_correction(V const& prototype, M const& m)
-      : t(prototype),
-        image(prototype),
-        remainder(prototype),
-        r_(prototype),
-        p_(prototype),
-        Ap_(prototype),
-        z_(prototype),
-        weighed_(prototype),
-        m_workspace_(workspace(m, prototype)) {}
+      : t(prototype), m_workspace_(workspace(m, prototype)) {}
 
   /// The step for the gradient g in at most `most` iterations; returns how many. 1/ρ ≈ ‖A‖ up to a
   /// factor, s = mean(diag M). `sizes`, for a semidefinite A, as in dual_norm.
@@ -177,7 +169,7 @@ class face_correction {
   }
 
  private:
-  V r_, p_, Ap_, z_, weighed_;
+  V r_ = t, p_ = t, Ap_ = t, z_ = t, weighed_ = t;
   workspace_t<M, V> m_workspace_;
 };
 
@@ -210,16 +202,7 @@ class newton_estimate {
   using scalar = typename QP::scalar;
 
   newton_estimate(QP const& qp, M const& m, Face face)
-      : qp_(&qp),
-        face_(std::move(face)),
-        correction_(qp.b(), m),
-        projected_(qp.b()),
-        step_(qp.b()),
-        image_(qp.b()),
-        balanced_(qp.b()),
-        rest_(qp.b()),
-        trial_(qp.b()),
-        weight_(qp.b()) {}
+      : qp_(&qp), face_(std::move(face)), correction_(qp.b(), m) {}
   newton_estimate(QP const& qp, M const& m) : newton_estimate(qp, m, Face(function_of(qp))) {}
 
   /// Infinite where nothing is known: A shows no curvature along the gradient on the face, or no
@@ -346,7 +329,8 @@ class newton_estimate {
   index applications_ = 0;
   Face face_;
   face_correction<vector_type, M> correction_;
-  vector_type projected_, step_, image_, balanced_, rest_, trial_, weight_;
+  vector_type projected_ = qp_->b(), step_ = projected_, image_ = projected_,
+              balanced_ = projected_, rest_ = projected_, trial_ = projected_, weight_ = projected_;
   vector_type lift_ = like(balanced_, is_cut ? slant::local(balanced_).size() : 0);
   vector_type image_of_lift_ = lift_;
 };

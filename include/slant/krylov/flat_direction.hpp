@@ -54,9 +54,6 @@ class flat_direction {
   template <class K>
   flat_direction(K const& k, V const& prototype, index& applications)
       : D_(like(prototype, slant::local(prototype).size())),
-        image_(D_),
-        q_(D_),
-        image_of_q_(D_),
         directions_(prototype),
         exact_(slant::diagonal_if_known(k, D_)) {
     if (exact_) {
@@ -152,10 +149,10 @@ class flat_direction {
     return inner_product(image_, d.q);
   }
 
-  V D_;      // diag(K)
-  V image_;  // scratch
-  V q_;      // the direction before it was split
-  V image_of_q_;
+  V D_;           // diag(K)
+  V image_ = D_;  // scratch
+  V q_ = D_;      // the direction before it was split
+  V image_of_q_ = D_;
   projected_directions<V> directions_;
   bool exact_;
   scalar curvature_of_q_{0};

@@ -67,16 +67,13 @@ concept constrained_newton_problem =
 /// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
 template <scalar S = double>
 struct constrained_newton_options {
-  S step_factor = S(0.5);                 ///< α in multiples of 1/mean(diag P A P)
-  mean_diagonal_options mean_diagonal{};  ///< how that is estimated
+  S step_factor = S(0.5);  ///< α in multiples of 1/mean(diag P A P)
   /// Inner accuracy, relative to the merit function.
   eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  S sufficient =
-      S(0.1);  ///< c in (0, 1): a step of length β lowers the merit by c β of it at least
-  index halvings = 20;           ///< β = 1, ½, …: so often at most
-  index patience = 100;          ///< steps in which the merit does not fall that mean stalled
-  smalse_options<S> fallback{};  ///< of the method that takes over where Newton's fails
+  S sufficient = S(0.1);     ///< c in (0, 1): β lowers the merit by c β of it at least
+  index halvings = 20;       ///< β = 1, ½, …: so often at most
+  index patience = 100;      ///< steps in which the merit does not fall that mean stalled
 
   [[gnu::cold]] void validate() const {
     detail::check_positive("step_factor", step_factor);
@@ -84,9 +81,7 @@ struct constrained_newton_options {
     detail::check_fraction("sufficient", sufficient);
     if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    mean_diagonal.validate();
     forcing.validate();
-    fallback.validate();
   }
 };
 
@@ -113,19 +108,19 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   using typename base::scalar;
   using typename base::vector_type;
 
-  vector_type ν;            ///< Gᵀμ, a gradient
-  vector_type projected_b;  ///< P (b − A x̄)
-  vector_type b;            ///< P (b − A x̄) − ν
-  vector_type offset;       ///< Q x − x̄
+  vector_type ν;                ///< Gᵀμ, a gradient
+  vector_type projected_b;      ///< P (b − A x̄)
+  vector_type b = projected_b;  ///< P (b − A x̄) − ν
+  vector_type offset = ν;       ///< Q x − x̄
 
   newton_segment<vector_type> segment;   ///< y, z of Newton's iterate; x = P_Λ(z) after a step
-  vector_type offset_y;                  ///< Q y − x̄
-  vector_type target_offset;             ///< the same at the end of the full step
+  vector_type offset_y = ν;              ///< Q y − x̄
+  vector_type target_offset = ν;         ///< the same at the end of the full step
   cut_face<scalar> face;                 ///< the face at z, cut by ker G
   curved_minimum<vector_type, M> inner;  ///< the step on it
-  vector_type lifted;                    ///< the part of the step that cures Q x − x̄
-  vector_type gradient_at_end;           ///< scratch: gradients of the quadratic model
-  vector_type dν;                        ///< step of ν, in units
+  vector_type lifted = ν;                ///< the part of the step that cures Q x − x̄
+  vector_type gradient_at_end = ν;       ///< scratch: gradients of the quadratic model
+  vector_type dν = ν;                    ///< step of ν, in units
   workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace;
   forcing_history<scalar> forcing{};              ///< errors and inner tolerances so far
   progress_watch<scalar> progress{};              ///< looks for steps that get nowhere
@@ -133,7 +128,7 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   bool fallback_at_work = false;
   scalar goal{0};            ///< what the fallback has to reach
   index fallback_count = 0;  ///< how often it had to take over
-  scalar penalty_factor{1};  ///< its penalty over the one of the options
+  scalar penalty_factor{1};  ///< its penalty over the usual one
 
   scalar merit{0};  ///< √(‖F‖² + ‖Q y − x̄‖²)/α, in units of the gradient
   scalar feasibility_norm{0};     ///< ‖Q x − x̄‖, distance of x from the affine space
@@ -154,16 +149,9 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
       : base(problem, x0),
         ν(like(x0, problem.size())),
         projected_b(load_vector),
-        b(load_vector),
-        offset(ν),
         segment(x0, problem.size()),
-        offset_y(ν),
-        target_offset(ν),
         face(problem.set(), c.unit_rows()),
         inner(x0, problem.size(), m),
-        lifted(ν),
-        gradient_at_end(ν),
-        dν(ν),
         q_workspace(workspace(c.range_projector(), x0)) {
     vectors::set_zero(ν);
   }
@@ -400,14 +388,13 @@ class constrained_newton<QP, C, M> {
   /// α, and s = mean(diag M).
   void set_sizes(state_type& s) const {
     auto const& qp = qp_.get();
-    auto const mean =
-        detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x, options_.mean_diagonal);
+    auto const mean = detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x);
     s.work.setup_applications += mean.applications;
     scalar const size = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
     s.step_length = options_.step_factor * size;
     s.preconditioner_size = size;
     if constexpr (preconditioned) {
-      s.preconditioner_size = slant::mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
+      s.preconditioner_size = mean_diagonal(m_.get(), s.x).value;
     }
   }
 
@@ -420,9 +407,8 @@ class constrained_newton<QP, C, M> {
   }
 
   [[nodiscard]] auto fallback(state_type const& s) const {
-    auto own = options_.fallback;
-    own.penalty *= s.penalty_factor;
-    return smalse<problem const&, constraints const&>{qp_.get(), constraints_.get(), own};
+    return smalse<problem const&, constraints const&>{
+        qp_.get(), constraints_.get(), {.penalty = s.penalty_factor}};
   }
 
   /// x = P_Λ(z) with r and r̃; nothing to do if it is there.

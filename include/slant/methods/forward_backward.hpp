@@ -22,7 +22,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/problems/quadratic_program.hpp>
 
@@ -45,12 +44,10 @@ struct forward_backward_options {
   std::optional<S> step_length{};  ///< α in (0, 1/σ_max]; not given: see krylov/spectrum.hpp
   bool extrapolate = true;         ///< θ as above; false: θ = 0
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
-  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   [[gnu::cold]] void validate() const {
     if (step_length) detail::check_positive("step_length", *step_length);
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    spectrum.validate();
   }
 };
 
@@ -60,16 +57,15 @@ struct forward_backward_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
 
-  vector_type previous;           ///< x₋
-  vector_type previous_gradient;  ///< r(x₋), in multiples of unit
-  vector_type y;                  ///< where the last step began
+  vector_type previous = this->x;           ///< x₋
+  vector_type previous_gradient = this->r;  ///< r(x₋), in multiples of unit
+  vector_type y = this->x;                  ///< where the last step began
   progress_watch<scalar> progress;
   scalar momentum{1};  ///< t
   index iteration = 0;
   slant::status status = slant::status::running;
 
-  forward_backward_state(QP const& qp, vector_type const& x0)
-      : gradient_point<QP>(qp, x0), previous(x0), previous_gradient(x0), y(x0) {}
+  using gradient_point<QP>::gradient_point;
 
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_of(
@@ -116,7 +112,7 @@ class forward_backward<QP> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp_.get(), x0);
-    static_cast<void>(s.set_step_length(qp_.get(), options_, scalar(1)));
+    static_cast<void>(s.set_step_length(qp_.get(), options_.step_length, scalar(1)));
     if (s.begin(qp_.get(), x0)) s.status = status::converged;
     detail::judge_reduced_gradient(s);
     return s;

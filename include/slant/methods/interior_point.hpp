@@ -161,7 +161,7 @@ class interior_point_steps {
  private:
   [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
 
-  // The constants of [K §3.2.4] are γ, ω, ρ and those of c; c_min is an option.
+  // The constants of [K §3.2.4] are γ, ω, ρ and those of c but c_min.
   static constexpr double closeness = 1e-3;          // γ: ν_i z_i ≥ γ ϑ
   static constexpr double sufficient = 0.1;          // ω: ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
   static constexpr double centring_most = 0.5;       // c_max
@@ -179,6 +179,18 @@ class interior_point_steps {
   /// flow past an obstacle (examples/stokes, g = 10) and leaves the bricks as they are.
   static constexpr double raise_above = 5;
   static constexpr index most_raises = 10;
+  /// c_z: first slacks of sets without an end, in natural lengths, where [K] has 1 as for c_ν. With
+  /// a tenth there are twice as many steps.
+  static constexpr double start_length = 3;
+  // Where the set has discs or cones, on which force and point turn into line at the rate of ϑ, these
+  // are larger.
+  /// c_ν: first multipliers, in natural forces. On bricks 0.6 takes fewer products than 0.3.
+  static scalar start_force(state_type const& s) { return scalar(s.pairs.empty() ? 0.3 : 0.6); }
+  /// c_min, 1e-30 in [K].
+  static scalar least_centring(state_type const& s) { return scalar(s.pairs.empty() ? 0.1 : 0.2); }
+  /// A step shorter than this is computed again with its own second-order term [Mehrotra]; the
+  /// longer of the two is made. 0: never.
+  static scalar correct_below(state_type const& s) { return scalar(s.pairs.empty() ? 0 : 0.3); }
 
   static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
 
@@ -415,15 +427,8 @@ class interior_point_steps {
                  std::max(least_centring(s), scalar(scalar(centring_scale) * (q * q * q))));
   }
 
-  [[nodiscard]] scalar correct_below(state_type const& s) const {
-    return detail::set_or(options_.correct_below, scalar(s.pairs.empty() ? 0 : 0.3));
-  }
-  [[nodiscard]] scalar least_centring(state_type const& s) const {
-    return detail::set_or(options_.centring_least, scalar(s.pairs.empty() ? 0.1 : 0.2));
-  }
-
   /// c where a step had the length α [Mehrotra].
-  [[nodiscard]] scalar centring_after(state_type const& s, scalar const& α) const {
+  [[nodiscard]] static scalar centring_after(state_type const& s, scalar const& α) {
     scalar const rest = scalar(1) - α;
     return std::min(scalar(centring_most), std::max<scalar>(least_centring(s), rest * rest * rest));
   }
@@ -595,10 +600,8 @@ auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_ty
   bool const solved = s.begin(qp, origin);
   using std::sqrt;
   scalar const per_entry = sqrt(scalar(scalar(1) / scalar(slant::global_size(x0))));
-  scalar const start_force =
-      detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
-  scalar const force = start_force * norm(s.r) * per_entry;
-  scalar const length = options_.start_length * first_way(s) * per_entry;
+  scalar const force = start_force(s) * norm(s.r) * per_entry;
+  scalar const length = scalar(start_length) * first_way(s) * per_entry;
   if (!solved) choose_start(s, x0);
   s.trial = s.x;
   enter_interior(blocks(), solved ? scalar(1) : length, s.x, s.barrier.per_unit(),

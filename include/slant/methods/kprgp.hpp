@@ -28,7 +28,6 @@
 
 #include <slant/base/held.hpp>
 #include <slant/compiled.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
@@ -41,35 +40,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
-
-/// Options of qpc: those of kprgp with another rule.
-template <class S>
-struct qpc_options {
-  S face_accuracy = S(0.1);  ///< in [0, 1): CG goes on until ‖φ‖ is this fraction of its first size
-      ///< on the face, and of ‖β‖. Small: nearly the minimum on each face
-  std::optional<S> step_length{};  ///< as for kprgp, and so the rest
-  S step_factor = S(1.9);
-  active_set_rule active_sets = active_set_rule::boundary;
-  index refresh = 50;
-  index patience = 1000;
-  spectral_bound_options spectrum{};
-
-  [[gnu::cold]] void validate() const {
-    detail::check_option("face_accuracy", face_accuracy,
-                         face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
-    kprgp_options<S>{.step_length = step_length,
-                     .step_factor = step_factor,
-                     .refresh = refresh,
-                     .patience = patience,
-                     .spectrum = spectrum}
-        .validate();
-  }
-};
 
 // --- kkt vector ----------------------------------------------------------------------------------
 //
@@ -142,8 +116,6 @@ void kkt_vector(Set const& set, Face const& face, V const& x, V const& r, V cons
 
 /// The rule of KPRGP.
 struct reduced_gradient_release {
-  template <class S>
-  using options = kprgp_options<S>;
   static constexpr bool minimising = false;  ///< the step of length α̃ along −β̃, projected
 
   /// What the two parts of r̃ can gain.
@@ -166,7 +138,7 @@ struct reduced_gradient_release {
   }
 };
 
-/// What QPQ and QPC share: φ and the vector β of [K Lemma 1], along which q is minimised.
+/// The rule of QPQ: φ and the vector β of [K Lemma 1], along which q is minimised.
 struct kkt_release {
   static constexpr bool minimising = true;
 
@@ -185,12 +157,6 @@ struct kkt_release {
     s.face.keep_complement(s.reduced, β);
     kkt_vector(qp.set(), s.face, s.x, s.r, s.reduced, β);
   }
-};
-
-/// The rule of QPQ.
-struct kkt_proportioning : kkt_release {
-  template <class S>
-  using options = kprgp_options<S>;
 
   /// ‖β‖ < Γ ‖φ‖.
   template <class State, class Options>
@@ -201,9 +167,6 @@ struct kkt_proportioning : kkt_release {
 
 /// The rule of QPC.
 struct face_minimum_release : kkt_release {
-  template <class S>
-  using options = qpc_options<S>;
-
   /// Is ‖φ‖ larger than a fraction of what it was on this face at first, and of ‖β‖? True if there
   /// is nothing to release.
   template <class State, class Options>
@@ -281,7 +244,7 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// Requirements, options and statuses are those of kprgp. One application of A a step, two for an
 /// expansion.
 template <class QP>
-class qpq : public proportioning<QP, kkt_proportioning> {
+class qpq : public proportioning<QP, kkt_release> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
@@ -300,7 +263,7 @@ qpq(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpq<kept_t<QP>>;
 // releases where ‖φ‖ ≤ δ max(‖φ‖ at the first point of the face, ‖β‖).
 
 /// QPC for a separable_qp: solve(qpc{qp}, x0, reduced_gradient_below(1e-1) || at_most(500)).
-/// Requirements, statuses and cost are those of qpq.
+/// Requirements, options, statuses and cost are those of qpq.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
@@ -311,6 +274,6 @@ class qpc : public proportioning<QP, face_minimum_release> {
 };
 
 template <class QP>
-qpc(QP&&, qpc_options<detail::program_scalar_t<QP>> = {}) -> qpc<kept_t<QP>>;
+qpc(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpc<kept_t<QP>>;
 
 }  // namespace slant

@@ -30,7 +30,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
-#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/newton/forcing.hpp>
@@ -151,19 +150,13 @@ struct modified_newton_options {
   std::optional<S> step_length{};  ///< ρ > 0 of z = λ − ρ r; not given: β / σ_max
   S step_factor = S(1.9);          ///< β > 0; below 2 for gimssn, whose descent it guarantees
   index max_inner = 1000;          ///< inner iterations a step at most
-  index refresh = 50;              ///< inner iterations after which a step computes r anew even
-                                   ///< where it could be kept; 0: never
   index patience = 100;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
-  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
-
   [[gnu::cold]] void validate() const {
     forcing.validate();
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_positive("step_factor", step_factor);
     if (max_inner < 1) throw bad_input("max_inner", detail::show(max_inner), "a number >= 1");
-    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    spectrum.validate();
   }
 };
 
@@ -329,6 +322,8 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
  private:
   static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
+  /// Inner iterations after which a step computes r anew even where it could be kept.
+  static constexpr index most_updates = 50;
 
   void begin_newton(state_type& s, bool solved) const {
     s.face.assign(qp_.get().set(), slant::local(s.x));
@@ -353,7 +348,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   void start_on_face(state_type& s) const {
     Start::place(s);
     bool const stays = slant::everywhere(s.x, vectors::equal(s.trial, s.x));
-    if (stays && (options_.refresh == 0 || s.since_refresh < options_.refresh)) return;
+    if (stays && s.since_refresh < most_updates) return;
     std::swap(s.x, s.trial);
     compute_gradient(s);
   }
@@ -455,7 +450,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   }
 
   void set_step_length(state_type& s) const {
-    s.σ = s.set_step_length(qp_.get(), options_, scalar(1));
+    s.σ = s.set_step_length(qp_.get(), options_.step_length, scalar(1));
     if (options_.step_length) return;
     s.step_length *= options_.step_factor;
     if (!detail::is_finite(s.step_length)) {

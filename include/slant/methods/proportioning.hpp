@@ -37,10 +37,12 @@ enum class active_set_rule : unsigned char {
   semismooth  ///< those in which P_Λ(x − α̃ r) is not: the sets of semismooth Newton [K (60), (61)]
 };
 
-/// Options of kprgp.
+/// Options of kprgp, qpq and qpc.
 template <class S>
 struct kprgp_options {
-  S proportioning = S(1);  ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
+  S proportioning = S(1);    ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
+  S face_accuracy = S(0.1);  ///< of qpc, in [0, 1): CG goes on until ‖φ‖ is this fraction of its
+                             ///< first size on the face, and of ‖β‖
   std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectrum.hpp
   S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
   active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
@@ -50,6 +52,8 @@ struct kprgp_options {
 
   [[gnu::cold]] void validate() const {
     detail::check_positive("proportioning", proportioning);
+    detail::check_option("face_accuracy", face_accuracy,
+                         face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_option("step_factor", step_factor, step_factor > S(0) && step_factor < S(2),
                          "a number in (0, 2)");
@@ -100,7 +104,7 @@ struct kprgp_state : gradient_point<QP> {
 
 /// A problem that lacks something ends here; kprgp, qpq and qpc say what it is.
 template <class QP, class Rule>
-class proportioning : public detail::refused_program<QP, kprgp_state, Rule::template options> {
+class proportioning : public detail::refused_program<QP, kprgp_state, kprgp_options> {
  public:
   using proportioning::refused_method::refused_method;
 };
@@ -114,7 +118,7 @@ class proportioning_steps {
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
   using scalar = typename problem::scalar;
-  using options = typename Rule::template options<scalar>;
+  using options = kprgp_options<scalar>;
   using state_type = kprgp_state<problem>;
 
   /// Throws bad_input for options out of range.
@@ -293,7 +297,7 @@ auto proportioning_steps<QP, Rule>::start(vector_type const& x0) const -> state_
   auto const& qp = qp_.get();
   detail::check_start_in_set(x0, qp_.get().b());
   state_type s(qp, x0);
-  s.σ = s.set_step_length(qp, options_, options_.step_factor);
+  s.σ = s.set_step_length(qp, options_.step_length, options_.step_factor, options_.spectrum);
   bool const solved = s.begin(qp, x0);
   restart(s);
   settle(s);

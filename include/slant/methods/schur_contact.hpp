@@ -104,11 +104,11 @@ struct schur_contact_state {
 
   vector_type x;                                 ///< u, with B u ≤ c
   vector_type r;                                 ///< f − K u, in multiples of unit
-  vector_type φ;                                 ///< V Vᵀr
-  vector_type d;                                 ///< r − Bᵀλ, the projected gradient, as r
-  vector_type trial;                             ///< scratch
-  vector_type correction;                        ///< scratch
-  vector_type descent;                           ///< direction without end, if unbounded
+  vector_type φ = r;                             ///< V Vᵀr
+  vector_type d = r;                             ///< r − Bᵀλ, the projected gradient, as r
+  vector_type trial = r;                         ///< scratch
+  vector_type correction = r;                    ///< scratch
+  vector_type descent = r;                       ///< direction without end, if unbounded
   row_vector λ;                                  ///< multipliers, see multipliers()
   row_vector row_units;                          ///< in which the rows of B are kept
   row_slacks<scalar> rows;                       ///< c − B u and J
@@ -139,11 +139,6 @@ struct schur_contact_state {
   schur_contact_state(P const& p, vector_type const& x0)
       : x(x0),
         r(like(x0, p.size())),
-        φ(r),
-        d(r),
-        trial(r),
-        correction(r),
-        descent(r),
         λ(row_vector::Zero(p.rows().count())),
         row_units(p.rows().units()),
         rows(p.rows()),

@@ -59,26 +59,14 @@ struct smalse_options {
   /// ρ in multiples of σ_max(P A P); it does not grow. Measured with Total-FETI on bricks: 4 halves
   /// the outer steps and doubles the products of KPRGP.
   S penalty = S(1);
-  /// M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖. Of 0.3, 1 and 5 the first took
-  /// the least products, down to half of those of the last.
-  S balance = S(0.3);
-  S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
-  S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
   index inner_steps = 5000;  ///< of one inner problem at most
   index patience = 30;       ///< outer steps without progress that mean stalled: the error does not
                              ///< fall, nor L rise
-  spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
-  kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
   [[gnu::cold]] void validate() const {
     detail::check_positive("penalty", penalty);
-    detail::check_positive("balance", balance);
-    detail::check_positive("precision", precision);
-    detail::check_fraction("shrink", shrink);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
     if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
-    spectrum.validate();
-    inner.validate();
   }
 };
 
@@ -275,7 +263,7 @@ class smalse<QP, C> {
 
     spectral_bound<scalar> bound{scalar(0), scalar(0), scalar(0), 0};
     if (!detail::is_one_point(c)) {
-      bound = largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0, options_.spectrum);
+      bound = largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0);
     }
     scalar const whole = detail::size_on_ones(qp.a(), x0);
     // P A P may consist of rounding errors of A; any penalty will do then.
@@ -295,13 +283,13 @@ class smalse<QP, C> {
     state_type s{x0, ν, load.projected, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
     s.σ = σ;
     s.ρ = ρ;
-    s.M = options_.balance * ρ;
+    s.M = balance * ρ;
     s.load = norm(load.projected);
     s.work = s.inner.work;
     s.work.setup_applications += bound.applications + 2;
     look(s);
     choose_multiplier(s, x0, load.opposed);
-    s.η = options_.precision * std::max(s.load, s.gradient_scale);
+    s.η = precision * std::max(s.load, s.gradient_scale);
     return s;
   }
 
@@ -311,7 +299,7 @@ class smalse<QP, C> {
     s.progress = {};
     s.is_slow = false;
     s.energy_unit = s.inner.unit;
-    s.M = options_.balance * s.ρ;
+    s.M = balance * s.ρ;
     slant::project(qp_.get().set(), slant::local(x), slant::local(s.inner.x));
     vectors::copy(ν, s.ν);
     form_linear_term(s);
@@ -353,13 +341,19 @@ class smalse<QP, C> {
  private:
   using inner_qp = detail::augmented_qp<problem, constraints>;
 
+  /// M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖. Of 0.3, 1 and 5 the first took
+  /// the least products, down to half of those of the last.
+  static constexpr scalar balance = scalar(0.3);
+  static constexpr scalar shrink = scalar(0.1);     // β: M ← β M if L has not grown enough
+  static constexpr scalar precision = scalar(0.1);  // η in multiples of ‖P (b − A x̄)‖
+
   /// min L(·, ν, ρ) over Λ; refers to b.
   [[nodiscard]] inner_qp augmented(vector_type const& b, scalar const& ρ) const {
     return {augmented_hessian(qp_.get().a(), constraints_.get(), ρ), b, qp_.get().set()};
   }
   [[nodiscard]] auto inner_method(inner_qp const& qp, scalar const& σ) const {
-    auto own = options_.inner;
-    if (!own.step_length) own.step_length = own.step_factor / σ;
+    kprgp_options<scalar> own;
+    own.step_length = own.step_factor / σ;  // σ is an upper bound of σ_max
     return kprgp<inner_qp const&>{qp, own};
   }
 
@@ -465,8 +459,7 @@ class smalse<QP, C> {
     scalar const balanced = s.M * s.feasibility_norm, noise = s.inner.rounding();
     scalar const least = scalar(64) * std::numeric_limits<scalar>::epsilon() * s.σ *
                          (norm(s.inner.x) + norm(constraints_.get().nearest()));
-    scalar const most =
-        std::min<scalar>(s.η, balanced > least ? balanced : options_.shrink * at_start);
+    scalar const most = std::min<scalar>(s.η, balanced > least ? balanced : shrink * at_start);
     return noise < s.η ? std::max(most, noise) : most;
   }
 
@@ -482,7 +475,7 @@ class smalse<QP, C> {
     scalar const now = q + constant;
     scalar const growth =
         s.ρ * s.feasibility_norm * (s.feasibility_norm / s.inner.unit) / scalar(2);
-    if (s.comparable && now < s.lagrangian + growth - noise) s.M *= options_.shrink;
+    if (s.comparable && now < s.lagrangian + growth - noise) s.M *= shrink;
     s.lagrangian = now;
     s.lagrangian_noise = noise;
   }

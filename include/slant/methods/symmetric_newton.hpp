@@ -44,7 +44,6 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
-#include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>

@@ -86,13 +86,12 @@ template <class A, class V>
 
 /// Mean of diag(P A P), or what A is on ones where that may consist of rounding errors of A.
 template <class A, class C, class V>
-[[nodiscard]] auto projected_mean_diagonal(A const& a, C const& c, V const& prototype,
-                                           mean_diagonal_options const& options = {})
+[[nodiscard]] auto projected_mean_diagonal(A const& a, C const& c, V const& prototype)
     -> diagonal_mean<scalar_t<V>> {
   using S = scalar_t<V>;
   diagonal_mean<S> mean{size_on_ones(a, prototype), 1};
   if (is_one_point(c)) return mean;
-  auto const of_a = slant::mean_diagonal(projected_hessian(a, c), prototype, options);
+  auto const of_a = mean_diagonal(projected_hessian(a, c), prototype);
   mean.applications += of_a.applications;
   if (of_a.value > S(32) * std::numeric_limits<S>::epsilon() * mean.value) mean.value = of_a.value;
   return mean;

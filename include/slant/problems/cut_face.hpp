@@ -46,9 +46,7 @@ class cut_face {
         coarse_(N.rows(), N.rows()),
         factors_(N.rows()),
         weights_(N.rows()),
-        normal_(N.cols()),
-        kept_(N.cols()),
-        image_(N.cols()) {}
+        normal_(N.cols()) {}
 
   /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular;
   /// else nothing is allocated but what a large dense factorisation needs for itself.
@@ -176,7 +174,7 @@ class cut_face {
   std::vector<index> independent_;  // its rows, where it is singular
   bool all_told_ = true;            // and the others depend on these up to rounding
   Eigen::LLT<dense_type> factors_;
-  mutable vector_type weights_, part_, normal_, kept_, image_;  // scratch
+  mutable vector_type weights_, part_, normal_, kept_ = normal_, image_ = normal_;  // scratch
 };
 
 }  // namespace slant

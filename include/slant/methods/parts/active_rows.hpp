@@ -194,18 +194,15 @@ struct row_slacks {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  vector_type slack;      ///< c − B u in the units of the rows; +infinity for rows that never act
-  vector_type sizes;      ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
-  vector_type rates;      ///< b_iᵀq of the rows that q approaches, else 0
-  active_rows<S> active;  ///< J
-  index changes = 0;      ///< changes of J, however many rows came or went
-  index rows_changed = 0;  ///< rows that came or went
+  vector_type slack;  ///< c − B u in the units of the rows; +infinity for rows that never act
+  vector_type sizes;  ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
+  vector_type rates = sizes;  ///< b_iᵀq of the rows that q approaches, else 0
+  active_rows<S> active;      ///< J
+  index changes = 0;          ///< changes of J, however many rows came or went
+  index rows_changed = 0;     ///< rows that came or went
 
   explicit row_slacks(rows_type const& rows)
-      : slack(rows.count()),
-        sizes(vector_type::Zero(rows.count())),
-        rates(vector_type::Zero(rows.count())),
-        active(rows) {}
+      : slack(rows.count()), sizes(vector_type::Zero(rows.count())), active(rows) {}
 
   /// c − B u, 0 where that cannot be told from 0.
   template <class V>

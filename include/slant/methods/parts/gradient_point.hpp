@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -87,11 +88,11 @@ struct gradient_point {
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
 
-  vector_type x;          ///< in Λ
-  vector_type r;          ///< gradient A x − b, in multiples of unit
-  vector_type projected;  ///< P_Λ(x − α̃ r)
-  vector_type reduced;    ///< reduced gradient r̃, in multiples of unit
-  vector_type trial;      ///< scratch
+  vector_type x;              ///< in Λ
+  vector_type r;              ///< gradient A x − b, in multiples of unit
+  vector_type projected = r;  ///< P_Λ(x − α̃ r)
+  vector_type reduced = r;    ///< reduced gradient r̃, in multiples of unit
+  vector_type trial = r;      ///< scratch
   workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A
 
   scalar unit{1};                   ///< of r and r̃, a power of two; see base/scaling.hpp
@@ -103,23 +104,19 @@ struct gradient_point {
   slant::work work{};
 
   gradient_point(QP const& qp, vector_type const& x0)
-      : x(x0),
-        r(like(x0, qp.size())),
-        projected(like(x0, qp.size())),
-        reduced(like(x0, qp.size())),
-        trial(like(x0, qp.size())),
-        a_workspace(workspace(qp.a(), x0)) {}
+      : x(x0), r(like(x0, qp.size())), a_workspace(workspace(qp.a(), x0)) {}
 
-  /// step_length as the options say, else `factor`/σ_max; σ_max to a few digits, 0 if it was not
-  /// asked for. Not inlined: g++ 12 would see *step_length read where there is none.
-  template <class Options>
-  [[nodiscard, gnu::noinline]] scalar set_step_length(QP const& qp, Options const& o,
-                                                      scalar const& factor) {
-    if (o.step_length) {
-      step_length = *o.step_length;
+  /// step_length as given, else `factor`/σ_max; σ_max to a few digits, 0 if it was not asked for.
+  /// Not inlined: g++ 12 would see *given read where there is none.
+  [[nodiscard, gnu::noinline]] scalar set_step_length(QP const& qp,
+                                                      std::optional<scalar> const& given,
+                                                      scalar const& factor,
+                                                      spectral_bound_options const& spectrum = {}) {
+    if (given) {
+      step_length = *given;
       return scalar(0);
     }
-    auto const safe = safe_gradient_step(qp.a(), x, factor, o.spectrum);
+    auto const safe = safe_gradient_step(qp.a(), x, factor, spectrum);
     step_length = safe.length;
     work.setup_applications += safe.applications;
     return safe.σ;
