@@ -33,7 +33,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -76,7 +75,7 @@ class face_correction {
   index compute(A const& a, WA& of_a, M const& m, V const& g, Face const& face, scalar const& ρ,
                 scalar const& s, index most, std::optional<gradient_size<scalar>> const& sizes) {
     using std::sqrt;
-    scalar const ε = std::numeric_limits<scalar>::epsilon();
+    scalar const ε = detail::epsilon<scalar>();
     scalar const room = scalar(4) * sqrt(scalar(slant::global_size(g)));
     vectors::set_zero(t);
     vectors::set_zero(image);
@@ -226,7 +225,7 @@ class newton_estimate {
       vectors::sum(*at.offset, step_, trial_);
       face_.lift(trial_, lift_);
       vectors::subtract(lift_, trial_);
-      if (!face_.meets(trial_, at.size_of_offset)) return std::numeric_limits<scalar>::infinity();
+      if (!face_.meets(trial_, at.size_of_offset)) return detail::infinity<scalar>();
       vectors::negate(lift_, lift_);
       apply(lift_, image_of_lift_, of_a);
       vectors::add(image_of_lift_, rest_);
@@ -235,7 +234,7 @@ class newton_estimate {
     applications_ +=
         correction_.compute(qp_->a(), of_a, m, rest_, face_, at.ρ, at.ρ, at.most, at.sizes);
     if (!correction_.found || !detail::is_finite(correction_.energy)) {
-      return std::numeric_limits<scalar>::infinity();
+      return detail::infinity<scalar>();
     }
     if constexpr (is_cut) correction_.precede(lift_, image_of_lift_, whole_face(face_), at.ρ);
     if (!at.trusts_iterations) {
@@ -299,7 +298,7 @@ class newton_estimate {
   /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
   /// top.
   struct bound_split {
-    scalar bound = std::numeric_limits<scalar>::infinity();
+    scalar bound = detail::infinity<scalar>();
     scalar moved{0}, root_of_gap{0}, above{0};
   };
   /// Splits the gradient at the end of the step into a part that Λ balances at x and a rest, what is

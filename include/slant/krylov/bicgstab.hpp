@@ -22,7 +22,6 @@
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <limits>
 #include <type_traits>
 
 namespace slant {
@@ -96,7 +95,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
 
   void step(state_type& s) const {
     if (s.status != status::running) return;
-    auto const ε = std::numeric_limits<scalar>::epsilon();
+    auto const ε = detail::epsilon<scalar>();
     if (!s.restarted) {
       scalar const ρ = inner_product(s.shadow, s.r);
       // ρ at rounding level says nothing about the residual: start anew instead of dividing by it.

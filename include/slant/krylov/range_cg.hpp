@@ -28,7 +28,6 @@
 #include <slant/krylov/linear_system.hpp>
 
 #include <concepts>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -210,7 +209,7 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
       vectors::difference(s.x, x0, s.descent);
       slant::apply(this->m(), s.descent, s.z, s.c_workspace);
       vectors::subtract(s.descent, s.z);
-      auto const ε = std::numeric_limits<scalar>::epsilon();
+      auto const ε = detail::epsilon<scalar>();
       scalar const size = norm(s.descent) + norm(s.x);
       vectors::set_zero(s.descent);
       using std::sqrt;

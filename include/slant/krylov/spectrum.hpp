@@ -34,7 +34,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace slant::detail {
@@ -71,7 +70,7 @@ template <class S>
     upper = std::max<S>(upper, S(a[i] + radius));
     size = std::max<S>(size, S(abs(a[i]) + radius));
   }
-  S const resolution = std::numeric_limits<S>::epsilon() * size;
+  S const resolution = detail::epsilon<S>() * size;
   while (upper - lower > resolution) {
     S const middle = lower + (upper - lower) / S(2);
     if (!(lower < middle && middle < upper)) break;
@@ -134,7 +133,7 @@ template <class A, class V>
   vectors::set_zero(previous);
 
   std::vector<S> diagonal, off_diagonal;
-  auto const ε = std::numeric_limits<S>::epsilon();
+  auto const ε = detail::epsilon<S>();
   // ε ≤ 3/4 wants so many steps at least; with fewer the bound would be more than four times θ.
   double const doubt = std::log(1.648 * std::sqrt(double(n)) / options.failure);
   auto const least = static_cast<index>(std::ceil((doubt / std::sqrt(0.75) + 1) / 2));

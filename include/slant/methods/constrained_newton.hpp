@@ -51,7 +51,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -346,7 +345,7 @@ class constrained_newton<QP, C, M> {
   void lift(state_type& s, A const& a) const {
     s.trial = s.r;
     s.lifted.setZero();
-    scalar const noise = scalar(4) * std::numeric_limits<scalar>::epsilon() * s.feasibility_scale;
+    scalar const noise = scalar(4) * detail::epsilon<scalar>() * s.feasibility_scale;
     if (s.feasibility_norm > noise) {
       s.face.lift(s.offset, s.lifted);
       s.lifted *= scalar(-1) / s.unit;

@@ -55,7 +55,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -242,7 +241,7 @@ class envelope_newton {
     detail::check_start_in_set(z, qp_.get().b());
     begin(s, s.begin(qp_.get(), z));
     vectors::copy(z, s.z);
-    s.value = std::numeric_limits<scalar>::infinity();
+    s.value = detail::infinity<scalar>();
     s.at_projection = true;
     return s;
   }
@@ -256,7 +255,7 @@ class envelope_newton {
     // ‖F‖ may rise for a long time while E_γ falls, which it may do for ever where A is singular.
     constexpr bool bounded = declares_positive_definite<typename problem::operator_type>;
     auto const value = [&] {
-      return std::pair(bounded ? s.value : std::numeric_limits<scalar>::infinity(), s.value_noise);
+      return std::pair(bounded ? s.value : detail::infinity<scalar>(), s.value_noise);
     };
     if (s.status == status::running &&
         s.progress.stalled(s.iteration, s.residual_norm, options_.patience, value, s.rounding())) {
@@ -352,7 +351,7 @@ class envelope_newton {
     s.value = (with_r - with_b) / scalar(2) + steep + near + extra;
     scalar const size = norm(s.y), slope = norm(s.gradient);
     scalar const bent = extra < scalar(0) ? -extra : extra;
-    s.value_noise = scalar(16) * std::numeric_limits<scalar>::epsilon() *
+    s.value_noise = scalar(16) * detail::epsilon<scalar>() *
                         (size * (slope + s.size_of_b) + s.way * slope + near + bent) +
                     size * s.gradient_error;
   }
@@ -372,7 +371,7 @@ class envelope_newton {
     vectors::difference(s.r, s.gradient, s.reduced);
     scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
     scalar const noise =
-        scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
+        scalar(16) * detail::epsilon<scalar>() * way *
             (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit)) +
         way * s.gradient_error;
     scalar const allowed = share * way * (way / (s.γ * s.unit));

@@ -55,7 +55,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -192,7 +191,7 @@ class interior_point_steps {
   /// longer of the two is made. 0: never.
   static scalar correct_below(state_type const& s) { return scalar(s.pairs.empty() ? 0 : 0.3); }
 
-  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
+  static constexpr scalar infinity = detail::infinity<scalar>();
 
   /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
   [[gnu::noinline]] void set_diagonal(state_type& s) const {
@@ -406,9 +405,9 @@ class interior_point_steps {
         auto const from = place.value(s.trial);
         auto const middle = place.value(s.centre);
         auto at = from;
-        scalar back = scalar(2) * std::numeric_limits<scalar>::epsilon();
+        scalar back = scalar(2) * detail::epsilon<scalar>();
         while (!(block.inequality(at).maxCoeff() < scalar(0)) &&
-               back < scalar(1024) * std::numeric_limits<scalar>::epsilon()) {
+               back < scalar(1024) * detail::epsilon<scalar>()) {
           at = from + back * (middle - from);
           back *= scalar(2);
         }
@@ -460,7 +459,7 @@ class interior_point_steps {
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
     scalar const target = std::max<scalar>(
         s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
-        std::numeric_limits<scalar>::epsilon() * norm(s.r));
+        detail::epsilon<scalar>() * norm(s.r));
     // A step that was cut short says little about the next one.
     bool const warm = again || s.step_fraction > scalar(0.1);
     auto const inner =
@@ -511,8 +510,7 @@ class interior_point_steps {
     vectors::copy(image, s.rhs);
     if (way_out(s, d) < infinity) {
       // What of d leads out of Λ is left away: (P_Λ(x + τ d) − x)/τ for a long τ.
-      scalar const long_way =
-          unit_near(norm(s.x)) / (std::numeric_limits<scalar>::epsilon() * norm(d));
+      scalar const long_way = unit_near(norm(s.x)) / (detail::epsilon<scalar>() * norm(d));
       if (!detail::is_finite(long_way)) return false;
       vectors::waxpy(long_way, d, s.x, s.trial);
       slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.trial));

@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -65,14 +64,14 @@ struct interior_point_state : gradient_point<QP> {
   scalar least{0};          ///< the smallest of the products, for pairs λ_min²
   scalar infeasible{1};     ///< φ, the product of 1 − α: what steps leave of the first ∇L
   scalar first_measure{0};  ///< ϑ of the start
-  scalar trial_measure{0}, trial_least{0};                     ///< those of the trial point
-  scalar lagrangian_norm{0};                                   ///< ‖∇L‖
-  scalar residual_bound{0};                                    ///< β
-  scalar centring{0};                                          ///< c of the last step
-  scalar step_fraction{0};                                     ///< α of the last step
-  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖Δx‖, of the whole step
-  scalar x_norm{0};                                            ///< ‖x‖
-  index inner_iterations = 0;                                  ///< of the last step
+  scalar trial_measure{0}, trial_least{0};        ///< those of the trial point
+  scalar lagrangian_norm{0};                      ///< ‖∇L‖
+  scalar residual_bound{0};                       ///< β
+  scalar centring{0};                             ///< c of the last step
+  scalar step_fraction{0};                        ///< α of the last step
+  scalar step_norm = detail::infinity<scalar>();  ///< ‖Δx‖, of the whole step
+  scalar x_norm{0};                               ///< ‖x‖
+  index inner_iterations = 0;                     ///< of the last step
   bool under_way = false;  ///< a step was longer than half of what Newton proposed
   index raises = 0;        ///< how often ϑ was raised
   index iteration = 0;
@@ -320,8 +319,7 @@ template <class A, class C, class V>
       slant::local(v).coeffRef(applications) = S(1);
       slant::apply(a, v, image, temporaries);
       S const entry = slant::local(image).coeff(applications);
-      bool const rounded =
-          entry < S(0) && -entry <= S(8) * std::numeric_limits<S>::epsilon() * norm(image);
+      bool const rounded = entry < S(0) && -entry <= S(8) * detail::epsilon<S>() * norm(image);
       slant::local(d).coeffRef(applications) = rounded ? S(0) : mean_of(entry, S(1));
     }
     detail::random_bits bits(options.seed);
@@ -337,7 +335,7 @@ template <class A, class C, class V>
         }
         slant::apply(a, v, image, temporaries);
         sum += inner_product(v, image);
-        noise += S(8) * std::numeric_limits<S>::epsilon() * norm(v) * norm(image);
+        noise += S(8) * detail::epsilon<S>() * norm(v) * norm(image);
       }
       if (sum < S(0) && -sum <= noise) sum = S(0);
       slant::local(d)

@@ -39,7 +39,6 @@
 #endif
 
 #include <algorithm>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -122,7 +121,7 @@ struct reduced_gradient_release {
   template <class QP, class State>
   static void weigh(QP const&, State& s) {
     using S = typename State::scalar;
-    S const ε = std::numeric_limits<S>::epsilon();
+    S const ε = detail::epsilon<S>();
     S const rounding = ε * norm(s.x) / (s.step_length * s.unit);  // of r̃
     S const noise = rounding * norm(s.r);
     s.face.keep(s.reduced, s.φ);

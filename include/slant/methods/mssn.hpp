@@ -38,7 +38,6 @@
 #include <slant/sets/face.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -362,8 +361,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   /// it would go on to fall below the rounding errors of r, until its squares vanish.
   void minimise(state_type& s, scalar const& accuracy) const {
     auto const& qp = qp_.get();
-    scalar const noise =
-        std::numeric_limits<scalar>::epsilon() / scalar(4) * (s.size_of_b + norm(s.r));
+    scalar const noise = detail::epsilon<scalar>() / scalar(4) * (s.size_of_b + norm(s.r));
     scalar const size = std::max<scalar>(accuracy, s.unit * noise);
     s.directions.live = false;
     s.inner_iterations = 0;

@@ -55,7 +55,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -127,8 +126,8 @@ struct schur_contact_state {
   bool regular = false;      ///< K has no kernel on this face
   bool updated = false;      ///< x has moved since slacks were measured at it
 
-  scalar computed_norm = std::numeric_limits<scalar>::infinity();  ///< when it last seemed stalled
-  schur_contact_trouble trouble = schur_contact_trouble::none;     ///< see reason()
+  scalar computed_norm = detail::infinity<scalar>();            ///< when it last seemed stalled
+  schur_contact_trouble trouble = schur_contact_trouble::none;  ///< see reason()
 
   index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
   index releases = 0;                ///< how often rows were released
@@ -202,7 +201,7 @@ void note_contact_residual(P const& p, schur_contact_state<P>& s) {
   s.rows.active.project_on_cone(rows, s.r, s.d, s.λ);
   // What both are differences of has rounding errors of this size; along such a φ, which is in no
   // kernel, a step can be long.
-  scalar const zero = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(s.r);
+  scalar const zero = scalar(16) * detail::epsilon<scalar>() * norm(s.r);
   s.φ_norm = norm(s.φ);
   if (s.φ_norm <= zero) {
     vectors::set_zero(s.φ);
@@ -281,9 +280,8 @@ void note_progress(P const& p, schur_contact_state<P>& s, index patience) {
     scalar const of_load = inner_product(p.f(), s.x);
     scalar const of_rest = s.unit * inner_product(s.r, s.x);
     using std::abs;
-    return std::pair(
-        scalar(-(of_load + of_rest) / scalar(2)),
-        scalar(scalar(8) * std::numeric_limits<scalar>::epsilon() * (abs(of_load) + abs(of_rest))));
+    return std::pair(scalar(-(of_load + of_rest) / scalar(2)),
+                     scalar(scalar(8) * detail::epsilon<scalar>() * (abs(of_load) + abs(of_rest))));
   };
   if (s.progress.stalled(s.iteration, s.residual_norm, patience, energy)) {
     s.trouble = schur_contact_trouble::patience;
@@ -417,12 +415,12 @@ class schur_contact<P> {
   }
 
  private:
-  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
+  static constexpr scalar infinity = detail::infinity<scalar>();
 
   /// See the top of this file; what is below the least value is rounding error of φ.
   scalar Γ(state_type const& s) const {
     using std::ldexp;
-    scalar const least = scalar(4096) * std::numeric_limits<scalar>::epsilon();
+    scalar const least = scalar(4096) * detail::epsilon<scalar>();
     int const halvings = static_cast<int>(std::clamp<index>(s.releases - 8, 0, 2000));
     return std::max<scalar>(least, ldexp(options_.release, -halvings));
   }
@@ -476,7 +474,7 @@ class schur_contact<P> {
     // A flat q has rounding errors everywhere, also where it should not move at all.
     using std::pow;
     scalar const noise =
-        flat ? pow(std::numeric_limits<scalar>::epsilon(), scalar(0.75)) * norm(q.q) : scalar(0);
+        flat ? pow(detail::epsilon<scalar>(), scalar(0.75)) * norm(q.q) : scalar(0);
     scalar const α1 = minimum(s.x, s.rows.first_constraint(p.rows(), q.q, s.unit, noise));
     if (α < α1) {
       advance(s, α);

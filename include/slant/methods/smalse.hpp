@@ -42,7 +42,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -179,7 +178,7 @@ template <class Set, class V>
                              V& projected) {
   using S = scalar_t<V>;
   S const distance = norm(w);
-  S last = std::numeric_limits<S>::infinity();
+  S last = detail::infinity<S>();
   S t(1);
   for (int k = 0; k <= 40; ++k, t *= S(2)) {
     vectors::waxpy(-t, w, x, y);
@@ -188,7 +187,7 @@ template <class Set, class V>
     vectors::scale(S(1) / distance, y);
     S const size = distance * norm(y);
     S const height = inner_product(w, y);
-    if (!(height > S(256) * std::numeric_limits<S>::epsilon() * size)) return false;
+    if (!(height > S(256) * detail::epsilon<S>() * size)) return false;
     vectors::difference(projected, x, y);
     S const moved = norm(y);
     if (moved == last) return true;
@@ -203,7 +202,7 @@ template <class Set, class C, class V>
   using S = scalar_t<V>;
   V point = x, last = x, ahead = x, w = x, y = x, projected = x;
   auto const Q = c.range_projector();
-  S shortest = std::numeric_limits<S>::infinity();
+  S shortest = detail::infinity<S>();
   index momentum = 0;
   for (index k = 1; k <= 4096; ++k) {
     slant::apply(Q, ahead, w);
@@ -215,7 +214,7 @@ template <class Set, class C, class V>
     vectors::subtract(c.nearest(), w);
     S const distance = norm(w);
     using std::sqrt;
-    if (!(distance > sqrt(std::numeric_limits<S>::epsilon()) * norm(point))) return false;
+    if (!(distance > sqrt(detail::epsilon<S>()) * norm(point))) return false;
     if ((k & (k - 1)) == 0 && separates(set, point, w, c.nearest(), y, projected)) return true;
     momentum = distance > shortest ? 0 : momentum + 1;
     shortest = std::min(shortest, distance);
@@ -267,7 +266,7 @@ class smalse<QP, C> {
     }
     scalar const whole = detail::size_on_ones(qp.a(), x0);
     // P A P may consist of rounding errors of A; any penalty will do then.
-    bool const told = bound.ritz > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole;
+    bool const told = bound.ritz > scalar(32) * detail::epsilon<scalar>() * whole;
     scalar const ρ = options_.penalty * (told ? bound.ritz : whole > scalar(0) ? whole : scalar(1));
     scalar const σ = std::max(bound.upper, ρ);  // of P A P + ρ Q: both act on spaces of their own
 
@@ -408,7 +407,7 @@ class smalse<QP, C> {
       // Half of its digits may stay the same, as those of the error.
       using std::abs, std::sqrt;
       scalar const unit = s.inner.unit / s.energy_unit, L = s.lagrangian * unit;
-      scalar const share = sqrt(std::numeric_limits<scalar>::epsilon()) * abs(L);
+      scalar const share = sqrt(detail::epsilon<scalar>()) * abs(L);
       return std::pair<scalar, scalar>(-L, std::max<scalar>(s.lagrangian_noise * unit, share));
     };
     if (s.progress.stalled(s.iteration, error, options_.patience, energy)) {
@@ -457,7 +456,7 @@ class smalse<QP, C> {
   /// of ‖r̃‖ takes the place of M ‖Q x − x̄‖.
   [[nodiscard]] scalar wanted(state_type const& s, scalar const& at_start) const {
     scalar const balanced = s.M * s.feasibility_norm, noise = s.inner.rounding();
-    scalar const least = scalar(64) * std::numeric_limits<scalar>::epsilon() * s.σ *
+    scalar const least = scalar(64) * detail::epsilon<scalar>() * s.σ *
                          (norm(s.inner.x) + norm(constraints_.get().nearest()));
     scalar const most = std::min<scalar>(s.η, balanced > least ? balanced : shrink * at_start);
     return noise < s.η ? std::max(most, noise) : most;

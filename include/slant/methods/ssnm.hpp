@@ -35,7 +35,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -98,12 +97,12 @@ struct ssnm_state {
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
 
-  scalar residual_norm{0};                                     ///< ‖F(y)‖
-  scalar residual_scale{0};                                    ///< ‖b‖
-  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖x⁺ − x‖ of the last step
-  scalar x_norm{0};                                            ///< ‖x‖
-  scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
-  forcing_history<scalar> forcing{};  ///< err, and tol of the last step
+  scalar residual_norm{0};                        ///< ‖F(y)‖
+  scalar residual_scale{0};                       ///< ‖b‖
+  scalar step_norm = detail::infinity<scalar>();  ///< ‖x⁺ − x‖ of the last step
+  scalar x_norm{0};                               ///< ‖x‖
+  scalar linear_residual{0};                      ///< ‖F + F° dy‖ of the last step
+  forcing_history<scalar> forcing{};              ///< err, and tol of the last step
 
   index inner_iterations = 0;  ///< of the linear solver in the last step
   index active = 0;            ///< inequalities in 𝒜 at y

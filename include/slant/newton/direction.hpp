@@ -29,7 +29,6 @@
 #include <slant/concepts/vector.hpp>
 
 #include <concepts>
-#include <limits>
 #include <utility>
 
 namespace slant {
@@ -111,7 +110,7 @@ template <class V>
 /// A tolerance below the rounding error of a residual cannot be told from it.
 template <class S>
 [[nodiscard]] S attainable(S const& tolerance) {
-  S const ε = std::numeric_limits<S>::epsilon();
+  S const ε = detail::epsilon<S>();
   return tolerance > ε ? tolerance : ε;
 }
 

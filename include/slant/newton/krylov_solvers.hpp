@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -100,7 +99,7 @@ struct bicgstab_solver {
     report.residual_norm = request.residual_norm;
     // Where G is nearly singular a vector of any size changes the residual in its last digits.
     using std::sqrt;
-    S const noticeably = S(1) - sqrt(std::numeric_limits<S>::epsilon());
+    S const noticeably = S(1) - sqrt(detail::epsilon<S>());
     auto const keep_best = [&](auto const& state) {
       S const now = state.residual_norm;
       bool const enough = now <= target && now < report.residual_norm;
@@ -242,7 +241,7 @@ struct gmres_solver {
   template <class S>
   static S doubtful(S const& f, S const& image) {
     using std::sqrt;
-    return sqrt(std::numeric_limits<S>::epsilon()) * (f + image);
+    return sqrt(detail::epsilon<S>()) * (f + image);
   }
 
   /// One run from v₁; adds to dy. `largest` becomes that of the ‖F° v_j‖, if it is larger.
@@ -267,7 +266,7 @@ struct gmres_solver {
       }
       S below = norm(next);
       // What is left is a rounding error: the space holds the solution, or F° is singular on it.
-      bool const last = below <= S(8) * std::numeric_limits<S>::epsilon() * whole;
+      bool const last = below <= S(8) * detail::epsilon<S>() * whole;
       if (last) below = S(0);
       if (!last) vectors::divide(below, next);
       if (!rotate(m, j, below, whole)) break;
@@ -311,7 +310,7 @@ struct gmres_solver {
     }
     using std::hypot;
     S const length = hypot(m.column[j], below);
-    if (!(length > S(8) * std::numeric_limits<S>::epsilon() * whole)) return false;
+    if (!(length > S(8) * detail::epsilon<S>() * whole)) return false;
     m.c[j] = m.column[j] / length;
     m.s[j] = below / length;
     entry(m, j, j) = length;

@@ -34,7 +34,6 @@
 #include <slant/slanting/slanting_part.hpp>
 
 #include <concepts>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -200,14 +199,14 @@ struct newton_state {
   /// What ‖F(y)‖ is small against: ‖F(0)‖, as ‖b‖ for linear systems; ‖F(y₀)‖ if that is 0 or not
   /// finite.
   scalar residual_scale{0};
-  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖dy‖, or ‖α dy‖ if α > 1: a step
-                                                               ///< that was shortened says nothing
-                                                               ///< about the distance to go
-  scalar x_norm{0};                                            ///< ‖y‖
-  scalar length{0};                                            ///< α of the last step
-  scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
-  forcing_history<scalar> forcing{};  ///< errors, and η of the last step
-  progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  scalar step_norm = detail::infinity<scalar>();  ///< ‖dy‖, or ‖α dy‖ if α > 1: a step
+                                                  ///< that was shortened says nothing
+                                                  ///< about the distance to go
+  scalar x_norm{0};                               ///< ‖y‖
+  scalar length{0};                               ///< α of the last step
+  scalar linear_residual{0};                      ///< ‖F + F° dy‖ of the last step
+  forcing_history<scalar> forcing{};              ///< errors, and η of the last step
+  progress_watch<scalar> progress{};              ///< looks for steps that get nowhere
 
   index inner_iterations = 0;  ///< of the linear solver in the last step
   index trials = 0;            ///< evaluations of F in the last step, 1 without shortening
@@ -226,7 +225,7 @@ struct newton_state {
   }
   /// The same where no step was made: the size of its direction, 0 perhaps, is no sign of success.
   bool give_up_step(slant::status how, newton_failure why) {
-    step_norm = std::numeric_limits<scalar>::infinity();
+    step_norm = detail::infinity<scalar>();
     return give_up(how, why);
   }
 
@@ -491,7 +490,7 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     S const before = norm(s.trial_residual);
     s.forcing.record(s.residual_norm);
     if (s.status != status::running) return;
-    bool const last_digits = s.step_norm <= S(4) * std::numeric_limits<S>::epsilon() * s.x_norm;
+    bool const last_digits = s.step_norm <= S(4) * detail::epsilon<S>() * s.x_norm;
     if (last_digits && !(s.residual_norm < before)) {
       s.give_up(status::stalled, newton_failure::no_digits);
     } else if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {

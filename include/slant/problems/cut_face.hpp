@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace slant {
@@ -93,8 +92,7 @@ class cut_face {
     using std::sqrt;
     weights_.noalias() = N_ * x;
     S const n(static_cast<double>(x.size()));
-    return all_told_ &&
-           weights_.norm() <= S(16) * std::numeric_limits<S>::epsilon() * sqrt(n) * length;
+    return all_told_ && weights_.norm() <= S(16) * detail::epsilon<S>() * sqrt(n) * length;
   }
   /// y = Π Nᵀ(N Π Nᵀ)⁻¹N x: the shortest step in the face that N maps to N x.
   void lift(vector_type const& x, vector_type& y) const {
@@ -134,7 +132,7 @@ class cut_face {
       vector_type rest(N_.cols());
       keep(row, rest);
       cut(rest);
-      if (rest.norm() > S(16) * std::numeric_limits<S>::epsilon() * sqrt(n)) all_told_ = false;
+      if (rest.norm() > S(16) * detail::epsilon<S>() * sqrt(n)) all_told_ = false;
     }
   }
 

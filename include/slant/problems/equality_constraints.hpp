@@ -28,7 +28,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace slant::detail {
@@ -146,7 +145,7 @@ class equality_constraints {
 
   /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of x.
   [[nodiscard]] bool meets(vector_type const& x, S const& tolerance) const {
-    S const rounding = S(64) * std::numeric_limits<S>::epsilon();
+    S const rounding = S(64) * detail::epsilon<S>();
     vector_type const terms = G_.cwiseAbs() * x.cwiseAbs() + unit_values_.cwiseAbs();
     vector_type const rest = (G_ * x - unit_values_).cwiseAbs();
     S const floor = rounding * x.norm();
@@ -214,7 +213,7 @@ class equality_constraints {
     using std::abs;
     auto const left_out = redundant();
     if (left_out.empty()) return;
-    S const rounding = S(4096) * std::numeric_limits<S>::epsilon();
+    S const rounding = S(4096) * detail::epsilon<S>();
     vector_type const kept_error = error(kept_);
     sparse_type const columns = unit_rows_.transpose();
     for (index const i : left_out) {

@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -110,7 +109,7 @@ class constraint_rows {
 
  private:
   void check_bound(index i, int const* begin) const {
-    if (!(c_[i] > -std::numeric_limits<S>::infinity())) {
+    if (!(c_[i] > -detail::infinity<S>())) {
       throw bad_input("c", detail::show(c_[i]), "a number or +inf").at(i);
     }
     if (begin[i] == begin[i + 1] && c_[i] < S(0)) {
@@ -132,7 +131,7 @@ class constraint_rows {
       S const reciprocal = S(1) / units_[i];
       for (entry e(b, i); e; ++e) e.valueRef() *= reciprocal;
       c_[i] *= reciprocal;
-      if (c_[i] > -std::numeric_limits<S>::infinity()) continue;
+      if (c_[i] > -detail::infinity<S>()) continue;
       throw bad_input("c", "a bound " + detail::show(units_[i]) + " times a number out of range",
                       "one that a u of numbers within the range can satisfy")
           .at(i);
@@ -143,7 +142,7 @@ class constraint_rows {
     using entry = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
     detail::union_find sets(unknowns_);
     for (index i = 0; i < b.rows(); ++i) {
-      if (!(c_[i] < std::numeric_limits<S>::infinity())) continue;
+      if (!(c_[i] < detail::infinity<S>())) continue;
       for (entry e(b, i); e; ++e) sets.join(entry(b, i).col(), e.col());
     }
     lengths_ = vector_type::Zero(b.rows());
@@ -151,7 +150,7 @@ class constraint_rows {
     std::vector<index> place(static_cast<std::size_t>(unknowns_), -1);
     for (index i = 0; i < b.rows(); ++i) {
       entry const first(b, i);
-      if (!first || !(c_[i] < std::numeric_limits<S>::infinity())) continue;
+      if (!first || !(c_[i] < detail::infinity<S>())) continue;
       auto& number = cluster_of[static_cast<std::size_t>(sets.find(first.col()))];
       if (number < 0) {
         number = static_cast<index>(clusters_.size());

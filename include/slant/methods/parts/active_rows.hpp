@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace slant {
@@ -88,9 +87,7 @@ class active_rows {
   /// tight.
   template <class V>
   void project_on_cone(rows_type const& rows, V const& r, V& d, vector_type& λ) {
-    auto const bound = [&](index i) {
-      return contains(i) ? S(0) : std::numeric_limits<S>::infinity();
-    };
+    auto const bound = [&](index i) { return contains(i) ? S(0) : detail::infinity<S>(); };
     vectors::copy(r, d);
     (void)nearest(rows, d, λ, bound, [&](auto const& part) {
       return std::any_of(part.rows.begin(), part.rows.end(), [&](index i) { return contains(i); });
@@ -208,7 +205,7 @@ struct row_slacks {
   template <class V>
   void measure(rows_type const& rows, V const& u) {
     note_sizes(rows, u);
-    slack.setConstant(std::numeric_limits<S>::infinity());
+    slack.setConstant(detail::infinity<S>());
     rows.for_each_product(u, [&](index i, S const& value, S const&) {
       using std::abs;
       S const gap = rows.c()[i] - value;
@@ -261,7 +258,7 @@ struct row_slacks {
   template <class V>
   [[nodiscard]] S first_constraint(rows_type const& rows, V const& q, S const& unit,
                                    S const& noise) {
-    S α1 = std::numeric_limits<S>::infinity();
+    S α1 = detail::infinity<S>();
     rates.setZero();
     rows.for_each_product(q, [&](index i, S const& value, S const& size) {
       if (active.contains(i) || !(value > S(32) * ε() * size + noise * rows.length(i))) return;
@@ -288,7 +285,7 @@ struct row_slacks {
   }
 
  private:
-  static S ε() { return std::numeric_limits<S>::epsilon(); }
+  static S ε() { return detail::epsilon<S>(); }
 
   template <class In>
   bool change(rows_type const& rows, In in) {
@@ -354,7 +351,7 @@ template <class S, class Q>
       if (!meets) continue;
       index moved = -1;
       for_each_term([&](index row, S const&) {
-        S const noise = S(32) * std::numeric_limits<S>::epsilon() * sizes[row];
+        S const noise = S(32) * detail::epsilon<S>() * sizes[row];
         if (moved < 0 && !(abs(sums[row]) <= noise)) moved = row;
       });
       if (moved >= 0) return moved;
@@ -388,7 +385,7 @@ template <class S, class Q, class V>
     vectors::difference(q, p, scratch);
     rows.for_each_product(scratch, [&](index i, S const& value, S const& size) {
       using std::abs;
-      S const noise = S(1024) * std::numeric_limits<S>::epsilon() * (size + sizes[i]);
+      S const noise = S(1024) * detail::epsilon<S>() * (size + sizes[i]);
       if (!(abs(value) <= noise)) moved = true;
     });
     return moved;

@@ -167,7 +167,7 @@ struct gradient_point {
     bool const keeps_digits = size_of_b >= std::numeric_limits<scalar>::min();
     scalar const length_of_b = keeps_digits ? size_of_b * unit : norm(qp.b());
     scalar const size = std::max<scalar>(length_of_b, norm(r));
-    bool const is_small = size < sqrt(std::numeric_limits<scalar>::epsilon()) * unit;
+    bool const is_small = size < sqrt(detail::epsilon<scalar>()) * unit;
     bool const is_other = is_small && size > scalar(0);
     if (is_other) unit = unit_near(size);
     size_of_b = length_of_b / unit;
@@ -189,14 +189,14 @@ struct gradient_point {
   /// q(x) / unit = ½ xᵀ(r − b) / unit, and a bound of its rounding error. No product is spent.
   [[nodiscard]] std::pair<scalar, scalar> energy(QP const& qp) {
     vectors::waxpy(-(scalar(1) / unit), qp.b(), r, trial);
-    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(x);
+    scalar const noise = scalar(16) * detail::epsilon<scalar>() * norm(x);
     return {inner_product(x, trial) / scalar(2), noise * norm(trial)};
   }
 
   /// Rounding errors that ‖r̃‖ may consist of.
   [[nodiscard]] scalar rounding() const {
     scalar const of_terms = unit * (size_of_b + norm(r)) + norm(x) / step_length;
-    return scalar(32) * std::numeric_limits<scalar>::epsilon() * of_terms;
+    return scalar(32) * detail::epsilon<scalar>() * of_terms;
   }
 
   /// The accuracy reached, for sentences: "relative reduced gradient 1e-15 / 1, …".

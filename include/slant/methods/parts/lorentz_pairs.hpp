@@ -44,7 +44,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -220,7 +219,7 @@ class lorentz_pairs {
   /// sup{α : y + αΔy ∈ L}.
   template <class C>
   [[nodiscard]] S way_out(C const& set) const {
-    S most = std::numeric_limits<S>::infinity();
+    S most = detail::infinity<S>();
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
       second_order_cone<std::remove_cvref_t<decltype(at)>::M, S> const L(S(1));
       most = std::min<S>(most, L.step_to_boundary(of(at, λ_), of(at, dy_)));

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace slant::detail {
@@ -97,7 +96,7 @@ class row_basis {
  private:
   /// Sine of the angle between a column and the span below which it counts as dependent: some
   /// digits more than the rounding errors of rows that were computed in two ways.
-  static S dependence() { return S(4096) * std::numeric_limits<S>::epsilon(); }
+  static S dependence() { return S(4096) * detail::epsilon<S>(); }
 
   void solve(vector_type& a) const {
     for (index k = size(); k-- > 0;) {
@@ -160,7 +159,7 @@ struct nearest_point {
   [[nodiscard]] S noise(matrix_type const& e, index i) const {
     S const size = e.col(i).norm() * std::max<S>(start_.stableNorm(), x.stableNorm());
     using std::abs;
-    return S(16) * std::numeric_limits<S>::epsilon() * (size + abs(bounds[i]));
+    return S(16) * detail::epsilon<S>() * (size + abs(bounds[i]));
   }
   [[nodiscard]] S violation(matrix_type const& e, index i) const {
     return e.col(i).dot(x) - bounds[i];
@@ -189,7 +188,7 @@ struct nearest_point {
     index row = -1;
     S most(0);
     for (index i = 0; i < e.cols(); ++i) {
-      bool const is_bound = bounds[i] < std::numeric_limits<S>::infinity();
+      bool const is_bound = bounds[i] < detail::infinity<S>();
       if ((used_[i] != 0 && allowed == S(1)) || !is_bound) continue;
       S const v = violation(e, i);
       if (!(v > allowed * noise(e, i))) continue;
@@ -209,8 +208,8 @@ struct nearest_point {
       S const length = z_.norm();
       basis.take_out(z_, a_);
       S const rest = z_.norm();
-      constexpr S infinity = std::numeric_limits<S>::infinity();
-      bool const independent = rest > S(4096) * std::numeric_limits<S>::epsilon() * length;
+      constexpr S infinity = detail::infinity<S>();
+      bool const independent = rest > S(4096) * detail::epsilon<S>() * length;
       S const full = independent ? S(violation(e, q) / (rest * rest)) : infinity;
       S t = full;
       index leaves = -1;
