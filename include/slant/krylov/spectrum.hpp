@@ -34,6 +34,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace slant::detail {
@@ -170,6 +171,18 @@ template <class A, class V>
   return {θ * rounding / S(1 - root * root), θ, θ_min, k};
 }
 
+namespace detail {
+
+/// Throws bad_input unless a step length, from `what` of A, is a finite number > 0.
+template <class S>
+void check_step_length(S const& length, char const* what, S const& of_a) {
+  if (length > S(0) && is_finite(length)) return;
+  throw bad_input("A", std::string(what) + " " + show(of_a),
+                  "one whose reciprocal is a finite number > 0");
+}
+
+}  // namespace detail
+
 // --- gradient step -------------------------------------------------------------------------------
 //
 // A safe step of the gradient method x ← P_Λ(x − α r). Every α ∈ (0, 2/σ_max) decreases
@@ -196,10 +209,7 @@ template <class A, class V>
   if (bound.upper == S(0)) return {S(1), S(0), bound.applications};
   S const best = S(2) / (S(1) + bound.smallest_ritz / bound.ritz);
   S const length = std::min<S>(factor, best) / bound.upper;
-  if (!(length > S(0)) || !detail::is_finite(length)) {
-    throw bad_input("A", "largest eigenvalue " + detail::show(bound.upper),
-                    "one whose reciprocal is a finite number > 0");
-  }
+  detail::check_step_length(length, "largest eigenvalue", bound.upper);
   return {length, bound.ritz, bound.applications};
 }
 
@@ -271,10 +281,7 @@ template <class A, class V>
   using S = scalar_t<V>;
   auto const mean = mean_diagonal(a, prototype, options);
   S const length = mean.value > S(0) ? S(factor / mean.value) : S(1);
-  if (!(length > S(0)) || !detail::is_finite(length)) {
-    throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
-                    "one whose reciprocal is a finite number > 0");
-  }
+  detail::check_step_length(length, "mean of the diagonal", mean.value);
   return {length, mean.applications};
 }
 

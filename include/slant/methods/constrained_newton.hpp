@@ -64,7 +64,7 @@ concept constrained_newton_problem =
     symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
 
 /// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
-template <scalar S = double>
+template <class S = double>
 struct constrained_newton_options {
   S step_factor = S(0.5);  ///< α in multiples of 1/mean(diag P A P)
   /// Inner accuracy, relative to the merit function.
@@ -193,28 +193,24 @@ constrained_newton(QP&&, C&&, M&&, constrained_newton_options<detail::program_sc
 template <class QP, class C, class M>
   requires constrained_newton_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class constrained_newton<QP, C, M> {
+class constrained_newton<QP, C, M>
+    : public detail::preconditioned_program<QP, M, constrained_newton_options> {
+  using base = detail::preconditioned_program<QP, M, constrained_newton_options>;
+  using base::qp_, base::m_, base::options_, base::preconditioned;
+
  public:
-  using problem = std::remove_cvref_t<QP>;
+  using typename base::problem, typename base::vector_type, typename base::scalar;
   using constraints = std::remove_cvref_t<C>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = constrained_newton_options<scalar>;
-  using state_type = constrained_newton_state<problem, constraints, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+  using state_type = constrained_newton_state<problem, constraints, typename base::preconditioner>;
 
   /// Throws bad_input if sizes do not match, or for options out of range.
-  constrained_newton(held<QP> qp, held<C> c, options o = {})
+  constrained_newton(held<QP> qp, held<C> c, typename base::options o = {})
     requires(!preconditioned)
-      : qp_(std::move(qp)),
-        constraints_(std::move(c)),
-        m_(identity_operator(qp_.get().size())),
-        options_(std::move(o)) {
+      : base(std::move(qp), std::move(o)), constraints_(std::move(c)) {
     check();
   }
-  constrained_newton(held<QP> qp, held<C> c, held<M> m, options o = {})
-      : qp_(std::move(qp)), constraints_(std::move(c)), m_(std::move(m)), options_(std::move(o)) {
+  constrained_newton(held<QP> qp, held<C> c, held<M> m, typename base::options o = {})
+      : base(std::move(qp), std::move(m), std::move(o)), constraints_(std::move(c)) {
     check();
   }
 
@@ -398,11 +394,8 @@ class constrained_newton<QP, C, M> {
   }
 
   void check() const {
-    index const n = qp_.get().size();
-    detail::check_size("columns of G", index(constraints_.get().size()), n, "the size of b,");
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()), n);
-    detail::check_size("columns of the preconditioner", index(m_.get().cols()), n);
-    options_.validate();
+    detail::check_size("columns of G", index(constraints_.get().size()), qp_.get().size(),
+                       "the size of b,");
   }
 
   [[nodiscard]] auto fallback(state_type const& s) const {
@@ -517,10 +510,7 @@ class constrained_newton<QP, C, M> {
     s.progress = {};
   }
 
-  held<QP> qp_;
   held<C> constraints_;
-  held<M> m_;
-  options options_;
 };
 
 }  // namespace slant

@@ -70,7 +70,7 @@ concept envelope_newton_problem =
     has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
 
 /// Options of envelope_newton and symmetric_newton; the defaults are those of README's tables.
-template <scalar S = double>
+template <class S = double>
 struct symmetric_newton_options {
   /// ρ in x − P_Λ(x − ρ r), in units of 1/A; none: step_factor / mean(diag A).
   std::optional<S> step_length{};
@@ -195,29 +195,15 @@ struct envelope_newton_state : gradient_point<QP> {
 template <class QP, class M = identity_operator>
   requires envelope_newton_problem<std::remove_cvref_t<QP>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class envelope_newton {
- public:
-  using problem = std::remove_cvref_t<QP>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = symmetric_newton_options<scalar>;
-  using state_type = envelope_newton_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+class envelope_newton : public detail::preconditioned_program<QP, M, symmetric_newton_options> {
+  using base = detail::preconditioned_program<QP, M, symmetric_newton_options>;
+  using base::qp_, base::m_, base::options_;
 
-  /// Throws bad_input for options out of range.
-  explicit envelope_newton(held<QP> qp, options o = {})
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  envelope_newton(held<QP> qp, held<M> m, options o = {})
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+ public:
+  using typename base::problem, typename base::preconditioner, typename base::vector_type,
+      typename base::scalar;
+  using state_type = envelope_newton_state<problem, preconditioner>;
+  using base::base;
 
   /// The state of prox(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// ρ is not a finite number.
@@ -507,10 +493,6 @@ class envelope_newton {
     }
     stay(s);
   }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 template <class QP>

@@ -75,8 +75,6 @@ namespace detail {
 
 template <class QP>
 using plain_interior_point_state = interior_point_state<QP, identity_operator>;
-template <class S>
-using interior_point_options_of = interior_point_options<S>;
 
 template <class QP, class M>
 struct interior_point_demands {
@@ -101,7 +99,7 @@ struct interior_point_demands<QP, M> {
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
 class interior_point : public detail::refused_program<QP, detail::plain_interior_point_state,
-                                                      detail::interior_point_options_of> {
+                                                      interior_point_options> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
@@ -121,29 +119,14 @@ namespace detail {
 
 /// What `interior_point` does with a problem that has all it needs.
 template <class QP, class M>
-class interior_point_steps {
- public:
-  using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = interior_point_options<scalar>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using state_type = interior_point_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+class interior_point_steps : public preconditioned_program<QP, M, interior_point_options> {
+  using base = preconditioned_program<QP, M, interior_point_options>;
+  using base::qp_, base::m_, base::options_, base::preconditioned;
 
-  /// Throws bad_input for options out of range.
-  explicit interior_point_steps(held<QP> qp, options o = {})
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  interior_point_steps(held<QP> qp, held<M> m, options o = {})
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+ public:
+  using typename base::problem, typename base::vector_type, typename base::scalar;
+  using state_type = interior_point_state<problem, typename base::preconditioner>;
+  using base::base;
 
   /// The state of a point in the interior on the way from P_Λ(x0), or P_Λ(0) where q is smaller,
   /// to the middle of Λ. Throws
@@ -214,10 +197,7 @@ class interior_point_steps {
       return;
     }
     s.step_length = mean.value > scalar(0) ? scalar(scalar(0.5) / mean.value) : scalar(1);
-    if (!(s.step_length > scalar(0)) || !is_finite(s.step_length)) {
-      throw bad_input("A", "mean of the diagonal " + show(mean.value),
-                      "one whose reciprocal is a finite number > 0");
-    }
+    check_step_length(s.step_length, "mean of the diagonal", mean.value);
   }
 
   /// The length of the first projected gradient step with the best step length: that of what Λ does
@@ -580,10 +560,6 @@ class interior_point_steps {
       s.status = status::stalled;
     }
   }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 template <class QP, class M>

@@ -95,7 +95,7 @@ struct interior_point_state : gradient_point<QP> {
 
 /// Options of interior_point. The inner accuracy is not the one that [K §3.2.4] proposes (0.1 and
 /// 0.9), but that of its Table 3 with the fewest products.
-template <scalar S = double>
+template <class S = double>
 struct interior_point_options {
   /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
   std::optional<S> step_length{};

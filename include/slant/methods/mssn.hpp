@@ -475,7 +475,6 @@ using mssn_options = modified_newton_options<S, fixed_forcing>;
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
 class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -507,7 +506,6 @@ using imssn_options = modified_newton_options<S, adaptive_precision>;
 /// definite on a face).
 template <class QP>
 class imssn : public modified_newton<QP, frozen_start, unlimited_cg, adaptive_precision> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -527,16 +525,12 @@ imssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> imssn<kept_t<QP
 //
 // Known weakness: on a curved boundary a sliding block moves only by the gradient steps (3.2°).
 
-template <class S>
-using gimssn_options = modified_newton_options<S, adaptive_precision>;
-
 /// GIMSSN for a separable_qp: solve(gimssn{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// All iterates are in Λ. Requires what kprgp does. ρ < 2/σ_max is insisted on, unless step_length
 /// is given. Statuses of its own: those of imssn, and unbounded (q decreases for ever along
 /// −state.directions.p); breakdown where A was seen not to be semidefinite.
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -544,6 +538,6 @@ class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive
 };
 
 template <class QP>
-gimssn(QP&&, gimssn_options<detail::program_scalar_t<QP>> = {}) -> gimssn<kept_t<QP>>;
+gimssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> gimssn<kept_t<QP>>;
 
 }  // namespace slant

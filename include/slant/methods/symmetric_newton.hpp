@@ -286,8 +286,6 @@ namespace detail {
 
 template <class QP>
 using plain_symmetric_newton_state = symmetric_newton_state<QP, identity_operator>;
-template <class S>
-using symmetric_newton_options_of = symmetric_newton_options<S>;
 
 template <class QP, class M>
 struct symmetric_newton_demands {
@@ -311,7 +309,7 @@ struct symmetric_newton_demands<QP, M> {
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
 class symmetric_newton : public detail::refused_program<QP, detail::plain_symmetric_newton_state,
-                                                        detail::symmetric_newton_options_of> {
+                                                        symmetric_newton_options> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
@@ -331,29 +329,14 @@ namespace detail {
 
 /// What `symmetric_newton` does with a problem that has all it needs.
 template <class QP, class M>
-class symmetric_newton_steps {
- public:
-  using problem = std::remove_cvref_t<QP>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = symmetric_newton_options<scalar>;
-  using state_type = symmetric_newton_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+class symmetric_newton_steps : public preconditioned_program<QP, M, symmetric_newton_options> {
+  using base = preconditioned_program<QP, M, symmetric_newton_options>;
+  using base::qp_, base::m_, base::options_;
 
-  /// Throws bad_input for options out of range.
-  explicit symmetric_newton_steps(held<QP> qp, options o = {})
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  symmetric_newton_steps(held<QP> qp, held<M> m, options o = {})
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+ public:
+  using typename base::problem, typename base::vector_type, typename base::scalar;
+  using state_type = symmetric_newton_state<problem, typename base::preconditioner>;
+  using base::base;
 
   /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// ρ is not a finite number.
@@ -496,10 +479,6 @@ class symmetric_newton_steps {
       s.status = status::stalled;
     }
   }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 template <class QP, class M>

@@ -50,6 +50,11 @@ struct direction_report {
   index factorizations = 0;                       ///< matrices factored
 };
 
+template <class V>
+using request_of = direction_request<scalar_t<V>>;
+template <class V>
+using report_of = direction_report<scalar_t<V>>;
+
 template <class D, class G, class V>
 concept has_prepare = requires(D const& d, G const& g, V const& f) {
   { d.prepare(g, f) } -> std::copyable;
@@ -61,11 +66,10 @@ using prepared_t =
     decltype(std::declval<D const&>().prepare(std::declval<G const&>(), std::declval<V const&>()));
 
 template <class D, class G, class V>
-concept has_direction =
-    requires(D const& d, G const& g, V const& f, direction_request<scalar_t<V>> const& request,
-             V& dy, prepared_t<D, G, V>& p) {
-      { d.solve(g, f, request, dy, p) } -> std::same_as<direction_report<scalar_t<V>>>;
-    };
+concept has_direction = requires(D const& d, G const& g, V const& f, request_of<V> const& request,
+                                 V& dy, prepared_t<D, G, V>& p) {
+  { d.solve(g, f, request, dy, p) } -> std::same_as<report_of<V>>;
+};
 
 /// A linear solver for operators G and vectors V; see the top of this file.
 template <class D, class G, class V>

@@ -38,9 +38,7 @@ struct cg_solver {
 
   template <class G, class V, class State>
     requires spd_operator<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      State& s) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, State& s) const {
     using S = scalar_t<V>;
     cg const method{g, f};
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
@@ -86,9 +84,7 @@ struct bicgstab_solver {
 
   template <class G, class V, class State>
     requires linear_operator<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      State& s) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, State& s) const {
     using S = scalar_t<V>;
     bicgstab const method{g, f};
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
@@ -189,9 +185,7 @@ struct gmres_solver {
 
   template <class G, class V, class Memory>
     requires linear_operator<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      Memory& m) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, Memory& m) const {
     using S = scalar_t<V>;
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
     index const limit = detail::iteration_limit(max_iterations, f);

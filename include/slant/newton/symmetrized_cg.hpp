@@ -173,9 +173,7 @@ struct symmetrized_cg {
 
   template <class N, class V, class P>
     requires symmetrizable<N> && linear_operator<N, V>
-  direction_report<scalar_t<V>> solve(N const& newton, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& p) const {
+  report_of<V> solve(N const& newton, V const& f, request_of<V> const& request, V& dy, P& p) const {
     using S = scalar_t<V>;
     auto const symmetric = slant::symmetrized(newton);
     auto const h = declare<positive_definite>(symmetric);

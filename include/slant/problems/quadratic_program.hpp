@@ -100,16 +100,16 @@ struct program_demands {
   static constexpr bool told = composite_demands<QP>::told;
 };
 
-/// Of the set, where a method follows faces.
+/// And of that set, where a method follows faces.
 template <class QP>
 struct active_set_demands {
-  static constexpr bool told = true;
+  static constexpr bool told = program_demands<QP>::told;
 };
 template <askable_program QP>
 struct active_set_demands<QP> {
   static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
                 "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-  static constexpr bool told = true;
+  static constexpr bool told = program_demands<QP>::told;
 };
 
 /// The scalar of a program, double of what is none: deduction does not fail there, so that it can

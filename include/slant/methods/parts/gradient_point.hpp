@@ -5,6 +5,7 @@
 // indicator of Λ the proximal map prox_{αφ} takes the place of P_Λ.
 #pragma once
 
+#include <slant/base/held.hpp>
 #include <slant/base/report.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/base/vector_algebra.hpp>
@@ -13,10 +14,12 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/spectrum.hpp>
+#include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/proximal_step.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
@@ -79,6 +82,43 @@ void check_start_in_set(V const& x0, V const& b) {
   check_size("x0", index(slant::local(x0).size()), index(slant::local(b).size()), "the size of b,");
   check_finite("x0", x0);
 }
+
+}  // namespace detail
+
+namespace detail {
+
+/// A program with options and a preconditioner M ≈ A⁻¹: what methods that solve linear systems are
+/// made of. The identity stands for no preconditioner.
+template <class QP, class M, template <class> class Options>
+class preconditioned_program {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = Options<scalar>;
+
+  /// Throws bad_input for options out of range.
+  explicit preconditioned_program(held<QP> qp, options o = {})
+    requires std::same_as<preconditioner, identity_operator>
+      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
+    options_.validate();
+  }
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  preconditioned_program(held<QP> qp, held<M> m, options o = {})
+      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
+    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
+    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
+    options_.validate();
+  }
+
+ protected:
+  static constexpr bool preconditioned = !std::same_as<preconditioner, identity_operator>;
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
+};
 
 }  // namespace detail
 
