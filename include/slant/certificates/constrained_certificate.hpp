@@ -181,9 +181,4 @@ class constrained_certificate {
   scalar typical_{1};  // 1/mean(diag P A P)
 };
 
-template <class QP, class C>
-constrained_certificate(QP const&, C const&) -> constrained_certificate<QP, C, identity_operator>;
-template <class QP, class C, class M>
-constrained_certificate(QP const&, C const&, M const&) -> constrained_certificate<QP, C, M>;
-
 }  // namespace slant

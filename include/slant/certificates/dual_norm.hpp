@@ -33,11 +33,11 @@ namespace slant {
 /// Temporaries of dual_norm for vectors like `prototype` and a preconditioner m.
 template <class V, class M>
 struct dual_norm_workspace {
-  V r, z, p, image;
+  V r, z = r, p = r, image = r;
   workspace_t<M, V> of_m;
 
   dual_norm_workspace(M const& m, V const& prototype)
-      : r(prototype), z(prototype), p(prototype), image(prototype), of_m(workspace(m, prototype)) {}
+      : r(prototype), of_m(workspace(m, prototype)) {}
 };
 
 /// Result of dual_norm.

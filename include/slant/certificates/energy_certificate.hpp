@@ -177,11 +177,4 @@ class energy_certificate {
   scalar typical_{1};  ///< 1/mean(diag A)
 };
 
-template <class QP>
-energy_certificate(QP const&) -> energy_certificate<QP, identity_operator>;
-template <class QP, class M>
-energy_certificate(QP const&, M const&) -> energy_certificate<QP, M>;
-template <class QP, class M>
-energy_certificate(QP const&, dominating_inverse<M>) -> energy_certificate<QP, M>;
-
 }  // namespace slant

@@ -137,7 +137,7 @@ template <class A, class V>
   auto const ε = detail::epsilon<S>();
   // ε ≤ 3/4 wants so many steps at least; with fewer the bound would be more than four times θ.
   double const doubt = std::log(1.648 * std::sqrt(double(n)) / options.failure);
-  auto const least = static_cast<index>(std::ceil((doubt / std::sqrt(0.75) + 1) / 2));
+  auto const least = index(std::ceil((doubt / std::sqrt(0.75) + 1) / 2));
   auto const steps = std::min(std::max(options.steps, least), n);
   S scale(0);
   bool exhausted = false;  // an invariant subspace was found: θ is exact
@@ -161,7 +161,7 @@ template <class A, class V>
     vectors::divide(β, q);
   }
   S const θ = detail::largest_tridiagonal_eigenvalue(diagonal, off_diagonal);
-  auto const k = static_cast<index>(diagonal.size());
+  auto const k = index(diagonal.size());
   S const rounding = S(1) + S(4 * n) * ε;
   if (θ < S(0)) throw bad_input("A", detail::show(θ), "a positive semidefinite operator");
   S const θ_min =

@@ -496,14 +496,10 @@ class envelope_newton : public detail::preconditioned_program<QP, M, symmetric_n
 };
 
 template <class QP>
-envelope_newton(QP&&) -> envelope_newton<kept_t<QP>>;
-template <class QP>
-envelope_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+envelope_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar> = {})
     -> envelope_newton<kept_t<QP>>;
 template <class QP, class M>
-envelope_newton(QP&&, M&&) -> envelope_newton<kept_t<QP>, kept_t<M>>;
-template <class QP, class M>
-envelope_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+envelope_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar> = {})
     -> envelope_newton<kept_t<QP>, kept_t<M>>;
 
 }  // namespace slant

@@ -291,7 +291,7 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
   void count(state_type& s) const {
     auto& counted = slant::local(s.counted);
     counted = (s.barrier.per_unit().array() > scalar(0)).template cast<scalar>().matrix();
-    s.constraints = static_cast<index>(inner_product(s.counted, s.counted) + scalar(0.5));
+    s.constraints = index(inner_product(s.counted, s.counted) + scalar(0.5));
     vectors::copy(s.counted, s.smooth);
     s.pairs.visit(blocks(), [&](auto const& block, auto const&, auto const& at) {
       constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;

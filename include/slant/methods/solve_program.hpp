@@ -286,7 +286,7 @@ template <class K, class S>
 /// entries.
 template <class K>
 [[nodiscard]] index enough_without_levels(K const& k) {
-  return 300 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
+  return 300 + index(2e7 / (1 + static_cast<double>(k.nonZeros())));
 }
 
 /// go_on(M, what was chosen and why) with multigrid for D K D, or without where there is none.
@@ -378,9 +378,13 @@ template <class QP>
   return d;
 }
 
-inline void note_scaling(std::string& choice) {
-  choice.insert(0, choice.empty() ? "" : "; ");
-  choice.insert(0, "blocks scaled, because their stiffness differs by more than 64");
+/// The result for x of one for y with x = D y.
+template <class Result, class Scaled>
+void unscale(Result& result, Scaled const& scaled) {
+  result.point = scaled.back(std::move(result.point));
+  if (result.status == status::unbounded) result.descent = scaled.back(std::move(result.descent));
+  result.choice.insert(0, result.choice.empty() ? "" : "; ");
+  result.choice.insert(0, "blocks scaled, because their stiffness differs by more than 64");
 }
 
 }  // namespace detail
@@ -410,11 +414,7 @@ template <class QP>
           return detail::solve_by_parts(alike, y0, tolerance, max_steps);
         }
       }();
-      result.point = scaled.back(std::move(result.point));
-      if (result.status == status::unbounded) {
-        result.descent = scaled.back(std::move(result.descent));
-      }
-      detail::note_scaling(result.choice);
+      detail::unscale(result, scaled);
       return result;
     }
   }

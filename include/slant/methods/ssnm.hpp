@@ -92,10 +92,10 @@ struct ssnm_state {
   V multipliers;                               ///< z, one per inequality
   V y;                                         ///< (x, z)
   V residual;                                  ///< F(y)
-  V direction;                                 ///< dy of the last step
   slant_type slant_operator;                   ///< F°(y)
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
+  V direction = residual;                      ///< dy of the last step
 
   scalar residual_norm{0};                        ///< ‖F(y)‖
   scalar residual_scale{0};                       ///< ‖b‖
@@ -227,24 +227,17 @@ class ssnm<QP, LinearSolver> {
     check(x0);
     detail::check_size("z0", index(slant::local(z0).size()), f_.multipliers());
     detail::check_finite("z0", z0);
-    auto blank = [&] { return like(x0, f_.cols()); };
-    auto y = blank();
+    auto y = like(x0, f_.cols());
     x_of(y) = slant::local(x0);
     z_of(y) = slant::local(z0);
-    auto residual = blank();
+    auto residual = y;
     auto f_workspace = slant::workspace(f_, y);
     slant::evaluate(f_, y, residual, f_workspace);
     detail::check_finite("F(x0)", residual);
     auto g = f_.slant(y);
     auto prepared = solver_.prepare(g, residual);
-    state_type s{x0,
-                 z0,
-                 y,
-                 std::move(residual),
-                 blank(),
-                 std::move(g),
-                 std::move(f_workspace),
-                 std::move(prepared)};
+    state_type s{
+        x0, z0, y, std::move(residual), std::move(g), std::move(f_workspace), std::move(prepared)};
     s.forcing = forcing_history<scalar>::starting_at(scalar(1));
     s.residual_scale = norm(problem().b());
     classify(s);

@@ -169,7 +169,7 @@ struct gmres_solver {
     requires linear_operator<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     index const n = slant::local(f).size();
-    auto const most = static_cast<std::size_t>(std::min<index>(restart, slant::global_size(f)));
+    auto const most = std::size_t(std::min<index>(restart, slant::global_size(f)));
     using S = scalar_t<V>;
     gmres_memory<V, workspace_t<G, V>> m{{},
                                          std::vector<S>(most * (most + 1) / 2),

@@ -159,15 +159,6 @@ struct by_laws {
   }
 };
 
-/// Options of semismooth_newton.
-struct newton_options {
-  index patience = 100;  ///< steps without a new smallest ‖F‖ that mean stalled
-
-  [[gnu::cold]] void validate() const {
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-  }
-};
-
 /// What ended a run of semismooth_newton, beside success.
 enum class newton_failure : unsigned char {
   none,          ///< nothing has
@@ -175,7 +166,7 @@ enum class newton_failure : unsigned char {
   not_finite,    ///< F left the range of the scalar where the step leads
   no_length,     ///< no length was accepted by the globalisation
   no_digits,     ///< steps are down to the last digit of y, and ‖F‖ falls no more
-  no_progress    ///< ‖F‖ has had no new smallest value for `patience` steps
+  no_progress    ///< ‖F‖ has had no new smallest value for a hundred steps
 };
 
 /// State of semismooth_newton for F on vectors V with a solver of type Solver. slant_operator
@@ -188,12 +179,12 @@ struct newton_state {
 
   V x;                                         ///< iterate y
   V residual;                                  ///< F(y)
-  V direction;                                 ///< dy of the last step
-  V trial;                                     ///< y + α dy
-  V trial_residual;                            ///< F(y + α dy)
   slant_type slant_operator;                   ///< F°(y)
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
+  V direction = residual;                      ///< dy of the last step
+  V trial = residual;                          ///< y + α dy
+  V trial_residual = residual;                 ///< F(y + α dy)
 
   scalar residual_norm{0};  ///< ‖F(y)‖
   /// What ‖F(y)‖ is small against: ‖F(0)‖, as ‖b‖ for linear systems; ‖F(y₀)‖ if that is 0 or not
@@ -329,7 +320,7 @@ class semismooth_newton : public detail::refused {
 };
 
 /// Newton's method: solve(semismooth_newton{F}, y0, residual_below(1e-10) || at_most(100)), or
-/// semismooth_newton{F, linear solver, globalisation, forcing rule, options}.
+/// semismooth_newton{F, linear solver, globalisation, forcing rule}.
 /// Requires slanting_function<F, V> for the vectors V of the start and a linear solver that can
 /// handle F°(y). Statuses of its own, with state.failure and state.reason(): converged (F(y) = 0);
 /// breakdown (no direction, as where F°(y) is singular; F not finite); stalled (no length is
@@ -347,17 +338,15 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
 
   /// Throws bad_input if F has not as many values as arguments, or for options out of range.
   explicit semismooth_newton(held<F> f, LinearSolver linear_solver = {}, Globalisation search = {},
-                             Forcing forcing = {}, newton_options options = {})
+                             Forcing forcing = {})
       : f_(std::move(f)),
         linear_solver_(std::move(linear_solver)),
         search_(std::move(search)),
-        forcing_(std::move(forcing)),
-        options_(options) {
+        forcing_(std::move(forcing)) {
     detail::check_size("F.rows()", index(this->f().rows()), index(this->f().cols()), "F.cols()");
     detail::validate_part(linear_solver_);
     detail::validate_part(search_);
     detail::validate_part(forcing_);
-    options_.validate();
   }
 
   /// Throws bad_input if x0 or F(x0) is not finite or of the wrong size.
@@ -367,20 +356,13 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     using S = scalar_t<V>;
     detail::check_size("x0", index(slant::local(x0).size()), index(f().cols()), "F.cols()");
     detail::check_finite("x0", x0);
-    auto blank = [&] { return like(x0, f().rows()); };
     auto f_workspace = slant::workspace(f(), x0);
-    auto residual = blank();
+    auto residual = like(x0, f().rows());
     slant::evaluate(f(), x0, residual, f_workspace);
     detail::check_finite("F(x0)", residual);
     auto g = slant::slant_from_value(f(), x0, f_workspace);
     auto prepared = solver<V>().prepare(std::as_const(g), std::as_const(residual));
-    state_for<V> s{x0,
-                   std::move(residual),
-                   blank(),
-                   blank(),
-                   blank(),
-                   std::move(g),
-                   std::move(f_workspace),
+    state_for<V> s{x0, std::move(residual), std::move(g), std::move(f_workspace),
                    std::move(prepared)};
     vectors::set_zero(s.direction);
     ++s.work.operator_applications;
@@ -493,7 +475,8 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     bool const last_digits = s.step_norm <= S(4) * detail::epsilon<S>() * s.x_norm;
     if (last_digits && !(s.residual_norm < before)) {
       s.give_up(status::stalled, newton_failure::no_digits);
-    } else if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {
+    } else if (constexpr index patience = 100;
+               s.progress.stalled(s.iteration, s.residual_norm, patience)) {
       s.give_up(status::stalled, newton_failure::no_progress);
     }
   }
@@ -515,12 +498,11 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
   LinearSolver linear_solver_;
   Globalisation search_;
   Forcing forcing_;
-  newton_options options_;
 };
 
 template <class F, class LinearSolver = by_laws, class Globalisation = halving_line_search,
           class Forcing = eisenstat_walker>
-semismooth_newton(F&&, LinearSolver = {}, Globalisation = {}, Forcing = {}, newton_options = {})
+semismooth_newton(F&&, LinearSolver = {}, Globalisation = {}, Forcing = {})
     -> semismooth_newton<kept_t<F>, LinearSolver, Globalisation, Forcing>;
 
 }  // namespace slant

@@ -54,7 +54,7 @@ template <class S>
   index const p = rest.rows();
   Eigen::Matrix<S, Eigen::Dynamic, 1> column(p);
   std::vector<index> kept;
-  while (static_cast<index>(kept.size()) < p) {
+  while (index(kept.size()) < p) {
     index i = 0;
     S const pivot = rest.diagonal().maxCoeff(&i);
     if (!(pivot > smallest_pivot(p, S(1)))) break;
@@ -194,12 +194,12 @@ class equality_constraints {
   }
 
   static sparse_type rows_of(sparse_type const& G, std::vector<index> const& rows) {
-    std::vector<int> place(static_cast<std::size_t>(G.rows()), -1);
+    std::vector<int> place(std::size_t(G.rows()), -1);
     int count = 0;
-    for (index const row : rows) place[static_cast<std::size_t>(row)] = count++;
+    for (index const row : rows) place[std::size_t(row)] = count++;
     std::vector<Eigen::Triplet<S>> entries;
     detail::for_each_entry(G, [&](index i, index j, S const& value) {
-      int const row = place[static_cast<std::size_t>(i)];
+      int const row = place[std::size_t(i)];
       if (row >= 0) entries.emplace_back(row, static_cast<int>(j), value);
     });
     sparse_type selected(count, G.cols());

@@ -97,8 +97,7 @@ class constraint_rows {
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
         S sum(0), size(0);
         for (std::size_t k = 0; k < part.unknowns.size(); ++k) {
-          S const term = part.e(static_cast<index>(k), static_cast<index>(j)) *
-                         entries.coeff(part.unknowns[k]);
+          S const term = part.e(index(k), index(j)) * entries.coeff(part.unknowns[k]);
           sum += term;
           size += abs(term);
         }
@@ -146,33 +145,32 @@ class constraint_rows {
       for (entry e(b, i); e; ++e) sets.join(entry(b, i).col(), e.col());
     }
     lengths_ = vector_type::Zero(b.rows());
-    std::vector<index> cluster_of(static_cast<std::size_t>(unknowns_), -1);
-    std::vector<index> place(static_cast<std::size_t>(unknowns_), -1);
+    std::vector<index> cluster_of(std::size_t(unknowns_), -1);
+    std::vector<index> place(std::size_t(unknowns_), -1);
     for (index i = 0; i < b.rows(); ++i) {
       entry const first(b, i);
       if (!first || !(c_[i] < detail::infinity<S>())) continue;
-      auto& number = cluster_of[static_cast<std::size_t>(sets.find(first.col()))];
+      auto& number = cluster_of[std::size_t(sets.find(first.col()))];
       if (number < 0) {
-        number = static_cast<index>(clusters_.size());
+        number = index(clusters_.size());
         clusters_.emplace_back();
       }
-      cluster& part = clusters_[static_cast<std::size_t>(number)];
+      cluster& part = clusters_[std::size_t(number)];
       part.rows.push_back(i);
       for (entry e(b, i); e; ++e) {
-        index& at = place[static_cast<std::size_t>(e.col())];
+        index& at = place[std::size_t(e.col())];
         if (at >= 0) continue;
-        at = static_cast<index>(part.unknowns.size());
+        at = index(part.unknowns.size());
         part.unknowns.push_back(e.col());
       }
     }
     for (cluster& part : clusters_) {
-      part.e.setZero(static_cast<index>(part.unknowns.size()),
-                     static_cast<index>(part.rows.size()));
+      part.e.setZero(index(part.unknowns.size()), index(part.rows.size()));
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
         for (entry e(b, part.rows[j]); e; ++e) {
-          part.e(place[static_cast<std::size_t>(e.col())], static_cast<index>(j)) = e.value();
+          part.e(place[std::size_t(e.col())], index(j)) = e.value();
         }
-        vector_type const row = part.e.col(static_cast<index>(j));
+        vector_type const row = part.e.col(index(j));
         lengths_[part.rows[j]] = slant::norm(row);
       }
     }

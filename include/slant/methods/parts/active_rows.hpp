@@ -31,7 +31,7 @@ class active_rows {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  explicit active_rows(rows_type const& rows) : active_(static_cast<std::size_t>(rows.count()), 0) {
+  explicit active_rows(rows_type const& rows) : active_(std::size_t(rows.count()), 0) {
     for (auto const& part : rows.clusters()) {
       index const n = part.e.rows();
       index const m = part.e.cols();
@@ -40,11 +40,9 @@ class active_rows {
   }
 
   /// Is row i in J?
-  [[nodiscard]] bool contains(index i) const { return active_[static_cast<std::size_t>(i)] != 0; }
+  [[nodiscard]] bool contains(index i) const { return active_[std::size_t(i)] != 0; }
   /// Number of rows in J.
-  [[nodiscard]] index size() const {
-    return static_cast<index>(std::count(active_.begin(), active_.end(), 1));
-  }
+  [[nodiscard]] index size() const { return index(std::count(active_.begin(), active_.end(), 1)); }
 
   /// J ← { i : in(i) }. Returns the number of rows that came or went.
   template <class In>
@@ -55,7 +53,7 @@ class active_rows {
       index changed = 0;
       for (index const i : part.rows) {
         unsigned char const now = in(i) ? 1 : 0;
-        auto& before = active_[static_cast<std::size_t>(i)];
+        auto& before = active_[std::size_t(i)];
         changed += now != before ? 1 : 0;
         before = now;
       }
@@ -64,7 +62,7 @@ class active_rows {
       auto& basis = rooms_[k].basis;
       basis.clear();
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        if (contains(part.rows[j])) basis.append(part.e, static_cast<index>(j));
+        if (contains(part.rows[j])) basis.append(part.e, index(j));
       }
     }
     return changes;
@@ -120,12 +118,12 @@ class active_rows {
       auto& w = rooms_[k].inside;
       gather(part.unknowns, u, w.x);
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        w.bounds[static_cast<index>(j)] = bound(part.rows[j]);
+        w.bounds[index(j)] = bound(part.rows[j]);
       }
       if (!w.find(part.e)) found = false;
       scatter(part.unknowns, w.x, u);
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        λ[part.rows[j]] = w.λ[static_cast<index>(j)];
+        λ[part.rows[j]] = w.λ[index(j)];
       }
     }
     return found;
@@ -135,14 +133,14 @@ class active_rows {
   static void gather(std::vector<index> const& unknowns, V const& v, vector_type& x) {
     auto const& entries = slant::local(v);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      x[static_cast<index>(k)] = entries.coeff(unknowns[k]);
+      x[index(k)] = entries.coeff(unknowns[k]);
     }
   }
   template <class V>
   static void scatter(std::vector<index> const& unknowns, vector_type const& x, V& v) {
     auto& entries = slant::local(v);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      entries.coeffRef(unknowns[k]) = x[static_cast<index>(k)];
+      entries.coeffRef(unknowns[k]) = x[index(k)];
     }
   }
 
@@ -317,13 +315,13 @@ concept has_columns_of_bodies = requires(Q const& q, index i) {
 template <class S, class Q>
 [[nodiscard]] index row_moved_by_columns(constraint_rows<S> const& rows, Q const& q) {
   using std::abs;
-  std::vector<index> cluster_of(static_cast<std::size_t>(rows.unknowns()), -1);
-  std::vector<index> place(static_cast<std::size_t>(rows.unknowns()), -1);
+  std::vector<index> cluster_of(std::size_t(rows.unknowns()), -1);
+  std::vector<index> place(std::size_t(rows.unknowns()), -1);
   for (std::size_t k = 0; k < rows.clusters().size(); ++k) {
     auto const& unknowns = rows.clusters()[k].unknowns;
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      cluster_of[static_cast<std::size_t>(unknowns[i])] = static_cast<index>(k);
-      place[static_cast<std::size_t>(unknowns[i])] = static_cast<index>(i);
+      cluster_of[std::size_t(unknowns[i])] = index(k);
+      place[std::size_t(unknowns[i])] = index(i);
     }
   }
   using vector_type = typename constraint_rows<S>::vector_type;
@@ -335,12 +333,12 @@ template <class S, class Q>
       bool meets = false;
       auto const for_each_term = [&](auto f) {
         for (entry e(u, j); e; ++e) {
-          auto const at = static_cast<std::size_t>(e.row());
+          auto const at = std::size_t(e.row());
           if (cluster_of[at] < 0) continue;
           meets = true;
-          auto const& part = rows.clusters()[static_cast<std::size_t>(cluster_of[at])];
+          auto const& part = rows.clusters()[std::size_t(cluster_of[at])];
           for (std::size_t r = 0; r < part.rows.size(); ++r) {
-            f(part.rows[r], part.e(place[at], static_cast<index>(r)) * e.value());
+            f(part.rows[r], part.e(place[at], index(r)) * e.value());
           }
         }
       };

@@ -39,12 +39,12 @@ class row_basis {
         R_(matrix_type::Zero(Q_.cols(), Q_.cols())),
         h_(Q_.cols()),
         v_(rows) {
-    members_.reserve(static_cast<std::size_t>(Q_.cols()));
+    members_.reserve(std::size_t(Q_.cols()));
   }
 
-  [[nodiscard]] index size() const noexcept { return static_cast<index>(members_.size()); }
+  [[nodiscard]] index size() const noexcept { return index(members_.size()); }
   /// Number of the k-th column taken in.
-  [[nodiscard]] index member(index k) const { return members_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] index member(index k) const { return members_[std::size_t(k)]; }
   void clear() noexcept { members_.clear(); }
 
   /// Takes column i of E in; false if it is in the span already, up to rounding.
@@ -73,10 +73,10 @@ class row_basis {
     index kept = k;
     for (index j = k + 1; j < last; ++j) {
       index const i = member(j);
-      members_.resize(static_cast<std::size_t>(kept));
+      members_.resize(std::size_t(kept));
       if (append(e, i)) ++kept;
     }
-    members_.resize(static_cast<std::size_t>(kept));
+    members_.resize(std::size_t(kept));
   }
 
   /// x ← x − Q Qᵀx, the part orthogonal to all members; a is set to the least-squares coefficients
