@@ -218,8 +218,7 @@ class constrained_newton<QP, C, M>
   /// or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
-    detail::check_size("x0", x0.size(), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
+    detail::check_start_in_set(x0, qp.b());
     auto const load = detail::projected_load(qp, constraints_.get());
     state_type s(projected(load.projected), constraints_.get(), m_.get(), x0, load.projected);
     s.load = norm(load.projected);

@@ -276,8 +276,6 @@ class envelope_newton : public detail::preconditioned_program<QP, M, symmetric_n
     s.status = status::running;
     begin(s, s.begin_again(qp_.get(), x0));
   }
-  /// r from x: it always is.
-  bool refresh(state_type&) const { return false; }
 
  private:
   /// ρ and γ in units of step_factor/mean(diag A). On bricks with friction a third of the steps that

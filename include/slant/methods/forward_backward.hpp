@@ -76,7 +76,8 @@ struct forward_backward_state : gradient_point<QP> {
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP>
 class forward_backward
-    : public detail::refused_program<QP, forward_backward_state, forward_backward_options> {
+    : public detail::refused_program<QP, forward_backward_state<std::remove_cvref_t<QP>>,
+                                     forward_backward_options<detail::program_scalar_t<QP>>> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -144,9 +145,6 @@ class forward_backward<QP> {
       s.status = status::stalled;
     }
   }
-
-  /// r from x: it always is.
-  bool refresh(state_type&) const { return false; }
 
  private:
   /// θ for this step; t and x₋ become those of the next one.

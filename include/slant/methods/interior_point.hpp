@@ -73,9 +73,6 @@ concept interior_point_problem =
 
 namespace detail {
 
-template <class QP>
-using plain_interior_point_state = interior_point_state<QP, identity_operator>;
-
 template <class QP, class M>
 struct interior_point_demands {
   static constexpr bool told = true;
@@ -98,8 +95,9 @@ struct interior_point_demands<QP, M> {
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class interior_point : public detail::refused_program<QP, detail::plain_interior_point_state,
-                                                      interior_point_options> {
+class interior_point : public detail::refused_program<
+                           QP, interior_point_state<std::remove_cvref_t<QP>, identity_operator>,
+                           interior_point_options<detail::program_scalar_t<QP>>> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
@@ -565,8 +563,7 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
 template <class QP, class M>
 auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_type {
   auto const& qp = qp_.get();
-  detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-  detail::check_finite("x0", x0);
+  detail::check_start_in_set(x0, qp.b());
   state_type s(qp, m_.get(), x0);
   set_diagonal(s);
   auto origin = like(x0, qp.size());

@@ -167,14 +167,7 @@ struct outside_point {
   index since_refresh = 0;  ///< steps since r was computed from λ
   bool in_use = false;      ///< false: λ is the state's x
 
-  explicit outside_point(V const& prototype)
-      : x(like(prototype, slant::local(prototype).size())), r(x) {}
-};
-
-/// Methods that stay in Λ need none.
-struct never_outside {
-  template <class V>
-  explicit never_outside(V const&) {}
+  outside_point(V const& prototype, index n) : x(like(prototype, n)), r(x) {}
 };
 
 /// State of mssn, imssn and gimssn for a separable_qp of type QP and the inner iterations Inner.
@@ -182,12 +175,10 @@ template <class QP, class Inner>
 struct modified_newton_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
-  using outside_type =
-      std::conditional_t<Inner::stays_inside, never_outside, outside_point<vector_type>>;
 
   vector_type φ;                                 ///< r on the face; between steps scratch
   conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
-  outside_type outside;                          ///< λ, where it is not x
+  outside_point<vector_type> outside;            ///< λ, where it is not x
   recession_watch<vector_type> recession;        ///< looks for descent without end
   progress_watch<scalar> progress;               ///< looks for steps that get nowhere
   face_t<typename QP::set_type, local_t<vector_type>> face;  ///< of the last step; free blocks: 𝒜
@@ -203,7 +194,7 @@ struct modified_newton_state : gradient_point<QP> {
       : gradient_point<QP>(qp, x0),
         φ(like(x0, qp.size())),
         directions(x0),
-        outside(x0),
+        outside(x0, Inner::stays_inside ? 0 : qp.size()),
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
   [[nodiscard, gnu::cold]] std::string reason() const {
@@ -226,23 +217,11 @@ struct modified_newton_state : gradient_point<QP> {
   }
 };
 
-namespace detail {
-
-template <class Inner, class Forcing>
-struct modified_newton_types {
-  template <class QP>
-  using state = modified_newton_state<QP, Inner>;
-  template <class S>
-  using options = modified_newton_options<S, Forcing>;
-};
-
-}  // namespace detail
-
 /// A problem that lacks something ends here; mssn, imssn and gimssn say what it is.
 template <class QP, class Start, class Inner, class Forcing>
 class modified_newton : public detail::refused_program<
-                            QP, detail::modified_newton_types<Inner, Forcing>::template state,
-                            detail::modified_newton_types<Inner, Forcing>::template options> {
+                            QP, modified_newton_state<std::remove_cvref_t<QP>, Inner>,
+                            modified_newton_options<detail::program_scalar_t<QP>, Forcing>> {
  public:
   using modified_newton::refused_method::refused_method;
 };

@@ -31,12 +31,6 @@
 
 namespace slant {
 
-/// Which blocks count as free when a face is chosen.
-enum class active_set_rule : unsigned char {
-  boundary,  ///< those in which x is not on the boundary: f_i < 0 [K §3.1.1]
-  semismooth  ///< those in which P_Λ(x − α̃ r) is not: the sets of semismooth Newton [K (60), (61)]
-};
-
 /// Options of kprgp, qpq and qpc.
 template <class S>
 struct kprgp_options {
@@ -45,7 +39,9 @@ struct kprgp_options {
                              ///< first size on the face, and of ‖β‖
   std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectrum.hpp
   S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
-  active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
+  /// Blocks count as free if P_Λ(x − α̃ r) is not on the boundary, in the sets of semismooth Newton
+  /// [K (60), (61)], as for AS-S [K Ex 5]; else if x is not: f_i < 0 [K §3.1.1].
+  bool semismooth_sets = false;
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
@@ -104,7 +100,8 @@ struct kprgp_state : gradient_point<QP> {
 
 /// A problem that lacks something ends here; kprgp, qpq and qpc say what it is.
 template <class QP, class Rule>
-class proportioning : public detail::refused_program<QP, kprgp_state, kprgp_options> {
+class proportioning : public detail::refused_program<QP, kprgp_state<std::remove_cvref_t<QP>>,
+                                                     kprgp_options<detail::program_scalar_t<QP>>> {
  public:
   using proportioning::refused_method::refused_method;
 };
@@ -241,9 +238,8 @@ class proportioning_steps {
 
   /// A new face; the next direction is φ itself.
   void restart(state_type& s) const {
-    bool const semismooth = options_.active_sets == active_set_rule::semismooth;
     s.reduce(qp_.get());
-    s.face.assign(qp_.get().set(), slant::local(semismooth ? s.projected : s.x));
+    s.face.assign(qp_.get().set(), slant::local(options_.semismooth_sets ? s.projected : s.x));
     s.directions.live = false;
     Rule::weigh(qp_.get(), s);
     s.φr_at_restart = s.φr;

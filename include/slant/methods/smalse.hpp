@@ -256,9 +256,7 @@ class smalse<QP, C> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
     auto const& c = constraints_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
-
+    detail::check_start_in_set(x0, qp.b());
     spectral_bound<scalar> bound{scalar(0), scalar(0), scalar(0), 0};
     if (!detail::is_one_point(c)) {
       bound = largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0);

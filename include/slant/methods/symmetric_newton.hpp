@@ -284,9 +284,6 @@ std::string symmetric_newton_state<QP, M>::reason() const {
 
 namespace detail {
 
-template <class QP>
-using plain_symmetric_newton_state = symmetric_newton_state<QP, identity_operator>;
-
 template <class QP, class M>
 struct symmetric_newton_demands {
   static constexpr bool told = true;
@@ -308,8 +305,9 @@ struct symmetric_newton_demands<QP, M> {
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class symmetric_newton : public detail::refused_program<QP, detail::plain_symmetric_newton_state,
-                                                        symmetric_newton_options> {
+class symmetric_newton : public detail::refused_program<
+                             QP, symmetric_newton_state<std::remove_cvref_t<QP>, identity_operator>,
+                             symmetric_newton_options<detail::program_scalar_t<QP>>> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
