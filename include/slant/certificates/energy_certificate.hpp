@@ -105,7 +105,11 @@ class energy_certificate {
         norm_(preconditioner(), qp.b()),
         newton_(qp, preconditioner()) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
-    set_stiffness();
+    auto const mean = mean_diagonal(qp.a(), qp.b());
+    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
+    applications_ += mean.applications;
+    applications_ +=
+        detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, g_, a_workspace_);
   }
 
   static constexpr bool is_plain = std::same_as<M, identity_operator>;
@@ -154,15 +158,6 @@ class energy_certificate {
     }
     auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
     return error_bound_of_root<scalar>(norm_of(g_), balanced.root_of_gap);
-  }
-
-  /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
-  void set_stiffness() {
-    auto const mean = mean_diagonal(qp_->a(), qp_->b());
-    applications_ += mean.applications;
-    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    applications_ +=
-        detail::set_stiffness<is_plain>(qp_->a(), typical_, stiffness_, x_, g_, a_workspace_);
   }
 
   QP const* qp_;

@@ -63,24 +63,13 @@ template <class QP, class C>
 concept constrained_newton_problem =
     symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
 
-/// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
+/// Options of constrained_newton.
 template <class S = double>
 struct constrained_newton_options {
-  S step_factor = S(0.5);  ///< α in multiples of 1/mean(diag P A P)
-  /// Inner accuracy, relative to the merit function.
-  eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  S sufficient = S(0.1);     ///< c in (0, 1): β lowers the merit by c β of it at least
-  index halvings = 20;       ///< β = 1, ½, …: so often at most
-  index patience = 100;      ///< steps in which the merit does not fall that mean stalled
 
   [[gnu::cold]] void validate() const {
-    detail::check_positive("step_factor", step_factor);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    detail::check_fraction("sufficient", sufficient);
-    if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    forcing.validate();
   }
 };
 
@@ -259,6 +248,15 @@ class constrained_newton<QP, C, M>
  private:
   using projected_qp = detail::projected_qp<problem, constraints>;
 
+  // As in benchmarks/total_feti.cpp.
+  static constexpr double step_factor = 0.5;  // α in multiples of 1/mean(diag P A P)
+  static constexpr double sufficient = 0.1;   // c: β lowers the merit by c β of it at least
+  static constexpr index halvings = 20;       // β = 1, ½, …: so often at most
+  static constexpr index patience = 100;      // steps in which the merit does not fall: stalled
+  /// Inner accuracy, relative to the merit function.
+  static constexpr eisenstat_walker forcing{
+      .γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
+
   [[nodiscard]] projected_qp projected(vector_type const& b) const {
     return {projected_hessian(qp_.get().a(), constraints_.get()), b, qp_.get().set()};
   }
@@ -355,12 +353,12 @@ class constrained_newton<QP, C, M>
   /// The longest β = 2⁻ʲ that lowers θ enough; false if there is none. Spends no product.
   bool shorten(state_type& s) const {
     scalar β(1);
-    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
+    for (index j = 0; j <= halvings; ++j, β /= scalar(2)) {
       // residual_at needs two vectors: the gradient of the model is not needed any more.
       scalar const of_x = s.segment.residual_at(qp_.get().set(), β, s.projected, s.gradient_at_end);
       s.gradient_at_end = (scalar(1) - β) * s.offset_y + β * s.target_offset;
       scalar const merit = merit_of(s, of_x, norm(s.gradient_at_end));
-      scalar const enough = (scalar(1) - options_.sufficient * β) * s.merit;
+      scalar const enough = (scalar(1) - scalar(sufficient) * β) * s.merit;
       if (!(enough < s.merit)) return false;  // β is below the precision
       if (merit <= enough) {
         s.step_fraction = β;
@@ -374,7 +372,7 @@ class constrained_newton<QP, C, M>
 
   void note_progress(state_type& s) const {
     if (s.status != status::running || s.fallback_at_work) return;
-    if (s.progress.stalled(s.iteration, s.merit, options_.patience)) {
+    if (s.progress.stalled(s.iteration, s.merit, patience)) {
       s.status = status::stalled;
     }
   }
@@ -385,7 +383,7 @@ class constrained_newton<QP, C, M>
     auto const mean = detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x);
     s.work.setup_applications += mean.applications;
     scalar const size = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    s.step_length = options_.step_factor * size;
+    s.step_length = scalar(step_factor) * size;
     s.preconditioner_size = size;
     if constexpr (preconditioned) {
       s.preconditioner_size = mean_diagonal(m_.get(), s.x).value;
@@ -415,7 +413,7 @@ class constrained_newton<QP, C, M>
     scalar const α = s.step_length, κ = s.preconditioner_size / α;
     if (!s.face.assign(qp_.get().set(), s.segment.z, κ) && !can_lift(s)) return begin_fallback(s);
     lift(s, a);
-    scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
+    scalar const target = s.forcing.next(forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,
                                         s.preconditioner_size, target, options_.inner_steps);
     if (!note_inner(inner, s)) {

@@ -60,16 +60,14 @@
 
 namespace slant {
 
-/// A product of blocks with smooth inequalities in which a step to the boundary is known.
-template <class C, class V>
-concept interior_point_domain =
-    convex_set<C, V> && has_block_inequalities<C, V> && has_step_to_boundary<C, V>;
-
-/// What interior_point works on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive semidefinite.
+/// What interior_point works on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive semidefinite,
+/// Λ a product of blocks with smooth inequalities in which a step to the boundary is known.
 template <class QP>
 concept interior_point_problem =
     quadratic_program<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
-    interior_point_domain<typename QP::set_type, local_t<typename QP::vector_type>>;
+    convex_set<typename QP::set_type, local_t<typename QP::vector_type>> &&
+    has_block_inequalities<typename QP::set_type, local_t<typename QP::vector_type>> &&
+    has_step_to_boundary<typename QP::set_type, local_t<typename QP::vector_type>>;
 
 namespace detail {
 
@@ -141,6 +139,12 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
  private:
   [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
 
+  static constexpr index patience = 30;       // steps without progress that mean stalled
+  static constexpr index inner_steps = 1000;  // of conjugate gradients in one Newton step at most
+  /// Inner accuracy, relative to the right-hand side: not the one that [K §3.2.4] proposes (0.1 and
+  /// 0.9), but that of its Table 3 with the fewest products.
+  static constexpr adaptive_precision forcing{.r_tol = 0.3, .c_fact = 0.99};
+
   // The constants of [K §3.2.4] are γ, ω, ρ and those of c but c_min.
   static constexpr double closeness = 1e-3;          // γ: ν_i z_i ≥ γ ϑ
   static constexpr double sufficient = 0.1;          // ω: ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
@@ -174,8 +178,8 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
 
   static constexpr scalar infinity = detail::infinity<scalar>();
 
-  /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_diagonal(state_type& s) const {
+  /// D, and α = ½ / mean(diag A) of the reduced gradient.
+  void set_diagonal(state_type& s) const {
     auto const& qp = qp_.get();
     auto const of_a = [&] {
       if constexpr (preconditioned) {
@@ -190,10 +194,6 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
     auto const mean = of_a();
     s.work.setup_applications += mean.applications;
     s.trace = mean.value * scalar(slant::global_size(s.x));
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
     s.step_length = mean.value > scalar(0) ? scalar(scalar(0.5) / mean.value) : scalar(1);
     check_step_length(s.step_length, "mean of the diagonal", mean.value);
   }
@@ -436,13 +436,12 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
     s.barrier.keep_fixed(s.rhs);
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
     scalar const target = std::max<scalar>(
-        s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
+        s.forcing.next(forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
         detail::epsilon<scalar>() * norm(s.r));
     // A step that was cut short says little about the next one.
     bool const warm = again || s.step_fraction > scalar(0.1);
-    auto const inner =
-        s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs, target,
-                      options_.inner_share, options_.inner_steps, warm, s.trace);
+    auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
+                                     target, options_.inner_share, inner_steps, warm, s.trace);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;
@@ -554,7 +553,7 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
   void note_progress(state_type& s) const {
     detail::judge_reduced_gradient(s);
     if (s.status != status::running) return;
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience)) {
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, patience)) {
       s.status = status::stalled;
     }
   }

@@ -93,31 +93,20 @@ struct interior_point_state : gradient_point<QP> {
   }
 };
 
-/// Options of interior_point. The inner accuracy is not the one that [K §3.2.4] proposes (0.1 and
-/// 0.9), but that of its Table 3 with the fewest products.
+/// Options of interior_point.
 template <class S = double>
 struct interior_point_options {
-  /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
-  std::optional<S> step_length{};
   mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
-  adaptive_precision forcing{.r_tol = 0.3,
-                             .c_fact = 0.99};  ///< inner accuracy, relative to the right-hand side
   /// In [0, 1): inner iterations end, too, where the last terms add less than
   /// this part to ‖Δx‖_A. 0: never. 0.3 is for an M that makes conjugate gradients fast, as
   /// contact::lumped_preconditioner: on bricks, k = 4 … 10, 93 to 307 products to an error of 5e-9
   /// become 93 to 187. With a poor M terms are small long before the end, and steps lead nowhere.
   S inner_share = S(0);
-  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  index patience = 30;       ///< steps without progress that mean stalled
 
   [[gnu::cold]] void validate() const {
-    if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_option("inner_share", inner_share, inner_share >= S(0) && inner_share < S(1),
                          "a number in [0, 1)");
-    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     mean_diagonal.validate();
-    forcing.validate();
   }
 };
 

@@ -135,13 +135,6 @@ template <>
 inline constexpr adaptive_precision default_forcing<adaptive_precision>{.r_tol = 0.5,
                                                                         .c_fact = 0.999};
 
-/// The inner iterations end at ‖φ‖ ≤ η err^(0) [K (3.1°)] for the adaptive precision of the
-/// documents, whose η falls with err^(k)/err^(0); at ‖φ‖ ≤ η err^(k) for all other rules.
-template <class Forcing, class S>
-[[nodiscard]] S inner_accuracy(Forcing const&, S const& η, forcing_history<S> const& h) {
-  return η * (std::is_same_v<Forcing, adaptive_precision> ? h.first_error : h.error);
-}
-
 /// Options of mssn, imssn and gimssn. Forcing is a rule of newton/forcing.hpp.
 template <class S, class Forcing>
 struct modified_newton_options {
@@ -280,7 +273,9 @@ class modified_newton<QP, Start, Inner, Forcing> {
     s.face.assign(qp_.get().set(), slant::local(s.projected));
     scalar const η = s.forcing.next(options_.forcing);
     start_on_face(s);
-    minimise(s, inner_accuracy(options_.forcing, η, s.forcing));
+    // The η of the documents falls with err^(k)/err^(0) [K (3.1°)], those of all other rules do not.
+    constexpr bool falls = std::is_same_v<Forcing, adaptive_precision>;
+    minimise(s, η * (falls ? s.forcing.first_error : s.forcing.error));
     measure(s);
     s.forcing.record(s.reduced_gradient_norm);
     ++s.iteration;

@@ -176,7 +176,8 @@ class proportioning_steps {
     if (step.end == feasible_step_end::endless) {
       bool descent = false;
       if constexpr (!definite) {
-        descent = step.flat && is_descent(step.slope, s.directions.p, gradient_noise(s)) &&
+        descent = step.flat &&
+                  is_descent(step.slope, s.directions.p, scalar(s.size_of_b + norm(s.r))) &&
                   confirm_descent(qp, s, most_confirming_steps);
       }
       s.status = descent ? status::unbounded : status::stalled;
@@ -268,9 +269,6 @@ class proportioning_steps {
     }
     if (s.status == status::running) detail::judge_reduced_gradient(s);
   }
-
-  /// At least max(‖b‖, ‖A x‖) / unit.
-  static scalar gradient_noise(state_type const& s) { return s.size_of_b + norm(s.r); }
 
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;

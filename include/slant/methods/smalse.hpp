@@ -58,15 +58,8 @@ struct smalse_options {
   /// ρ in multiples of σ_max(P A P); it does not grow. Measured with Total-FETI on bricks: 4 halves
   /// the outer steps and doubles the products of KPRGP.
   S penalty = S(1);
-  index inner_steps = 5000;  ///< of one inner problem at most
-  index patience = 30;       ///< outer steps without progress that mean stalled: the error does not
-                             ///< fall, nor L rise
 
-  [[gnu::cold]] void validate() const {
-    detail::check_positive("penalty", penalty);
-    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
-  }
+  [[gnu::cold]] void validate() const { detail::check_positive("penalty", penalty); }
 };
 
 namespace detail {
@@ -300,7 +293,10 @@ class smalse<QP, C> {
     vectors::copy(ν, s.ν);
     form_linear_term(s);
     if (s.status != status::running) return;
-    restart(s);
+    auto const inner_problem = augmented(s.b, s.ρ);
+    inner_method(inner_problem, s.σ).resume(s.inner);
+    ++s.work.operator_applications;
+    s.resumed = true;
     look(s);
   }
 
@@ -342,6 +338,9 @@ class smalse<QP, C> {
   static constexpr scalar balance = scalar(0.3);
   static constexpr scalar shrink = scalar(0.1);     // β: M ← β M if L has not grown enough
   static constexpr scalar precision = scalar(0.1);  // η in multiples of ‖P (b − A x̄)‖
+  static constexpr index inner_steps = 5000;        // of one inner problem at most
+  /// Outer steps without progress that mean stalled: the error does not fall, nor L rise.
+  static constexpr index patience = 30;
 
   /// min L(·, ν, ρ) over Λ; refers to b.
   [[nodiscard]] inner_qp augmented(vector_type const& b, scalar const& ρ) const {
@@ -357,14 +356,6 @@ class smalse<QP, C> {
     vectors::difference(s.projected_b, s.ν, s.b);
     vectors::axpy(s.ρ, constraints_.get().nearest(), s.b);
     if (!detail::is_finite(norm(s.b))) s.status = status::breakdown;
-  }
-
-  /// The inner method at s.inner.x with the linear term s.b.
-  void restart(state_type& s) const {
-    auto const inner_problem = augmented(s.b, s.ρ);
-    inner_method(inner_problem, s.σ).resume(s.inner);
-    ++s.work.operator_applications;
-    s.resumed = true;
   }
 
   void measure_offset(state_type& s, vector_type const& x) const {
@@ -407,7 +398,7 @@ class smalse<QP, C> {
       scalar const share = sqrt(detail::epsilon<scalar>()) * abs(L);
       return std::pair<scalar, scalar>(-L, std::max<scalar>(s.lagrangian_noise * unit, share));
     };
-    if (s.progress.stalled(s.iteration, error, options_.patience, energy)) {
+    if (s.progress.stalled(s.iteration, error, patience, energy)) {
       s.status = status::stalled;
     }
   }
@@ -435,8 +426,7 @@ class smalse<QP, C> {
     s.comparable = !s.resumed;
     s.resumed = false;
     scalar const at_start = inner.reduced_gradient_norm;
-    while (inner.status == status::running &&
-           inner.iteration - steps_before < options_.inner_steps) {
+    while (inner.status == status::running && inner.iteration - steps_before < inner_steps) {
       measure_offset(s, inner.x);
       if (inner.reduced_gradient_norm <= wanted(s, at_start)) break;
       method.step(inner);

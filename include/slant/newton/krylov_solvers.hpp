@@ -171,13 +171,9 @@ struct gmres_solver {
     index const n = slant::local(f).size();
     auto const most = std::size_t(std::min<index>(restart, slant::global_size(f)));
     using S = scalar_t<V>;
-    gmres_memory<V, workspace_t<G, V>> m{{},
-                                         std::vector<S>(most * (most + 1) / 2),
-                                         std::vector<S>(most + 1),
-                                         std::vector<S>(most),
-                                         std::vector<S>(most),
-                                         std::vector<S>(most + 1),
-                                         workspace(g, f)};
+    std::vector<S> const room(most), more(most + 1);
+    std::vector<S> h(most * (most + 1) / 2);
+    gmres_memory<V, workspace_t<G, V>> m{{}, std::move(h), more, room, room, more, workspace(g, f)};
     m.basis.reserve(most + 1);
     for (std::size_t i = 0; i <= most; ++i) m.basis.push_back(like(f, n));
     return m;

@@ -224,7 +224,13 @@ class equality_constraints {
         rest.noalias() -= G_.transpose() * h;
         combination += h;
       }
-      if (rest.norm() > rounding) refuse_row(i, rest.norm());
+      if (rest.norm() > rounding) {
+        throw bad_input("G",
+                        "row " + detail::show(i) + " at the distance " +
+                            detail::brief(S(rest.norm())) +
+                            " times its length from the span of others",
+                        "rows that are independent, or dependent up to rounding");
+      }
       S const implied = combination.dot(unit_values_);
       S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(unit_values_.cwiseAbs());
       S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
@@ -234,12 +240,6 @@ class equality_constraints {
           detail::show(S(implied * lengths_[i])) + ", which other rows of G imply for this one")
           .at(i);
     }
-  }
-  [[noreturn]] static void refuse_row(index i, S const& distance) {
-    throw bad_input("G",
-                    "row " + detail::show(i) + " at the distance " + detail::brief(distance) +
-                        " times its length from the span of others",
-                    "rows that are independent, or dependent up to rounding");
   }
 
   index rows_;
