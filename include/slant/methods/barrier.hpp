@@ -7,9 +7,10 @@
 //
 // J_SC = A + W. All of W and P_SC is made of small blocks, one for each block of the set with an
 // inequality; free blocks have no row, no multiplier, no slack and no entry here. The spectrum of
-// P_SC⁻¹J_SC lies in [σ_min(A)/max D, σ_max(A)/min D] at every iterate if D = diag(A) [K Theorem 4].
-// Conjugate gradients for the augmented system of [K Theorem 3] make the steps on x that they make on
-// J_SC: the number of products is the same, vectors are longer and the preconditioner not definite.
+// P_SC⁻¹J_SC lies in [σ_min(A)/max D, σ_max(A)/min D] at every iterate if D = diag(A) [K Theorem
+// 4]. Conjugate gradients for the augmented system of [K Theorem 3] make the steps on x that they
+// make on J_SC: the number of products is the same, vectors are longer and the preconditioner not
+// definite.
 //
 // Units. f of a disc is a square of lengths, that of an ellipse a pure number. Each f_i is divided
 // by a power of two σ_i such that z_i is of the order of the distance to the boundary; multipliers

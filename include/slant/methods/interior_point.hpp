@@ -166,8 +166,8 @@ class interior_point_steps : public preconditioned_program<QP, M, interior_point
   /// c_z: first slacks of sets without an end, in natural lengths, where [K] has 1 as for c_ν. With
   /// a tenth there are twice as many steps.
   static constexpr double start_length = 3;
-  // Where the set has discs or cones, on which force and point turn into line at the rate of ϑ, these
-  // are larger.
+  // Where the set has discs or cones, on which force and point turn into line at the rate of ϑ,
+  // these are larger.
   /// c_ν: first multipliers, in natural forces. On bricks 0.6 takes fewer products than 0.3.
   static scalar start_force(state_type const& s) { return scalar(s.pairs.empty() ? 0.3 : 0.6); }
   /// c_min, 1e-30 in [K].

@@ -195,10 +195,10 @@ class kprgp : public proportioning<QP, reduced_gradient_release> {
 template <class QP>
 kprgp(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> kprgp<kept_t<QP>>;
 
-/// AS-S [K Ex 5], where KPRGP is called AS: KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i
-/// inside Λ_i instead of those with x_i inside. [K] states that Theorem 1 holds for it as
-/// well, and reports it as the stabler one with steps far beyond 2/σ_max. solve(as_s(qp), x0,
-/// reduced_gradient_below(1e-6) || at_most(500)).
+/// AS-S [K Ex 5], where KPRGP is called AS: KPRGP with the active sets of semismooth Newton: F =
+/// blocks with (x − α̃ r)_i inside Λ_i instead of those with x_i inside. [K] states that Theorem 1
+/// holds for it as well, and reports it as the stabler one with steps far beyond 2/σ_max.
+/// solve(as_s(qp), x0, reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
 [[nodiscard]] auto as_s(QP&& qp, kprgp_options<detail::program_scalar_t<QP>> options = {}) {
   options.semismooth_sets = true;

@@ -273,7 +273,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
     s.face.assign(qp_.get().set(), slant::local(s.projected));
     scalar const η = s.forcing.next(options_.forcing);
     start_on_face(s);
-    // The η of the documents falls with err^(k)/err^(0) [K (3.1°)], those of all other rules do not.
+    // The η of the documents falls with err^(k)/err^(0) [K (3.1°)], that of other rules does not.
     constexpr bool falls = std::is_same_v<Forcing, adaptive_precision>;
     minimise(s, η * (falls ? s.forcing.first_error : s.forcing.error));
     measure(s);
