@@ -10,7 +10,7 @@ namespace reduced_systems_test {
 using namespace test::evaluated;
 using test::dense_of;
 
-TEST_CASE("the reduced system and its preconditioner: the spectrum of [K Theorem 4]") {
+TEST_CASE("both systems and their preconditioners: the spectra of [K Theorems 3 and 4]") {
   // 4 bounds, 2 intervals, 3 discs, an ellipse, 2 free: diag(A) between 1 and 30.
   auto const set = slant::cartesian(slant::half_lines(VectorXd{{0.0, -1.0, 0.5, 0.0}}),
                                     slant::intervals(VectorXd{{0.3, 0.1}}),
@@ -35,7 +35,7 @@ TEST_CASE("the reduced system and its preconditioner: the spectrum of [K Theorem
     auto barrier = s.barrier;
     barrier.assemble(set, s.x, s.multipliers, s.slacks, s.unit, s.diagonal);
     VectorXd const d22 = s.slacks.cwiseQuotient(s.multipliers) / s.unit;
-    MatrixXd const J_SC = M + dense_of(barrier.stiffness());
+    MatrixXd const J_SC = dense_of(slant::schur_system(A, barrier));
     MatrixXd const P_SC_inverse = dense_of(barrier.preconditioner());
     MatrixXd const G = dense_of(barrier.jacobian()).transpose();
     MatrixXd const H = dense_of(barrier.curvature());
@@ -52,6 +52,24 @@ TEST_CASE("the reduced system and its preconditioner: the spectrum of [K Theorem
     CHECK(spectrum(15) <= most * (1 + 1e-8));
     Eigen::SelfAdjointEigenSolver<MatrixXd> const plain(J_SC);
     worst_without = std::max(worst_without, plain.eigenvalues()(15) / plain.eigenvalues()(0));
+
+    MatrixXd const J_AM = dense_of(slant::augmented_system(A, barrier, d22));
+    MatrixXd const P_AM_inverse = dense_of(slant::augmented_preconditioner(barrier, d22));
+    auto const m = d22.size();
+    MatrixXd J(16 + m, 16 + m);
+    J << M + H, G, G.transpose(), -MatrixXd(d22.asDiagonal());
+    CHECK((J_AM - J).norm() <= 1e-14 * J.norm());
+    // n + m independent eigenvectors: (u, D₂₂⁻¹ Gᵀ u) for u of P_SC⁻¹J_SC, and (0, e_i) for 1.
+    MatrixXd vectors = MatrixXd::Identity(16 + m, 16 + m);
+    vectors.topLeftCorner(16, 16) = L_inverse.transpose() * of_SC.eigenvectors();
+    vectors.bottomLeftCorner(m, 16) =
+        d22.cwiseInverse().asDiagonal() * G.transpose() * vectors.topLeftCorner(16, 16);
+    VectorXd numbers = VectorXd::Ones(16 + m);
+    numbers.head(16) = spectrum;
+    for (Eigen::Index j = 0; j < 16 + m; ++j) {
+      VectorXd const image = P_AM_inverse * (J_AM * vectors.col(j));
+      CHECK((image - numbers(j) * vectors.col(j)).norm() <= 1e-6 * vectors.col(j).norm());
+    }
 
     method.step(s);
     REQUIRE(s.status == slant::status::running);

@@ -6,11 +6,7 @@
 //     G = ∇f(x),   D₂₂ = N⁻¹Z,   W = Σ ν_i ∇²f_i + G D₂₂⁻¹ Gᵀ,   P_SC = diag(A) + W.
 //
 // J_SC = A + W. All of W and P_SC is made of small blocks, one for each block of the set with an
-// inequality; free blocks have no row, no multiplier, no slack and no entry here. The spectrum of
-// P_SC⁻¹J_SC lies in [σ_min(A)/max D, σ_max(A)/min D] at every iterate if D = diag(A) [K Theorem
-// 4]. Conjugate gradients for the augmented system of [K Theorem 3] make the steps on x that they
-// make on J_SC: the number of products is the same, vectors are longer and the preconditioner not
-// definite.
+// inequality; free blocks have no row, no multiplier, no slack and no entry here.
 //
 // Units. f of a disc is a square of lengths, that of an ellipse a pure number. Each f_i is divided
 // by a power of two σ_i such that z_i is of the order of the distance to the boundary; multipliers
@@ -27,8 +23,15 @@
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/lorentz_pairs.hpp>
 #include <slant/methods/parts/recession.hpp>
+#include <slant/operators/block.hpp>
+#include <slant/operators/block_diagonal.hpp>
+#include <slant/operators/declare.hpp>
+#include <slant/operators/diagonal.hpp>
 #include <slant/operators/identity.hpp>
+#include <slant/operators/letter.hpp>
+#include <slant/operators/product.hpp>
 #include <slant/operators/small_blocks.hpp>
+#include <slant/operators/sum.hpp>
 #include <slant/slanting/inequality_jacobian.hpp>
 
 #include <Eigen/Core>
@@ -46,7 +49,9 @@ template <scalar S = double>
 class barrier {
  public:
   using column = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  using semidefinite_blocks = small_blocks<S, laws<positive_semidefinite>>;
+  using curvature_operator = small_blocks<S>;
+  using stiffness_operator = small_blocks<S, laws<positive_semidefinite>>;
+  using preconditioner_operator = small_blocks<S, laws<positive_semidefinite>>;
 
   /// Room for the blocks of a set; allocates.
   template <class C>
@@ -78,11 +83,11 @@ class barrier {
   /// G ᵀ, in units σ.
   [[nodiscard]] inequality_jacobian<S> const& jacobian() const noexcept { return jacobian_; }
   /// Σ ν_i ∇²f_i.
-  [[nodiscard]] small_blocks<S> const& curvature() const noexcept { return curvature_; }
+  [[nodiscard]] curvature_operator const& curvature() const noexcept { return curvature_; }
   /// W.
-  [[nodiscard]] semidefinite_blocks const& stiffness() const noexcept { return stiffness_; }
+  [[nodiscard]] stiffness_operator const& stiffness() const noexcept { return stiffness_; }
   /// P_SC⁻¹; 0 on components of single points.
-  [[nodiscard]] semidefinite_blocks const& preconditioner() const noexcept {
+  [[nodiscard]] preconditioner_operator const& preconditioner() const noexcept {
     return preconditioner_;
   }
 
@@ -188,9 +193,9 @@ class barrier {
 
   std::shared_ptr<detail::inequality_layout const> layout_;
   inequality_jacobian<S> jacobian_;
-  small_blocks<S> curvature_;
-  semidefinite_blocks stiffness_;
-  semidefinite_blocks preconditioner_;
+  curvature_operator curvature_;
+  stiffness_operator stiffness_;
+  preconditioner_operator preconditioner_;
   column per_unit_;
   column outside_;
   std::vector<index> fixed_;
@@ -367,5 +372,57 @@ class barrier_minimum {
   workspace_t<M, V> m_workspace_;
   bool known_ = false;
 };
+
+// --- reduced systems -----------------------------------------------------------------------------
+//
+// The two reduced systems of an interior-point step and their preconditioners [K §3.2.3], as
+// compositions of operators:
+//
+//     J_SC = J₁₁ + G D₂₂⁻¹ Gᵀ            P_SC = D₁₁ + G D₂₂⁻¹ Gᵀ          J₁₁ = A + Σ ν_i ∇²f_i
+//     J_AM = [ J₁₁   G  ]                P_AM = [ D₁₁   G  ]              D₁₁ = D + Σ ν_i ∇²f_i
+//            [ Gᵀ  −D₂₂ ]                       [ Gᵀ  −D₂₂ ]              D₂₂ = N⁻¹Z
+//
+// The spectrum of P_SC⁻¹J_SC lies in [σ_min(A)/max D, σ_max(A)/min D] at every iterate if D =
+// diag(A) [K Theorem 4]; that of P_AM⁻¹J_AM is the same and, besides, the number 1 [K Theorem 3].
+//
+// interior_point works with the first. Conjugate gradients preconditioned by P_AM, once they have
+// solved the second block row, make the steps on x that they make on J_SC: the number of products
+// is the same (tests/methods/reduced_systems_test.cpp), vectors are longer and P_AM is not
+// definite.
+
+/// J_SC = A + W; refers to the barrier, and to A if it is an lvalue.
+template <class A, class S>
+[[nodiscard]] auto schur_system(A&& a, barrier<S> const& b) {
+  return sum(std::forward<A>(a), b.stiffness());
+}
+template <class A, class S>
+void schur_system(A&& a, barrier<S> const&& b) = delete;
+
+/// J_AM for D₂₂, slacks over multipliers; refers to the barrier, and to A if it is an lvalue.
+template <class A, class S>
+[[nodiscard]] auto augmented_system(A&& a, barrier<S> const& b,
+                                    typename barrier<S>::column const& d22) {
+  using column = typename barrier<S>::column;
+  return declare<self_adjoint>(
+      block(block_row(sum(std::forward<A>(a), b.curvature()), adjoint(b.jacobian())),
+            block_row(b.jacobian(), slant::diagonal(column(-d22)))));
+}
+
+template <class A, class S>
+void augmented_system(A&& a, barrier<S> const&& b, typename barrier<S>::column const& d22) = delete;
+
+/// P_AM⁻¹ = U [P_SC⁻¹, −D₂₂⁻¹] Uᵀ, U = [I, 0; D₂₂⁻¹Gᵀ, I]; refers to the barrier.
+template <class S>
+[[nodiscard]] auto augmented_preconditioner(barrier<S> const& b,
+                                            typename barrier<S>::column const& d22) {
+  using column = typename barrier<S>::column;
+  column const inverse = d22.cwiseInverse();
+  return congruence(
+      block(block_row(identity(b.stiffness().rows()), zero(b.stiffness().rows(), b.rows())),
+            block_row(product(slant::diagonal(column(inverse)), b.jacobian()), identity(b.rows()))),
+      block_diagonal(b.preconditioner(), slant::diagonal(column(-inverse))));
+}
+template <class S>
+void augmented_preconditioner(barrier<S> const&& b, typename barrier<S>::column const&) = delete;
 
 }  // namespace slant
